@@ -1,0 +1,200 @@
+//! Faults that show only when several keys are seen together.
+
+use crate::assembly;
+use crate::gear::Gear;
+use crate::geometry::Geometry;
+use crate::mesh::{Mesh, MeshKind, MeshMember};
+use crate::reader::Document;
+use crate::scene::Scene;
+
+/// Judges the whole scene; faults go to the document.
+pub(crate) fn whole(document: &Document<'_>, scene: &Scene) {
+    distinct_positions(document, scene);
+    match Geometry::from_scene(scene) {
+        Some(Ok(geometry)) => tooth_geometry(document, scene, &geometry),
+        Some(Err(no_mesh)) => {
+            let allowed = format!("above {:.4} mm", no_mesh.least * 1e3);
+            document.fault("geometry.center_distance_mm", allowed, no_mesh.to_string());
+        }
+        None => {}
+    }
+}
+
+fn mm(x: f64) -> String {
+    format!("{:.4} mm", x * 1e3)
+}
+
+fn tooth_geometry(document: &Document<'_>, scene: &Scene, geometry: &Geometry) {
+    let gears = [
+        ("sun", geometry.sun.as_ref(), "bore_diameter_mm"),
+        ("planet", Some(&geometry.planet), "bore_diameter_mm"),
+        ("ring", geometry.ring.as_ref(), "rim_diameter_mm"),
+    ];
+    let mut sound = true;
+    for (name, gear, body_key) in gears {
+        if let Some(gear) = gear {
+            sound &= one_gear(document, name, gear, body_key);
+        }
+    }
+    if !sound {
+        return; // What follows would only repeat the cause.
+    }
+    for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
+        if let Some(mesh) = geometry.mesh(kind) {
+            one_mesh(document, geometry, mesh);
+        }
+    }
+    let tip = geometry.planet.tip_radius;
+    let psi = &scene.planets.psi_rad;
+    for (p, q, clearance) in assembly::planet_clearances(psi, geometry.center_distance, tip) {
+        if clearance <= 0.0 && clearance + 2.0 * tip > 1e-9 * tip {
+            let key = if document.has("planets.position_steps") {
+                "planets.position_steps"
+            } else if document.has("planets.positions_deg") {
+                "planets.positions_deg"
+            } else {
+                "planets.count"
+            };
+            let why = format!("planets {p} and {q} overlap by {}", mm(-clearance));
+            document.fault(key, "planets whose tip circles stay clear of each other", why);
+        }
+    }
+}
+
+/// Circles of one gear in their order, a tooth with a land, a fillet that fits.
+fn one_gear(document: &Document<'_>, name: &str, gear: &Gear, body_key: &str) -> bool {
+    let key = |k: &str| format!("geometry.{name}.{k}");
+    let sound = std::cell::Cell::new(true);
+    let fault = |k: &str, allowed: String, why: &str| {
+        sound.set(false);
+        document.fault(&key(k), allowed, why);
+    };
+    let is_ring = name == "ring";
+    let (tip, root) = (gear.tip_radius, gear.root_radius);
+    let diameter = |r: f64| mm(2.0 * r);
+    if !is_ring {
+        if tip <= root {
+            let allowed = format!("above the root diameter {}", diameter(root));
+            fault("tip_diameter_mm", allowed, "external teeth point outwards");
+        }
+        if tip <= gear.base_radius {
+            let allowed = format!("above the base diameter {}", diameter(gear.base_radius));
+            fault("tip_diameter_mm", allowed, "there is no involute inside the base circle");
+        }
+    } else {
+        if tip >= root {
+            let allowed = format!("below the root diameter {}", diameter(root));
+            fault("tip_diameter_mm", allowed, "internal teeth point inwards");
+        }
+        if tip < gear.base_radius {
+            let allowed = format!("at least the base diameter {}", diameter(gear.base_radius));
+            fault("tip_diameter_mm", allowed, "there is no involute inside the base circle");
+        }
+    }
+    if let Some(body) = gear.body_radius {
+        if !is_ring && body >= root {
+            let allowed = format!("below the root diameter {}", diameter(root));
+            fault(body_key, allowed, "the teeth stand on a rim");
+        }
+        if is_ring && body <= root {
+            let allowed = format!("above the root diameter {}", diameter(root));
+            fault(body_key, allowed, "the teeth stand on a rim");
+        }
+    }
+    if !sound.get() {
+        return false;
+    }
+    if gear.tooth_thickness(tip) <= 0.0 {
+        let why = "the flanks meet before the tip circle: the tooth comes to a point; lower the tip, or give the tooth more thickness";
+        let allowed = "a tip circle the flanks reach".to_owned();
+        fault("tip_diameter_mm", allowed, why);
+    }
+    if gear.space_width(root.max(gear.base_radius)) <= 0.0 {
+        let why = "the tooth is wider than its pitch there";
+        fault("root_diameter_mm", "a root with room between the teeth".into(), why);
+    }
+    let too_deep = is_ring && gear.root_radius - gear.fillet_radius < gear.base_radius;
+    if too_deep || gear.root_land_angle() < 0.0 {
+        let why = "the fillets of one tooth space would overlap: make the radius smaller";
+        fault("fillet_radius_mm", "a radius that fits twice into the space".into(), why);
+    } else if (is_ring && gear.form_radius() <= tip) || (!is_ring && gear.form_radius() >= tip) {
+        let why = "the fillet would eat the whole flank: make the radius smaller";
+        fault("fillet_radius_mm", "a radius that leaves a flank".into(), why);
+    }
+    if let Some(relief) = gear.tip_relief {
+        let (low, high) =
+            if is_ring { (tip, gear.form_radius()) } else { (gear.form_radius(), tip) };
+        if !(relief.start_radius > low && relief.start_radius < high) {
+            let allowed = format!("between {} and {}", diameter(low), diameter(high));
+            fault("tip_relief.start_diameter_mm", allowed, "relief lies on the flank");
+        }
+    }
+    sound.get()
+}
+
+/// Contact ratio, interference, clearances and backlash of one mesh.
+fn one_mesh(document: &Document<'_>, geometry: &Geometry, mesh: &Mesh) {
+    let (driver, driven) = match mesh.kind {
+        MeshKind::SunPlanet => ("sun", "planet"),
+        MeshKind::RingPlanet => ("planet", "ring"),
+    };
+    let tip_key = |name: &str| format!("geometry.{name}.tip_diameter_mm");
+    let mut interferes = false;
+    let meets = [(MeshMember::Driver, driver, driven), (MeshMember::Driven, driven, driver)];
+    for (member, name, mate) in meets {
+        let overrun = mesh.interference(member);
+        if overrun > 0.0 {
+            interferes = true;
+            let why = format!(
+                "in the {} mesh the {mate}'s tip touches the {name} {} beyond its form circle ({}), where there is fillet and no involute: lower the tip or the fillet radius",
+                mesh.kind.name(),
+                mm(overrun),
+                mm(2.0 * mesh.gear(member).form_radius())
+            );
+            let allowed = format!("a tip that stays on the {name}'s involute");
+            document.fault(&tip_key(mate), allowed, why);
+        }
+    }
+    for (member, name, mate) in meets {
+        let clearance = mesh.root_clearance(member);
+        if clearance < 0.0 {
+            let kind = mesh.kind.name();
+            let why =
+                format!("in the {kind} mesh it digs {} into the {mate}'s root", mm(-clearance));
+            document.fault(&tip_key(name), "a tip circle that clears the mating root", why);
+        }
+    }
+    if mesh.tip_fouling_clearance().is_some_and(|angle| angle < 0.0) {
+        let why = "planet and ring tips collide away from the path of contact (tip fouling)";
+        document.fault(&tip_key("ring"), "tips that pass each other", why);
+    }
+    if mesh.contact_ratio < 1.0 && !interferes {
+        let why = format!(
+            "the {} mesh has contact ratio {:.3}: one pair must take over before the other leaves",
+            mesh.kind.name(),
+            mesh.contact_ratio
+        );
+        document.fault(&tip_key(driven), "tips that give a contact ratio of 1 or more", why);
+    }
+    let backlash = geometry.backlash(mesh.kind).unwrap_or(0.0);
+    if backlash < -1e-9 {
+        let why = format!("the {} mesh has backlash {}: it jams", mesh.kind.name(), mm(backlash));
+        let key = "geometry.thickness.profile_shift";
+        document.fault(key, "shifts that leave backlash 0 or above", why);
+    }
+}
+
+fn distinct_positions(document: &Document<'_>, scene: &Scene) {
+    let psi = &scene.planets.psi_rad;
+    for (p, q, chord) in assembly::planet_clearances(psi, 1.0, 0.0) {
+        if chord < 1e-9 {
+            let key = if document.has("planets.position_steps") {
+                "planets.position_steps"
+            } else {
+                "planets.positions_deg"
+            };
+            let why = format!("planets {p} and {q} stand at the same place");
+            document.fault(key, "distinct positions", why);
+        }
+    }
+}

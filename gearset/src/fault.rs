@@ -1,0 +1,62 @@
+//! What is wrong with a scene file, and where.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::PathBuf;
+
+/// One fault of a scene file: the key, what it holds, what it may hold and why.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// Full dotted path of the key, e.g. `geometry.sun.tip_diameter_mm`.
+    pub key: String,
+    /// What the file holds there, as written; `absent` if it holds nothing.
+    pub value: String,
+    /// What is allowed.
+    pub allowed: String,
+    /// Why: the mechanics or the convention behind the limit.
+    pub why: String,
+    /// Byte range in the source text to underline.
+    pub span: Range<usize>,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "`{}` is {}: allowed: {} ({})", self.key, self.value, self.allowed, self.why)
+    }
+}
+
+/// Why a scene could not be had.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// The file could not be read.
+    #[error("scene file `{}` cannot be read: {cause}", path.display())]
+    Unreadable {
+        /// The path asked for.
+        path: PathBuf,
+        /// What the operating system said.
+        #[source]
+        cause: std::io::Error,
+    },
+    /// The file was read and is not a valid scene; every fault found is here.
+    #[error("{} fault{} in the scene: {}", faults.len(), if faults.len() == 1 { "" } else { "s" }, join(faults))]
+    Invalid {
+        /// Source text the spans of `faults` point into.
+        text: String,
+        /// Every fault, in the order of the file.
+        faults: Vec<Fault>,
+    },
+}
+
+fn join(faults: &[Fault]) -> String {
+    faults.iter().map(Fault::to_string).collect::<Vec<_>>().join("; ")
+}
+
+impl SceneError {
+    /// The faults, empty when the file could not be read at all.
+    pub fn faults(&self) -> &[Fault] {
+        match self {
+            Self::Unreadable { .. } => &[],
+            Self::Invalid { faults, .. } => faults,
+        }
+    }
+}

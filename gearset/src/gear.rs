@@ -1,0 +1,220 @@
+//! One gear: circles, tooth thickness, flanks.
+
+use std::f64::consts::{PI, TAU};
+
+use serde::Serialize;
+
+use crate::involute::{inv, pressure_angle_at, radius_at, string_at};
+use crate::scene::{ReliefShape, TipRelief};
+
+/// Which side the teeth are on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ToothSide {
+    /// Teeth point outwards (sun, planet).
+    External,
+    /// Teeth point inwards (ring).
+    Internal,
+}
+
+/// One involute gear. Lengths in m, angles in rad.
+///
+/// Both flanks of one *lobe* are described: the tooth of an external gear, the tooth *space* of an
+/// internal gear, which has the shape of an external tooth.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Gear {
+    /// Number of teeth Z.
+    pub teeth: u32,
+    /// Where the teeth point.
+    pub side: ToothSide,
+    /// r_b.
+    pub base_radius: f64,
+    /// r_a.
+    pub tip_radius: f64,
+    /// r_f.
+    pub root_radius: f64,
+    /// Bore of an external gear, rim of the ring.
+    pub body_radius: Option<f64>,
+    /// Root fillet radius.
+    pub fillet_radius: f64,
+    /// Half the lobe's angle on the base circle: t_b / (2 r_b).
+    pub half_angle_base: f64,
+    /// Tip relief.
+    pub tip_relief: Option<TipRelief>,
+}
+
+impl Gear {
+    /// Angle between neighbouring teeth.
+    pub fn pitch_angle(&self) -> f64 {
+        TAU / f64::from(self.teeth)
+    }
+
+    /// Half the lobe's angle at `radius`: β(r) = β_b − inv α(r).
+    pub fn half_angle(&self, radius: f64) -> f64 {
+        self.half_angle_base - inv(pressure_angle_at(self.base_radius, radius))
+    }
+
+    /// Arc thickness of the tooth at `radius`; negative where the flanks would have crossed.
+    pub fn tooth_thickness(&self, radius: f64) -> f64 {
+        let lobe = 2.0 * self.half_angle(radius);
+        let tooth = match self.side {
+            ToothSide::External => lobe,
+            ToothSide::Internal => self.pitch_angle() - lobe,
+        };
+        radius * tooth
+    }
+
+    /// Arc width of the tooth space at `radius`.
+    pub fn space_width(&self, radius: f64) -> f64 {
+        radius * self.pitch_angle() - self.tooth_thickness(radius)
+    }
+
+    /// String length at the tip.
+    pub fn tip_string(&self) -> f64 {
+        string_at(self.base_radius, self.tip_radius)
+    }
+
+    /// String length where the fillet, tangent to flank and root circle, leaves the flank.
+    ///
+    /// The fillet's centre lies on the string through that point, ρ beyond the flank, and at
+    /// r_f ± ρ from the gear's centre; hence s = √((r_f ± ρ)² − r_b²) ∓ ρ (upper sign external).
+    /// `None` if an external fillet ends on the radial line below the base circle.
+    pub fn form_string(&self) -> Option<f64> {
+        let rho = self.fillet_radius;
+        match self.side {
+            ToothSide::External => {
+                let s = string_at(self.base_radius, self.root_radius + rho) - rho;
+                (s >= 0.0).then_some(s)
+            }
+            ToothSide::Internal => Some(string_at(self.base_radius, self.root_radius - rho) + rho),
+        }
+    }
+
+    /// Form radius: the flank is an involute from here to the tip.
+    pub fn form_radius(&self) -> f64 {
+        self.form_string().map_or(self.base_radius, |s| radius_at(self.base_radius, s))
+    }
+
+    /// Angle left on the root circle between the two fillets of one tooth space; negative if the
+    /// fillets overlap.
+    pub fn root_land_angle(&self) -> f64 {
+        let rho = self.fillet_radius;
+        let half_pitch = PI / f64::from(self.teeth);
+        let half = match (self.side, self.form_string()) {
+            // The centre lies on the involute offset by ρ: origin moved by ρ/r_b.
+            (ToothSide::External, Some(s)) => {
+                let alpha = ((s + rho) / self.base_radius).atan();
+                half_pitch - (self.half_angle_base + rho / self.base_radius - inv(alpha))
+            }
+            (ToothSide::External, None) => {
+                let centre = self.root_radius + rho;
+                half_pitch - (self.half_angle_base + (rho / centre).asin())
+            }
+            (ToothSide::Internal, s) => {
+                let alpha = ((s.unwrap_or(0.0) - rho) / self.base_radius).atan();
+                self.half_angle_base - rho / self.base_radius - inv(alpha)
+            }
+        };
+        2.0 * half
+    }
+
+    /// Tip relief at string length `s`, measured along the line of action; zero without relief.
+    pub fn relief_at(&self, string: f64) -> f64 {
+        let Some(relief) = self.tip_relief else {
+            return 0.0;
+        };
+        let start = string_at(self.base_radius, relief.start_radius);
+        // Towards the tip the string grows on an external gear and shrinks on an internal one.
+        let x = (string - start) / (self.tip_string() - start);
+        match relief.shape {
+            _ if x <= 0.0 => 0.0,
+            ReliefShape::Linear => relief.amount * x,
+            ReliefShape::Parabolic => relief.amount * x * x,
+        }
+    }
+}
+
+/// Which of a lobe's two flanks, by the way it faces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Facing {
+    /// The lobe's counter-clockwise end: polar angle θ₀ − inv α(r).
+    CounterClockwise,
+    /// The lobe's clockwise end: polar angle θ₀ + inv α(r).
+    Clockwise,
+}
+
+impl Facing {
+    /// +1 counter-clockwise, −1 clockwise.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::CounterClockwise => 1.0,
+            Self::Clockwise => -1.0,
+        }
+    }
+
+    /// The other flank of the lobe.
+    pub fn opposite(self) -> Self {
+        match self {
+            Self::CounterClockwise => Self::Clockwise,
+            Self::Clockwise => Self::CounterClockwise,
+        }
+    }
+}
+
+/// One flank placed in the plane.
+#[derive(Debug, Clone, Copy)]
+pub struct Flank<'g> {
+    /// The gear it belongs to.
+    pub gear: &'g Gear,
+    /// Centre of the gear, m.
+    pub centre: [f64; 2],
+    /// Polar angle θ₀ of the involute's origin on the base circle, rad.
+    pub origin_angle: f64,
+    /// Which end of the lobe.
+    pub facing: Facing,
+}
+
+impl<'g> Flank<'g> {
+    /// Flank of lobe number `index` of a gear whose lobe 0 is centred at `gear_angle`.
+    pub fn of_lobe(
+        gear: &'g Gear,
+        centre: [f64; 2],
+        gear_angle: f64,
+        index: i64,
+        facing: Facing,
+    ) -> Self {
+        let lobe = gear_angle + index as f64 * gear.pitch_angle();
+        let origin_angle = lobe + facing.sign() * gear.half_angle_base;
+        Self { gear, centre, origin_angle, facing }
+    }
+
+    /// Point of the unrelieved flank at string length `s`, m.
+    pub fn point(&self, string: f64) -> [f64; 2] {
+        let r = radius_at(self.gear.base_radius, string);
+        let alpha = (string / self.gear.base_radius).atan();
+        let angle = self.origin_angle - self.facing.sign() * inv(alpha);
+        [self.centre[0] + r * angle.cos(), self.centre[1] + r * angle.sin()]
+    }
+
+    /// Gap from the unrelieved flank to a point, measured along the string through the point,
+    /// positive on the free side, m. `None` inside the base circle.
+    ///
+    /// The point lies on an involute with origin θ₀'; the two are r_b (θ₀' − θ₀) apart everywhere.
+    pub fn gap_to(&self, point: [f64; 2]) -> Option<f64> {
+        let [x, y] = [point[0] - self.centre[0], point[1] - self.centre[1]];
+        let r = x.hypot(y);
+        if r < self.gear.base_radius {
+            return None;
+        }
+        let sign = self.facing.sign();
+        let origin = y.atan2(x) + sign * inv(pressure_angle_at(self.gear.base_radius, r));
+        let turn = origin - self.origin_angle;
+        let turn = turn - TAU * (turn / TAU).round();
+        let free_side = match self.gear.side {
+            ToothSide::External => sign,
+            ToothSide::Internal => -sign,
+        };
+        Some(free_side * self.gear.base_radius * turn)
+    }
+}

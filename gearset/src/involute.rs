@@ -1,0 +1,43 @@
+//! The involute of a circle: closed forms used by every part of the geometry.
+
+/// inv α = tan α − α.
+pub fn inv(alpha: f64) -> f64 {
+    alpha.tan() - alpha
+}
+
+/// Pressure angle of the involute of base radius `base_radius` at `radius`: cos α = r_b / r.
+///
+/// Zero at and inside the base circle.
+pub fn pressure_angle_at(base_radius: f64, radius: f64) -> f64 {
+    // α = atan(√(r² − r_b²) / r_b) keeps its digits near the base circle, where acos does not.
+    (string_at(base_radius, radius) / base_radius).atan()
+}
+
+/// Length of the taut string (radius of curvature) at `radius`: s = √(r² − r_b²).
+pub fn string_at(base_radius: f64, radius: f64) -> f64 {
+    ((radius - base_radius) * (radius + base_radius)).max(0.0).sqrt()
+}
+
+/// Radius at string length `s`.
+pub fn radius_at(base_radius: f64, string: f64) -> f64 {
+    base_radius.hypot(string)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn string_and_radius_are_inverse() {
+        let r_b = 35.2e-3;
+        for r in [35.2e-3, 36.0e-3, 42.0e-3] {
+            assert!((radius_at(r_b, string_at(r_b, r)) - r).abs() < 1e-17);
+        }
+    }
+
+    #[test]
+    fn inv_of_twenty_degrees_is_the_handbook_value() {
+        // inv 20° = 0.014904…, printed in every gear handbook.
+        assert!((inv(20f64.to_radians()) - 0.014_904_4).abs() < 5e-8);
+    }
+}

@@ -1,0 +1,29 @@
+//! What every model of a planetary gear set shares: the scene file, involute geometry, assembly,
+//! kinematics, mesh phases and excitation rules.
+
+pub mod assembly;
+mod check;
+mod fault;
+mod gear;
+mod geometry;
+pub mod involute;
+mod kinematics;
+mod mesh;
+mod parse;
+mod parse_geometry;
+mod parse_lumped;
+mod phasing;
+mod reader;
+mod rules;
+mod scene;
+mod template;
+
+pub use fault::{Fault, SceneError};
+pub use gear::{Facing, Flank, Gear, ToothSide};
+pub use geometry::{Geometry, ProfileShiftSums};
+pub use kinematics::*;
+pub use mesh::{Mesh, MeshKind, MeshMember, NoMesh};
+pub use phasing::{GearAngles, MeshPhases, Phasing};
+pub use rules::*;
+pub use scene::*;
+pub use template::template;

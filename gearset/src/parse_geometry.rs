@@ -1,0 +1,164 @@
+//! The `[geometry]` table.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::reader::{Bound, Section};
+use crate::scene::*;
+
+pub(crate) fn geometry(s: Section<'_, '_>, teeth: Option<&Teeth>) -> Option<GeometryInput> {
+    let millimetres = |key, why: &str| s.required(key, Bound::Positive, why).map(|x| x * 1e-3);
+    let center_distance = millimetres("center_distance_mm", "distance from sun to planet");
+    let face_width = millimetres("face_width_mm", "width of the teeth");
+    let rack = s.section("rack").and_then(rack);
+    let base_pitch = base_pitch(&s, teeth, rack);
+    // 0.3 m cos α, the usual rack's tip rounding, where the scene is silent.
+    let default_fillet = base_pitch.map_or(0.0, |p| 0.3 * p / PI);
+    let one = |key: &'static str, body: &'static str, wanted: bool| match s
+        .section(key)
+        .map(|g| gear(g, body, default_fillet))
+    {
+        Some(found) => found,
+        None => {
+            if wanted && !s.has(key) {
+                let allowed = format!("[geometry.{key}] with tip and root diameter");
+                s.fault(key, allowed, "[teeth] names this gear");
+            }
+            None
+        }
+    };
+    let sun = one("sun", "bore_diameter_mm", teeth.is_some_and(|t| t.sun.is_some()));
+    let planet = one("planet", "bore_diameter_mm", true);
+    let ring = one("ring", "rim_diameter_mm", teeth.is_some_and(|t| t.ring.is_some()));
+    for (key, gear, named) in [
+        ("sun", &sun, teeth.is_some_and(|t| t.sun.is_some())),
+        ("ring", &ring, teeth.is_some_and(|t| t.ring.is_some())),
+    ] {
+        if gear.is_some() && !named {
+            s.fault(key, format!("with teeth.{key} given"), "its number of teeth is missing");
+        }
+    }
+    let thickness = thickness(&s, rack, base_pitch);
+    s.finish();
+    Some(GeometryInput {
+        center_distance: center_distance?,
+        base_pitch: base_pitch?,
+        rack,
+        face_width: face_width?,
+        sun,
+        planet: planet?,
+        ring,
+        thickness: thickness?,
+    })
+}
+
+fn rack(s: Section<'_, '_>) -> Option<Rack> {
+    let module = s.required("module_mm", Bound::Positive, "module of the generating rack");
+    let why = "pressure angle of the generating rack";
+    let angle = s.required("pressure_angle_deg", Bound::Between(0.0, 45.0), why);
+    s.finish();
+    Some(Rack { module: module? * 1e-3, pressure_angle: angle?.to_radians() })
+}
+
+/// The one base pitch, from whichever key gives it.
+fn base_pitch(s: &Section<'_, '_>, teeth: Option<&Teeth>, rack: Option<Rack>) -> Option<f64> {
+    let keys = ["base_pitch_mm", "planet_base_diameter_mm", "rack"];
+    let pitch = s.number("base_pitch_mm", Bound::Positive, "base pitch of every gear");
+    let diameter = s.number("planet_base_diameter_mm", Bound::Positive, "p_b = π d_b / Z_p");
+    let given: Vec<_> = keys.into_iter().filter(|k| s.has(k)).collect();
+    if given.len() != 1 {
+        let key = given.last().unwrap_or(&"base_pitch_mm");
+        let allowed = format!("exactly one of {}", keys.join(", "));
+        s.fault(key, allowed, "one base pitch makes every mesh exactly conjugate");
+        return None;
+    }
+    let from_pitch = pitch.map(|p| p * 1e-3);
+    let from_diameter = diameter.zip(teeth).map(|(d, t)| PI * d * 1e-3 / f64::from(t.planet));
+    // p_b = π m cos α₀
+    let from_rack = rack.map(|r| PI * r.module * r.pressure_angle.cos());
+    from_pitch.or(from_diameter).or(from_rack)
+}
+
+fn gear(s: Section<'_, '_>, body_key: &'static str, default_fillet: f64) -> Option<GearInput> {
+    let radius = |key, why: &str| s.required(key, Bound::Positive, why).map(|d| d * 0.5e-3);
+    let tip_radius = radius("tip_diameter_mm", "tip circle");
+    let root_radius = radius("root_diameter_mm", "root circle");
+    let why = "inner circle of an external gear, outer circle of the ring";
+    let body_radius = s.number(body_key, Bound::Positive, why).map(|d| d * 0.5e-3);
+    let fillet = s.number("fillet_radius_mm", Bound::NonNegative, "root fillet");
+    let relief = s.section("tip_relief").and_then(tip_relief);
+    s.finish();
+    Some(GearInput {
+        tip_radius: tip_radius?,
+        root_radius: root_radius?,
+        body_radius,
+        fillet_radius: fillet.map_or(default_fillet, |r| r * 1e-3),
+        tip_relief: relief,
+    })
+}
+
+fn tip_relief(s: Section<'_, '_>) -> Option<TipRelief> {
+    let start = s.required("start_diameter_mm", Bound::Positive, "where the relief starts");
+    let why = "material taken off at the tip, along the line of action";
+    let amount = s.required("amount_um", Bound::NonNegative, why);
+    let shapes = [("linear", ReliefShape::Linear), ("parabolic", ReliefShape::Parabolic)];
+    let shape = s.choice("shape", &shapes, "growth from start to tip");
+    s.finish();
+    Some(TipRelief {
+        start_radius: start? * 0.5e-3,
+        amount: amount? * 1e-6,
+        shape: shape.unwrap_or(ReliefShape::Linear),
+    })
+}
+
+fn thickness(
+    s: &Section<'_, '_>,
+    rack: Option<Rack>,
+    base_pitch: Option<f64>,
+) -> Option<ThicknessInput> {
+    let t = s.section("thickness");
+    if let Some(t) = &t
+        && t.has("profile_shift")
+    {
+        let shift = t.section("profile_shift").map(|x| {
+            let why = "profile shift coefficient (ring: internal-gear sign)";
+            let value = |key| x.number(key, Bound::Between(-5.0, 5.0), why);
+            let found = (value("sun"), value("planet"), value("ring"));
+            x.finish();
+            found
+        });
+        let others = ["sun_planet_backlash_mm", "ring_planet_backlash_mm", "planet_share"];
+        for key in others.into_iter().filter(|k| t.has(k)) {
+            t.fault(key, "nothing beside profile_shift", "profile shifts fix the thickness");
+        }
+        if rack.is_none() {
+            t.fault("profile_shift", "with geometry.rack given", "a shift is counted in modules");
+        }
+        // Known here, so that `finish` reports only what no scene may hold.
+        for key in others {
+            t.number(key, Bound::Finite, "thickness");
+        }
+        let (sun, planet, ring) = shift?;
+        let or_zero = |x: Option<f64>| x.unwrap_or(0.0);
+        let input = ThicknessInput::ProfileShift {
+            sun: or_zero(sun),
+            planet: or_zero(planet),
+            ring: or_zero(ring),
+        };
+        return Some(input);
+    }
+    // 0.04 m cos α: a usual backlash, where the scene is silent.
+    let default = base_pitch? * 0.08 / TAU;
+    let (mut sun_planet, mut ring_planet, mut planet_share) = (default, default, 0.5);
+    if let Some(t) = t {
+        let why = "circumferential backlash at the operating pitch circles; below 0 the teeth jam";
+        let mm = |key| t.number(key, Bound::NonNegative, why).map(|x| x * 1e-3);
+        sun_planet = mm("sun_planet_backlash_mm").unwrap_or(sun_planet);
+        ring_planet = mm("ring_planet_backlash_mm").unwrap_or(ring_planet);
+        let why = "planet's share of the sum of sun and planet tooth thickness";
+        planet_share =
+            t.number("planet_share", Bound::Between(0.0, 1.0), why).unwrap_or(planet_share);
+        let _ = t.section("profile_shift");
+        t.finish();
+    }
+    Some(ThicknessInput::Backlash { sun_planet, ring_planet, planet_share })
+}

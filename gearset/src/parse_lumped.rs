@@ -1,0 +1,140 @@
+//! The `[lumped]` table: given values joined with what the geometry says.
+
+use crate::geometry::Geometry;
+use crate::reader::{Bound, Section};
+use crate::scene::*;
+
+fn per_body(s: Option<Section<'_, '_>>, why: &str, scale: f64) -> PerBody {
+    let Some(s) = s else {
+        return PerBody::default();
+    };
+    let value = |key| s.number(key, Bound::Positive, why).map(|x| x * scale);
+    let found = PerBody {
+        carrier: value("carrier"),
+        ring: value("ring"),
+        sun: value("sun"),
+        planet: value("planet"),
+    };
+    s.finish();
+    found
+}
+
+/// The entry of one body.
+type Entry = fn(&mut PerBody) -> &mut Option<f64>;
+
+/// Reads the table. Angles and radii not given are the geometry's; they must be given where
+/// `must_give_angles` says that there is no geometry to take them from.
+pub(crate) fn lumped(
+    s: Section<'_, '_>,
+    geometry: Option<&Geometry>,
+    supports: Option<&Supports>,
+    must_give_angles: bool,
+) -> Option<LumpedInput> {
+    let mass = per_body(s.section("mass_kg"), "mass", 1.0);
+    let inertia = per_body(s.section("inertia_kg_m2"), "polar moment of inertia I", 1.0);
+    let over_r2 = per_body(s.section("inertia_over_r2_kg"), "I/r²", 1.0);
+    let given_radius = per_body(s.section("radius_mm"), "r in u = r·θ", 1e-3);
+    let mesh = s.section("mesh_n_per_m").and_then(|m| {
+        let why = "constant stiffness along the line of action";
+        let sun_planet = m.required("sun_planet", Bound::Positive, why);
+        let ring_planet = m.required("ring_planet", Bound::Positive, why);
+        m.finish();
+        Some(PerMesh { sun_planet: sun_planet?, ring_planet: ring_planet? })
+    });
+    if !s.has("mesh_n_per_m") {
+        let why = "the lumped model needs both mesh stiffnesses";
+        s.fault("mesh_n_per_m", "{ sun_planet = …, ring_planet = … }", why);
+    }
+    let given_angle = s.section("pressure_angle_deg").and_then(|a| {
+        let why = "operating pressure angle";
+        let sun_planet = a.required("sun_planet", Bound::Between(0.0, 60.0), why);
+        let ring_planet = a.required("ring_planet", Bound::Between(0.0, 60.0), why);
+        a.finish();
+        let (sun_planet, ring_planet) = (sun_planet?.to_radians(), ring_planet?.to_radians());
+        Some(PerMesh { sun_planet, ring_planet })
+    });
+    if !s.has("pressure_angle_deg") && must_give_angles {
+        let why = "without [geometry] the operating pressure angles must be given";
+        s.fault("pressure_angle_deg", "{ sun_planet = …, ring_planet = … }", why);
+    }
+    let pressure_angle = given_angle.or_else(|| {
+        let g = geometry?;
+        Some(PerMesh {
+            sun_planet: g.sun_planet.as_ref()?.pressure_angle,
+            ring_planet: g.ring_planet.as_ref()?.pressure_angle,
+        })
+    });
+    // u = r·θ with the base radius of a gear and the centre distance for the carrier.
+    let base = |gear: &crate::gear::Gear| gear.base_radius;
+    let radius = PerBody {
+        carrier: given_radius.carrier.or(geometry.map(|g| g.center_distance)),
+        ring: given_radius.ring.or(geometry.and_then(|g| g.ring.as_ref().map(base))),
+        sun: given_radius.sun.or(geometry.and_then(|g| g.sun.as_ref().map(base))),
+        planet: given_radius.planet.or(geometry.map(|g| base(&g.planet))),
+    };
+    let mut inertia_over_r2 = over_r2;
+    if let Some(supports) = supports {
+        let free = Motion::Free;
+        let bodies: [(&str, Motion, Entry); 4] = [
+            ("carrier", supports.carrier.motion, |p| &mut p.carrier),
+            ("ring", supports.ring.motion, |p| &mut p.ring),
+            ("sun", supports.sun.motion, |p| &mut p.sun),
+            ("planet", free, |p| &mut p.planet),
+        ];
+        let (mut mass, mut inertia, mut over_r2, mut radius) = (mass, inertia, over_r2, radius);
+        for (name, motion, of) in bodies {
+            if motion != Motion::Held && of(&mut mass).is_none() {
+                let why = format!("the {name} can move");
+                fault_in(&s, "mass_kg", name, "a mass above 0", &why);
+            }
+            match (*of(&mut inertia), *of(&mut over_r2), *of(&mut radius)) {
+                (Some(_), Some(_), _) => {
+                    let allowed = "one of inertia_kg_m2 and inertia_over_r2_kg";
+                    fault_in(&s, "inertia_over_r2_kg", name, allowed, "both say the same");
+                }
+                (None, None, _) if motion == free => {
+                    let allowed = "inertia_kg_m2, or inertia_over_r2_kg";
+                    let why = format!("the {name} can rotate");
+                    fault_in(&s, "inertia_kg_m2", name, allowed, &why);
+                }
+                (Some(_), None, None) if motion == free => {
+                    let why = format!("I/r² of the {name} needs r, and no [geometry] gives it");
+                    fault_in(&s, "radius_mm", name, "a radius above 0", &why);
+                }
+                (Some(i), None, Some(r)) => *of(&mut inertia_over_r2) = Some(i / (r * r)),
+                _ => {}
+            }
+        }
+        torsional_needs_radius(&s, supports, &radius);
+    }
+    s.finish();
+    Some(LumpedInput {
+        mass,
+        inertia_over_r2,
+        radius,
+        mesh: mesh?,
+        pressure_angle: pressure_angle?,
+    })
+}
+
+/// Adds a fault about `table.name`, unless the table itself is at fault already.
+fn fault_in(s: &Section<'_, '_>, table: &str, name: &str, allowed: &str, why: &str) {
+    s.fault(&format!("{table}.{name}"), allowed, why);
+}
+
+/// A torsional stiffness per angle becomes one per u by r².
+fn torsional_needs_radius(s: &Section<'_, '_>, supports: &Supports, radius: &PerBody) {
+    let members = [
+        ("carrier", supports.carrier, radius.carrier),
+        ("ring", supports.ring, radius.ring),
+        ("sun", supports.sun, radius.sun),
+    ];
+    for (name, support, radius) in members {
+        if let (Torsional::PerAngle(k), None) = (support.torsional, radius)
+            && k > 0.0
+        {
+            let why = format!("torsional_nm_per_rad of the {name} needs r");
+            fault_in(s, "radius_mm", name, "a radius above 0", &why);
+        }
+    }
+}

@@ -1,0 +1,356 @@
+//! The scene: plain types, SI units, everything one run needs to know about a gear set.
+
+use serde::Serialize;
+
+use crate::mesh::MeshKind;
+
+/// What the scene describes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SceneKind {
+    /// A whole planetary set.
+    Planetary,
+    /// One mesh alone: sun–planet or ring–planet.
+    GearPair,
+}
+
+/// A validated scene. Lengths in m, angles in rad, masses in kg, stiffnesses in N/m.
+#[derive(Debug, Clone, Serialize)]
+pub struct Scene {
+    /// Whole set or one mesh.
+    pub kind: SceneKind,
+    /// The mesh of a gear pair.
+    pub pair: Option<MeshKind>,
+    /// What the set is called.
+    pub title: String,
+    /// Where its numbers come from.
+    pub source: Option<String>,
+    /// Planet positions.
+    pub planets: PlanetPositions,
+    /// Numbers of teeth; absent in parameter-only sets.
+    pub teeth: Option<Teeth>,
+    /// Tooth geometry as given; absent in parameter-only sets.
+    pub geometry: Option<GeometryInput>,
+    /// Elastic constants and density.
+    pub material: Material,
+    /// How the members are held.
+    pub supports: Supports,
+    /// Parameters of the lumped model; absent if the scene is for FE/contact only.
+    pub lumped: Option<LumpedInput>,
+    /// Planets that differ from the others.
+    pub overrides: Vec<PlanetOverride>,
+    /// Proportional damping.
+    pub damping: Damping,
+    /// Speed and torque.
+    pub operation: Option<Operation>,
+}
+
+/// Where the planets stand on the carrier.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PlanetPositions {
+    /// ψ_n, counter-clockwise from planet 0, rad. Planet 0 is at zero.
+    pub psi_rad: Vec<f64>,
+    /// The same in assembly steps of 2π/(Z_s+Z_r), when the teeth are known.
+    pub steps: Option<Vec<i64>>,
+}
+
+impl PlanetPositions {
+    /// N planets at ψ_n = 2πn/N, without saying anything about teeth.
+    pub fn equally_spaced(count: usize) -> Self {
+        let psi_rad = (0..count).map(|n| std::f64::consts::TAU * n as f64 / count as f64).collect();
+        Self { psi_rad, steps: None }
+    }
+
+    /// Number of planets N.
+    pub fn count(&self) -> usize {
+        self.psi_rad.len()
+    }
+}
+
+/// Numbers of teeth; a gear pair lacks the sun or the ring.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Teeth {
+    /// Z_s.
+    pub sun: Option<u32>,
+    /// Z_p.
+    pub planet: u32,
+    /// Z_r.
+    pub ring: Option<u32>,
+}
+
+impl Teeth {
+    /// (Z_s, Z_r) of a whole set.
+    pub fn sun_ring(&self) -> Option<(u32, u32)> {
+        Some((self.sun?, self.ring?))
+    }
+}
+
+/// Tooth geometry as given in the scene; `Geometry` is worked out from it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GeometryInput {
+    /// a, m.
+    pub center_distance: f64,
+    /// p_b, the one base pitch of all gears, m.
+    pub base_pitch: f64,
+    /// Generating rack, when the scene gives one.
+    pub rack: Option<Rack>,
+    /// Face width b, m.
+    pub face_width: f64,
+    /// Sun, if the scene has one.
+    pub sun: Option<GearInput>,
+    /// Planet.
+    pub planet: GearInput,
+    /// Ring, if the scene has one.
+    pub ring: Option<GearInput>,
+    /// Where the tooth thicknesses come from.
+    pub thickness: ThicknessInput,
+}
+
+/// Generating rack.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Rack {
+    /// Module m, m.
+    pub module: f64,
+    /// Pressure angle of the rack, rad.
+    pub pressure_angle: f64,
+}
+
+/// Circles and edges of one gear.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GearInput {
+    /// Tip radius, m.
+    pub tip_radius: f64,
+    /// Root radius, m.
+    pub root_radius: f64,
+    /// Bore radius of an external gear, rim radius of the ring, m.
+    pub body_radius: Option<f64>,
+    /// Root fillet radius, m.
+    pub fillet_radius: f64,
+    /// Tip relief, if any.
+    pub tip_relief: Option<TipRelief>,
+}
+
+/// Material taken off the flank near the tip, measured along the line of action.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct TipRelief {
+    /// Radius where the relief starts, m.
+    pub start_radius: f64,
+    /// Amount at the tip circle, m.
+    pub amount: f64,
+    /// Growth from start to tip.
+    pub shape: ReliefShape,
+}
+
+/// How tip relief grows with roll length.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ReliefShape {
+    /// Proportional to the roll length past the start.
+    Linear,
+    /// Proportional to its square.
+    Parabolic,
+}
+
+/// Where the tooth thicknesses come from.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ThicknessInput {
+    /// From circumferential backlash at the operating pitch circles.
+    Backlash {
+        /// Sun–planet backlash, m.
+        sun_planet: f64,
+        /// Ring–planet backlash, m.
+        ring_planet: f64,
+        /// Planet's share of the sum of sun and planet thicknesses.
+        planet_share: f64,
+    },
+    /// From profile shifts of the generating rack (ring with the internal-gear sign).
+    ProfileShift {
+        /// x_s.
+        sun: f64,
+        /// x_p.
+        planet: f64,
+        /// x_r.
+        ring: f64,
+    },
+}
+
+/// Elastic constants and density.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Material {
+    /// E, Pa.
+    pub young_modulus_pa: f64,
+    /// ν.
+    pub poisson_ratio: f64,
+    /// ρ, kg/m³.
+    pub density_kg_per_m3: f64,
+}
+
+/// How a central member may move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Motion {
+    /// Translates and rotates.
+    Free,
+    /// Translates; its rotation is held.
+    RotationHeld,
+    /// Does not move.
+    Held,
+}
+
+/// Support of one central member.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Support {
+    /// Which coordinates exist.
+    pub motion: Motion,
+    /// Bearing stiffness, equal in both directions, N/m.
+    pub bearing: f64,
+    /// Torsional stiffness, if any.
+    pub torsional: Torsional,
+}
+
+/// Torsional stiffness of a central member.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Torsional {
+    /// Per u = r·θ, N/m.
+    PerLength(f64),
+    /// Per θ, N·m/rad.
+    PerAngle(f64),
+}
+
+/// Supports of all members.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Supports {
+    /// Carrier.
+    pub carrier: Support,
+    /// Ring.
+    pub ring: Support,
+    /// Sun.
+    pub sun: Support,
+    /// Stiffness between each planet and the carrier, N/m.
+    pub planet_bearing: f64,
+}
+
+/// One value for each body kind; `None` where the scene says nothing.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct PerBody {
+    /// Carrier.
+    pub carrier: Option<f64>,
+    /// Ring.
+    pub ring: Option<f64>,
+    /// Sun.
+    pub sun: Option<f64>,
+    /// Planet.
+    pub planet: Option<f64>,
+}
+
+/// One value for each kind of mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PerMesh {
+    /// Sun–planet.
+    pub sun_planet: f64,
+    /// Ring–planet.
+    pub ring_planet: f64,
+}
+
+/// Parameters of the Lin–Parker model.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LumpedInput {
+    /// Masses, kg.
+    pub mass: PerBody,
+    /// I/r² of each body, kg (r: base radius; for the carrier the centre distance).
+    pub inertia_over_r2: PerBody,
+    /// Radii r in u = r·θ, m, where known.
+    pub radius: PerBody,
+    /// Constant mesh stiffnesses, N/m.
+    pub mesh: PerMesh,
+    /// Operating pressure angles, rad, from the geometry or as given.
+    pub pressure_angle: PerMesh,
+}
+
+/// One planet that differs from the others; `None` keeps the common value.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct PlanetOverride {
+    /// Index n of the planet.
+    pub planet: usize,
+    /// Mass, kg.
+    pub mass: Option<f64>,
+    /// I/r², kg.
+    pub inertia_over_r2: Option<f64>,
+    /// Bearing stiffness, N/m.
+    pub bearing: Option<f64>,
+    /// Sun–planet mesh stiffness, N/m.
+    pub sun_mesh: Option<f64>,
+    /// Ring–planet mesh stiffness, N/m.
+    pub ring_mesh: Option<f64>,
+}
+
+/// Proportional damping C = αM + βK.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Damping {
+    /// α, 1/s.
+    pub mass_proportional_per_s: f64,
+    /// β, s.
+    pub stiffness_proportional_s: f64,
+}
+
+/// A central member.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Member {
+    /// Sun.
+    Sun,
+    /// Ring.
+    Ring,
+    /// Carrier.
+    Carrier,
+}
+
+impl Member {
+    /// Name as used in scene files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sun => "sun",
+            Self::Ring => "ring",
+            Self::Carrier => "carrier",
+        }
+    }
+}
+
+/// Operating point: one member held, one turned at a given speed with a given torque.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Operation {
+    /// The member that stands still.
+    pub fixed: Member,
+    /// The member whose speed and torque are given.
+    pub input: Member,
+    /// Its speed, rpm, counter-clockwise positive.
+    pub speed_rpm: f64,
+    /// Its external torque, N·m, counter-clockwise positive.
+    pub torque_nm: f64,
+}
+
+impl Scene {
+    /// What this scene lacks and therefore cannot be used for, one sentence each.
+    pub fn limits(&self) -> Vec<String> {
+        let mut limits = Vec::new();
+        if self.kind == SceneKind::GearPair {
+            limits.push("one mesh alone: no natural modes, no excitation rules".to_owned());
+        } else {
+            if self.teeth.is_none() {
+                limits.push("no [teeth]: no mesh phases, excitation rules or speeds".to_owned());
+            }
+            if self.lumped.is_none() {
+                limits.push("no [lumped]: no lumped natural modes".to_owned());
+            }
+            if self.operation.is_none() {
+                limits.push("no [operation]: no speed or mesh frequency of its own".to_owned());
+            }
+        }
+        if self.geometry.is_none() {
+            limits.push("no [geometry]: no contact ratios, γ, tooth contact or FE".to_owned());
+        }
+        limits
+    }
+}

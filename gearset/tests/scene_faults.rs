@@ -1,0 +1,231 @@
+//! Every fault of a scene is found at once, named by key, and nothing in a file makes it panic.
+
+use gearset::{Scene, SceneKind, template};
+use proptest::prelude::*;
+
+/// The template with some text replaced; the text must be there.
+fn changed(changes: &[(&str, &str)]) -> String {
+    let mut text = template(SceneKind::Planetary).to_owned();
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replacen(from, to, 1);
+    }
+    text
+}
+
+/// Keys of all faults of a text.
+fn faulty_keys(text: &str) -> Vec<String> {
+    match Scene::from_toml(text) {
+        Ok(_) => Vec::new(),
+        Err(error) => error.faults().iter().map(|f| f.key.clone()).collect(),
+    }
+}
+
+fn assert_fault(changes: &[(&str, &str)], key: &str, words: &str) {
+    let text = changed(changes);
+    let error = Scene::from_toml(&text).expect_err(key);
+    let found = error.faults().iter().find(|f| f.key == key);
+    let found = found.unwrap_or_else(|| panic!("{key}: {error}"));
+    assert!(found.to_string().contains(words), "{found}");
+    assert!(found.span.end <= text.len() && found.span.start <= found.span.end);
+}
+
+#[test]
+fn all_faults_are_reported_at_once() {
+    let text = changed(&[
+        ("center_distance_mm = 88.9", "center_distance_mm = -1"),
+        ("bearing_n_per_m = 87.6e6\n# torsional", "bearing = 1\n# torsional"),
+        ("poisson_ratio = 0.3", "poisson_ratio = 0.7"),
+        ("fixed = \"ring\"", "fixed = \"moon\""),
+        ("sun = 27", "sun = 27.5"),
+    ]);
+    let keys = faulty_keys(&text);
+    for key in [
+        "geometry.center_distance_mm",
+        "sun.bearing",
+        "material.poisson_ratio",
+        "operation.fixed",
+        "teeth.sun",
+    ] {
+        assert!(keys.iter().any(|k| k == key), "{key} not in {keys:?}");
+    }
+}
+
+/// Changes to the template, the key at fault, words of the message.
+type Case = (&'static [(&'static str, &'static str)], &'static str, &'static str);
+
+#[test]
+fn each_kind_of_fault_names_its_key_and_says_why() {
+    const POSITION: &str = "position_steps = [0, -31, 63, 32]";
+    let cases: &[Case] = &[
+        (&[("format = 1", "format = 2")], "format", "whole number from 1 to 1"),
+        (&[("format = 1", "")], "format", "absent"),
+        (&[("\"planetary\"  ", "\"planet\"  ")], "kind", "gear_pair"),
+        (&[(POSITION, "positions_deg = [0, -88.6, 180, 91.4]")], "planets.positions_deg", "-31"),
+        (&[(POSITION, "")], "planets", "position_steps = [0, 32, 63, 95]"),
+        (&[(POSITION, "position_steps = [0, 10, 63, 32]")], "planets.position_steps", "overlap"),
+        (&[(POSITION, "position_steps = [0, 63, 63, 32]")], "planets.position_steps", "same place"),
+        (&[(POSITION, "position_steps = [0, 63]")], "planets.position_steps", "4 entries"),
+        (&[(POSITION, "position_steps = [1, -31, 63, 32]")], "planets.position_steps", "0 first"),
+        (&[("count = 4", "count = 0")], "planets.count", "1 to 64"),
+        (&[("ring = 99", "ring = 30")], "teeth.ring", "runs inside"),
+        (
+            &[("tip_diameter_mm = 84.07", "tip_diameter_mm = 70.0")],
+            "geometry.sun.tip_diameter_mm",
+            "root diameter",
+        ),
+        (
+            &[("tip_diameter_mm = 84.07", "tip_diameter_mm = 99.0")],
+            "geometry.sun.tip_diameter_mm",
+            "comes to a point",
+        ),
+        (
+            &[("tip_diameter_mm = 84.07", "tip_diameter_mm = 77.0")],
+            "geometry.planet.tip_diameter_mm",
+            "contact ratio",
+        ),
+        (
+            &[("root_diameter_mm = 91.54", "root_diameter_mm = 94.0")],
+            "geometry.sun.tip_diameter_mm",
+            "digs",
+        ),
+        (
+            &[("tip_diameter_mm = 271.8", "tip_diameter_mm = 269.0")],
+            "geometry.ring.tip_diameter_mm",
+            "form circle",
+        ),
+        (
+            &[("fillet_radius_mm = 0.8              #", "fillet_radius_mm = 2.5              #")],
+            "geometry.sun.fillet_radius_mm",
+            "overlap",
+        ),
+        (
+            &[("sun_planet_backlash_mm = 0.1", "sun_planet_backlash_mm = -0.1")],
+            "geometry.thickness.sun_planet_backlash_mm",
+            "jam",
+        ),
+        (
+            &[("center_distance_mm = 88.9", "center_distance_mm = 80.0")],
+            "geometry.center_distance_mm",
+            "overlap",
+        ),
+        (&[("planet_base_diameter_mm = 91.26", "")], "geometry.base_pitch_mm", "exactly one of"),
+        (&[("mass_kg = { sun = 0.40, ", "mass_kg = { ")], "lumped.mass_kg.sun", "can move"),
+        (&[("planet = 1.27e-3, ", "")], "lumped.inertia_kg_m2.planet", "can rotate"),
+        (
+            &[("young_modulus_pa = 207e9", "young_modulus_pa = inf")],
+            "material.young_modulus_pa",
+            "",
+        ),
+        (
+            &[("young_modulus_pa = 207e9", "young_modulus_pa = nan")],
+            "material.young_modulus_pa",
+            "",
+        ),
+        (&[("motion = \"held\"", "motion = \"hold\"")], "ring.motion", "rotation_held"),
+        (&[("input = \"sun\"", "input = \"ring\"")], "operation.input", "cannot be driven"),
+        (&[("speed_rpm", "speed_rmp")], "operation.speed_rmp", "did you mean `speed_rpm`"),
+        (&[("speed_rpm = 1600", "speed_rpm = ")], "speed_rpm", "TOML"),
+        (&[("count = 4", "count = 4\ncount = 4")], "count", "TOML"),
+    ];
+    for (changes, key, words) in cases {
+        assert_fault(changes, key, words);
+    }
+}
+
+#[test]
+fn parameter_only_sets_are_valid_and_say_what_they_lack() {
+    let text = "format = 1\nkind = \"planetary\"\n[planets]\ncount = 3\n[planet]\nbearing_n_per_m = 1e8\n\
+        [ring]\nmotion = \"held\"\n[lumped]\nmass_kg = { sun = 1, planet = 1, carrier = 1 }\n\
+        inertia_over_r2_kg = { sun = 1, planet = 1, carrier = 1 }\n\
+        mesh_n_per_m = { sun_planet = 1e8, ring_planet = 1e8 }\n\
+        pressure_angle_deg = { sun_planet = 20, ring_planet = 20 }\n";
+    let scene = Scene::from_toml(text).unwrap();
+    assert!(scene.limits().iter().any(|l| l.contains("[geometry]")));
+    assert!(scene.limits().iter().any(|l| l.contains("[teeth]")));
+    // The angles are then needed.
+    let keys = faulty_keys(&text.replace("pressure_angle_deg", "# pressure_angle_deg"));
+    assert_eq!(keys, ["lumped.pressure_angle_deg"]);
+}
+
+#[test]
+fn degrees_that_can_be_assembled_become_exact_steps() {
+    let text = changed(&[(
+        "position_steps = [0, -31, 63, 32]",
+        "positions_deg = [0, -88.57142857, 180, 91.42857143]",
+    )]);
+    let scene = Scene::from_toml(&text).unwrap();
+    assert_eq!(scene.planets.steps, Some(vec![0, -31, 63, 32]));
+    assert_eq!(scene.planets.psi_rad[2], 63.0 * std::f64::consts::TAU / 126.0);
+}
+
+/// One random edit of a scene's text.
+fn mutate(text: &str, kind: u8, at: usize, value: &str) -> String {
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    let line = at % lines.len();
+    match kind % 6 {
+        0 => drop(lines.remove(line)),
+        1 => lines.insert(line, value.to_owned()),
+        2 => lines[line] = lines[line].replacen('=', value, 1),
+        3 => {
+            let key = lines[line].split('=').next().unwrap_or("").to_owned();
+            lines[line] = format!("{key}= {value}");
+        }
+        4 => lines.swap(line, (at / 7) % text.lines().count()),
+        _ => {
+            let chars: Vec<char> = lines[line].chars().collect();
+            let cut = if chars.is_empty() { 0 } else { (at / 3) % chars.len() };
+            lines[line] = chars.iter().take(cut).chain(chars.iter().skip(cut + 1)).collect();
+        }
+    }
+    lines.join("\n")
+}
+
+const VALUES: [&str; 20] = [
+    "nan",
+    "inf",
+    "-inf",
+    "-1",
+    "0",
+    "1e308",
+    "1e-320",
+    "\"x\"",
+    "[]",
+    "{}",
+    "true",
+    "1e400",
+    "99999999999999999999",
+    "[[x]]",
+    "'",
+    "\u{7f}",
+    "é = 1",
+    "[geometry]",
+    "[0, 1, 2, 3]",
+    "1979-05-27",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 10_000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Up to three edits of a valid scene: accepted whole, or refused with keys and sound spans.
+    #[test]
+    fn mutated_scenes_never_panic(
+        pair in any::<bool>(),
+        edits in proptest::collection::vec((any::<u8>(), any::<usize>(), 0..VALUES.len()), 1..4),
+    ) {
+        let kind = if pair { SceneKind::GearPair } else { SceneKind::Planetary };
+        let mut text = template(kind).to_owned();
+        for (what, at, value) in edits {
+            text = mutate(&text, what, at, VALUES[value]);
+        }
+        if let Err(error) = Scene::from_toml(&text) {
+            prop_assert!(!error.faults().is_empty());
+            for fault in error.faults() {
+                prop_assert!(!fault.key.is_empty() && !fault.allowed.is_empty());
+                prop_assert!(fault.span.end <= text.len());
+                prop_assert!(text.is_char_boundary(fault.span.start));
+                prop_assert!(text.is_char_boundary(fault.span.end));
+            }
+        }
+    }
+}

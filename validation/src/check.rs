@@ -1,0 +1,188 @@
+//! One checked number or statement, with everything a reader needs to judge it.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// What a value is held against.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ReferenceKind {
+    /// A closed form or a theorem.
+    Analytic,
+    /// A number or statement printed in the literature.
+    Published,
+    /// The same quantity from another program.
+    OtherCode,
+    /// An earlier value of our own: only drift is judged.
+    OwnRegression,
+}
+
+/// What became of a check.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Status {
+    /// Within tolerance.
+    Pass,
+    /// Outside tolerance.
+    Fail,
+    /// A published value that the sound model does not reproduce, listed with its analysis.
+    Miss,
+    /// Not part of the profile that ran.
+    NotRun,
+}
+
+/// A checked value.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// A word or sentence.
+    Text(String),
+    /// Several values.
+    List(Vec<Value>),
+}
+
+impl From<f64> for Value {
+    fn from(x: f64) -> Self {
+        Self::Number(x)
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
+impl From<String> for Value {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl<T: Into<Value>> From<Vec<T>> for Value {
+    fn from(list: Vec<T>) -> Self {
+        Self::List(list.into_iter().map(Into::into).collect())
+    }
+}
+
+/// How far a value may be off, and why so far.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Tolerance {
+    /// Largest |actual − expected| in the unit of the check; 0 for statements and counts.
+    pub absolute: f64,
+    /// Reason for the figure.
+    pub reason: String,
+}
+
+impl Tolerance {
+    /// For statements, words and counts.
+    pub fn exact() -> Self {
+        Self { absolute: 0.0, reason: "a statement or a count: it holds or it does not".into() }
+    }
+}
+
+/// One check.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Check {
+    /// Stable id, e.g. `table2.lumped.1`.
+    pub id: String,
+    /// What is checked, for people.
+    pub title: String,
+    /// Kind of reference.
+    pub kind: ReferenceKind,
+    /// Where the expected value comes from.
+    pub source: String,
+    /// Expected value.
+    pub expected: Value,
+    /// What came out; absent if the check has not run.
+    pub actual: Option<Value>,
+    /// Unit of both.
+    pub unit: String,
+    /// 100 (actual − expected)/expected, for numbers with a non-zero expectation.
+    pub difference_percent: Option<f64>,
+    /// Tolerance.
+    pub tolerance: Tolerance,
+    /// Verdict.
+    pub status: Status,
+}
+
+/// What a check is about: everything but the verdict.
+#[derive(Debug, Clone)]
+pub struct Subject<'a> {
+    /// Stable id.
+    pub id: &'a str,
+    /// What is checked.
+    pub title: &'a str,
+    /// Kind of reference.
+    pub kind: ReferenceKind,
+    /// Source of the expectation.
+    pub source: &'a str,
+    /// Unit.
+    pub unit: &'a str,
+}
+
+impl Check {
+    /// A number against a number. A non-finite actual value fails.
+    pub fn number(subject: Subject<'_>, expected: f64, actual: f64, tolerance: Tolerance) -> Self {
+        let within = (actual - expected).abs() <= tolerance.absolute;
+        let difference_percent = (expected != 0.0 && actual.is_finite())
+            .then(|| 100.0 * (actual - expected) / expected);
+        Self::assemble(subject, expected, actual, difference_percent, tolerance, within)
+    }
+
+    /// Words, lists or counts, which must be equal.
+    pub fn equal(subject: Subject<'_>, expected: impl Into<Value>, actual: impl Into<Value>) -> Self {
+        let (expected, actual) = (expected.into(), actual.into());
+        let within = expected == actual;
+        Self::assemble(subject, expected, actual, None, Tolerance::exact(), within)
+    }
+
+    fn assemble(
+        subject: Subject<'_>,
+        expected: impl Into<Value>,
+        actual: impl Into<Value>,
+        difference_percent: Option<f64>,
+        tolerance: Tolerance,
+        within: bool,
+    ) -> Self {
+        Self {
+            id: subject.id.to_owned(),
+            title: subject.title.to_owned(),
+            kind: subject.kind,
+            source: subject.source.to_owned(),
+            expected: expected.into(),
+            actual: Some(actual.into()),
+            unit: subject.unit.to_owned(),
+            difference_percent,
+            tolerance,
+            status: if within { Status::Pass } else { Status::Fail },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn subject() -> Subject<'static> {
+        let kind = ReferenceKind::Analytic;
+        Subject { id: "a", title: "a", kind, source: "a", unit: "Hz" }
+    }
+
+    #[test]
+    fn a_number_outside_its_tolerance_fails_and_so_does_nan() {
+        let tolerance = || Tolerance { absolute: 0.5, reason: String::new() };
+        let status = |actual| Check::number(subject(), 100.0, actual, tolerance()).status;
+        assert_eq!(status(100.5), Status::Pass);
+        assert_eq!(status(100.6), Status::Fail);
+        assert_eq!(status(f64::NAN), Status::Fail);
+        assert_eq!(status(f64::INFINITY), Status::Fail);
+    }
+
+    #[test]
+    fn unequal_words_fail() {
+        assert_eq!(Check::equal(subject(), "planet", "mixed").status, Status::Fail);
+    }
+}
