@@ -17,7 +17,7 @@ use serde::Serialize;
 
 use crate::gear::{Facing, Gear};
 use crate::geometry::Geometry;
-use crate::mesh::{Mesh, MeshMember};
+use crate::mesh::{Mesh, MeshKind, MeshMember};
 use crate::scene::PlanetPositions;
 
 /// Phases of all meshes at one sun angle, in cycles, each in [0, 1).
@@ -146,6 +146,48 @@ impl<'g> Phasing<'g> {
             ring: sign * (origin + self.ring.half_angle_base),
             planets: (0..self.positions.count()).map(planet_angle).collect(),
         }
+    }
+
+    /// Normal gaps of planet n's mesh along the two lines of action, m: on the flanks loaded when
+    /// those that face `loaded` on the sun are, and on the others. Reduced to ± half a base pitch.
+    ///
+    /// On a line of action the two strings must add up (sun) or differ (ring) by a sin α.
+    pub fn normal_gaps(
+        &self,
+        angles: &GearAngles,
+        n: usize,
+        kind: MeshKind,
+        loaded: Facing,
+    ) -> [f64; 2] {
+        [loaded, loaded.opposite()].map(|facing| {
+            // Seen in the mirror, the clockwise flanks are counter-clockwise ones.
+            let sign = facing.sign();
+            let psi = sign * self.positions.psi_rad[n];
+            let theta_p = sign * angles.planets[n];
+            let (planet, beta_p) = (self.planet, self.planet.half_angle_base);
+            let gap = match kind {
+                MeshKind::SunPlanet => {
+                    let (mesh, sun) = (self.sun_planet, self.sun);
+                    let alpha = mesh.pressure_angle;
+                    let reach = mesh.center_distance * alpha.sin();
+                    let on_sun =
+                        sun.base_radius * (sign * angles.sun + sun.half_angle_base - psi + alpha);
+                    let on_planet = planet.base_radius * (theta_p + beta_p - psi - PI + alpha);
+                    reach - on_sun - on_planet
+                }
+                MeshKind::RingPlanet => {
+                    let (mesh, ring) = (self.ring_planet, self.ring);
+                    let alpha = mesh.pressure_angle;
+                    let reach = mesh.center_distance * alpha.sin();
+                    let on_planet = planet.base_radius * (psi + alpha - theta_p + beta_p);
+                    let on_ring = ring.base_radius
+                        * (psi + alpha - sign * angles.ring + ring.half_angle_base);
+                    on_ring - on_planet - reach
+                }
+            };
+            let pitch = self.sun_planet.base_pitch;
+            gap - pitch * (gap / pitch).round()
+        })
     }
 }
 

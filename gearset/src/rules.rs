@@ -16,9 +16,10 @@
 //!
 //! and what is left of (a_n) once 1, cos ψ_n and sin ψ_n are projected out drives the planets
 //! against one another: planet modes only, none for N ≤ 3. That modes have these pure kinds is a
-//! property of equal planets that are equally spaced or stand in diametrical pairs (Lin & Parker
-//! 1999, 2000); with other spacings the strengths still say what the net forces are, but modes are
-//! mixed and nothing is forbidden.
+//! property of equal planets that stand so that Σ e^{iψ_n} = 0 ([`Spacing::is_balanced`]): equally
+//! spaced, in diametrical pairs, or several such sets on one carrier (Lin & Parker 1999, 2000).
+//! With other spacings the strengths still say what the net forces are, but modes are mixed and
+//! nothing is forbidden.
 //!
 //! Printed rules: Parker, Agashe & Vijayakar (2000), Table 4 (equal spacing) and its counterpart for
 //! diametrical pairs. Both follow from the sums; neither says how strong an allowed excitation is.
@@ -149,6 +150,12 @@ impl Spacing {
             turns.iter().filter(|t| near(t) <= SAME_ANGLE_RAD).count()
         };
         turns.iter().all(|&from| standing(from, 0.5) == standing(from, 0.0))
+    }
+
+    /// Whether Σ e^{iψ_n} = 0, which keeps rotations, translations and planet motions of a set of
+    /// equal planets apart; without it modes are mixed.
+    pub fn is_balanced(&self) -> bool {
+        mean_magnitude(&self.phasors(1)) <= FORBIDDEN_UP_TO
     }
 
     /// ψ_n/2π in [0, 1).

@@ -165,6 +165,11 @@ fn spacings_recognise_themselves() {
     assert!(angles(&[0.0, 0.4, PI, PI + 0.4]).is_diametrical());
     assert!(angles(&[0.0, -0.4, PI - 0.4, -PI]).is_diametrical());
     assert!(!angles(&[0.0, 0.4, PI, PI + 0.4 + 1e-6]).is_diametrical());
+    // Pure kinds of modes ask for less than either: a pair beside three equally spaced planets.
+    assert!(steps(&[0, 60, 7, 47, 87], 120).is_balanced());
+    assert!(!steps(&[0, 60, 7, 47, 87], 120).is_diametrical());
+    assert!(oh_58().is_balanced() && Spacing::equal(nz(3)).is_balanced());
+    assert!(!Spacing::equal(nz(1)).is_balanced() && !steps(&[0, -31, 63, 33], 126).is_balanced());
     // An odd number of steps a turn has no opposite place.
     assert!(!steps(&[0, 62], 125).is_diametrical());
     // Equal angles become exact whichever way round they are written.

@@ -1,1 +1,25 @@
-//! Placeholder.
+//! The Lin–Parker lumped-parameter model of a planetary gear set: rigid bodies, springs at meshes
+//! and bearings, natural modes and what they depend on.
+//!
+//! Source of the equations: Lin & Parker (1999), J. Vib. Acoust. 121, 316–321. Coordinates and
+//! signs are fixed in [`springs`](Spring) and pinned by hand matrices in the tests.
+
+mod coordinates;
+mod energy;
+mod error;
+mod gyroscopic;
+mod kinds;
+mod model;
+mod modes;
+mod sensitivity;
+mod springs;
+
+pub use coordinates::{Axis, Body, Coordinates};
+pub use energy::{EnergyShare, kinetic_energy, strain_energy};
+pub use error::LumpedError;
+pub use gyroscopic::{SpeedMode, SpeedModes, campbell};
+pub use kinds::ModeType;
+pub use model::LumpedModel;
+pub use modes::{ModeGroup, NaturalModes, Participation};
+pub use sensitivity::{Parameter, Sensitivity, sensitivities};
+pub use springs::{Spring, SpringId};

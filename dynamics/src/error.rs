@@ -1,0 +1,48 @@
+//! Why an eigenproblem could not be solved.
+
+/// Why an eigenproblem could not be solved, or its solution not be trusted.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum EigenError {
+    /// Sizes that do not go together.
+    #[error("a {rows}×{columns} matrix does not go with {masses} masses")]
+    Size {
+        /// Rows of the matrix.
+        rows: usize,
+        /// Its columns.
+        columns: usize,
+        /// Number of masses.
+        masses: usize,
+    },
+    /// A mass that is not positive and finite.
+    #[error("mass {value} of coordinate {index} is not positive and finite")]
+    Mass {
+        /// Coordinate.
+        index: usize,
+        /// Its mass.
+        value: f64,
+    },
+    /// A matrix entry that is not finite.
+    #[error("matrix entry ({row}, {column}) is not finite")]
+    NotFinite {
+        /// Row.
+        row: usize,
+        /// Column.
+        column: usize,
+    },
+    /// The iteration did not converge.
+    #[error("the eigenvalue iteration did not converge (size {size})")]
+    NoConvergence {
+        /// Size of the matrix.
+        size: usize,
+    },
+    /// The solution does not satisfy the equations.
+    #[error("eigenvector residual {residual:e} is above {limit:e} (size {size})")]
+    Residual {
+        /// Largest ‖Kφ − λMφ‖ in mass-normalised form, relative to the largest |λ|.
+        residual: f64,
+        /// What is allowed.
+        limit: f64,
+        /// Size of the matrix.
+        size: usize,
+    },
+}

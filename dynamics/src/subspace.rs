@@ -1,0 +1,184 @@
+//! Kinds of modes as invariant subspaces: equal eigenvalues are grouped first, then the group's
+//! subspace is split along the kinds, so that modes which merely coincide are told apart.
+
+use std::ops::Range;
+
+use faer::{Mat, MatRef};
+
+use crate::error::EigenError;
+use crate::symmetric::symmetric_eigen;
+
+/// A direction whose share in one kind is at least 1 − this is of that kind.
+const IMPURE: f64 = 1e-6;
+
+/// Groups of equal eigenvalues in an ascending list: neighbours that differ by no more than
+/// 1e-9 λ + 1e-11 λ_max, what eigenvalue routines leave of an exact multiplicity.
+pub fn group_equal(lambda: &[f64]) -> Vec<Range<usize>> {
+    let largest = lambda.iter().fold(0.0f64, |a, l| a.max(l.abs()));
+    let mut groups = Vec::new();
+    let mut start = 0;
+    for i in 1..=lambda.len() {
+        let splits = i == lambda.len()
+            || lambda[i] - lambda[i - 1] > 1e-9 * lambda[i].abs() + 1e-11 * largest;
+        if splits {
+            groups.push(start..i);
+            start = i;
+        }
+    }
+    groups
+}
+
+/// Orthonormal basis (n×d) of the span of `candidates` (each of length n) with the directions of
+/// `before` taken out; dependent candidates are dropped.
+pub fn orthonormal_basis(candidates: &[Vec<f64>], before: Option<&Mat<f64>>) -> Mat<f64> {
+    let rows = candidates.first().map_or(0, Vec::len);
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    for candidate in candidates {
+        let mut v = candidate.clone();
+        let length = norm(&v);
+        // Twice is enough (Kahan): the second pass removes what rounding left of the first.
+        for _ in 0..2 {
+            if let Some(before) = before {
+                for j in 0..before.ncols() {
+                    let along: f64 = (0..rows).map(|i| before[(i, j)] * v[i]).sum();
+                    (0..rows).for_each(|i| v[i] -= along * before[(i, j)]);
+                }
+            }
+            for b in &basis {
+                let along: f64 = b.iter().zip(&v).map(|(x, y)| x * y).sum();
+                v.iter_mut().zip(b).for_each(|(x, y)| *x -= along * y);
+            }
+        }
+        let left = norm(&v);
+        if left > 1e-8 * length {
+            v.iter_mut().for_each(|x| *x /= left);
+            basis.push(v);
+        }
+    }
+    Mat::from_fn(rows, basis.len(), |i, j| basis[j][i])
+}
+
+fn norm(v: &[f64]) -> f64 {
+    v.iter().map(|x| x * x).sum::<f64>().sqrt()
+}
+
+/// One direction of a group's subspace after splitting.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Direction {
+    /// Coefficients on the group's basis (length m, unit length).
+    pub coefficients: Vec<f64>,
+    /// Index of the kind it belongs to; the kind after the last basis is "the rest". `None`: mixed.
+    pub kind: Option<usize>,
+    /// Squared length of its projection on each kind, the rest last; they sum to one.
+    pub shares: Vec<f64>,
+}
+
+/// Splits the subspace with orthonormal basis `q` (n×m) along mutually orthogonal `kinds` (each
+/// n×d_k) and the rest of the space. Pure directions come first, kind by kind; what is left is
+/// mixed.
+///
+/// # Errors
+/// If a small eigenproblem does not converge.
+pub fn split(q: MatRef<'_, f64>, kinds: &[Mat<f64>]) -> Result<Vec<Direction>, EigenError> {
+    let m = q.ncols();
+    // B_kᵀ Q
+    let projections: Vec<Mat<f64>> = kinds.iter().map(|b| b.transpose() * q).collect();
+    let shares_of = |c: &[f64]| {
+        let mut shares: Vec<f64> = projections
+            .iter()
+            .map(|p| {
+                (0..p.nrows())
+                    .map(|i| (0..m).map(|j| p[(i, j)] * c[j]).sum::<f64>().powi(2))
+                    .sum::<f64>()
+                    .min(1.0)
+            })
+            .collect();
+        shares.push((1.0 - shares.iter().sum::<f64>()).max(0.0));
+        shares
+    };
+    let kind_of = |shares: &[f64]| shares.iter().position(|s| *s >= 1.0 - IMPURE);
+    if m == 1 {
+        let shares = shares_of(&[1.0]);
+        let kind = kind_of(&shares);
+        return Ok(vec![Direction { coefficients: vec![1.0], kind, shares }]);
+    }
+    // A kind's pure directions are the eigenvectors of Qᵀ Π_k Q with eigenvalue one.
+    let mut grams: Vec<Mat<f64>> = projections.iter().map(|p| p.transpose() * p).collect();
+    let rest = Mat::from_fn(m, m, |i, j| {
+        let unit = if i == j { 1.0 } else { 0.0 };
+        unit - grams.iter().map(|g| g[(i, j)]).sum::<f64>()
+    });
+    grams.push(rest);
+    let mut directions: Vec<Direction> = Vec::new();
+    for (kind, gram) in grams.iter().enumerate() {
+        let (values, vectors) = symmetric_eigen(gram)?;
+        for j in (0..m).filter(|&j| values[j] >= 1.0 - IMPURE) {
+            let coefficients: Vec<f64> = (0..m).map(|i| vectors[(i, j)]).collect();
+            let shares = shares_of(&coefficients);
+            directions.push(Direction { coefficients, kind: Some(kind), shares });
+        }
+    }
+    let pure: Vec<Vec<f64>> = directions.iter().map(|d| d.coefficients.clone()).collect();
+    let found = orthonormal_basis(&pure, None);
+    let units: Vec<Vec<f64>> =
+        (0..m).map(|i| (0..m).map(|j| f64::from(u8::from(i == j))).collect()).collect();
+    let before = (!pure.is_empty()).then_some(&found);
+    let left = orthonormal_basis(&units, before);
+    for j in 0..left.ncols().min(m - directions.len().min(m)) {
+        let coefficients: Vec<f64> = (0..m).map(|i| left[(i, j)]).collect();
+        let shares = shares_of(&coefficients);
+        directions.push(Direction { kind: None, coefficients, shares });
+    }
+    Ok(directions)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unit(n: usize, i: usize) -> Vec<f64> {
+        (0..n).map(|k| f64::from(u8::from(k == i))).collect()
+    }
+
+    #[test]
+    fn equal_values_are_grouped_and_near_ones_are_not() {
+        let lambda = [0.0, 1.0, 1.0 + 1e-12, 1.001, 5.0];
+        assert_eq!(group_equal(&lambda), [0..1, 1..3, 3..4, 4..5]);
+        assert!(group_equal(&[]).is_empty());
+    }
+
+    #[test]
+    fn coinciding_modes_of_two_kinds_are_told_apart() {
+        // Kinds: e0 | e1, e2 | rest. The group is span{e0, e1, e3}, its basis thoroughly mixed.
+        let kinds = [
+            orthonormal_basis(&[unit(5, 0)], None),
+            orthonormal_basis(&[unit(5, 1), unit(5, 2)], None),
+        ];
+        let mix = |a: f64, b: f64, c: f64| vec![a, b, 0.0, c, 0.0];
+        let mixed = [mix(1.0, 2.0, 2.0), mix(2.0, 1.0, -2.0), mix(2.0, -2.0, 1.0)];
+        let q = orthonormal_basis(&mixed, None);
+        let directions = split(q.as_ref(), &kinds).unwrap();
+        let found: Vec<_> = directions.iter().map(|d| d.kind).collect();
+        assert_eq!(found, [Some(0), Some(1), Some(2)]);
+        for d in &directions {
+            assert!((d.shares.iter().sum::<f64>() - 1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_direction_between_kinds_is_mixed() {
+        let kinds =
+            [orthonormal_basis(&[unit(3, 0)], None), orthonormal_basis(&[unit(3, 1)], None)];
+        let q = orthonormal_basis(&[vec![3.0, 4.0, 0.0], vec![0.0, 0.0, 1.0]], None);
+        let directions = split(q.as_ref(), &kinds).unwrap();
+        let found: Vec<_> = directions.iter().map(|d| d.kind).collect();
+        assert_eq!(found, [Some(2), None]);
+        assert!((directions[1].shares[0] - 0.36).abs() < 1e-14);
+    }
+
+    #[test]
+    fn dependent_candidates_are_dropped() {
+        let basis = orthonormal_basis(&[unit(3, 0), unit(3, 0), vec![0.0; 3]], None);
+        assert_eq!(basis.ncols(), 1);
+    }
+}

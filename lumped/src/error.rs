@@ -1,0 +1,34 @@
+//! Why there is no lumped model or no modes.
+
+/// Why a scene has no lumped model, or its modes could not be had.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum LumpedError {
+    /// The scene has no lumped parameters.
+    #[error("[lumped] is absent: a lumped model needs masses, inertias and mesh stiffnesses")]
+    NoParameters,
+    /// A coordinate can move and has no inertia.
+    #[error("`{key}` is absent, and the {body} can move")]
+    NoInertia {
+        /// Scene key.
+        key: String,
+        /// Body.
+        body: &'static str,
+    },
+    /// A torsional stiffness per angle without the radius that turns it into one per u = r·θ.
+    #[error("`lumped.radius_mm.{body}` is absent: the torsional stiffness per angle needs it")]
+    NoRadius {
+        /// Body.
+        body: &'static str,
+    },
+    /// An override names a planet that is not there.
+    #[error("`planet_override` names planet {planet}, and there are {count}")]
+    NoSuchPlanet {
+        /// Index given.
+        planet: usize,
+        /// Number of planets.
+        count: usize,
+    },
+    /// The eigenproblem failed.
+    #[error(transparent)]
+    Eigen(#[from] dynamics::EigenError),
+}

@@ -1,0 +1,106 @@
+//! Gyroscopic terms: modes in the frame that turns with the carrier, over carrier speed.
+//!
+//! In a frame turning at Ω a body's translation has the kinetic energy
+//! ½ m [(ẋ − Ωy)² + (ẏ + Ωx)²], hence
+//!
+//! ```text
+//! M q̈ + Ω G q̇ + (K − Ω² K_Ω) q = 0,   G_xy = −2m, G_yx = +2m, K_Ω = diag(m, m, 0)
+//! ```
+//!
+//! for the central members and, in ζ and η, for the planets. Bearings are isotropic, so a spring
+//! to ground looks the same from the turning frame.
+
+use std::f64::consts::TAU;
+
+use faer::Mat;
+use serde::Serialize;
+
+use dynamics::gyroscopic_modes;
+
+use crate::coordinates::{Axis, Body};
+use crate::error::LumpedError;
+use crate::kinds::kinds;
+use crate::model::LumpedModel;
+use crate::modes::Participation;
+
+/// One mode at a carrier speed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SpeedMode {
+    /// Frequency in the carrier frame, Hz.
+    pub frequency_hz: f64,
+    /// Growth rate, 1/s; zero up to rounding for stable motion.
+    pub growth_per_s: f64,
+    /// Shares in the kinds.
+    pub participation: Participation,
+}
+
+/// All modes at one carrier speed, ascending.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SpeedModes {
+    /// Ω_c, rad/s.
+    pub carrier_speed_rad_per_s: f64,
+    /// Modes.
+    pub modes: Vec<SpeedMode>,
+}
+
+/// Campbell data: modes with gyroscopic terms at each carrier speed (rad/s).
+///
+/// # Errors
+/// If an eigenproblem does not converge.
+pub fn campbell(model: &LumpedModel, speeds: &[f64]) -> Result<Vec<SpeedModes>, LumpedError> {
+    let k = model.stiffness();
+    let kinds = kinds(model);
+    speeds.iter().map(|&speed| at_speed(model, &k, &kinds, speed)).collect()
+}
+
+fn at_speed(
+    model: &LumpedModel,
+    k: &Mat<f64>,
+    kinds: &[Mat<f64>; 2],
+    speed: f64,
+) -> Result<SpeedModes, LumpedError> {
+    let n = model.mass.len();
+    let mut g = Mat::zeros(n, n);
+    let mut k = k.clone();
+    for body in Body::all(model.psi.len()) {
+        let translation = [Axis::First, Axis::Second].map(|axis| model.coordinates.of(body, axis));
+        if let [Some(x), Some(y)] = translation {
+            let m = model.mass[x];
+            g[(x, y)] = -2.0 * m * speed;
+            g[(y, x)] = 2.0 * m * speed;
+            k[(x, x)] -= m * speed * speed;
+            k[(y, y)] -= m * speed * speed;
+        }
+    }
+    let modes = gyroscopic_modes(&model.mass, &g, &k)?;
+    let modes = modes
+        .iter()
+        .map(|mode| {
+            let share = |basis: &Mat<f64>| {
+                (0..basis.ncols())
+                    .map(|j| {
+                        let project = |part: fn(&(f64, f64)) -> f64| {
+                            (0..n)
+                                .map(|i| {
+                                    basis[(i, j)] * model.mass[i].sqrt() * part(&mode.vector[i])
+                                })
+                                .sum::<f64>()
+                        };
+                        project(|z| z.0).powi(2) + project(|z| z.1).powi(2)
+                    })
+                    .sum::<f64>()
+            };
+            let (rotational, translational) = (share(&kinds[0]), share(&kinds[1]));
+            SpeedMode {
+                frequency_hz: mode.omega / TAU,
+                growth_per_s: mode.growth,
+                participation: Participation {
+                    rotational,
+                    translational,
+                    planet: (1.0 - rotational - translational).max(0.0),
+                },
+            }
+        })
+        .collect();
+    Ok(SpeedModes { carrier_speed_rad_per_s: speed, modes })
+}

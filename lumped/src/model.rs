@@ -1,0 +1,143 @@
+//! Assembly of the model from a scene.
+
+use faer::Mat;
+
+use gearset::{Motion, PerBody, Scene, Support, Torsional};
+
+use crate::coordinates::{Axis, Body, Coordinates};
+use crate::error::LumpedError;
+use crate::springs::{Rows, Spring, SpringId};
+
+/// The Lin–Parker model: a diagonal mass matrix and a list of springs on the free coordinates.
+#[derive(Debug, Clone)]
+pub struct LumpedModel {
+    /// ψ_n, rad.
+    pub psi: Vec<f64>,
+    /// Free coordinates.
+    pub coordinates: Coordinates,
+    /// Diagonal of M, kg (mass, mass, I/r² of each body).
+    pub mass: Vec<f64>,
+    /// Springs; public so that studies can change one and see what breaks.
+    pub springs: Vec<Spring>,
+}
+
+impl LumpedModel {
+    /// Builds the model of a scene.
+    ///
+    /// # Errors
+    /// If the scene lacks lumped parameters that a free coordinate needs.
+    pub fn from_scene(scene: &Scene) -> Result<Self, LumpedError> {
+        let lumped = scene.lumped.as_ref().ok_or(LumpedError::NoParameters)?;
+        let supports = &scene.supports;
+        let psi = scene.planets.psi_rad.clone();
+        let count = psi.len();
+        if let Some(o) = scene.overrides.iter().find(|o| o.planet >= count) {
+            return Err(LumpedError::NoSuchPlanet { planet: o.planet, count });
+        }
+        let special = |n: usize| scene.overrides.iter().find(|o| o.planet == n);
+        let coordinates = Coordinates::new(count, |body, axis| {
+            match (support(scene, body).map(|s| s.motion), axis) {
+                (None | Some(Motion::Free), _) => true,
+                (Some(Motion::RotationHeld), axis) => axis != Axis::Rotation,
+                (Some(Motion::Held), _) => false,
+            }
+        });
+        let inertia = |&(body, axis): &(Body, Axis)| {
+            let special = match body {
+                Body::Planet(n) => special(n),
+                _ => None,
+            };
+            let (table, own, common) = match axis {
+                Axis::Rotation => (
+                    "inertia_over_r2_kg",
+                    special.and_then(|o| o.inertia_over_r2),
+                    of(&lumped.inertia_over_r2, body),
+                ),
+                _ => ("mass_kg", special.and_then(|o| o.mass), of(&lumped.mass, body)),
+            };
+            let name = body.kind_name();
+            let key = format!("lumped.{table}.{name}");
+            own.or(common).ok_or(LumpedError::NoInertia { key, body: name })
+        };
+        let mass = coordinates.free().iter().map(inertia).collect::<Result<Vec<_>, _>>()?;
+        let rows = Rows { coordinates: &coordinates };
+        let mut springs = Vec::with_capacity(3 * count + 6);
+        for body in [Body::Carrier, Body::Ring, Body::Sun] {
+            let Some(support) = support(scene, body) else { continue };
+            if support.motion != Motion::Held && support.bearing > 0.0 {
+                let rows = rows.central_bearing(body);
+                let id = SpringId::CentralBearing(body);
+                springs.push(Spring { id, stiffness: support.bearing, rows });
+            }
+            let stiffness = torsional(&support, of(&lumped.radius, body), body)?;
+            if support.motion == Motion::Free && stiffness > 0.0 {
+                let id = SpringId::Torsional(body);
+                springs.push(Spring { id, stiffness, rows: rows.torsion(body) });
+            }
+        }
+        for (n, &psi) in psi.iter().enumerate() {
+            let (o, angle) = (special(n), &lumped.pressure_angle);
+            let own = |value: Option<f64>, common: f64| value.unwrap_or(common);
+            springs.push(Spring {
+                id: SpringId::SunMesh(n),
+                stiffness: own(o.and_then(|o| o.sun_mesh), lumped.mesh.sun_planet),
+                rows: vec![rows.sun_mesh(n, psi, angle.sun_planet)],
+            });
+            springs.push(Spring {
+                id: SpringId::RingMesh(n),
+                stiffness: own(o.and_then(|o| o.ring_mesh), lumped.mesh.ring_planet),
+                rows: vec![rows.ring_mesh(n, psi, angle.ring_planet)],
+            });
+            springs.push(Spring {
+                id: SpringId::PlanetBearing(n),
+                stiffness: own(o.and_then(|o| o.bearing), supports.planet_bearing),
+                rows: rows.planet_bearing(n, psi),
+            });
+        }
+        Ok(Self { psi, coordinates, mass, springs })
+    }
+
+    /// K = Σ k b bᵀ, n×n, N/m.
+    pub fn stiffness(&self) -> Mat<f64> {
+        let n = self.coordinates.count();
+        let mut matrix = Mat::zeros(n, n);
+        for spring in &self.springs {
+            for row in &spring.rows {
+                for &(i, bi) in row {
+                    for &(j, bj) in row {
+                        matrix[(i, j)] += spring.stiffness * bi * bj;
+                    }
+                }
+            }
+        }
+        matrix
+    }
+}
+
+fn support(scene: &Scene, body: Body) -> Option<Support> {
+    match body {
+        Body::Carrier => Some(scene.supports.carrier),
+        Body::Ring => Some(scene.supports.ring),
+        Body::Sun => Some(scene.supports.sun),
+        Body::Planet(_) => None,
+    }
+}
+
+fn of(values: &PerBody, body: Body) -> Option<f64> {
+    match body {
+        Body::Carrier => values.carrier,
+        Body::Ring => values.ring,
+        Body::Sun => values.sun,
+        Body::Planet(_) => values.planet,
+    }
+}
+
+/// Torsional stiffness per u: k_θ / r².
+fn torsional(support: &Support, radius: Option<f64>, body: Body) -> Result<f64, LumpedError> {
+    match (support.torsional, radius) {
+        (Torsional::PerLength(k), _) => Ok(k),
+        (Torsional::PerAngle(0.0), _) => Ok(0.0),
+        (Torsional::PerAngle(k), Some(r)) => Ok(k / (r * r)),
+        (Torsional::PerAngle(_), None) => Err(LumpedError::NoRadius { body: body.kind_name() }),
+    }
+}

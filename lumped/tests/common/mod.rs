@@ -1,0 +1,25 @@
+//! Scenes of the repository and the modes of their models.
+
+use std::path::Path;
+
+use gearset::Scene;
+use lumped::{LumpedModel, ModeType, NaturalModes};
+
+/// A scene file of the repository.
+pub fn scene(name: &str) -> Scene {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
+    Scene::from_file(&path).unwrap()
+}
+
+/// Model and modes of a scene; the residual is asserted.
+pub fn modes(scene: &Scene) -> (LumpedModel, NaturalModes) {
+    let model = LumpedModel::from_scene(scene).unwrap();
+    let modes = NaturalModes::of(&model).unwrap();
+    assert!(modes.residual < 1e-12, "{:e}", modes.residual);
+    (model, modes)
+}
+
+/// Frequencies of one type with multiplicity, Hz.
+pub fn of_type(modes: &NaturalModes, mode_type: ModeType) -> Vec<(f64, usize)> {
+    modes.of_type(mode_type).map(|g| (g.frequency_hz, g.multiplicity)).collect()
+}

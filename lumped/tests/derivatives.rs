@@ -1,0 +1,145 @@
+//! Sensitivities against differences, energies, and gyroscopic terms against closed forms.
+
+mod common;
+
+use std::f64::consts::TAU;
+
+use gearset::Torsional;
+use lumped::*;
+
+use common::{modes, of_type, scene};
+
+/// Mean eigenvalue of the group after changing the model.
+fn shifted(model: &LumpedModel, group: usize, change: impl Fn(&mut LumpedModel)) -> f64 {
+    let base = NaturalModes::of(model).unwrap();
+    let first: usize = base.groups[..group].iter().map(|g| g.multiplicity).sum();
+    let mut changed = model.clone();
+    change(&mut changed);
+    let found = NaturalModes::of(&changed).unwrap();
+    let own = &found.lambda[first..first + base.groups[group].multiplicity];
+    own.iter().sum::<f64>() / own.len() as f64
+}
+
+#[test]
+fn sensitivities_are_the_differences_they_stand_for() {
+    for name in ["oh58_4p.toml", "lin_parker_1999_4p.toml"] {
+        let (model, found) = modes(&scene(name));
+        for (index, group) in found.groups.iter().enumerate() {
+            if group.lambda == 0.0 {
+                continue;
+            }
+            for s in sensitivities(&model, group) {
+                let relative = 1e-6; // close pairs curve: a coarser step would see it
+                let change = |sign: f64| {
+                    let factor = 1.0 + sign * relative;
+                    shifted(&model, index, |m| match &s.parameter {
+                        Parameter::Stiffness(id) => {
+                            let spring = m.springs.iter_mut().find(|s| s.id == *id).unwrap();
+                            spring.stiffness *= factor;
+                        }
+                        Parameter::StiffnessFamily(name) => {
+                            let own = m.springs.iter_mut().filter(|s| s.id.family() == *name);
+                            own.for_each(|s| s.stiffness *= factor);
+                        }
+                        Parameter::Inertia(i) => m.mass[*i] *= factor,
+                        Parameter::InertiaFamily(name) => {
+                            for i in 0..m.mass.len() {
+                                let (body, axis) = m.coordinates.free()[i];
+                                let rotary = axis == Axis::Rotation;
+                                let what = if rotary { "inertia" } else { "mass" };
+                                if *name == format!("{}_{what}", body.kind_name()) {
+                                    m.mass[i] *= factor;
+                                }
+                            }
+                        }
+                    })
+                };
+                let difference = (change(1.0) - change(-1.0)) / (2.0 * relative);
+                let closed = 2.0 * group.lambda * s.logarithmic;
+                let scale = group.lambda;
+                assert!(
+                    (difference - closed).abs() < 2e-6 * scale,
+                    "{name} {:.1} Hz {:?}: {difference:e} {closed:e}",
+                    group.frequency_hz,
+                    s.parameter
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn logarithmic_sensitivities_add_up_to_half() {
+    // Scaling every stiffness scales λ; scaling every inertia divides it.
+    let (model, found) = modes(&scene("oh58_4p.toml"));
+    for group in &found.groups {
+        let sum = |stiffness: bool| -> f64 {
+            sensitivities(&model, group)
+                .iter()
+                .filter(|s| match s.parameter {
+                    Parameter::StiffnessFamily(_) => stiffness,
+                    Parameter::InertiaFamily(_) => !stiffness,
+                    _ => false,
+                })
+                .map(|s| s.logarithmic)
+                .sum()
+        };
+        assert!((sum(true) - 0.5).abs() < 1e-9 && (sum(false) + 0.5).abs() < 1e-9);
+    }
+}
+
+#[test]
+fn energies_add_up_to_one() {
+    for name in ["oh58_4p.toml", "lin_parker_1999_3p.toml"] {
+        let (model, found) = modes(&scene(name));
+        for group in &found.groups {
+            let kinetic: f64 = kinetic_energy(&model, group).iter().map(|e| e.share).sum();
+            assert!((kinetic - 1.0).abs() < 1e-12);
+            let strain: f64 = strain_energy(&model, group).iter().map(|e| e.share).sum();
+            let expected = if group.lambda > 0.0 { 1.0 } else { 0.0 };
+            assert!((strain - expected).abs() < 1e-9, "{} {strain}", group.frequency_hz);
+        }
+    }
+}
+
+#[test]
+fn a_standing_carrier_gives_the_natural_frequencies() {
+    let (model, found) = modes(&scene("oh58_4p.toml"));
+    let still = &campbell(&model, &[0.0]).unwrap()[0];
+    for (mode, lambda) in still.modes.iter().zip(&found.lambda) {
+        assert!((mode.frequency_hz * TAU / lambda.sqrt() - 1.0).abs() < 1e-9);
+        assert!(mode.growth_per_s.abs() < 1e-4);
+    }
+}
+
+#[test]
+fn an_unsupported_set_seen_from_the_carrier_whirls_at_carrier_speed() {
+    // Without springs to ground the whole set can stand still in space: from the turning frame it
+    // circles at Ω. The mode is double and defective (it may also drift), hence the tolerance.
+    let mut scene = scene("lin_parker_1999_4p.toml");
+    for support in [&mut scene.supports.carrier, &mut scene.supports.ring, &mut scene.supports.sun]
+    {
+        support.bearing = 0.0;
+        support.torsional = Torsional::PerLength(0.0);
+    }
+    let model = LumpedModel::from_scene(&scene).unwrap();
+    let speed = 500.0;
+    let result = &campbell(&model, &[speed]).unwrap()[0];
+    let nearest = result.modes.iter().map(|m| (m.frequency_hz * TAU - speed).abs());
+    assert!(nearest.fold(f64::INFINITY, f64::min) < 1e-2);
+}
+
+#[test]
+fn gyroscopic_terms_split_the_first_pair_by_about_one_percent() {
+    let (model, found) = modes(&scene("oh58_3p.toml"));
+    let speed = 2500.0 / 60.0 * TAU * 27.0 / 126.0;
+    let first = of_type(&found, ModeType::Translational)[0].0;
+    let both = campbell(&model, &[speed, -speed]).unwrap();
+    let (low, high) = (both[0].modes[0].frequency_hz, both[0].modes[1].frequency_hz);
+    assert!((high - low) / first > 0.015 && (high - low) / first < 0.025, "{low} {first} {high}");
+    assert!(low < first && high > first);
+    // The other sense of rotation gives the same frequencies.
+    for (forward, backward) in both[0].modes.iter().zip(&both[1].modes) {
+        assert!((forward.frequency_hz - backward.frequency_hz).abs() < 1e-6);
+    }
+}
