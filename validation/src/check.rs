@@ -127,13 +127,17 @@ impl Check {
     /// A number against a number. A non-finite actual value fails.
     pub fn number(subject: Subject<'_>, expected: f64, actual: f64, tolerance: Tolerance) -> Self {
         let within = (actual - expected).abs() <= tolerance.absolute;
-        let difference_percent = (expected != 0.0 && actual.is_finite())
-            .then(|| 100.0 * (actual - expected) / expected);
+        let difference_percent =
+            (expected != 0.0 && actual.is_finite()).then(|| 100.0 * (actual - expected) / expected);
         Self::assemble(subject, expected, actual, difference_percent, tolerance, within)
     }
 
     /// Words, lists or counts, which must be equal.
-    pub fn equal(subject: Subject<'_>, expected: impl Into<Value>, actual: impl Into<Value>) -> Self {
+    pub fn equal(
+        subject: Subject<'_>,
+        expected: impl Into<Value>,
+        actual: impl Into<Value>,
+    ) -> Self {
         let (expected, actual) = (expected.into(), actual.into());
         let within = expected == actual;
         Self::assemble(subject, expected, actual, None, Tolerance::exact(), within)

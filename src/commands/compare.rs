@@ -1,0 +1,118 @@
+//! `compare MODES.csv --scene SCENE`.
+
+use std::io::Write;
+use std::path::Path;
+
+use validation::{Comparison, ListedMode, ModelMode, compare};
+
+use crate::arguments::{Compare, Format};
+use crate::error::CommandError;
+use crate::output;
+
+use super::{modes, read_scene, unfit};
+
+const TYPES: [&str; 4] = ["rotational", "translational", "planet", "mixed"];
+
+pub(crate) fn run(arguments: &Compare, out: &mut dyn Write) -> Result<bool, CommandError> {
+    let listed = read_modes(&arguments.modes)?;
+    let scene = read_scene(&arguments.scene)?;
+    let (_, found) = modes::solve(&scene).map_err(|reason| unfit(&arguments.scene, reason))?;
+    let model: Vec<ModelMode> = found
+        .groups
+        .iter()
+        .map(|g| ModelMode {
+            frequency_hz: g.frequency_hz,
+            mode_type: g.mode_type.name().to_owned(),
+            multiplicity: g.multiplicity,
+        })
+        .collect();
+    let result = compare(&listed, &model, arguments.tolerance_percent);
+    match arguments.format {
+        Format::Json => output::json(out, &result)?,
+        Format::Text => write_text(&result, &scene.title, out)?,
+    }
+    Ok(result.disagreed == 0)
+}
+
+fn write_text(result: &Comparison, title: &str, out: &mut dyn Write) -> std::io::Result<()> {
+    writeln!(out, "against the lumped model of: {title}")?;
+    let header = ["model Hz", "type", "times", "listed Hz", "difference %", ""];
+    let mut table = output::table(&header, &[0, 2, 3, 4]);
+    for m in &result.matches {
+        let listed: Vec<_> = m.listed_hz.iter().map(|f| format!("{f:.2}")).collect();
+        table.add_row(vec![
+            m.model_hz.map_or("–".into(), |f| format!("{f:.2}")),
+            m.model_type.clone().unwrap_or_else(|| "–".into()),
+            m.model_multiplicity.to_string(),
+            if listed.is_empty() { "–".into() } else { listed.join(", ") },
+            m.difference_percent.map_or("–".into(), |d| format!("{d:+.3}")),
+            m.remark.clone().unwrap_or_else(|| "agrees".into()),
+        ]);
+    }
+    writeln!(out, "{table}")?;
+    writeln!(
+        out,
+        "{} agree, {} do not, largest difference {:.3} % (tolerance {} %)",
+        result.agreed,
+        result.disagreed,
+        result.largest_difference_percent,
+        result.tolerance_percent
+    )
+}
+
+/// Reads somebody's modes; the first fault of the table is reported with its line and column.
+fn read_modes(path: &Path) -> Result<Vec<ListedMode>, CommandError> {
+    let bad = |reason: String| CommandError::Table { path: path.to_owned(), reason };
+    let unreadable =
+        |source| CommandError::File { what: "cannot read", path: path.to_owned(), source };
+    let text = std::fs::read_to_string(path).map_err(unreadable)?;
+    let mut reader = csv::ReaderBuilder::new()
+        .trim(csv::Trim::All)
+        .comment(Some(b'#'))
+        .from_reader(text.as_bytes());
+    let header = reader.headers().map_err(|e| bad(e.to_string()))?.clone();
+    let column = |name: &str| header.iter().position(|h| h == name);
+    let known = ["frequency_hz", "mode_type", "multiplicity"];
+    if let Some(strange) = header.iter().find(|h| !known.contains(h)) {
+        let allowed = known.join(", ");
+        return Err(bad(format!("column `{strange}` is not known: allowed: {allowed}")));
+    }
+    let frequency = column("frequency_hz")
+        .ok_or_else(|| bad("column `frequency_hz` is absent: it must be there".into()))?;
+    let (mode_type, multiplicity) = (column("mode_type"), column("multiplicity"));
+    let mut modes = Vec::new();
+    for record in reader.records() {
+        let record = record.map_err(|e| bad(e.to_string()))?;
+        let line = record.position().map_or(0, csv::Position::line);
+        let cell = |i: usize| record.get(i).unwrap_or("");
+        let refuse = |name: &str, i: usize, allowed: &str| {
+            bad(format!("line {line}, `{name}` is `{}`: allowed: {allowed}", cell(i)))
+        };
+        let frequency_hz = cell(frequency)
+            .parse::<f64>()
+            .ok()
+            .filter(|f| f.is_finite() && *f >= 0.0)
+            .ok_or_else(|| refuse("frequency_hz", frequency, "a finite number, 0 or above"))?;
+        let mode_type = match mode_type {
+            Some(i) if TYPES.contains(&cell(i)) => Some(cell(i).to_owned()),
+            Some(i) => return Err(refuse("mode_type", i, &TYPES.join(", "))),
+            None => None,
+        };
+        let multiplicity = match multiplicity {
+            Some(i) => cell(i)
+                .parse()
+                .ok()
+                .filter(|m| (1..=1000).contains(m))
+                .ok_or_else(|| refuse("multiplicity", i, "a whole number from 1 to 1000"))?,
+            None => 1,
+        };
+        modes.push(ListedMode { frequency_hz, mode_type, multiplicity });
+    }
+    if modes.is_empty() {
+        return Err(bad("no rows: at least one frequency is needed".into()));
+    }
+    if modes.len() > 10_000 {
+        return Err(bad("more than 10000 rows: that is no list of natural frequencies".into()));
+    }
+    Ok(modes)
+}

@@ -1,0 +1,41 @@
+//! One module a verb.
+
+mod chart;
+mod compare;
+mod modes;
+mod report;
+mod rules;
+mod scene;
+mod schema;
+mod validate;
+
+pub use schema::schemas;
+
+use std::io::Write;
+use std::path::Path;
+
+use gearset::Scene;
+
+use crate::arguments::{Arguments, Verb};
+use crate::error::CommandError;
+
+/// Runs one verb; whether every check passed.
+pub(crate) fn dispatch(arguments: Arguments, out: &mut dyn Write) -> Result<bool, CommandError> {
+    match arguments.verb {
+        Verb::Validate(arguments) => validate::run(&arguments, out),
+        Verb::Modes(arguments) => modes::run(&arguments, out).map(|()| true),
+        Verb::Rules(arguments) => rules::run(&arguments, out).map(|()| true),
+        Verb::Scene(verb) => scene::run(&verb, out).map(|()| true),
+        Verb::Compare(arguments) => compare::run(&arguments, out),
+    }
+}
+
+/// Reads a scene, or says what is wrong with it.
+fn read_scene(path: &Path) -> Result<Scene, CommandError> {
+    Scene::from_file(path).map_err(|source| CommandError::Scene { path: path.to_owned(), source })
+}
+
+/// A valid scene that this verb cannot use.
+fn unfit(path: &Path, reason: impl Into<String>) -> CommandError {
+    CommandError::Unfit { path: path.to_owned(), reason: reason.into() }
+}

@@ -1,0 +1,195 @@
+//! `modes SCENE`.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+use std::io::Write;
+
+use gearset::{Scene, SceneKind};
+use lumped::{
+    LumpedModel, ModeGroup, NaturalModes, Parameter, campbell, kinetic_energy, sensitivities,
+    strain_energy,
+};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::arguments::{Format, Modes};
+use crate::error::CommandError;
+use crate::output::{self, share};
+
+use super::{read_scene, unfit};
+
+/// `modes --format json`.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct ModesOutput {
+    /// One entry for each distinct frequency (and type, should two types coincide).
+    pub(crate) modes: Vec<ModeEntry>,
+    /// Largest ‖Kφ − λMφ‖ of the solution, relative to the largest eigenvalue.
+    residual: f64,
+    /// With `--carrier-speeds-rpm`: frequencies with gyroscopic terms.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    campbell: Vec<CampbellEntry>,
+}
+
+/// One distinct frequency.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct ModeEntry {
+    pub(crate) frequency_hz: f64,
+    /// rotational, translational, planet or mixed.
+    pub(crate) mode_type: String,
+    pub(crate) multiplicity: usize,
+    participation: Shares,
+    /// Kinetic energy share by kind of body.
+    kinetic_energy: BTreeMap<String, f64>,
+    /// Strain energy share by family of springs.
+    strain_energy: BTreeMap<String, f64>,
+    /// ∂ln f/∂ln p by family of stiffnesses and inertias.
+    sensitivity: BTreeMap<String, f64>,
+}
+
+/// Shares of the kinds of modes.
+#[derive(Debug, Serialize, JsonSchema)]
+struct Shares {
+    rotational: f64,
+    translational: f64,
+    planet: f64,
+}
+
+/// Frequencies at one carrier speed.
+#[derive(Debug, Serialize, JsonSchema)]
+struct CampbellEntry {
+    carrier_speed_rpm: f64,
+    frequency_hz: Vec<f64>,
+    /// Largest growth rate of any mode, 1/s: above rounding, the set is unstable at this speed.
+    largest_growth_per_s: f64,
+}
+
+pub(crate) fn run(arguments: &Modes, out: &mut dyn Write) -> Result<(), CommandError> {
+    let scene = read_scene(&arguments.scene)?;
+    if let Some(bad) = arguments.carrier_speeds_rpm.iter().find(|s| !s.is_finite()) {
+        let reason = format!("{bad} is not a finite speed in rpm");
+        return Err(CommandError::Argument { argument: "--carrier-speeds-rpm", reason });
+    }
+    let (model, modes) = solve(&scene).map_err(|reason| unfit(&arguments.scene, reason))?;
+    let mut result = describe(&model, &modes);
+    if !arguments.carrier_speeds_rpm.is_empty() {
+        let speeds: Vec<f64> =
+            arguments.carrier_speeds_rpm.iter().map(|rpm| rpm / 60.0 * TAU).collect();
+        let found =
+            campbell(&model, &speeds).map_err(|e| unfit(&arguments.scene, e.to_string()))?;
+        let entry = |(rpm, at): (&f64, &lumped::SpeedModes)| CampbellEntry {
+            carrier_speed_rpm: *rpm,
+            frequency_hz: at.modes.iter().map(|m| m.frequency_hz).collect(),
+            largest_growth_per_s: at.modes.iter().map(|m| m.growth_per_s).fold(0.0, f64::max),
+        };
+        result.campbell = arguments.carrier_speeds_rpm.iter().zip(&found).map(entry).collect();
+    }
+    if arguments.format == Format::Json {
+        return output::json(out, &result);
+    }
+    writeln!(out, "{}: lumped model, {} coordinates", scene.title, model.mass.len())?;
+    Ok(write_text(&result, arguments.details, out)?)
+}
+
+/// Model and modes of a scene, or why there are none.
+pub(crate) fn solve(scene: &Scene) -> Result<(LumpedModel, NaturalModes), String> {
+    if scene.kind != SceneKind::Planetary {
+        return Err("`kind` is \"gear_pair\": natural modes need \"planetary\"".into());
+    }
+    let model = LumpedModel::from_scene(scene).map_err(|e| e.to_string())?;
+    let modes = NaturalModes::of(&model).map_err(|e| e.to_string())?;
+    Ok((model, modes))
+}
+
+/// Everything about the modes, ready for output.
+pub(crate) fn describe(model: &LumpedModel, modes: &NaturalModes) -> ModesOutput {
+    ModesOutput {
+        modes: modes.groups.iter().map(|group| entry(model, group)).collect(),
+        residual: modes.residual,
+        campbell: Vec::new(),
+    }
+}
+
+fn entry(model: &LumpedModel, group: &ModeGroup) -> ModeEntry {
+    let mut kinetic: BTreeMap<String, f64> = BTreeMap::new();
+    for energy in kinetic_energy(model, group) {
+        *kinetic.entry(energy.of.kind_name().to_owned()).or_default() += energy.share;
+    }
+    let mut strain: BTreeMap<String, f64> = BTreeMap::new();
+    for energy in strain_energy(model, group) {
+        *strain.entry(energy.of.family()).or_default() += energy.share;
+    }
+    let sensitivity = sensitivities(model, group).into_iter().filter_map(|s| match s.parameter {
+        Parameter::StiffnessFamily(name) | Parameter::InertiaFamily(name) => {
+            Some((name, s.logarithmic))
+        }
+        _ => None,
+    });
+    let p = group.participation;
+    ModeEntry {
+        frequency_hz: group.frequency_hz,
+        mode_type: group.mode_type.name().to_owned(),
+        multiplicity: group.multiplicity,
+        participation: Shares {
+            rotational: p.rotational,
+            translational: p.translational,
+            planet: p.planet,
+        },
+        kinetic_energy: kinetic,
+        strain_energy: strain,
+        sensitivity: sensitivity.collect(),
+    }
+}
+
+fn write_text(result: &ModesOutput, details: bool, out: &mut dyn Write) -> std::io::Result<()> {
+    let is_mixed = result.modes.iter().any(|m| m.mode_type == "mixed");
+    let mut header = vec!["Hz", "type", "times"];
+    let mut right = vec![0, 2];
+    if is_mixed {
+        header.extend(["rotational", "translational", "planet"]);
+        right.extend([3, 4, 5]);
+    }
+    header.extend(["moves most", "strained most"]);
+    let mut table = output::table(&header, &right);
+    for m in &result.modes {
+        let mut row =
+            vec![format!("{:.2}", m.frequency_hz), m.mode_type.clone(), m.multiplicity.to_string()];
+        if is_mixed {
+            let p = &m.participation;
+            row.extend([p.rotational, p.translational, p.planet].map(share));
+        }
+        row.push(largest(&m.kinetic_energy));
+        row.push(largest(&m.strain_energy));
+        table.add_row(row);
+    }
+    writeln!(out, "{table}")?;
+    if details {
+        writeln!(out, "∂ln f/∂ln p: what each frequency depends on")?;
+        let names: Vec<&str> = result
+            .modes
+            .first()
+            .map(|m| m.sensitivity.keys().map(String::as_str).collect())
+            .unwrap_or_default();
+        let mut header = vec!["Hz"];
+        header.extend(&names);
+        let mut table = output::table(&header, &(0..header.len()).collect::<Vec<_>>());
+        for m in &result.modes {
+            let mut row = vec![format!("{:.2}", m.frequency_hz)];
+            row.extend(names.iter().map(|n| format!("{:.3}", m.sensitivity[*n])));
+            table.add_row(row);
+        }
+        writeln!(out, "{table}")?;
+    }
+    for c in &result.campbell {
+        let list: Vec<_> = c.frequency_hz.iter().map(|f| format!("{f:.2}")).collect();
+        writeln!(out, "carrier at {} rpm: {} Hz", c.carrier_speed_rpm, list.join(", "))?;
+    }
+    writeln!(out, "residual of the eigensolution {:.1e}", result.residual)
+}
+
+/// The largest share, as `planet 62 %`.
+fn largest(shares: &BTreeMap<String, f64>) -> String {
+    match shares.iter().max_by(|a, b| a.1.total_cmp(b.1)) {
+        Some((name, share)) if *share > 0.0 => format!("{name} {:.0} %", 100.0 * share),
+        _ => "–".into(),
+    }
+}

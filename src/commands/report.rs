@@ -1,0 +1,91 @@
+//! The report folder: verdict as Markdown and JSON, the steps that explain the printed four-planet
+//! frequencies, and a Campbell chart of either set.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use validation::{PublishedScene, Reference, Status, ValidationError, Verdict, scene, steps};
+
+use crate::error::CommandError;
+
+use super::chart::campbell_svg;
+use super::validate::{cells, status_word};
+
+/// Writes the folder, creating it if need be.
+pub(crate) fn write(verdict: &Verdict, folder: &Path) -> Result<(), CommandError> {
+    let failed = |source| CommandError::File { what: "cannot write", path: folder.into(), source };
+    std::fs::create_dir_all(folder).map_err(failed)?;
+    let save = |name: &str, text: String| {
+        let path = folder.join(name);
+        let failed =
+            |source| CommandError::File { what: "cannot write", path: path.clone(), source };
+        std::fs::write(&path, text).map_err(failed)
+    };
+    save("verdict.json", serde_json::to_string_pretty(verdict)? + "\n")?;
+    save("verdict.md", markdown(verdict)?)?;
+    let sets = [
+        ("campbell_4p.svg", PublishedScene::Oh58FourPlanets),
+        ("campbell_3p.svg", PublishedScene::Oh58ThreePlanets),
+    ];
+    for (name, which) in sets {
+        let scene = scene(which).map_err(ValidationError::from)?;
+        let (_, modes) =
+            super::modes::solve(&scene).map_err(|_| ValidationError::Incomplete("lumped model"))?;
+        if let Some(svg) = campbell_svg(&scene, &modes) {
+            save(name, svg)?;
+        }
+    }
+    Ok(())
+}
+
+fn markdown(verdict: &Verdict) -> Result<String, CommandError> {
+    let mut text = String::from("# Verdict\n\n");
+    let Verdict { passed, missed, failed, .. } = verdict;
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{passed} passed, {missed} missed, {failed} failed.\n");
+    text.push_str(
+        "| check | title | expected | actual | unit | difference % | tolerance | verdict |\n",
+    );
+    text.push_str("|---|---|---:|---:|---|---:|---:|---|\n");
+    for check in &verdict.checks {
+        let [expected, actual, difference, tolerance] = cells(check);
+        let (id, title, unit) = (&check.id, &check.title, &check.unit);
+        let word = status_word(check.status);
+        let _ = writeln!(
+            text,
+            "| {id} | {title} | {expected} | {actual} | {unit} | {difference} | {tolerance} | {word} |"
+        );
+    }
+    text.push_str("\n## Misses\n\n");
+    let reference = Reference::load().map_err(ValidationError::from)?;
+    let missed = verdict.checks.iter().filter(|c| c.status == Status::Miss);
+    for check in missed {
+        let analysis = reference.misses.iter().find(|m| m.id == check.id);
+        let analysis = analysis.map_or("", |m| m.analysis.trim());
+        let _ = writeln!(text, "**{}** ({}): {analysis}\n", check.id, check.title);
+    }
+    text.push_str(
+        "## From the printed four-planet frequencies to those of the printed geometry\n\n\
+         | change | rotational Hz | translational Hz | planet Hz |\n|---|---|---|---|\n",
+    );
+    for step in steps()? {
+        let list = |f: &[f64]| f.iter().map(|x| format!("{x:.1}")).collect::<Vec<_>>().join(", ");
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} |",
+            step.change,
+            list(&step.rotational_hz),
+            list(&step.translational_hz),
+            list(&step.planet_hz)
+        );
+    }
+    text.push_str("\n## Tolerances\n\n");
+    let mut reasons: Vec<(String, &str)> =
+        verdict.checks.iter().map(|c| (cells(c)[3].clone(), c.tolerance.reason.as_str())).collect();
+    reasons.sort();
+    reasons.dedup();
+    for (tolerance, reason) in reasons {
+        let _ = writeln!(text, "- {tolerance}: {reason}");
+    }
+    Ok(text)
+}

@@ -1,0 +1,138 @@
+//! `validate`.
+
+use std::io::Write;
+
+use anstyle::{AnsiColor, Style};
+use comfy_table::Cell;
+use validation::{Check, Status, Value, Verdict};
+
+use crate::arguments::{Format, Validate};
+use crate::error::CommandError;
+use crate::output;
+
+use super::report;
+
+pub(crate) fn run(arguments: &Validate, out: &mut dyn Write) -> Result<bool, CommandError> {
+    // Both profiles run everything as long as there is nothing slow.
+    let _ = arguments.profile;
+    let verdict = validation::validate()?;
+    if let Some(folder) = &arguments.report {
+        report::write(&verdict, folder)?;
+    }
+    match arguments.format {
+        Format::Json => output::json(out, &verdict)?,
+        Format::Text => {
+            write_text(&verdict, out)?;
+            if let Some(folder) = &arguments.report {
+                writeln!(out, "report in {}", folder.display())?;
+            }
+        }
+    }
+    Ok(verdict.is_sound())
+}
+
+fn write_text(verdict: &Verdict, out: &mut dyn Write) -> std::io::Result<()> {
+    let header = ["check", "expected", "actual", "unit", "difference %", "tolerance", "verdict"];
+    let mut table = output::table(&header, &[1, 2, 4, 5]);
+    for check in &verdict.checks {
+        let [expected, actual, difference, tolerance] = cells(check);
+        table.add_row(vec![
+            Cell::new(&check.id),
+            Cell::new(expected),
+            Cell::new(actual),
+            Cell::new(&check.unit),
+            Cell::new(difference),
+            Cell::new(tolerance),
+            Cell::new(status_word(check.status)),
+        ]);
+    }
+    for line in table.lines() {
+        writeln!(out, "{}", coloured(&line))?;
+    }
+    for check in verdict.checks.iter().filter(|c| c.status == Status::Fail) {
+        writeln!(out, "FAILED {}: {} (source: {})", check.id, check.title, check.source)?;
+        let (expected, actual) = (&check.expected, &check.actual);
+        writeln!(out, "  expected {expected:?}, actual {actual:?}")?;
+    }
+    if verdict.missed > 0 {
+        writeln!(out, "misses are analysed in reference/misses.toml")?;
+    }
+    let Verdict { passed, missed, failed, .. } = verdict;
+    writeln!(out, "{passed} passed, {missed} missed, {failed} failed")
+}
+
+/// Colours the verdict at the end of a table line; the stream drops colour off a terminal.
+fn coloured(line: &str) -> String {
+    let line = line.trim_end();
+    let colours = [
+        (Status::Pass, AnsiColor::Green),
+        (Status::Miss, AnsiColor::Yellow),
+        (Status::Fail, AnsiColor::Red),
+    ];
+    for (status, colour) in colours {
+        if let Some(front) = line.strip_suffix(status_word(status)) {
+            let style = Style::new().fg_color(Some(colour.into()));
+            return format!("{front}{style}{}{style:#}", status_word(status));
+        }
+    }
+    line.to_owned()
+}
+
+/// Expected, actual, difference and tolerance for people.
+pub(crate) fn cells(check: &Check) -> [String; 4] {
+    let digits = if check.tolerance.absolute > 0.0 {
+        (1.0 - check.tolerance.absolute.log10()).ceil().clamp(0.0, 4.0) as usize
+    } else {
+        0
+    };
+    let is_tiny = check.tolerance.absolute > 0.0 && check.tolerance.absolute < 1e-4;
+    let number = |x: f64| match is_tiny && x != 0.0 {
+        true => format!("{x:.1e}"),
+        false => format!("{x:.digits$}"),
+    };
+    let shown = |value: &Value| match value {
+        Value::Number(x) => number(*x),
+        Value::Text(text) => text.clone(),
+        Value::List(list) => summary(list),
+    };
+    let tolerance = match check.tolerance.absolute {
+        0.0 => "exact".to_owned(),
+        t if t < 1e-4 => format!("{t:.0e}"),
+        t => format!("{t:.4}").trim_end_matches('0').trim_end_matches('.').to_owned(),
+    };
+    [
+        shown(&check.expected),
+        check.actual.as_ref().map_or("–".into(), shown),
+        check.difference_percent.map_or("–".into(), |d| format!("{d:+.3}")),
+        tolerance,
+    ]
+}
+
+/// A list for a table cell: equal neighbours counted, long lists cut.
+fn summary(list: &[Value]) -> String {
+    let words: Vec<String> = list
+        .iter()
+        .map(|v| match v {
+            Value::Number(x) => format!("{x}"),
+            Value::Text(t) => t.clone(),
+            Value::List(l) => summary(l),
+        })
+        .collect();
+    if words.len() > 1 && words.iter().all(|w| *w == words[0]) {
+        return format!("{} × ({})", words.len(), words[0]);
+    }
+    if words.len() > 2 {
+        return format!("{} entries", words.len());
+    }
+    words.join("; ")
+}
+
+/// Word shown for a status.
+pub(crate) fn status_word(status: Status) -> &'static str {
+    match status {
+        Status::Pass => "pass",
+        Status::Fail => "FAIL",
+        Status::Miss => "miss",
+        Status::NotRun => "not run",
+    }
+}

@@ -1,0 +1,105 @@
+//! Bad input, said once and clearly.
+
+use std::path::PathBuf;
+
+use gearset::{Fault, SceneError};
+use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource};
+
+/// Why the command could not run (exit code 2).
+#[derive(Debug, thiserror::Error)]
+pub enum CommandError {
+    /// A scene that cannot be used.
+    #[error("{}: {source}", path.display())]
+    Scene {
+        /// Its file.
+        path: PathBuf,
+        /// Its faults.
+        source: SceneError,
+    },
+    /// A scene that is valid and cannot be used for this.
+    #[error("{}: {reason}", path.display())]
+    Unfit {
+        /// Its file.
+        path: PathBuf,
+        /// What is missing, by key.
+        reason: String,
+    },
+    /// A file that cannot be read or written.
+    #[error("{what} `{}`: {source}", path.display())]
+    File {
+        /// What was tried.
+        what: &'static str,
+        /// The file.
+        path: PathBuf,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
+    /// A table of modes that cannot be used.
+    #[error("{}: {reason}", path.display())]
+    Table {
+        /// The file.
+        path: PathBuf,
+        /// Line, column, value, what is allowed.
+        reason: String,
+    },
+    /// An argument that parsed and makes no sense.
+    #[error("argument {argument}: {reason}")]
+    Argument {
+        /// Name of the argument.
+        argument: &'static str,
+        /// What is allowed and why.
+        reason: String,
+    },
+    /// Results could not be written.
+    #[error("results cannot be written: {0}")]
+    Output(#[from] std::io::Error),
+    /// A result could not be put into JSON.
+    #[error("results cannot be written: {0}")]
+    Json(#[from] serde_json::Error),
+    /// The models or the reference data could not be used.
+    #[error(transparent)]
+    Validation(#[from] validation::ValidationError),
+}
+
+impl CommandError {
+    /// Whether the reader of our output went away, which is no fault.
+    pub fn is_closed_pipe(&self) -> bool {
+        match self {
+            Self::Output(e) => e.kind() == std::io::ErrorKind::BrokenPipe,
+            Self::Json(e) => e.io_error_kind() == Some(std::io::ErrorKind::BrokenPipe),
+            _ => false,
+        }
+    }
+
+    /// The message as shown to people; scene faults with their lines underlined.
+    pub fn rendered(&self) -> String {
+        match self {
+            Self::Scene { path, source: SceneError::Invalid { text, faults } } => {
+                let name = path.display().to_string();
+                let mut shown: String =
+                    faults.iter().map(|fault| render_fault(&name, text, fault)).collect();
+                let plural = if faults.len() == 1 { "" } else { "s" };
+                shown.push_str(&format!("{name}: {} fault{plural}\n", faults.len()));
+                shown
+            }
+            Self::Scene { source, .. } => format!("error: {source}\n"),
+            other => format!("error: {other}\n"),
+        }
+    }
+}
+
+/// One fault with its line underlined.
+fn render_fault(name: &str, text: &str, fault: &Fault) -> String {
+    let title = format!("`{}` is {}", fault.key, fault.value);
+    let diagnostic = MietteDiagnostic::new(title)
+        .with_help(format!("allowed: {}", fault.allowed))
+        .with_label(LabeledSpan::at(fault.span.clone(), fault.why.clone()));
+    let report =
+        miette::Report::new(diagnostic).with_source_code(NamedSource::new(name, text.to_owned()));
+    let handler = GraphicalReportHandler::new_themed(GraphicalTheme::unicode()).with_width(100);
+    let mut shown = String::new();
+    match handler.render_report(&mut shown, report.as_ref()) {
+        Ok(()) => shown + "\n",
+        Err(_) => format!("{fault}\n"),
+    }
+}

@@ -1,0 +1,40 @@
+//! The scenes that checks run on, built into the program.
+
+use gearset::{Scene, SceneError};
+
+/// A scene of the catalogue.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PublishedScene {
+    /// OH-58, four planets, consistent geometry, true spacing.
+    Oh58FourPlanets,
+    /// OH-58, three planets, consistent geometry.
+    Oh58ThreePlanets,
+    /// OH-58 lumped model as published: 24.6° twice, equal spacing, four planets.
+    Oh58FourPlanetsAsPublished,
+    /// The same with three planets.
+    Oh58ThreePlanetsAsPublished,
+    /// Lin & Parker (1999), three planets.
+    LinParkerThreePlanets,
+    /// Lin & Parker (1999), four planets.
+    LinParkerFourPlanets,
+}
+
+/// Reads one of them.
+///
+/// # Errors
+/// If the file built in is not a valid scene.
+pub fn scene(which: PublishedScene) -> Result<Scene, SceneError> {
+    macro_rules! file {
+        ($name:literal) => {
+            include_str!(concat!("../../scenes/", $name))
+        };
+    }
+    Scene::from_toml(match which {
+        PublishedScene::Oh58FourPlanets => file!("oh58_4p.toml"),
+        PublishedScene::Oh58ThreePlanets => file!("oh58_3p.toml"),
+        PublishedScene::Oh58FourPlanetsAsPublished => file!("oh58_4p_as_published.toml"),
+        PublishedScene::Oh58ThreePlanetsAsPublished => file!("oh58_3p_as_published.toml"),
+        PublishedScene::LinParkerThreePlanets => file!("lin_parker_1999_3p.toml"),
+        PublishedScene::LinParkerFourPlanets => file!("lin_parker_1999_4p.toml"),
+    })
+}

@@ -1,0 +1,269 @@
+//! Somebody's list of natural frequencies held against a model's.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// One frequency of somebody's list.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ListedMode {
+    /// Hz.
+    pub frequency_hz: f64,
+    /// Mode type, if the list has one.
+    pub mode_type: Option<String>,
+    /// How often this entry stands for a frequency; 1 if the list does not say.
+    pub multiplicity: usize,
+}
+
+/// One distinct frequency of the model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModelMode {
+    /// Hz.
+    pub frequency_hz: f64,
+    /// Mode type.
+    pub mode_type: String,
+    /// How often it occurs.
+    pub multiplicity: usize,
+}
+
+/// One line of the matched table. One side is absent where nothing matched.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Match {
+    /// The model's frequency, Hz.
+    pub model_hz: Option<f64>,
+    /// The model's mode type.
+    pub model_type: Option<String>,
+    /// Times the frequency occurs in the model.
+    pub model_multiplicity: usize,
+    /// Listed frequencies matched to it, Hz (a list may repeat a frequency or give it once).
+    pub listed_hz: Vec<f64>,
+    /// 100 (listed − model)/model, of the worst; absent without a match or for zero frequency.
+    pub difference_percent: Option<f64>,
+    /// Whether it agrees: matched, within tolerance, multiplicity not exceeded.
+    pub agrees: bool,
+    /// What is wrong, if anything.
+    pub remark: Option<String>,
+}
+
+/// The whole comparison.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Comparison {
+    /// Matched table, by model frequency; unmatched entries of the list at the end.
+    pub matches: Vec<Match>,
+    /// Tolerance, percent of the model's frequency.
+    pub tolerance_percent: f64,
+    /// Lines that agree.
+    pub agreed: usize,
+    /// Lines that do not.
+    pub disagreed: usize,
+    /// Largest |difference| of all matched lines, percent.
+    pub largest_difference_percent: f64,
+}
+
+/// Rigid-body frequencies come out of eigensolvers as noise; below this share of the highest model
+/// frequency both sides count as zero.
+const ZERO_SHARE: f64 = 1e-4;
+
+/// Matches a list to a model. With types, each type is matched within itself.
+///
+/// Within a type both sides are sorted, and the cheapest order-preserving alignment is taken, an
+/// unmatched entry costing as much as a difference of five tolerances. A listed frequency may stand
+/// for a model frequency as often as that occurs, or once for all of them.
+pub fn compare(listed: &[ListedMode], model: &[ModelMode], tolerance_percent: f64) -> Comparison {
+    let typed = listed.iter().any(|l| l.mode_type.is_some());
+    let mut kinds: Vec<Option<String>> = vec![None];
+    if typed {
+        let all = model.iter().map(|m| m.mode_type.clone());
+        let listed_kinds = listed.iter().filter_map(|l| l.mode_type.clone());
+        let mut names: Vec<String> = all.chain(listed_kinds).collect();
+        names.sort();
+        names.dedup();
+        kinds = names.into_iter().map(Some).collect();
+    }
+    let highest = model.iter().map(|m| m.frequency_hz).fold(0.0, f64::max);
+    let mut matches = Vec::new();
+    let mut strays = Vec::new();
+    for kind in kinds {
+        let of_kind = |name: &str| kind.as_deref().is_none_or(|k| k == name);
+        let mut side: Vec<&ModelMode> = model.iter().filter(|m| of_kind(&m.mode_type)).collect();
+        side.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+        let mut entries: Vec<&ListedMode> = listed
+            .iter()
+            .filter(|l| l.mode_type.as_deref().is_none_or(of_kind) || kind.is_none())
+            .collect();
+        entries.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+        let zero = ZERO_SHARE * highest;
+        let (taken, left) = align(&entries, &side, tolerance_percent, zero);
+        for (mode, own) in side.iter().zip(taken) {
+            matches.push(judge(mode, &own, tolerance_percent, zero));
+        }
+        strays.extend(left.into_iter().map(|l| Match {
+            model_hz: None,
+            model_type: l.mode_type.clone(),
+            model_multiplicity: 0,
+            listed_hz: vec![l.frequency_hz],
+            difference_percent: None,
+            agrees: false,
+            remark: Some("the model has no such mode".into()),
+        }));
+    }
+    matches.sort_by(|a, b| a.model_hz.unwrap_or(0.0).total_cmp(&b.model_hz.unwrap_or(0.0)));
+    matches.extend(strays);
+    let agreed = matches.iter().filter(|m| m.agrees).count();
+    let worst = matches.iter().filter_map(|m| m.difference_percent).map(f64::abs);
+    Comparison {
+        agreed,
+        disagreed: matches.len() - agreed,
+        largest_difference_percent: worst.fold(0.0, f64::max),
+        matches,
+        tolerance_percent,
+    }
+}
+
+/// Difference in percent of the model's frequency; zero if both are rigid-body noise.
+fn difference(listed: f64, model: f64, zero: f64) -> f64 {
+    if listed.abs() <= zero && model.abs() <= zero {
+        return 0.0;
+    }
+    100.0 * (listed - model) / model.max(zero)
+}
+
+/// For each model mode the listed ones matched to it, and the listed ones left over.
+fn align<'l>(
+    listed: &[&'l ListedMode],
+    model: &[&ModelMode],
+    tolerance_percent: f64,
+    zero: f64,
+) -> (Vec<Vec<&'l ListedMode>>, Vec<&'l ListedMode>) {
+    // Each model mode offers as many places as it occurs; only the first must be filled.
+    let places: Vec<(usize, usize)> = model
+        .iter()
+        .enumerate()
+        .flat_map(|(i, m)| (0..m.multiplicity).map(move |copy| (i, copy)))
+        .collect();
+    let gap = 5.0 * tolerance_percent;
+    let (rows, columns) = (listed.len(), places.len());
+    let cell = |i: usize, j: usize| i * (columns + 1) + j;
+    let mut cost = vec![0.0f64; (rows + 1) * (columns + 1)];
+    let free = |j: usize| if places[j].1 == 0 { gap } else { 0.0 };
+    let pair = |i: usize, j: usize| {
+        difference(listed[i].frequency_hz, model[places[j].0].frequency_hz, zero).abs()
+    };
+    for i in 0..=rows {
+        for j in 0..=columns {
+            cost[cell(i, j)] = match (i, j) {
+                (0, 0) => 0.0,
+                (0, _) => cost[cell(0, j - 1)] + free(j - 1),
+                (_, 0) => cost[cell(i - 1, 0)] + gap,
+                _ => (cost[cell(i - 1, j - 1)] + pair(i - 1, j - 1))
+                    .min(cost[cell(i - 1, j)] + gap)
+                    .min(cost[cell(i, j - 1)] + free(j - 1)),
+            };
+        }
+    }
+    let mut taken = vec![Vec::new(); model.len()];
+    let mut left = Vec::new();
+    let (mut i, mut j) = (rows, columns);
+    while i > 0 || j > 0 {
+        let here = cost[cell(i, j)];
+        let is_pair = i > 0 && j > 0 && here == cost[cell(i - 1, j - 1)] + pair(i - 1, j - 1);
+        if is_pair {
+            (i, j) = (i - 1, j - 1);
+            taken[places[j].0].push(listed[i]);
+        } else if j > 0 && here == cost[cell(i, j - 1)] + free(j - 1) {
+            j -= 1;
+        } else {
+            i -= 1;
+            left.push(listed[i]);
+        }
+    }
+    taken.iter_mut().for_each(|t| t.reverse());
+    left.reverse();
+    (taken, left)
+}
+
+fn judge(mode: &ModelMode, own: &[&ListedMode], tolerance_percent: f64, zero: f64) -> Match {
+    let worst = own
+        .iter()
+        .map(|l| difference(l.frequency_hz, mode.frequency_hz, zero))
+        .max_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let stated: usize = own.iter().map(|l| l.multiplicity).sum();
+    let remark = match worst {
+        None => Some("not in the list".to_owned()),
+        Some(d) if d.abs() > tolerance_percent => Some("outside tolerance".to_owned()),
+        _ if stated > mode.multiplicity => {
+            Some(format!("listed {stated} times, occurs {} times", mode.multiplicity))
+        }
+        _ => None,
+    };
+    Match {
+        model_hz: Some(mode.frequency_hz),
+        model_type: Some(mode.mode_type.clone()),
+        model_multiplicity: mode.multiplicity,
+        listed_hz: own.iter().map(|l| l.frequency_hz).collect(),
+        difference_percent: worst,
+        agrees: remark.is_none(),
+        remark,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn model() -> Vec<ModelMode> {
+        [(1710.4, "planet", 1), (1715.8, "translational", 2), (1788.5, "rotational", 1)]
+            .map(|(frequency_hz, name, multiplicity)| ModelMode {
+                frequency_hz,
+                mode_type: name.into(),
+                multiplicity,
+            })
+            .to_vec()
+    }
+
+    fn listed(frequency_hz: f64, kind: Option<&str>) -> ListedMode {
+        ListedMode { frequency_hz, mode_type: kind.map(str::to_owned), multiplicity: 1 }
+    }
+
+    #[test]
+    fn types_are_matched_within_themselves_even_where_order_crosses() {
+        let list = [
+            listed(1716.0, Some("planet")),
+            listed(1714.0, Some("translational")),
+            listed(1790.0, Some("rotational")),
+        ];
+        let result = compare(&list, &model(), 1.0);
+        assert_eq!(result.disagreed, 0, "{result:?}");
+        assert_eq!(result.matches[0].listed_hz, [1716.0]);
+        assert!((result.largest_difference_percent - 100.0 * 5.6 / 1710.4).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_pair_may_be_listed_once_or_twice_but_not_three_times() {
+        let once = [listed(1710.4, None), listed(1715.8, None), listed(1788.5, None)];
+        assert_eq!(compare(&once, &model(), 0.1).disagreed, 0);
+        let twice: Vec<_> = once.iter().cloned().chain([listed(1715.9, None)]).collect();
+        assert_eq!(compare(&twice, &model(), 0.1).disagreed, 0);
+        let thrice: Vec<_> = twice.iter().cloned().chain([listed(1716.0, None)]).collect();
+        assert_eq!(compare(&thrice, &model(), 0.1).disagreed, 1);
+    }
+
+    #[test]
+    fn missing_strange_and_distant_entries_disagree() {
+        let list = [listed(1710.4, None), listed(1760.0, None), listed(3000.0, None)];
+        let result = compare(&list, &model(), 1.0);
+        let remarks: Vec<_> = result.matches.iter().filter_map(|m| m.remark.clone()).collect();
+        assert!(remarks.iter().any(|r| r.contains("no such mode")), "{remarks:?}");
+        assert!(result.disagreed >= 2);
+        assert_eq!(compare(&[], &model(), 1.0).disagreed, 3);
+    }
+
+    #[test]
+    fn a_wrong_type_disagrees() {
+        let list = [
+            listed(1710.4, Some("rotational")),
+            listed(1715.8, Some("translational")),
+            listed(1788.5, Some("rotational")),
+        ];
+        assert!(compare(&list, &model(), 1.0).disagreed >= 1);
+    }
+}
