@@ -64,13 +64,18 @@ pub(crate) fn campbell_svg(scene: &Scene, modes: &NaturalModes) -> Option<String
                 .with_size(size)
                 .with_marker(MarkerShape::Circle)
         };
-        plots.push(Plot::Scatter(marks(cannot, 2.0, "#c8ccd0")));
+        plots.push(Plot::Scatter(marks(cannot, 2.5, "#7a7f85")));
         plots.push(Plot::Scatter(marks(can, 5.0, color)));
     }
     let layout = Layout::auto_from_plots(&plots)
-        .with_title(format!("{}: which resonances planet phasing allows", scene.title))
+        .with_title("Resonances that planet phasing allows")
+        .with_subtitle(format!(
+            "{}. Grey: mesh harmonics 1 to 5; large dots: excited, small: forbidden",
+            scene.title
+        ))
+        .with_subtitle_size(12)
         .with_x_label("sun speed, rpm")
-        .with_y_label("frequency, Hz (lines: mesh harmonics 1 to 5; large dots: excited)");
+        .with_y_label("natural frequency, Hz");
     Some(SvgBackend.render_scene(&render_multiple(plots, layout)))
 }
 
