@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use faer::{Mat, MatRef};
+use faer::Mat;
 
 use crate::error::EigenError;
 use crate::symmetric::symmetric_eigen;
@@ -28,23 +28,16 @@ pub fn group_equal(lambda: &[f64]) -> Vec<Range<usize>> {
     groups
 }
 
-/// Orthonormal basis (n×d) of the span of `candidates` (each of length n) with the directions of
-/// `before` taken out; dependent candidates are dropped.
-pub fn orthonormal_basis(candidates: &[Vec<f64>], before: Option<&Mat<f64>>) -> Mat<f64> {
-    let rows = candidates.first().map_or(0, Vec::len);
-    let mut basis: Vec<Vec<f64>> = Vec::new();
+/// Orthonormal basis of the span of `candidates` with the directions of the orthonormal `before`
+/// taken out; dependent candidates are dropped.
+pub fn orthonormal_basis(candidates: &[Vec<f64>], before: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut basis: Vec<Vec<f64>> = Vec::with_capacity(candidates.len());
     for candidate in candidates {
         let mut v = candidate.clone();
         let length = norm(&v);
         // Twice is enough (Kahan): the second pass removes what rounding left of the first.
         for _ in 0..2 {
-            if let Some(before) = before {
-                for j in 0..before.ncols() {
-                    let along: f64 = (0..rows).map(|i| before[(i, j)] * v[i]).sum();
-                    (0..rows).for_each(|i| v[i] -= along * before[(i, j)]);
-                }
-            }
-            for b in &basis {
+            for b in before.iter().chain(&basis) {
                 let along: f64 = b.iter().zip(&v).map(|(x, y)| x * y).sum();
                 v.iter_mut().zip(b).for_each(|(x, y)| *x -= along * y);
             }
@@ -55,7 +48,7 @@ pub fn orthonormal_basis(candidates: &[Vec<f64>], before: Option<&Mat<f64>>) -> 
             basis.push(v);
         }
     }
-    Mat::from_fn(rows, basis.len(), |i, j| basis[j][i])
+    basis
 }
 
 fn norm(v: &[f64]) -> f64 {
@@ -73,16 +66,14 @@ pub struct Direction {
     pub shares: Vec<f64>,
 }
 
-/// Splits the subspace with orthonormal basis `q` (n×m) along mutually orthogonal `kinds` (each
-/// n×d_k) and the rest of the space. Pure directions come first, kind by kind; what is left is
-/// mixed.
+/// Splits a group's subspace along mutually orthogonal kinds and the rest of the space.
+///
+/// With Q the orthonormal basis of the group (n×m) and B_k that of kind k (n×d_k), `projections`
+/// are the B_kᵀ Q (d_k×m). Pure directions come first, kind by kind; what is left is mixed.
 ///
 /// # Errors
 /// If a small eigenproblem does not converge.
-pub fn split(q: MatRef<'_, f64>, kinds: &[Mat<f64>]) -> Result<Vec<Direction>, EigenError> {
-    let m = q.ncols();
-    // B_kᵀ Q
-    let projections: Vec<Mat<f64>> = kinds.iter().map(|b| b.transpose() * q).collect();
+pub fn split(m: usize, projections: &[Mat<f64>]) -> Result<Vec<Direction>, EigenError> {
     let shares_of = |c: &[f64]| {
         let mut shares: Vec<f64> = projections
             .iter()
@@ -118,16 +109,15 @@ pub fn split(q: MatRef<'_, f64>, kinds: &[Mat<f64>]) -> Result<Vec<Direction>, E
             directions.push(Direction { coefficients, kind: Some(kind), shares });
         }
     }
-    let pure: Vec<Vec<f64>> = directions.iter().map(|d| d.coefficients.clone()).collect();
-    let found = orthonormal_basis(&pure, None);
-    let units: Vec<Vec<f64>> =
-        (0..m).map(|i| (0..m).map(|j| f64::from(u8::from(i == j))).collect()).collect();
-    let before = (!pure.is_empty()).then_some(&found);
-    let left = orthonormal_basis(&units, before);
-    for j in 0..left.ncols().min(m - directions.len().min(m)) {
-        let coefficients: Vec<f64> = (0..m).map(|i| left[(i, j)]).collect();
-        let shares = shares_of(&coefficients);
-        directions.push(Direction { kind: None, coefficients, shares });
+    if directions.len() < m {
+        let pure: Vec<Vec<f64>> = directions.iter().map(|d| d.coefficients.clone()).collect();
+        let unit = |i: usize| (0..m).map(|j| f64::from(u8::from(i == j))).collect();
+        let units: Vec<Vec<f64>> = (0..m).map(unit).collect();
+        let found = orthonormal_basis(&pure, &[]);
+        for coefficients in orthonormal_basis(&units, &found) {
+            let shares = shares_of(&coefficients);
+            directions.push(Direction { kind: None, coefficients, shares });
+        }
     }
     Ok(directions)
 }
@@ -140,6 +130,15 @@ mod tests {
         (0..n).map(|k| f64::from(u8::from(k == i))).collect()
     }
 
+    /// Vectors as columns.
+    fn matrix(columns: &[Vec<f64>]) -> Mat<f64> {
+        Mat::from_fn(columns[0].len(), columns.len(), |i, j| columns[j][i])
+    }
+
+    fn projections(kinds: &[Mat<f64>], q: &Mat<f64>) -> Vec<Mat<f64>> {
+        kinds.iter().map(|b| b.transpose() * q).collect()
+    }
+
     #[test]
     fn equal_values_are_grouped_and_near_ones_are_not() {
         let lambda = [0.0, 1.0, 1.0 + 1e-12, 1.001, 5.0];
@@ -150,14 +149,11 @@ mod tests {
     #[test]
     fn coinciding_modes_of_two_kinds_are_told_apart() {
         // Kinds: e0 | e1, e2 | rest. The group is span{e0, e1, e3}, its basis thoroughly mixed.
-        let kinds = [
-            orthonormal_basis(&[unit(5, 0)], None),
-            orthonormal_basis(&[unit(5, 1), unit(5, 2)], None),
-        ];
+        let kinds = [matrix(&[unit(5, 0)]), matrix(&[unit(5, 1), unit(5, 2)])];
         let mix = |a: f64, b: f64, c: f64| vec![a, b, 0.0, c, 0.0];
         let mixed = [mix(1.0, 2.0, 2.0), mix(2.0, 1.0, -2.0), mix(2.0, -2.0, 1.0)];
-        let q = orthonormal_basis(&mixed, None);
-        let directions = split(q.as_ref(), &kinds).unwrap();
+        let q = matrix(&orthonormal_basis(&mixed, &[]));
+        let directions = split(q.ncols(), &projections(&kinds, &q)).unwrap();
         let found: Vec<_> = directions.iter().map(|d| d.kind).collect();
         assert_eq!(found, [Some(0), Some(1), Some(2)]);
         for d in &directions {
@@ -167,10 +163,10 @@ mod tests {
 
     #[test]
     fn a_direction_between_kinds_is_mixed() {
-        let kinds =
-            [orthonormal_basis(&[unit(3, 0)], None), orthonormal_basis(&[unit(3, 1)], None)];
-        let q = orthonormal_basis(&[vec![3.0, 4.0, 0.0], vec![0.0, 0.0, 1.0]], None);
-        let directions = split(q.as_ref(), &kinds).unwrap();
+        let kinds = [matrix(&[unit(3, 0)]), matrix(&[unit(3, 1)])];
+        let vectors = [vec![3.0, 4.0, 0.0], vec![0.0, 0.0, 1.0]];
+        let q = matrix(&orthonormal_basis(&vectors, &[]));
+        let directions = split(q.ncols(), &projections(&kinds, &q)).unwrap();
         let found: Vec<_> = directions.iter().map(|d| d.kind).collect();
         assert_eq!(found, [Some(2), None]);
         assert!((directions[1].shares[0] - 0.36).abs() < 1e-14);
@@ -178,7 +174,7 @@ mod tests {
 
     #[test]
     fn dependent_candidates_are_dropped() {
-        let basis = orthonormal_basis(&[unit(3, 0), unit(3, 0), vec![0.0; 3]], None);
-        assert_eq!(basis.ncols(), 1);
+        let basis = orthonormal_basis(&[unit(3, 0), unit(3, 0), vec![0.0; 3]], &[]);
+        assert_eq!(basis.len(), 1);
     }
 }

@@ -19,7 +19,7 @@ use dynamics::gyroscopic_modes;
 
 use crate::coordinates::{Axis, Body};
 use crate::error::LumpedError;
-use crate::kinds::kinds;
+use crate::kinds::Kinds;
 use crate::model::LumpedModel;
 use crate::modes::Participation;
 
@@ -49,14 +49,14 @@ pub struct SpeedModes {
 /// If an eigenproblem does not converge.
 pub fn campbell(model: &LumpedModel, speeds: &[f64]) -> Result<Vec<SpeedModes>, LumpedError> {
     let k = model.stiffness();
-    let kinds = kinds(model);
+    let kinds = Kinds::of(model);
     speeds.iter().map(|&speed| at_speed(model, &k, &kinds, speed)).collect()
 }
 
 fn at_speed(
     model: &LumpedModel,
     k: &Mat<f64>,
-    kinds: &[Mat<f64>; 2],
+    kinds: &Kinds,
     speed: f64,
 ) -> Result<SpeedModes, LumpedError> {
     let n = model.mass.len();
@@ -76,21 +76,14 @@ fn at_speed(
     let modes = modes
         .iter()
         .map(|mode| {
-            let share = |basis: &Mat<f64>| {
-                (0..basis.ncols())
-                    .map(|j| {
-                        let project = |part: fn(&(f64, f64)) -> f64| {
-                            (0..n)
-                                .map(|i| {
-                                    basis[(i, j)] * model.mass[i].sqrt() * part(&mode.vector[i])
-                                })
-                                .sum::<f64>()
-                        };
-                        project(|z| z.0).powi(2) + project(|z| z.1).powi(2)
-                    })
-                    .sum::<f64>()
+            // Real and imaginary part side by side, M^½-scaled.
+            let parts = |i: usize, part: usize| {
+                let (re, im) = mode.vector[i];
+                model.mass[i].sqrt() * if part == 0 { re } else { im }
             };
-            let (rotational, translational) = (share(&kinds[0]), share(&kinds[1]));
+            let [rotational, translational] = kinds
+                .projections(2, parts)
+                .map(|p| p.col_iter().map(|c| c.squared_norm_l2()).sum::<f64>());
             SpeedMode {
                 frequency_hz: mode.omega / TAU,
                 growth_per_s: mode.growth,

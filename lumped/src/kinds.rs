@@ -48,41 +48,45 @@ impl ModeType {
     }
 }
 
-/// Orthonormal bases (in M^½-scaled coordinates) of the rotational and the translational kind; the
+/// A vector given by its non-zero entries.
+type Sparse = Vec<(usize, f64)>;
+
+/// Orthonormal bases, in M^½-scaled coordinates, of the rotational and the translational kind; the
 /// rest of the space is the planet kind.
-pub(crate) fn kinds(model: &LumpedModel) -> [Mat<f64>; 2] {
-    let n = model.coordinates.count();
-    let root: Vec<f64> = model.mass.iter().map(|m| m.sqrt()).collect();
-    let single = |body, axis| {
-        model.coordinates.of(body, axis).map(|i| {
-            let mut v = vec![0.0; n];
-            v[i] = 1.0;
-            v
-        })
-    };
-    let pattern = |axis, weight: &dyn Fn(f64) -> f64| {
-        let mut v = vec![0.0; n];
-        for (p, &psi) in model.psi.iter().enumerate() {
-            if let Some(i) = model.coordinates.of(Body::Planet(p), axis) {
-                v[i] = root[i] * weight(psi);
-            }
+pub(crate) struct Kinds([Vec<Sparse>; 2]);
+
+impl Kinds {
+    /// The kinds of a model.
+    pub(crate) fn of(model: &LumpedModel) -> Self {
+        let index = |body, axis| model.coordinates.of(body, axis);
+        let central = [Body::Carrier, Body::Ring, Body::Sun];
+        let single = |axis| central.iter().filter_map(move |&b| Some(vec![(index(b, axis)?, 1.0)]));
+        let mut rotational: Vec<Sparse> = single(Axis::Rotation).collect();
+        let mut translational: Vec<Sparse> =
+            single(Axis::First).chain(single(Axis::Second)).collect();
+        for axis in Axis::ALL {
+            let planets: Vec<usize> =
+                (0..model.psi.len()).filter_map(|n| index(Body::Planet(n), axis)).collect();
+            let pattern = |weight: &dyn Fn(f64) -> f64| -> Vec<f64> {
+                let each = planets.iter().zip(&model.psi);
+                each.map(|(&i, &psi)| model.mass[i].sqrt() * weight(psi)).collect()
+            };
+            let alike = orthonormal_basis(&[pattern(&|_| 1.0)], &[]);
+            let around = orthonormal_basis(&[pattern(&f64::cos), pattern(&f64::sin)], &alike);
+            let sparse = |v: Vec<f64>| planets.iter().copied().zip(v).collect::<Sparse>();
+            rotational.extend(alike.into_iter().map(sparse));
+            translational.extend(around.into_iter().map(sparse));
         }
-        v
-    };
-    let central = [Body::Carrier, Body::Ring, Body::Sun];
-    let mut rotational: Vec<Vec<f64>> =
-        central.iter().filter_map(|&b| single(b, Axis::Rotation)).collect();
-    rotational.extend(Axis::ALL.map(|axis| pattern(axis, &|_| 1.0)));
-    let rotational = orthonormal_basis(&rotational, None);
-    let mut translational: Vec<Vec<f64>> = central
-        .iter()
-        .flat_map(|&b| [single(b, Axis::First), single(b, Axis::Second)])
-        .flatten()
-        .collect();
-    for axis in Axis::ALL {
-        translational.push(pattern(axis, &f64::cos));
-        translational.push(pattern(axis, &f64::sin));
+        Self([rotational, translational])
     }
-    let translational = orthonormal_basis(&translational, Some(&rotational));
-    [rotational, translational]
+
+    /// B_kᵀ Q of both kinds for a Q (n×m) given by its entries.
+    pub(crate) fn projections(&self, m: usize, q: impl Fn(usize, usize) -> f64) -> [Mat<f64>; 2] {
+        let project = |basis: &Vec<Sparse>| {
+            Mat::from_fn(basis.len(), m, |row, column| {
+                basis[row].iter().map(|&(i, b)| b * q(i, column)).sum::<f64>()
+            })
+        };
+        [project(&self.0[0]), project(&self.0[1])]
+    }
 }

@@ -8,7 +8,7 @@ use serde::Serialize;
 use dynamics::{generalized_symmetric, group_equal, split};
 
 use crate::error::LumpedError;
-use crate::kinds::{ModeType, kinds};
+use crate::kinds::{Kinds, ModeType};
 use crate::model::LumpedModel;
 
 /// Shares of a mode's kinetic energy in the three kinds; they sum to one.
@@ -67,14 +67,15 @@ impl NaturalModes {
         let solution = generalized_symmetric(k, &model.mass)?;
         let n = model.mass.len();
         let root: Vec<f64> = model.mass.iter().map(|m| m.sqrt()).collect();
-        let kinds = kinds(model);
+        let kinds = Kinds::of(model);
         let largest = solution.lambda.last().copied().unwrap_or(0.0);
         let mut groups = Vec::with_capacity(n);
         for range in group_equal(&solution.lambda) {
             let m = range.len();
             let first = range.start;
-            let q = Mat::from_fn(n, m, |i, j| root[i] * solution.vectors[(i, first + j)]);
-            let directions = split(q.as_ref(), &kinds)?;
+            let phi = |i: usize, j: usize| solution.vectors[(i, first + j)];
+            let projections = kinds.projections(m, |i, j| root[i] * phi(i, j));
+            let directions = split(m, &projections)?;
             let mean = solution.lambda[range].iter().sum::<f64>() / m as f64;
             // Rigid-body modes are zero up to rounding of the largest eigenvalue.
             let lambda = if mean.abs() < 1e-12 * largest { 0.0 } else { mean };
@@ -89,8 +90,7 @@ impl NaturalModes {
                 let share =
                     |k: usize| own.iter().map(|d| d.shares[k]).sum::<f64>() / own.len() as f64;
                 let vectors = Mat::from_fn(n, own.len(), |i, j| {
-                    let sum: f64 = (0..m).map(|c| q[(i, c)] * own[j].coefficients[c]).sum();
-                    sum / root[i]
+                    (0..m).map(|c| phi(i, c) * own[j].coefficients[c]).sum::<f64>()
                 });
                 groups.push(ModeGroup {
                     frequency_hz: lambda.max(0.0).sqrt() / TAU,
