@@ -3,8 +3,6 @@
 
 use std::ops::Range;
 
-use faer::Mat;
-
 use crate::error::EigenError;
 use crate::symmetric::symmetric_eigen;
 
@@ -69,40 +67,40 @@ pub struct Direction {
 /// Splits a group's subspace along mutually orthogonal kinds and the rest of the space.
 ///
 /// With Q the orthonormal basis of the group (n×m) and B_k that of kind k (n×d_k), `projections`
-/// are the B_kᵀ Q (d_k×m). Pure directions come first, kind by kind; what is left is mixed.
+/// are the rows of B_kᵀ Q (d_k rows of length m). Pure directions come first, kind by kind; what is
+/// left is mixed.
 ///
 /// # Errors
 /// If a small eigenproblem does not converge.
-pub fn split(m: usize, projections: &[Mat<f64>]) -> Result<Vec<Direction>, EigenError> {
+pub fn split(m: usize, projections: &[Vec<Vec<f64>>]) -> Result<Vec<Direction>, EigenError> {
+    let along = |row: &Vec<f64>, c: &[f64]| row.iter().zip(c).map(|(p, x)| p * x).sum::<f64>();
     let shares_of = |c: &[f64]| {
-        let mut shares: Vec<f64> = projections
-            .iter()
-            .map(|p| {
-                (0..p.nrows())
-                    .map(|i| (0..m).map(|j| p[(i, j)] * c[j]).sum::<f64>().powi(2))
-                    .sum::<f64>()
-                    .min(1.0)
-            })
-            .collect();
+        let share =
+            |rows: &Vec<Vec<f64>>| rows.iter().map(|r| along(r, c).powi(2)).sum::<f64>().min(1.0);
+        let mut shares: Vec<f64> = projections.iter().map(share).collect();
         shares.push((1.0 - shares.iter().sum::<f64>()).max(0.0));
         shares
     };
-    let kind_of = |shares: &[f64]| shares.iter().position(|s| *s >= 1.0 - IMPURE);
     if m == 1 {
         let shares = shares_of(&[1.0]);
-        let kind = kind_of(&shares);
+        let kind = shares.iter().position(|s| *s >= 1.0 - IMPURE);
         return Ok(vec![Direction { coefficients: vec![1.0], kind, shares }]);
     }
-    // A kind's pure directions are the eigenvectors of Qᵀ Π_k Q with eigenvalue one.
-    let mut grams: Vec<Mat<f64>> = projections.iter().map(|p| p.transpose() * p).collect();
-    let rest = Mat::from_fn(m, m, |i, j| {
-        let unit = if i == j { 1.0 } else { 0.0 };
-        unit - grams.iter().map(|g| g[(i, j)]).sum::<f64>()
-    });
-    grams.push(rest);
-    let mut directions: Vec<Direction> = Vec::new();
-    for (kind, gram) in grams.iter().enumerate() {
-        let (values, vectors) = symmetric_eigen(gram)?;
+    // A kind's pure directions are the eigenvectors of G_k = Qᵀ Π_k Q with eigenvalue one.
+    let gram = |k: usize, i: usize, j: usize| -> f64 {
+        let of = |rows: &Vec<Vec<f64>>| rows.iter().map(|r| r[i] * r[j]).sum::<f64>();
+        match projections.get(k) {
+            Some(rows) => of(rows),
+            None => f64::from(u8::from(i == j)) - projections.iter().map(of).sum::<f64>(),
+        }
+    };
+    let mut directions: Vec<Direction> = Vec::with_capacity(m);
+    for kind in 0..=projections.len() {
+        let trace: f64 = (0..m).map(|i| gram(kind, i, i)).sum();
+        if trace < 1.0 - IMPURE {
+            continue; // no eigenvalue can be one
+        }
+        let (values, vectors) = symmetric_eigen(m, |i, j| gram(kind, i, j))?;
         for j in (0..m).filter(|&j| values[j] >= 1.0 - IMPURE) {
             let coefficients: Vec<f64> = (0..m).map(|i| vectors[(i, j)]).collect();
             let shares = shares_of(&coefficients);
@@ -130,13 +128,13 @@ mod tests {
         (0..n).map(|k| f64::from(u8::from(k == i))).collect()
     }
 
-    /// Vectors as columns.
-    fn matrix(columns: &[Vec<f64>]) -> Mat<f64> {
-        Mat::from_fn(columns[0].len(), columns.len(), |i, j| columns[j][i])
-    }
-
-    fn projections(kinds: &[Mat<f64>], q: &Mat<f64>) -> Vec<Mat<f64>> {
-        kinds.iter().map(|b| b.transpose() * q).collect()
+    /// B_kᵀ Q for bases given by their vectors.
+    fn projections(kinds: &[Vec<Vec<f64>>], q: &[Vec<f64>]) -> Vec<Vec<Vec<f64>>> {
+        let dot = |a: &Vec<f64>, b: &Vec<f64>| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+        let rows = |kind: &Vec<Vec<f64>>| {
+            kind.iter().map(|b| q.iter().map(|v| dot(b, v)).collect()).collect()
+        };
+        kinds.iter().map(rows).collect()
     }
 
     #[test]
@@ -149,11 +147,11 @@ mod tests {
     #[test]
     fn coinciding_modes_of_two_kinds_are_told_apart() {
         // Kinds: e0 | e1, e2 | rest. The group is span{e0, e1, e3}, its basis thoroughly mixed.
-        let kinds = [matrix(&[unit(5, 0)]), matrix(&[unit(5, 1), unit(5, 2)])];
+        let kinds = [vec![unit(5, 0)], vec![unit(5, 1), unit(5, 2)]];
         let mix = |a: f64, b: f64, c: f64| vec![a, b, 0.0, c, 0.0];
         let mixed = [mix(1.0, 2.0, 2.0), mix(2.0, 1.0, -2.0), mix(2.0, -2.0, 1.0)];
-        let q = matrix(&orthonormal_basis(&mixed, &[]));
-        let directions = split(q.ncols(), &projections(&kinds, &q)).unwrap();
+        let q = orthonormal_basis(&mixed, &[]);
+        let directions = split(q.len(), &projections(&kinds, &q)).unwrap();
         let found: Vec<_> = directions.iter().map(|d| d.kind).collect();
         assert_eq!(found, [Some(0), Some(1), Some(2)]);
         for d in &directions {
@@ -163,10 +161,10 @@ mod tests {
 
     #[test]
     fn a_direction_between_kinds_is_mixed() {
-        let kinds = [matrix(&[unit(3, 0)]), matrix(&[unit(3, 1)])];
+        let kinds = [vec![unit(3, 0)], vec![unit(3, 1)]];
         let vectors = [vec![3.0, 4.0, 0.0], vec![0.0, 0.0, 1.0]];
-        let q = matrix(&orthonormal_basis(&vectors, &[]));
-        let directions = split(q.ncols(), &projections(&kinds, &q)).unwrap();
+        let q = orthonormal_basis(&vectors, &[]);
+        let directions = split(q.len(), &projections(&kinds, &q)).unwrap();
         let found: Vec<_> = directions.iter().map(|d| d.kind).collect();
         assert_eq!(found, [Some(2), None]);
         assert!((directions[1].shares[0] - 0.36).abs() < 1e-14);

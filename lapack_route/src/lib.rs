@@ -1,5 +1,5 @@
 //! The symmetric-definite eigenproblem K φ = λ M φ by LAPACK: the second route to the numbers that
-//! the rest of the project gets from faer.
+//! the rest of the project gets from nalgebra.
 
 mod dsygv;
 

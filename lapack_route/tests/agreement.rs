@@ -1,4 +1,4 @@
-//! LAPACK against the project's own route (faer) on lumped models, and LAPACK against print.
+//! LAPACK against the project's own route (nalgebra) on lumped models, and LAPACK against print.
 //!
 //! Reference kind: other code for the comparison, published for Lin & Parker (1999).
 
@@ -31,7 +31,7 @@ fn difference(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| (x - y).abs() / largest).fold(0.0, f64::max)
 }
 
-/// Worst difference between the faer route and each LAPACK driver for one scene.
+/// Worst difference between our own route and each LAPACK driver for one scene.
 fn compare(scene: &Scene) -> [f64; 2] {
     let model = LumpedModel::from_scene(scene).unwrap();
     let ours = NaturalModes::of(&model).unwrap().lambda;
@@ -102,7 +102,7 @@ fn lin_and_parker_1999_as_printed() {
 }
 
 #[test]
-fn published_sets_agree_with_faer() {
+fn published_sets_agree_with_ours() {
     let names = [
         "lin_parker_1999_3p",
         "lin_parker_1999_4p",
@@ -119,7 +119,7 @@ fn published_sets_agree_with_faer() {
 }
 
 #[test]
-fn a_thousand_random_sets_agree_with_faer() {
+fn a_thousand_random_sets_agree_with_ours() {
     let base = scene("lin_parker_1999_4p");
     let mut random = Random::new(1999);
     let mut worst = [0.0_f64; 2];

@@ -83,7 +83,7 @@ fn at_speed(
             };
             let [rotational, translational] = kinds
                 .projections(2, parts)
-                .map(|p| p.col_iter().map(|c| c.squared_norm_l2()).sum::<f64>());
+                .map(|rows| rows.iter().flatten().map(|p| p * p).sum::<f64>());
             SpeedMode {
                 frequency_hz: mode.omega / TAU,
                 growth_per_s: mode.growth,

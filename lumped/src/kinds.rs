@@ -5,7 +5,6 @@
 //! alike; translations of the central members with planets following cos ψ_n and sin ψ_n; and
 //! planet motions that neither push nor turn anything. Held coordinates only drop out of them.
 
-use faer::Mat;
 use serde::Serialize;
 
 use dynamics::orthonormal_basis;
@@ -80,13 +79,16 @@ impl Kinds {
         Self([rotational, translational])
     }
 
-    /// B_kᵀ Q of both kinds for a Q (n×m) given by its entries.
-    pub(crate) fn projections(&self, m: usize, q: impl Fn(usize, usize) -> f64) -> [Mat<f64>; 2] {
-        let project = |basis: &Vec<Sparse>| {
-            Mat::from_fn(basis.len(), m, |row, column| {
-                basis[row].iter().map(|&(i, b)| b * q(i, column)).sum::<f64>()
-            })
+    /// Rows of B_kᵀ Q of both kinds for a Q (n×m) given by its entries.
+    pub(crate) fn projections(
+        &self,
+        m: usize,
+        q: impl Fn(usize, usize) -> f64,
+    ) -> [Vec<Vec<f64>>; 2] {
+        let row = |b: &Sparse| -> Vec<f64> {
+            (0..m).map(|column| b.iter().map(|&(i, b)| b * q(i, column)).sum()).collect()
         };
+        let project = |basis: &Vec<Sparse>| basis.iter().map(row).collect();
         [project(&self.0[0]), project(&self.0[1])]
     }
 }
