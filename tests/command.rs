@@ -187,6 +187,18 @@ fn the_binary_itself_prints_the_verdict_and_refuses_bad_input() {
 }
 
 #[test]
+fn the_counts_in_the_readme_are_those_of_the_verdict() {
+    let verdict = validation::validate().unwrap();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let readme = std::fs::read_to_string(path).unwrap();
+    let words = format!(
+        "{} checks pass, {} fail, {} published value",
+        verdict.passed, verdict.failed, verdict.missed
+    );
+    assert!(readme.contains(&words), "README.md should say: {words}");
+}
+
+#[test]
 fn a_report_that_cannot_be_written_is_one_message() {
     let file = tempfile::NamedTempFile::new().unwrap();
     let (code, _, err) = run(&["validate", "--report", file.path().to_str().unwrap()]);

@@ -99,6 +99,7 @@ fn modes() {
         "oh58_3p",
         "oh58_4p_as_published",
         "oh58_3p_as_published",
+        "coinciding_modes",
         "lin_parker_1999_4p",
         "lin_parker_1999_3p",
     ] {

@@ -220,6 +220,27 @@ fn phases_follow_their_closed_form_and_start_the_path() {
 }
 
 #[test]
+fn tip_gaps_are_distances_from_corner_to_polygon() {
+    use gearset::MeshMember::{Driven, Driver};
+    let (_, geometry) = oh58("oh58_4p.toml");
+    for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
+        let mesh = geometry.mesh(kind).unwrap();
+        for (tip, string) in [
+            (Driven, mesh.path_start - 0.1 * mesh.base_pitch),
+            (Driver, mesh.path_end + 0.1 * mesh.base_pitch),
+        ] {
+            let (driver, driven) = mesh.flanks(string);
+            let (own, mate) = if tip == Driver { (driver, driven) } else { (driven, driver) };
+            let corner = own.point(own.gear.tip_string());
+            let form = mate.gear.form_string().unwrap();
+            let line = polyline(&mate, form, mate.gear.tip_string(), 20_000);
+            let gap = mesh.tip_gap(tip, 0.1 * mesh.base_pitch).unwrap();
+            assert!((distance(corner, &line).0 - gap).abs() < 1e-10, "{kind:?} {tip:?}");
+        }
+    }
+}
+
+#[test]
 fn three_planets_share_one_phase() {
     let (scene, geometry) = oh58("oh58_3p.toml");
     let phases =
