@@ -4,7 +4,7 @@ use faer::Mat;
 use faer::linalg::solvers::Eigen;
 
 use crate::error::EigenError;
-use crate::symmetric::check_input;
+use crate::symmetric::{check_input, check_residual, largest_or_nan};
 
 /// One mode of a gyroscopic system.
 #[derive(Debug, Clone)]
@@ -21,10 +21,11 @@ pub struct GyroscopicMode {
 ///
 /// Solved as the companion matrix of the mass-normalised problem, time scaled by the largest
 /// stiffness row so that displacement and velocity have like size. `k` may be singular or
-/// indefinite: modes that drift or diverge come out with ω = 0.
+/// indefinite: modes that drift or diverge come out with ω = 0, once each (s = ±a is one mode, of
+/// growth +a); flutter, s = ±a ± iω, is two, of growth +a and −a.
 ///
 /// # Errors
-/// For unusable input or no convergence.
+/// For unusable input, no convergence, or ‖(s²M̃ + sG̃ + K̃)q‖ above 1e-10 (M̃ = I, time scaled).
 pub fn gyroscopic_modes(
     mass: &[f64],
     g: &Mat<f64>,
@@ -52,25 +53,99 @@ pub fn gyroscopic_modes(
         (0..2 * n).map(|j| (values[j].im * reference, values[j].re * reference, j)).collect();
     // Conjugate pairs s, s̄ describe one motion: of 2n values, the n with the larger Im are kept.
     all.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1)));
-    let mut modes: Vec<GyroscopicMode> = all[..n]
-        .iter()
-        .map(|&(im, re, j)| {
-            let q: Vec<(f64, f64)> =
-                (0..n).map(|i| (vectors[(i, j)].re, vectors[(i, j)].im)).collect();
-            let norm = q.iter().map(|(a, b)| a * a + b * b).sum::<f64>().sqrt();
-            let norm = if norm > 0.0 { norm } else { 1.0 };
-            let vector =
-                q.iter().zip(&root).map(|((a, b), m)| (a / (norm * m), b / (norm * m))).collect();
-            GyroscopicMode { omega: im.abs(), growth: re, vector }
-        })
-        .collect();
+    let mut modes = Vec::with_capacity(n);
+    let mut residuals = Vec::with_capacity(n);
+    for &(im, re, j) in &all[..n] {
+        let q: Vec<(f64, f64)> = (0..n).map(|i| (vectors[(i, j)].re, vectors[(i, j)].im)).collect();
+        let norm = q.iter().map(|(a, b)| a * a + b * b).sum::<f64>().sqrt();
+        let unit: Vec<(f64, f64)> = q.iter().map(|(a, b)| (a / norm, b / norm)).collect();
+        residuals.push(residual(&companion, (re / reference, im / reference), &unit));
+        let vector = unit.iter().zip(&root).map(|((a, b), m)| (a / m, b / m)).collect();
+        modes.push(GyroscopicMode { omega: im.abs(), growth: re, vector });
+    }
+    check_residual(largest_or_nan(residuals), n)?;
     modes.sort_by(|a, b| a.omega.total_cmp(&b.omega));
     Ok(modes)
+}
+
+/// ‖(s² + s G̃ + K̃) q‖ for unit q, relative to 1 + |s|²; the lower half of the companion is −K̃, −G̃.
+fn residual(companion: &Mat<f64>, (re, im): (f64, f64), q: &[(f64, f64)]) -> f64 {
+    let n = q.len();
+    let square = (re * re - im * im, 2.0 * re * im);
+    let row = |i: usize| {
+        let mut sum =
+            (square.0 * q[i].0 - square.1 * q[i].1, square.0 * q[i].1 + square.1 * q[i].0);
+        for (j, (a, b)) in q.iter().enumerate() {
+            let (k, g) = (-companion[(n + i, j)], -companion[(n + i, n + j)]);
+            sum.0 += (k + re * g) * a - im * g * b;
+            sum.1 += (k + re * g) * b + im * g * a;
+        }
+        sum.0 * sum.0 + sum.1 * sum.1
+    };
+    (0..n).map(row).sum::<f64>().sqrt() / (1.0 + re * re + im * im)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Two equal unit masses on springs k, coupled by ±g: s² ± i g s + k = 0, so
+    /// s = ∓i g/2 ± i √(g²/4 + k).
+    fn gyroscope(g: f64, k: f64) -> Vec<GyroscopicMode> {
+        let gg = Mat::from_fn(2, 2, |i, j| g * (i as f64 - j as f64));
+        let kk = Mat::from_fn(2, 2, |i, j| if i == j { k } else { 0.0 });
+        gyroscopic_modes(&[1.0, 1.0], &gg, &kk).unwrap()
+    }
+
+    fn assert_modes(found: &[GyroscopicMode], expected: &[(f64, f64)], tolerance: f64) {
+        assert_eq!(found.len(), expected.len());
+        for (mode, (omega, growth)) in found.iter().zip(expected) {
+            let off = (mode.omega - omega).abs().max((mode.growth - growth).abs());
+            assert!(off < tolerance, "{} {} {omega} {growth}", mode.omega, mode.growth);
+        }
+    }
+
+    #[test]
+    fn fast_spin_steadies_what_would_fall() {
+        // k = −3, g = 4: ω = 2 ∓ 1.
+        assert_modes(&gyroscope(4.0, -3.0), &[(1.0, 0.0), (3.0, 0.0)], 1e-12);
+    }
+
+    #[test]
+    fn flutter_is_two_modes_one_growing_and_one_dying() {
+        // k = −5, g = 4: s = ±1 ± 2i.
+        let mut found = gyroscope(4.0, -5.0);
+        found.sort_by(|a, b| a.growth.total_cmp(&b.growth));
+        assert_modes(&found, &[(2.0, -1.0), (2.0, 1.0)], 1e-12);
+    }
+
+    #[test]
+    fn free_motion_circles_or_rests() {
+        // k = 0: s = 0 twice, ±i g.
+        assert_modes(&gyroscope(4.0, 0.0), &[(0.0, 0.0), (4.0, 0.0)], 1e-7);
+    }
+
+    #[test]
+    fn drifting_and_swinging_modes_keep_their_number() {
+        // One diverges, one drifts, one swings: s = ±2; 0, 0; ±3i.
+        let k = [-4.0, 0.0, 9.0];
+        let kk = Mat::from_fn(3, 3, |i, j| if i == j { k[i] } else { 0.0 });
+        let mut found = gyroscopic_modes(&[1.0; 3], &Mat::zeros(3, 3), &kk).unwrap();
+        found.sort_by(|a, b| a.omega.total_cmp(&b.omega).then(a.growth.total_cmp(&b.growth)));
+        assert_modes(&found, &[(0.0, 0.0), (0.0, 2.0), (3.0, 0.0)], 1e-7);
+        // M-normalised shape of the swinging one.
+        let (re, im) = found[2].vector[2];
+        assert!((re.hypot(im) - 1.0).abs() < 1e-12);
+    }
+
+    /// A wrong eigenvalue or a wrong vector must show in the residual.
+    #[test]
+    fn residual_sees_a_wrong_mode() {
+        // q'' + 4 q = 0 in one coordinate: s = 2i.
+        let companion = Mat::from_fn(2, 2, |i, j| [[0.0, 1.0], [-4.0, 0.0]][i][j]);
+        assert!(residual(&companion, (0.0, 2.0), &[(1.0, 0.0)]) < 1e-15);
+        assert!(residual(&companion, (0.0, 2.001), &[(1.0, 0.0)]) > 1e-4);
+    }
 
     /// A mass on an isotropic spring seen from a frame turning at Ω: frequencies |ω₀ ± Ω|.
     #[test]

@@ -84,9 +84,9 @@ impl Coordinates {
         Self { index, free }
     }
 
-    /// Index of a coordinate; `None` if it is held.
+    /// Index of a coordinate; `None` if it is held or there is no such planet.
     pub fn of(&self, body: Body, axis: Axis) -> Option<usize> {
-        self.index[3 * body.index() + axis as usize]
+        self.index.get(3 * body.index() + axis as usize).copied().flatten()
     }
 
     /// The free coordinates in order.

@@ -1,5 +1,7 @@
 //! Why there is no lumped model or no modes.
 
+use crate::springs::SpringId;
+
 /// Why a scene has no lumped model, or its modes could not be had.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LumpedError {
@@ -19,6 +21,14 @@ pub enum LumpedError {
     NoRadius {
         /// Body.
         body: &'static str,
+    },
+    /// A stiffness that is negative or not finite.
+    #[error("the {} stiffness is {value} N/m: it must be finite and not negative", spring.family())]
+    Stiffness {
+        /// Spring.
+        spring: SpringId,
+        /// Its stiffness, N/m.
+        value: f64,
     },
     /// An override names a planet that is not there.
     #[error("`planet_override` names planet {planet}, and there are {count}")]

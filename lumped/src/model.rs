@@ -64,15 +64,17 @@ impl LumpedModel {
         let mut springs = Vec::with_capacity(3 * count + 6);
         for body in [Body::Carrier, Body::Ring, Body::Sun] {
             let Some(support) = support(scene, body) else { continue };
-            if support.motion != Motion::Held && support.bearing > 0.0 {
+            if support.motion != Motion::Held && support.bearing != 0.0 {
                 let rows = rows.central_bearing(body);
                 let id = SpringId::CentralBearing(body);
                 springs.push(Spring { id, stiffness: support.bearing, rows });
             }
-            let stiffness = torsional(&support, of(&lumped.radius, body), body)?;
-            if support.motion == Motion::Free && stiffness > 0.0 {
-                let id = SpringId::Torsional(body);
-                springs.push(Spring { id, stiffness, rows: rows.torsion(body) });
+            if support.motion == Motion::Free {
+                let stiffness = torsional(&support, of(&lumped.radius, body), body)?;
+                if stiffness != 0.0 {
+                    let id = SpringId::Torsional(body);
+                    springs.push(Spring { id, stiffness, rows: rows.torsion(body) });
+                }
             }
         }
         for (n, &psi) in psi.iter().enumerate() {
@@ -94,7 +96,13 @@ impl LumpedModel {
                 rows: rows.planet_bearing(n, psi),
             });
         }
-        Ok(Self { psi, coordinates, mass, springs })
+        // Scenes can be built in memory, past the reader's checks.
+        match springs.iter().find(|s| !(s.stiffness >= 0.0 && s.stiffness.is_finite())) {
+            Some(Spring { id, stiffness, .. }) => {
+                Err(LumpedError::Stiffness { spring: *id, value: *stiffness })
+            }
+            None => Ok(Self { psi, coordinates, mass, springs }),
+        }
     }
 
     /// K = Σ k b bᵀ, n×n, N/m.

@@ -193,3 +193,33 @@ proptest! {
         prop_assert_eq!(count(ModeType::Planet), planet);
     }
 }
+
+/// Scenes built in memory pass no reader: what is not a stiffness is refused by name.
+#[test]
+fn stiffnesses_that_are_none_are_refused() {
+    for value in [f64::NAN, -1.0, f64::INFINITY] {
+        let mut bad = scene("oh58_4p.toml");
+        bad.supports.sun.bearing = value;
+        let refused = LumpedModel::from_scene(&bad).unwrap_err().to_string();
+        assert!(refused.contains("sun_bearing"), "{refused}");
+        let mut bad = scene("oh58_4p.toml");
+        bad.supports.sun.torsional = Torsional::PerLength(value);
+        let refused = LumpedModel::from_scene(&bad).unwrap_err().to_string();
+        assert!(refused.contains("sun_torsion"), "{refused}");
+    }
+}
+
+/// A rotation that is held has no torsional spring, so no radius is asked for.
+#[test]
+fn a_held_rotation_needs_no_radius() {
+    let mut set = scene("oh58_4p.toml");
+    set.supports.carrier.torsional = Torsional::PerAngle(1e6);
+    set.lumped.as_mut().unwrap().radius.carrier = None;
+    assert!(LumpedModel::from_scene(&set).is_ok());
+}
+
+#[test]
+fn a_planet_that_is_not_there_has_no_coordinate() {
+    let (model, _) = modes(&scene("oh58_4p.toml"));
+    assert_eq!(model.coordinates.of(lumped::Body::Planet(4), lumped::Axis::First), None);
+}

@@ -174,7 +174,7 @@ fn write_text(result: &ModesOutput, details: bool, out: &mut dyn Write) -> std::
         let mut table = output::table(&header, &(0..header.len()).collect::<Vec<_>>());
         for m in &result.modes {
             let mut row = vec![format!("{:.2}", m.frequency_hz)];
-            row.extend(names.iter().map(|n| format!("{:.3}", m.sensitivity[*n])));
+            row.extend(names.iter().map(|n| format!("{:.3}", plain_zero(m.sensitivity[*n]))));
             table.add_row(row);
         }
         writeln!(out, "{table}")?;
@@ -184,6 +184,11 @@ fn write_text(result: &ModesOutput, details: bool, out: &mut dyn Write) -> std::
         writeln!(out, "carrier at {} rpm: {} Hz", c.carrier_speed_rpm, list.join(", "))?;
     }
     writeln!(out, "residual of the eigensolution {:.1e}", result.residual)
+}
+
+/// What rounds to zero in three digits, without a sign.
+fn plain_zero(x: f64) -> f64 {
+    if x.abs() < 5e-4 { 0.0 } else { x }
 }
 
 /// The largest share, as `planet 62 %`.

@@ -81,6 +81,12 @@ pub(crate) fn run(arguments: &Rules, out: &mut dyn Write) -> Result<(), CommandE
     }
     writeln!(out, "{table}")?;
     writeln!(out, "strengths from 0 (cancels) to 1 (all planets in step); {ASSUMPTION}")?;
+    if !spacing.is_balanced() {
+        writeln!(
+            out,
+            "the planets' positions do not balance (Σ e^(iψ) ≠ 0): modes are mixed, and no harmonic is kept from any of them"
+        )?;
+    }
     Ok(())
 }
 
