@@ -44,6 +44,7 @@ fn tooth_geometry(document: &Document<'_>, scene: &Scene, geometry: &Geometry) {
             one_mesh(document, geometry, mesh);
         }
     }
+    carrier(document, scene, geometry.center_distance);
     let tip = geometry.planet.tip_radius;
     let psi = &scene.planets.psi_rad;
     for (p, q, clearance) in assembly::planet_clearances(psi, geometry.center_distance, tip) {
@@ -57,6 +58,29 @@ fn tooth_geometry(document: &Document<'_>, scene: &Scene, geometry: &Geometry) {
             };
             let why = format!("planets {p} and {q} overlap by {}", mm(-clearance));
             document.fault(key, "planets whose tip circles stay clear of each other", why);
+        }
+    }
+}
+
+/// An annulus that holds its pin seats, and seats that stay apart.
+fn carrier(document: &Document<'_>, scene: &Scene, a: f64) {
+    let Some(carrier) = scene.geometry.as_ref().and_then(|g| g.carrier) else { return };
+    let seat = carrier.pin_seat_radius;
+    let (bore, outer) = (carrier.bore_radius, carrier.outer_radius);
+    let why = "the pin seats stand at the centre distance, inside the annulus";
+    if bore >= a - seat {
+        let allowed = format!("below {}", mm(2.0 * (a - seat)));
+        document.fault("geometry.carrier.bore_diameter_mm", allowed, why);
+    }
+    if outer <= a + seat {
+        let allowed = format!("above {}", mm(2.0 * (a + seat)));
+        document.fault("geometry.carrier.outer_diameter_mm", allowed, why);
+    }
+    let key = "geometry.carrier.pin_seat_diameter_mm";
+    for (p, q, clearance) in assembly::planet_clearances(&scene.planets.psi_rad, a, seat) {
+        if clearance <= 0.0 {
+            let why = format!("the seats of planets {p} and {q} overlap by {}", mm(-clearance));
+            document.fault(key, "seats that stay apart", why);
         }
     }
 }

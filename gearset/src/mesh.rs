@@ -6,7 +6,7 @@ use crate::gear::{Facing, Flank, Gear, ToothSide};
 use crate::involute::{radius_at, string_at};
 
 /// Which mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MeshKind {
     /// Sun drives planet.

@@ -7,6 +7,7 @@ use crate::check;
 use crate::fault::{Fault, SceneError};
 use crate::geometry::Geometry;
 use crate::mesh::MeshKind;
+use crate::parse_fe_contact::fe_contact;
 use crate::parse_geometry::geometry;
 use crate::parse_lumped::lumped;
 use crate::reader::{Bound, Document, Section};
@@ -107,6 +108,7 @@ fn read(document: &Document<'_>, root: Section<'_, '_>) -> Option<Scene> {
     let overrides = overrides(document, &root, planets.as_ref(), lumped.as_ref());
     let damping = damping(root.section("damping"));
     let operation = root.section("operation").and_then(operation);
+    let fe_contact = root.section("fe_contact").map(fe_contact).unwrap_or_default();
     root.finish();
     Some(Scene {
         kind: kind?,
@@ -122,6 +124,7 @@ fn read(document: &Document<'_>, root: Section<'_, '_>) -> Option<Scene> {
         overrides,
         damping,
         operation,
+        fe_contact,
     })
 }
 

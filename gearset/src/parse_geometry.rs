@@ -37,6 +37,7 @@ pub(crate) fn geometry(s: Section<'_, '_>, teeth: Option<&Teeth>) -> Option<Geom
             s.fault(key, format!("with teeth.{key} given"), "its number of teeth is missing");
         }
     }
+    let carrier = s.section("carrier").and_then(carrier);
     let thickness = thickness(&s, rack, base_pitch);
     s.finish();
     Some(GeometryInput {
@@ -47,6 +48,7 @@ pub(crate) fn geometry(s: Section<'_, '_>, teeth: Option<&Teeth>) -> Option<Geom
         sun,
         planet: planet?,
         ring,
+        carrier,
         thickness: thickness?,
     })
 }
@@ -93,6 +95,20 @@ fn gear(s: Section<'_, '_>, body_key: &'static str, default_fillet: f64) -> Opti
         body_radius,
         fillet_radius: fillet.map_or(default_fillet, |r| r * 1e-3),
         tip_relief: relief,
+    })
+}
+
+fn carrier(s: Section<'_, '_>) -> Option<CarrierInput> {
+    let radius = |key, why: &str| s.required(key, Bound::Positive, why).map(|d| d * 0.5e-3);
+    let bore_radius = radius("bore_diameter_mm", "the carrier's race");
+    let outer_radius = radius("outer_diameter_mm", "edge of the carrier's annulus");
+    let why = "rigid seat of each planet's pin";
+    let seat = s.number("pin_seat_diameter_mm", Bound::Positive, why).map(|d| d * 0.5e-3);
+    s.finish();
+    Some(CarrierInput {
+        bore_radius: bore_radius?,
+        outer_radius: outer_radius?,
+        pin_seat_radius: seat.unwrap_or(10e-3),
     })
 }
 

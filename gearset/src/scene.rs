@@ -43,6 +43,60 @@ pub struct Scene {
     pub damping: Damping,
     /// Speed and torque.
     pub operation: Option<Operation>,
+    /// Choices of the FE/contact model.
+    pub fe_contact: FeContactInput,
+}
+
+/// State of a two-dimensional continuum.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum PlaneState {
+    /// No strain along the face width.
+    Strain,
+    /// No stress along the face width.
+    Stress,
+}
+
+/// Displacement field of the quadrilaterals behind the Hermite flanks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ElementFamily {
+    /// Four nodes, bilinear: the paper's; too stiff in bending.
+    Linear,
+    /// Four nodes and incompatible bending modes.
+    Incompatible,
+    /// Eight nodes.
+    Quadratic,
+}
+
+/// Choices of the FE/contact model; `None` is worked out from the geometry.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FeContactInput {
+    /// Plane strain or plane stress.
+    pub plane: PlaneState,
+    /// Elements.
+    pub element: ElementFamily,
+    /// Elements along one flank; the rest of the mesh follows their size.
+    pub flank_elements: u32,
+    /// Contact cells of one tooth pair.
+    pub contact_cells: u32,
+    /// Depth below the flank at which half-plane and FE are matched, m.
+    pub matching_depth: Option<f64>,
+    /// Matching points below each cell: 1 as in the paper, 2 to extrapolate to the surface.
+    pub matching_points: u32,
+}
+
+impl Default for FeContactInput {
+    fn default() -> Self {
+        Self {
+            plane: PlaneState::Strain,
+            element: ElementFamily::Quadratic,
+            flank_elements: 14,
+            contact_cells: 40,
+            matching_depth: None,
+            matching_points: 2,
+        }
+    }
 }
 
 /// Where the planets stand on the carrier.
@@ -102,8 +156,21 @@ pub struct GeometryInput {
     pub planet: GearInput,
     /// Ring, if the scene has one.
     pub ring: Option<GearInput>,
+    /// Carrier, if its shape is given; rigid otherwise.
+    pub carrier: Option<CarrierInput>,
     /// Where the tooth thicknesses come from.
     pub thickness: ThicknessInput,
+}
+
+/// The carrier as an annulus with round pin seats at the planets' centres.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CarrierInput {
+    /// Radius of the bore, which is its race, m.
+    pub bore_radius: f64,
+    /// Outer radius, m.
+    pub outer_radius: f64,
+    /// Radius of the rigid, material-filled pin seats, m.
+    pub pin_seat_radius: f64,
 }
 
 /// Generating rack.

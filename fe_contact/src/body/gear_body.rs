@@ -1,0 +1,296 @@
+//! One gear on a rigid race: its static flexibility between flank points.
+
+use faer::Mat;
+use nalgebra::DMatrix;
+
+use super::assembly::{Factor, Triplets};
+use crate::element::matrices;
+use crate::error::FeError;
+use crate::material::Elastic;
+use crate::mesh::{GearMesh, Side};
+
+/// Neighbouring teeth on either side whose response to a loaded tooth is kept.
+const REACH: i64 = 4;
+
+/// A point of a flank: the load it takes, spread work-equivalently over the flank's functions.
+#[derive(Debug, Clone, Copy)]
+pub struct FlankPoint {
+    /// Functions of the flank, as columns of the response, by value at x (y is the next).
+    pub columns: [usize; 4],
+    /// Their values at the point.
+    pub weights: [f64; 4],
+}
+
+/// A point inside a tooth.
+#[derive(Debug, Clone, Copy)]
+pub struct Deep {
+    /// Element of the sector.
+    pub element: usize,
+    /// Number of functions.
+    pub count: usize,
+    /// Nodes of the sector.
+    pub nodes: [usize; crate::element::MOST],
+    /// Functions at the point.
+    pub weights: [f64; crate::element::MOST],
+}
+
+/// Finite-element body of a gear whose race stands still.
+#[derive(Debug, Clone)]
+pub struct GearBody {
+    /// Its mesh.
+    pub mesh: GearMesh,
+    /// Material.
+    pub material: Elastic,
+    /// Face width, m.
+    pub face_width: f64,
+    /// Mass, kg.
+    pub mass: f64,
+    /// Polar inertia about the centre, kg m².
+    pub inertia: f64,
+    /// Degrees of freedom.
+    pub unknowns: usize,
+    /// Nodes of tooth 0's flanks that take load, both sides, in the sector's numbering.
+    load_nodes: Vec<usize>,
+    /// Column pair of each sector node, `usize::MAX` if it takes no load.
+    column_of: Vec<usize>,
+    /// Displacements (2 rows a sector node, tooth frame of the moving tooth) under unit loads on
+    /// tooth 0 (2 columns a load node, its own frame), for teeth −REACH…REACH, m/N.
+    responses: Vec<DMatrix<f64>>,
+    boxes: Vec<[f64; 4]>,
+}
+
+impl GearBody {
+    /// Assembles and factorises the body and solves for loads on one tooth.
+    ///
+    /// # Errors
+    /// If the mesh is unsound or the matrix is not positive definite.
+    pub fn new(mesh: GearMesh, material: Elastic, face_width: f64) -> Result<Self, FeError> {
+        let (mass, inertia) = mesh.mass_properties(&material, face_width)?;
+        let unknown_of = number_unknowns(&mesh);
+        let factor = stiffness(&mesh, &material, face_width, &unknown_of)?;
+        let sector = mesh.sector(0);
+        let mut column_of = vec![usize::MAX; sector.points.len()];
+        let mut load_nodes = Vec::new();
+        for side in &sector.flanks {
+            for node in side.iter().flat_map(|stretch| stretch.nodes) {
+                if column_of[node] == usize::MAX {
+                    column_of[node] = 2 * load_nodes.len();
+                    load_nodes.push(node);
+                }
+            }
+        }
+        let mut right = Mat::zeros(factor.size, 2 * load_nodes.len());
+        for (c, node) in load_nodes.iter().enumerate() {
+            let unknown = unknown_of[mesh.nodes[0][*node]];
+            right[(unknown, 2 * c)] = 1.0;
+            right[(unknown + 1, 2 * c + 1)] = 1.0;
+        }
+        factor.solve(&mut right);
+        let teeth = mesh.outline.gear().teeth as i64;
+        let reach = REACH.min((teeth - 1) / 2);
+        let responses = (-reach..=reach)
+            .map(|offset| {
+                let tooth = offset.rem_euclid(teeth) as usize;
+                let (sin, cos) = mesh.tooth_angle(tooth).sin_cos();
+                let nodes = &mesh.nodes[tooth];
+                let mut response = DMatrix::zeros(2 * nodes.len(), right.ncols());
+                for (local, global) in nodes.iter().enumerate() {
+                    let unknown = unknown_of[*global];
+                    if unknown == usize::MAX {
+                        continue;
+                    }
+                    for c in 0..right.ncols() {
+                        let (x, y) = (right[(unknown, c)], right[(unknown + 1, c)]);
+                        response[(2 * local, c)] = cos * x + sin * y;
+                        response[(2 * local + 1, c)] = -sin * x + cos * y;
+                    }
+                }
+                response
+            })
+            .collect();
+        let boxes = sector.elements.iter().map(|e| {
+            let mut b = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+            // Corners bound the element but for the bulge of its edges.
+            for node in &e.nodes[..4] {
+                let [x, y] = sector.points[*node];
+                b = [b[0].min(x), b[1].min(y), b[2].max(x), b[3].max(y)];
+            }
+            let margin = 0.2 * (b[2] - b[0]).max(b[3] - b[1]);
+            [b[0] - margin, b[1] - margin, b[2] + margin, b[3] + margin]
+        });
+        let boxes = boxes.collect();
+        let unknowns = factor.size;
+        Ok(Self {
+            mesh,
+            material,
+            face_width,
+            mass,
+            inertia,
+            unknowns,
+            load_nodes,
+            column_of,
+            responses,
+            boxes,
+        })
+    }
+
+    /// Number of load nodes on both flanks of a tooth.
+    pub fn load_count(&self) -> usize {
+        self.load_nodes.len()
+    }
+
+    /// The flank's functions at arc length ℓ, held to the flank's ends.
+    pub fn flank_point(&self, side: Side, l: f64) -> FlankPoint {
+        let flank = &self.mesh.sectors[0].flanks[side.index()];
+        let k = flank.partition_point(|s| s.to < l).min(flank.len() - 1);
+        let stretch = &flank[k];
+        let half = 0.5 * (stretch.to - stretch.from);
+        let t = ((l - stretch.from) / half - 1.0).clamp(-1.0, 1.0);
+        FlankPoint {
+            columns: stretch.nodes.map(|n| self.column_of[n]),
+            weights: crate::mesh::hermite(t, half),
+        }
+    }
+
+    /// The element functions at a point of the tooth frame; `None` outside the sector.
+    pub fn locate(&self, point: [f64; 2]) -> Option<Deep> {
+        let sector = &self.mesh.sectors[0];
+        let inside = |b: &[f64; 4]| {
+            point[0] >= b[0] && point[1] >= b[1] && point[0] <= b[2] && point[1] <= b[3]
+        };
+        let mut best: Option<(f64, Deep)> = None;
+        for (element, _) in self.boxes.iter().enumerate().filter(|(_, b)| inside(b)) {
+            let e = &sector.elements[element];
+            let count = e.shape.count();
+            let (mut xi, mut eta) = (0.0, 0.0);
+            for _ in 0..12 {
+                let v = e.shape.at(xi, eta);
+                let (mut r, mut m) = ([-point[0], -point[1]], [[0.0; 2]; 2]);
+                for (i, node) in e.nodes[..count].iter().enumerate() {
+                    let p = sector.points[*node];
+                    for k in 0..2 {
+                        r[k] += v.n[i] * p[k];
+                        m[k][0] += v.dxi[i] * p[k];
+                        m[k][1] += v.deta[i] * p[k];
+                    }
+                }
+                let determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+                let step = [
+                    (m[1][1] * r[0] - m[0][1] * r[1]) / determinant,
+                    (m[0][0] * r[1] - m[1][0] * r[0]) / determinant,
+                ];
+                xi = (xi - step[0]).clamp(-2.0, 2.0);
+                eta = (eta - step[1]).clamp(-2.0, 2.0);
+                if step[0].abs() + step[1].abs() < 1e-13 {
+                    break;
+                }
+            }
+            let outside = xi.abs().max(eta.abs());
+            if best.as_ref().is_none_or(|(least, _)| outside < *least) {
+                let v = e.shape.at(xi, eta);
+                best = Some((outside, Deep { element, count, nodes: e.nodes, weights: v.n }));
+            }
+            if outside <= 1.0 {
+                break;
+            }
+        }
+        best.filter(|(outside, _)| *outside <= 1.0 + 1e-3).map(|(_, deep)| deep)
+    }
+
+    /// Response of a tooth `offset` teeth on from the loaded one; `None` beyond the kept ones, and
+    /// for teeth meshed differently from the loaded one.
+    pub fn response(&self, offset: i64) -> Option<&DMatrix<f64>> {
+        if offset != 0 && self.mesh.sectors.len() > 1 {
+            return None;
+        }
+        let reach = (self.responses.len() as i64 - 1) / 2;
+        self.responses.get(usize::try_from(offset + reach).ok()?)
+    }
+
+    /// Displacement along `measured` of a deep point on the tooth `offset` on from the loaded one,
+    /// under a unit force along `force` at a flank point; directions in the teeth's own frames, m/N.
+    pub fn flexibility(
+        &self,
+        (load, force): (&FlankPoint, [f64; 2]),
+        offset: i64,
+        (deep, measured): (&Deep, [f64; 2]),
+    ) -> f64 {
+        let Some(response) = self.response(offset) else { return 0.0 };
+        let mut sum = 0.0;
+        for (column, w) in load.columns.iter().zip(load.weights) {
+            for (k, f) in force.iter().enumerate() {
+                for (node, n) in deep.nodes[..deep.count].iter().zip(deep.weights) {
+                    for (r, m) in measured.iter().enumerate() {
+                        sum += w * f * n * m * response[(2 * node + r, column + k)];
+                    }
+                }
+            }
+        }
+        sum
+    }
+}
+
+/// Unknown number (of x; y is the next) of each node; `usize::MAX` on the race.
+fn number_unknowns(mesh: &GearMesh) -> Vec<usize> {
+    let mut next = 0;
+    let number = |held: &bool| {
+        if *held {
+            return usize::MAX;
+        }
+        next += 2;
+        next - 2
+    };
+    mesh.on_race.iter().map(number).collect()
+}
+
+/// K with the race held. Element matrices are computed once in the tooth's frame and turned, so
+/// that the body is as periodic as its teeth.
+fn stiffness(
+    mesh: &GearMesh,
+    material: &Elastic,
+    face_width: f64,
+    unknown_of: &[usize],
+) -> Result<Factor, FeError> {
+    let incompatible = mesh.family == gearset::ElementFamily::Incompatible;
+    let mut of_sectors = Vec::new();
+    for sector in &mesh.sectors {
+        let mut list = Vec::with_capacity(sector.elements.len());
+        for (i, e) in sector.elements.iter().enumerate() {
+            let points: Vec<_> =
+                e.nodes[..e.shape.count()].iter().map(|n| sector.points[*n]).collect();
+            let m = matrices(&e.shape, &points, material, face_width, incompatible)
+                .map_err(|cause| FeError::Distorted { body: mesh.name, element: i, cause })?;
+            list.push(m.stiffness);
+        }
+        of_sectors.push(list);
+    }
+    let mut triplets = Triplets::default();
+    for e in &mesh.elements {
+        let k = &of_sectors[mesh.sector_of[e.tooth]][e.local];
+        let (sin, cos) = mesh.tooth_angle(e.tooth).sin_cos();
+        let count = e.shape.count();
+        for a in 0..count {
+            let row = unknown_of[e.nodes[a]];
+            if row == usize::MAX {
+                continue;
+            }
+            for b in 0..count {
+                let column = unknown_of[e.nodes[b]];
+                if column == usize::MAX {
+                    continue;
+                }
+                let block = |r: usize, c: usize| k[(2 * a + r, 2 * b + c)];
+                // R k Rᵀ with R = [c −s; s c]
+                let [p, q, r, s] = [block(0, 0), block(0, 1), block(1, 0), block(1, 1)];
+                let top = [cos * p - sin * r, cos * q - sin * s];
+                let low = [sin * p + cos * r, sin * q + cos * s];
+                triplets.add(row, column, top[0] * cos - top[1] * sin);
+                triplets.add(row, column + 1, top[0] * sin + top[1] * cos);
+                triplets.add(row + 1, column, low[0] * cos - low[1] * sin);
+                triplets.add(row + 1, column + 1, low[0] * sin + low[1] * cos);
+            }
+        }
+    }
+    let size = 2 * unknown_of.iter().filter(|u| **u != usize::MAX).count();
+    triplets.factorise(size, mesh.name)
+}

@@ -1,0 +1,98 @@
+//! Elastic half-plane under a strip of uniform pressure.
+//!
+//! Johnson, Contact Mechanics (1985), §2.3 and §2.5. Displacements in the plane are known up to a
+//! rigid motion only (ln r does not vanish far away), so only differences are offered.
+
+use crate::material::Elastic;
+
+/// Half-plane z ≥ 0 of unit thickness.
+#[derive(Debug, Clone, Copy)]
+pub struct HalfPlane {
+    /// (1 + ν)/(π E), 1/Pa.
+    scale: f64,
+    poisson: f64,
+}
+
+impl HalfPlane {
+    /// Half-plane of a material, plane strain or plane stress.
+    pub fn new(material: &Elastic) -> Self {
+        let (e, poisson) = material.plane_strain_equivalent();
+        Self { scale: (1.0 + poisson) / (std::f64::consts::PI * e), poisson }
+    }
+
+    /// Normal displacement at (x, z), into the body, under unit pressure on |x| ≤ h, up to a
+    /// constant, m/Pa.
+    ///
+    /// Flamant's u_z = (1 + ν)/(πE) [z²/r² − 2 (1 − ν) ln r] for a unit line load, integrated
+    /// over the strip:
+    /// ∫ = [−(1 − ν)(ξ ln(ξ² + z²) − 2ξ) − (1 − 2ν) z atan(ξ/z)] from ξ = x − h to x + h.
+    pub fn strip(&self, x: f64, z: f64, h: f64) -> f64 {
+        let nu = self.poisson;
+        let part = |xi: f64| {
+            let r2 = xi * xi + z * z;
+            let log = if r2 > 0.0 { xi * r2.ln() } else { 0.0 };
+            let angle = if z > 0.0 { z * (xi / z).atan() } else { 0.0 };
+            -(1.0 - nu) * (log - 2.0 * xi) - (1.0 - 2.0 * nu) * angle
+        };
+        self.scale * (part(x + h) - part(x - h))
+    }
+
+    /// Surface displacement at x relative to the point at depth `depth` below it, under unit
+    /// pressure on |x| ≤ h: the bracket of the paper's eq. (1), m/Pa.
+    pub fn strip_above_depth(&self, x: f64, depth: f64, h: f64) -> f64 {
+        self.strip(x, 0.0, h) - self.strip(x, depth, h)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gearset::PlaneState;
+
+    fn steel(plane: PlaneState) -> Elastic {
+        Elastic { young: 207e9, poisson: 0.3, density: 7595.0, plane }
+    }
+
+    /// On the axis of a narrow strip σ_z = −2P/(πz) and σ_x = 0, so
+    /// u(z₁) − u(z₂) = 2P/(πE') ln(z₂/z₁).
+    #[test]
+    fn line_load_on_its_axis() {
+        for plane in [PlaneState::Strain, PlaneState::Stress] {
+            let m = steel(plane);
+            let half = HalfPlane::new(&m);
+            let h = 1e-7;
+            let (z1, z2) = (1e-3, 3e-3);
+            let found = (half.strip(0.0, z1, h) - half.strip(0.0, z2, h)) / (2.0 * h);
+            let expected = 2.0 / (std::f64::consts::PI * m.plane_modulus()) * 3f64.ln();
+            assert!((found / expected - 1.0).abs() < 1e-6);
+        }
+    }
+
+    /// Off the axis: the field obeys the equilibrium of the normal direction. With the surface free
+    /// of shear, ∇²u_z + ∂(div u)/∂z/(1 − 2ν) = 0, and div u of Flamant's field is
+    /// −2P(1+ν)(1−2ν)/(πE) z/r², whose z-derivative is known.
+    #[test]
+    fn field_is_in_equilibrium() {
+        let m = steel(PlaneState::Strain);
+        let half = HalfPlane::new(&m);
+        let (h, d) = (1e-7, 1e-5);
+        let u = |x: f64, z: f64| half.strip(x, z, h) / (2.0 * h);
+        for (x, z) in [(4e-4, 7e-4), (-1e-3, 3e-4), (0.0, 5e-4)] {
+            let laplace =
+                (u(x + d, z) + u(x - d, z) + u(x, z + d) + u(x, z - d) - 4.0 * u(x, z)) / (d * d);
+            let r2: f64 = x * x + z * z;
+            // ∂/∂z (z/r²) = (x² − z²)/r⁴
+            let divergence = -2.0 * half.scale * (x * x - z * z) / (r2 * r2);
+            assert!((laplace + divergence).abs() < 2e-3 * divergence.abs(), "{x} {z}");
+        }
+    }
+
+    #[test]
+    fn strips_add_up() {
+        let half = HalfPlane::new(&steel(PlaneState::Stress));
+        let whole = half.strip_above_depth(3e-4, 1e-3, 2e-4);
+        let parts: f64 =
+            [-1.0, 1.0].map(|s| half.strip_above_depth(3e-4 - s * 1e-4, 1e-3, 1e-4)).iter().sum();
+        assert!((whole / parts - 1.0).abs() < 1e-12);
+    }
+}

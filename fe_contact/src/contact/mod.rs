@@ -1,0 +1,11 @@
+//! Contact between flanks: half-plane and FE matched, cells, forces.
+
+pub mod half_plane;
+pub mod hertz;
+mod law;
+mod pair;
+mod table;
+
+pub use law::MeshAnswer;
+pub use pair::{Location, PairFrame, ToothFrame, candidates, members};
+pub use table::{CellSettings, Matching, MeshTable, PairCells};

@@ -1,0 +1,239 @@
+//! Where one tooth pair may touch, and how far apart its flanks stand.
+//!
+//! Everything is taken in the mesh frame of [`Mesh`]: central gear at the origin, planet at (a, 0),
+//! the central input turning counter-clockwise.
+
+use gearset::involute::{radius_at, string_at};
+use gearset::{Facing, Flank, Mesh, MeshKind, MeshMember, ToothSide};
+
+use crate::mesh::Side;
+
+/// Where the point of contact lies with respect to the theoretical path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Location {
+    /// On the path: flank on flank.
+    Path,
+    /// Beyond it: the tip corner of this member on the other's flank.
+    Corner(MeshMember),
+}
+
+/// The line along which one pair presses, and the cells' frame on it.
+#[derive(Debug, Clone)]
+pub struct PairFrame<'m> {
+    /// Pair k stands k base pitches on from pair 0.
+    pub index: i64,
+    /// On the path or at a corner.
+    pub location: Location,
+    /// Reference point, m.
+    pub origin: [f64; 2],
+    /// From the driver's material to the driven one's: the force on the driven gear.
+    pub normal: [f64; 2],
+    /// Gap at the reference point along `normal`, unloaded, m.
+    pub gap: f64,
+    driver: Flank<'m>,
+    driven: Flank<'m>,
+}
+
+/// One flank in its own tooth's frame.
+#[derive(Debug, Clone, Copy)]
+pub struct ToothFrame {
+    /// Centre of the gear, m.
+    pub centre: [f64; 2],
+    /// Angle of the tooth's axis, rad.
+    pub axis: f64,
+    /// Which flank of the tooth.
+    pub side: Side,
+}
+
+impl<'m> PairFrame<'m> {
+    /// Pair `index` of a mesh at `phase` (cycles); `None` where a corner cannot reach the mating
+    /// involute.
+    ///
+    /// Beyond the path the force follows the normal of the flank the corner presses on.
+    pub fn new(mesh: &'m Mesh, phase: f64, index: i64) -> Option<Self> {
+        let string = mesh.path_start + (phase + index as f64) * mesh.base_pitch;
+        let (driver, driven) = mesh.flanks(string);
+        let on_driver = |flank: &Flank<'_>, angle: f64| outward(flank, angle);
+        let at = |location, origin, normal, gap| {
+            Some(Self { index, location, origin, normal, gap, driver, driven })
+        };
+        if string < mesh.path_start {
+            let tip = driven.point(driven.gear.tip_string());
+            let (angle, gap) = foot(&driver, tip)?;
+            at(Location::Corner(MeshMember::Driven), tip, on_driver(&driver, angle), gap)
+        } else if string > mesh.path_end {
+            let tip = driver.point(driver.gear.tip_string());
+            let (angle, gap) = foot(&driven, tip)?;
+            let [x, y] = outward(&driven, angle);
+            at(Location::Corner(MeshMember::Driver), tip, [-x, -y], gap)
+        } else {
+            let angle =
+                driver.origin_angle - driver.facing.sign() * string / driver.gear.base_radius;
+            at(Location::Path, driver.point(string), outward(&driver, angle), 0.0)
+        }
+        .map(|mut pair: Self| {
+            pair.gap += pair.relief_at_origin();
+            pair
+        })
+    }
+
+    fn relief_at_origin(&self) -> f64 {
+        let string = |flank: &Flank<'_>| {
+            let [x, y] = [self.origin[0] - flank.centre[0], self.origin[1] - flank.centre[1]];
+            string_at(flank.gear.base_radius, x.hypot(y))
+        };
+        self.driver.gear.relief_at(string(&self.driver))
+            + self.driven.gear.relief_at(string(&self.driven))
+    }
+
+    /// Tangent: the normal turned counter-clockwise by 90°.
+    pub fn tangent(&self) -> [f64; 2] {
+        [-self.normal[1], self.normal[0]]
+    }
+
+    /// Approach of the pair for unit displacements of driver (x, y, θ) and driven (x, y, θ) about
+    /// their centres, mesh frame; m, m, m/rad.
+    pub fn approach_row(&self) -> [f64; 6] {
+        let n = self.normal;
+        let arm = |centre: [f64; 2]| {
+            (self.origin[0] - centre[0]) * n[1] - (self.origin[1] - centre[1]) * n[0]
+        };
+        let (a, b) = (arm(self.driver.centre), arm(self.driven.centre));
+        [n[0], n[1], a, -n[0], -n[1], -b]
+    }
+
+    /// The tooth of one member, and which of its flanks it is.
+    pub fn tooth(&self, member: MeshMember) -> ToothFrame {
+        let flank = self.flank(member);
+        let (gear, sign) = (flank.gear, flank.facing.sign());
+        let lobe = flank.origin_angle - sign * gear.half_angle_base;
+        let ccw = flank.facing == Facing::CounterClockwise;
+        let (axis, is_ccw) = match gear.side {
+            ToothSide::External => (lobe, ccw),
+            // The material beside a space: its tooth lies half a pitch on, the other way round.
+            ToothSide::Internal => (lobe + sign * 0.5 * gear.pitch_angle(), !ccw),
+        };
+        ToothFrame { centre: flank.centre, axis, side: if is_ccw { Side::Ccw } else { Side::Cw } }
+    }
+
+    fn flank(&self, member: MeshMember) -> &Flank<'m> {
+        match member {
+            MeshMember::Driver => &self.driver,
+            MeshMember::Driven => &self.driven,
+        }
+    }
+
+    /// Tangential coordinate of a point of the mesh frame.
+    fn across(&self, p: [f64; 2]) -> f64 {
+        let t = self.tangent();
+        (p[0] - self.origin[0]) * t[0] + (p[1] - self.origin[1]) * t[1]
+    }
+
+    /// Tangential range in which both flanks exist, form circle to tip.
+    pub fn extent(&self) -> [f64; 2] {
+        let of = |flank: &Flank<'_>| {
+            let ends = [flank.gear.form_string().unwrap_or(0.0), flank.gear.tip_string()]
+                .map(|s| self.across(flank.point(s)));
+            [ends[0].min(ends[1]), ends[0].max(ends[1])]
+        };
+        let (a, b) = (of(&self.driver), of(&self.driven));
+        [a[0].max(b[0]), a[1].min(b[1])]
+    }
+
+    /// 1/R = 1/ρ₁ ± 1/ρ₂ at the reference point, from the string lengths there, m.
+    pub fn radius(&self) -> f64 {
+        let curvature = |flank: &Flank<'_>| {
+            let [x, y] = [self.origin[0] - flank.centre[0], self.origin[1] - flank.centre[1]];
+            let s = string_at(flank.gear.base_radius, x.hypot(y));
+            let sign = if flank.gear.side == ToothSide::External { 1.0 } else { -1.0 };
+            sign / s.max(1e-3 * flank.gear.base_radius)
+        };
+        1.0 / (curvature(&self.driver) + curvature(&self.driven))
+    }
+
+    /// String length of one flank where its tangential coordinate is `x`.
+    pub fn string_at(&self, member: MeshMember, x: f64) -> f64 {
+        let flank = self.flank(member);
+        let [ox, oy] = [self.origin[0] - flank.centre[0], self.origin[1] - flank.centre[1]];
+        let r_b = flank.gear.base_radius;
+        let mut s = string_at(r_b, ox.hypot(oy));
+        for _ in 0..20 {
+            let p = flank.point(s);
+            // dP/ds = (s/r_b) · unit radius where the string leaves the base circle.
+            let angle = flank.origin_angle - flank.facing.sign() * s / r_b;
+            let t = self.tangent();
+            let slope = s / r_b * (angle.cos() * t[0] + angle.sin() * t[1]);
+            let step = (self.across(p) - x) / slope;
+            if !step.is_finite() {
+                break;
+            }
+            s = (s - step).max(0.1 * s);
+            if step.abs() < 1e-15 {
+                break;
+            }
+        }
+        s
+    }
+
+    /// Point of one flank at tangential coordinate `x`, mesh frame, m, with its string length.
+    pub fn flank_point(&self, member: MeshMember, x: f64) -> ([f64; 2], f64) {
+        let s = self.string_at(member, x);
+        (self.flank(member).point(s), s)
+    }
+
+    /// Gap at tangential coordinate `x` along the normal, tip relief included, m.
+    pub fn gap_at(&self, x: f64) -> f64 {
+        let (p, s) = self.flank_point(MeshMember::Driver, x);
+        let (q, u) = self.flank_point(MeshMember::Driven, x);
+        let n = self.normal;
+        (q[0] - p[0]) * n[0]
+            + (q[1] - p[1]) * n[1]
+            + self.driver.gear.relief_at(s)
+            + self.driven.gear.relief_at(u)
+    }
+}
+
+/// Outward normal of a flank's material where its string leaves the base circle at `angle`.
+fn outward(flank: &Flank<'_>, angle: f64) -> [f64; 2] {
+    // The string runs along the tangent, away from the lobe; the ring's lobe is its space.
+    let mut sign = flank.facing.sign();
+    if flank.gear.side == ToothSide::Internal {
+        sign = -sign;
+    }
+    [-sign * angle.sin(), sign * angle.cos()]
+}
+
+/// Angle where the string through `point` leaves the flank's base circle, and the gap from flank to
+/// point along it.
+fn foot(flank: &Flank<'_>, point: [f64; 2]) -> Option<(f64, f64)> {
+    let gap = flank.gap_to(point)?;
+    let [x, y] = [point[0] - flank.centre[0], point[1] - flank.centre[1]];
+    let r_b = flank.gear.base_radius;
+    let r = x.hypot(y);
+    let alpha = (string_at(r_b, r) / r_b).atan();
+    debug_assert!((radius_at(r_b, r_b * alpha.tan()) - r).abs() < 1e-9);
+    // P stands α on from the tangent point, towards the lobe's end that the flank is.
+    Some((y.atan2(x) - flank.facing.sign() * alpha, gap))
+}
+
+/// Which pairs may touch: all whose corner gap is below `window` (m) at this phase.
+pub fn candidates(mesh: &Mesh, phase: f64, window: f64) -> Vec<PairFrame<'_>> {
+    // A pair more than two base pitches off the path is out of reach of any deflection.
+    let last = mesh.contact_ratio.ceil() as i64 + 2;
+    (-2..=last)
+        .filter_map(|k| PairFrame::new(mesh, phase, k))
+        .filter(|pair| pair.gap >= -1e-9 && pair.gap <= window)
+        .filter(|pair| {
+            let [low, high] = pair.extent();
+            high > low
+        })
+        .collect()
+}
+
+/// Which gears a mesh joins, driver first.
+pub fn members(kind: MeshKind) -> [&'static str; 2] {
+    match kind {
+        MeshKind::SunPlanet => ["sun", "planet"],
+        MeshKind::RingPlanet => ["planet", "ring"],
+    }
+}

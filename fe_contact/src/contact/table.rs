@@ -1,0 +1,304 @@
+//! Contact cells of one mesh at one phase, with the compliance between all of them.
+
+use nalgebra::DMatrix;
+
+use gearset::{Mesh, MeshMember};
+
+use super::half_plane::HalfPlane;
+use super::hertz::Hertz;
+use super::pair::{Location, PairFrame, candidates, members};
+use crate::body::{Deep, FlankPoint, GearBody};
+use crate::error::FeError;
+
+/// How cells are laid out and matched.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CellSettings {
+    /// Cells of one pair.
+    pub cells: usize,
+    /// Where half-plane and FE are matched.
+    pub matching: Matching,
+    /// Force of the whole mesh for which the grids are sized, N.
+    pub force: f64,
+    /// Pairs whose corner gap is below this take part, m.
+    pub window: f64,
+}
+
+/// Matching of half-plane and FE below each cell.
+///
+/// The paper's eq. (1) matches at one point q: u(r) = u_hs(r) + [u_fe − u_hs](q). The bracket, the
+/// part of the field that knows the tooth's shape, is smooth but not constant between q and the
+/// surface; taking it at q leaves an error of first order in the depth (for OH-58 about 0.1 µm a
+/// millimetre and body). Two points at d and 2d extrapolate it linearly to the surface,
+/// u(r) = u_hs(r) + 2 [u_fe − u_hs](q₁) − [u_fe − u_hs](q₂), with an error of second order.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Matching {
+    /// Depth d of the (first) matching point, m.
+    pub depth: f64,
+    /// One point (the paper's), two, or none: the surface itself, for meshes fine enough to
+    /// resolve the contact by elements alone.
+    pub points: usize,
+}
+
+impl Matching {
+    /// Depths (m) and weights of the matching points; the weights add up to 1.
+    pub fn weights(&self) -> &'static [f64] {
+        if self.points == 2 { &[2.0, -1.0] } else { &[1.0] }
+    }
+
+    fn depth(&self, point: usize) -> f64 {
+        if self.points == 0 { 0.0 } else { self.depth * (point + 1) as f64 }
+    }
+}
+
+/// Half the grid over the half-width that one pair alone would have under the whole force.
+const GRID_MARGIN: f64 = 1.5;
+
+/// Cells of one pair.
+#[derive(Debug, Clone)]
+pub struct PairCells {
+    /// Pair k.
+    pub index: i64,
+    /// Path or corner.
+    pub location: Location,
+    /// Approach for unit displacements of driver and driven, mesh frame.
+    pub row: [f64; 6],
+    /// Angles of the two teeth's axes, driver first, mesh frame, rad.
+    pub axes: [f64; 2],
+    /// First cell in the table.
+    pub first: usize,
+    /// Tangential coordinates of the cells' middles, m.
+    pub x: Vec<f64>,
+    /// Width of one cell, m.
+    pub width: f64,
+    /// Whether the grid ends where a flank does, at its low and at its high end.
+    pub ends_at_tip: [bool; 2],
+}
+
+/// A mesh at one phase.
+#[derive(Debug, Clone)]
+pub struct MeshTable {
+    /// Phase, cycles.
+    pub phase: f64,
+    /// Candidate pairs.
+    pub pairs: Vec<PairCells>,
+    /// Gaps of all cells, m.
+    pub gaps: Vec<f64>,
+    /// Compliance between all cells, n×n, m/N.
+    pub compliance: DMatrix<f64>,
+    /// Largest asymmetry of the matched compliance before its symmetric part was taken, over its
+    /// largest entry.
+    pub asymmetry: f64,
+    /// Face width, m.
+    pub face_width: f64,
+    /// Smallest gap of the pairs left out, m.
+    pub next_gap: f64,
+}
+
+/// A cell as one body sees it.
+struct Seen {
+    load: FlankPoint,
+    /// Matching points with their weights.
+    deep: Vec<(Deep, f64)>,
+    /// Normal in the tooth's frame.
+    normal: [f64; 2],
+}
+
+impl MeshTable {
+    /// Lays out the cells of a mesh and computes the compliance between them.
+    ///
+    /// # Errors
+    /// If a matching point lies outside its tooth.
+    pub fn new(
+        mesh: &Mesh,
+        bodies: [&GearBody; 2],
+        phase: f64,
+        settings: &CellSettings,
+    ) -> Result<Self, FeError> {
+        let [driver, _] = bodies;
+        let face_width = driver.face_width;
+        let frames = candidates(mesh, phase, settings.window);
+        let next_gap = candidates(mesh, phase, f64::INFINITY)
+            .iter()
+            .map(|pair| pair.gap)
+            .filter(|gap| *gap > settings.window)
+            .fold(f64::INFINITY, f64::min);
+        let (mut pairs, mut gaps) = (Vec::new(), Vec::new());
+        for frame in &frames {
+            let hertz = Hertz::new(settings.force / face_width, frame.radius(), &driver.material);
+            let reach = GRID_MARGIN * hertz.half_width;
+            let [low, high] = frame.extent();
+            let ends_at_tip = [low > -reach, high < reach];
+            let (low, high) = (low.max(-reach), high.min(reach));
+            let width = (high - low) / settings.cells as f64;
+            let x: Vec<f64> = (0..settings.cells).map(|i| low + (i as f64 + 0.5) * width).collect();
+            let first = gaps.len();
+            gaps.extend(x.iter().map(|x| frame.gap_at(*x)));
+            let (index, location, row) = (frame.index, frame.location, frame.approach_row());
+            let axes = [MeshMember::Driver, MeshMember::Driven].map(|m| frame.tooth(m).axis);
+            pairs.push(PairCells { index, location, row, axes, first, x, width, ends_at_tip });
+        }
+        let n = gaps.len();
+        let mut compliance = DMatrix::zeros(n, n);
+        for (member, body) in [MeshMember::Driver, MeshMember::Driven].into_iter().zip(bodies) {
+            let name = members(mesh.kind)[member as usize];
+            let deepest = settings.matching.depth(settings.matching.weights().len() - 1);
+            let lost = || FeError::DepthOutside { body: name, phase, depth_mm: deepest * 1e3 };
+            let teeth = tooth_numbers(&frames, member, body);
+            let seen: Vec<Vec<Seen>> = frames
+                .iter()
+                .zip(&pairs)
+                .map(|(frame, cells)| {
+                    see(frame, cells, member, body, &settings.matching).ok_or_else(lost)
+                })
+                .collect::<Result<_, _>>()?;
+            for (a, (loads, on)) in seen.iter().zip(&pairs).enumerate() {
+                for (b, (deeps, of)) in seen.iter().zip(&pairs).enumerate() {
+                    let offset = teeth[b] - teeth[a];
+                    add_block(&mut compliance, body, (loads, on), offset, (deeps, of));
+                }
+            }
+        }
+        // Load and measured point stand at different depths, so reciprocity holds only as far as
+        // the two solutions match; the complementarity problem takes the symmetric part.
+        let largest = compliance.amax();
+        let skew = (&compliance - compliance.transpose()).amax();
+        let asymmetry = if largest > 0.0 { 0.5 * skew / largest } else { 0.0 };
+        compliance = 0.5 * (&compliance + compliance.transpose());
+        let half = bodies.map(|body| HalfPlane::new(&body.material));
+        for cells in &pairs {
+            add_half_planes(&mut compliance, &half, cells, &settings.matching, face_width);
+        }
+        Ok(Self { phase, pairs, gaps, compliance, asymmetry, face_width, next_gap })
+    }
+
+    /// The same mesh with one pair alone; `None` if it is not among the candidates.
+    pub fn only(&self, index: i64) -> Option<Self> {
+        let pair = self.pairs.iter().find(|p| p.index == index)?;
+        let (first, n) = (pair.first, pair.x.len());
+        let mut own = pair.clone();
+        own.first = 0;
+        Some(Self {
+            phase: self.phase,
+            pairs: vec![own],
+            gaps: self.gaps[first..first + n].to_vec(),
+            compliance: self.compliance.view((first, first), (n, n)).into(),
+            asymmetry: self.asymmetry,
+            face_width: self.face_width,
+            next_gap: self.next_gap,
+        })
+    }
+
+    /// Pair (position in the table) of each cell.
+    pub fn pair_of_cells(&self) -> Vec<usize> {
+        let of = |(k, pair): (usize, &PairCells)| std::iter::repeat_n(k, pair.x.len());
+        self.pairs.iter().enumerate().flat_map(of).collect()
+    }
+}
+
+/// Numbers of the loaded teeth of one gear, counted from that of the first pair.
+fn tooth_numbers(frames: &[PairFrame<'_>], member: MeshMember, body: &GearBody) -> Vec<i64> {
+    let pitch = body.mesh.outline.gear().pitch_angle();
+    let first = frames.first().map_or(0.0, |f| f.tooth(member).axis);
+    frames.iter().map(|f| ((f.tooth(member).axis - first) / pitch).round() as i64).collect()
+}
+
+/// The cells of one pair in one body's tooth frame; `None` if a matching point falls outside.
+fn see(
+    frame: &PairFrame<'_>,
+    cells: &PairCells,
+    member: MeshMember,
+    body: &GearBody,
+    matching: &Matching,
+) -> Option<Vec<Seen>> {
+    let tooth = frame.tooth(member);
+    let into = |v: [f64; 2]| crate::mesh::rotated(v, -tooth.axis);
+    let normal = into(frame.normal);
+    // The driver's material lies behind the normal, the driven gear's ahead of it.
+    let inwards = if member == MeshMember::Driver { -1.0 } else { 1.0 };
+    let one = |x: &f64| {
+        let (p, string) = frame.flank_point(member, *x);
+        let at = into([p[0] - tooth.centre[0], p[1] - tooth.centre[1]]);
+        let weighted = matching.weights().iter().enumerate();
+        let deep = weighted.map(|(i, weight)| {
+            let depth = inwards * matching.depth(i);
+            let q = body.locate([at[0] + depth * normal[0], at[1] + depth * normal[1]])?;
+            Some((q, *weight))
+        });
+        let deep = deep.collect::<Option<Vec<_>>>()?;
+        let load = body.flank_point(tooth.side, body.mesh.outline.flank_parameter(string));
+        Some(Seen { load, deep, normal })
+    };
+    cells.x.iter().map(one).collect()
+}
+
+/// FE part of eq. (1): displacement of the matching points of one pair under unit forces on the
+/// cells of another.
+fn add_block(
+    compliance: &mut DMatrix<f64>,
+    body: &GearBody,
+    (loads, on): (&[Seen], &PairCells),
+    offset: i64,
+    (deeps, of): (&[Seen], &PairCells),
+) {
+    let Some(response) = body.response(offset) else { return };
+    // Rows the matching points need, and columns the loads need: each a few elements.
+    let points = deeps.iter().flat_map(|s| &s.deep);
+    let mut rows: Vec<usize> =
+        points.flat_map(|(deep, _)| deep.nodes[..deep.count].iter().copied()).collect();
+    rows.sort_unstable();
+    rows.dedup();
+    let mut field = DMatrix::<f64>::zeros(2 * rows.len(), loads.len());
+    for (j, seen) in loads.iter().enumerate() {
+        for (column, w) in seen.load.columns.iter().zip(seen.load.weights) {
+            for (k, f) in seen.normal.iter().enumerate() {
+                for (r, node) in rows.iter().enumerate() {
+                    for c in 0..2 {
+                        field[(2 * r + c, j)] += w * f * response[(2 * node + c, column + k)];
+                    }
+                }
+            }
+        }
+    }
+    for (i, seen) in deeps.iter().enumerate() {
+        for (deep, weight) in &seen.deep {
+            for (node, n) in deep.nodes[..deep.count].iter().zip(deep.weights) {
+                let r = rows.partition_point(|row| row < node);
+                let w = [seen.normal[0] * weight * n, seen.normal[1] * weight * n];
+                for j in 0..loads.len() {
+                    compliance[(of.first + i, on.first + j)] +=
+                        w[0] * field[(2 * r, j)] + w[1] * field[(2 * r + 1, j)];
+                }
+            }
+        }
+    }
+}
+
+/// Half-plane part of eq. (1) in both bodies, within one pair.
+fn add_half_planes(
+    compliance: &mut DMatrix<f64>,
+    half: &[HalfPlane; 2],
+    cells: &PairCells,
+    matching: &Matching,
+    face_width: f64,
+) {
+    let n = cells.x.len();
+    // One unit of force is a pressure of 1/(width · face width).
+    let pressure = 1.0 / (cells.width * face_width);
+    let by_distance: Vec<f64> = (0..n)
+        .map(|d| {
+            let x = d as f64 * cells.width;
+            let one = |half: &HalfPlane| {
+                let matched = matching.weights().iter().enumerate().map(|(i, weight)| {
+                    weight * half.strip_above_depth(x, matching.depth(i), 0.5 * cells.width)
+                });
+                matched.sum::<f64>()
+            };
+            pressure * half.iter().map(one).sum::<f64>()
+        })
+        .collect();
+    for i in 0..n {
+        for j in 0..n {
+            compliance[(cells.first + i, cells.first + j)] += by_distance[i.abs_diff(j)];
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Why there is no FE/contact result.
+
+use crate::complementarity::ComplementarityError;
+use crate::element::DistortedElement;
+
+/// Why a mesh, a body or an equilibrium could not be had.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FeError {
+    /// The scene lacks something FE/contact needs.
+    #[error("`{key}` is absent: {why}")]
+    Missing {
+        /// Scene key.
+        key: String,
+        /// What needs it.
+        why: &'static str,
+    },
+    /// A scene value FE/contact cannot work with.
+    #[error("`{key}` is {value}: allowed is {allowed}, because {why}")]
+    Unfit {
+        /// Scene key.
+        key: String,
+        /// Its value.
+        value: String,
+        /// What is allowed.
+        allowed: String,
+        /// Cause and remedy.
+        why: String,
+    },
+    /// An element came out inside out.
+    #[error(
+        "the mesh of the {body} folds over itself in tooth element {element}: {cause}; a smaller fillet or another `fe_contact.flank_elements` may mend it"
+    )]
+    Distorted {
+        /// Body.
+        body: &'static str,
+        /// Element within the tooth's sector.
+        element: usize,
+        /// Where.
+        cause: DistortedElement,
+    },
+    /// The factorisation broke down.
+    #[error("the stiffness of the {body} is not positive definite: {cause}")]
+    Factorisation {
+        /// Body.
+        body: &'static str,
+        /// What the solver said.
+        cause: String,
+    },
+    /// A matching point lies outside its tooth.
+    #[error(
+        "at mesh phase {phase:.4} the matching point {depth_mm:.3} mm below the {body}'s flank lies outside its tooth: choose a smaller `fe_contact.matching_depth_mm`"
+    )]
+    DepthOutside {
+        /// Body.
+        body: &'static str,
+        /// Mesh phase, cycles.
+        phase: f64,
+        /// Depth, mm.
+        depth_mm: f64,
+    },
+    /// The loaded patch reached the end of its grid where the flanks go on.
+    #[error(
+        "at mesh phase {phase:.4} the contact patch of pair {pair} reaches the end of its grid of ±{reach_mm:.3} mm under {force_n:.0} N"
+    )]
+    GridOverflow {
+        /// Mesh phase, cycles.
+        phase: f64,
+        /// Pair.
+        pair: i64,
+        /// Half the grid, mm.
+        reach_mm: f64,
+        /// Force of the pair, N.
+        force_n: f64,
+    },
+    /// Too few cells carry the load.
+    #[error(
+        "the grid is too coarse for the load: only {loaded} cells of pair {pair} carry {force_n:.3} N, at least {least} must; raise `fe_contact.contact_cells` above {cells}"
+    )]
+    GridTooCoarse {
+        /// Pair.
+        pair: i64,
+        /// Force of the pair, N.
+        force_n: f64,
+        /// Cells in contact.
+        loaded: usize,
+        /// Fewest allowed.
+        least: usize,
+        /// Cells of the grid.
+        cells: usize,
+    },
+    /// A contact problem could not be solved.
+    #[error("contact at mesh phase {phase:.4}: {cause}")]
+    Contact {
+        /// Mesh phase, cycles.
+        phase: f64,
+        /// Why.
+        cause: ComplementarityError,
+    },
+    /// Nothing holds a motion that the load drives.
+    #[error("no equilibrium: {0}")]
+    NoEquilibrium(String),
+    /// Equilibrium iterations did not end.
+    #[error(
+        "equilibrium not reached in {iterations} iterations: residual {residual:e} of the load"
+    )]
+    NotConverged {
+        /// Iterations.
+        iterations: usize,
+        /// Largest residual relative to the load.
+        residual: f64,
+    },
+}

@@ -1,0 +1,13 @@
+//! Finite-element/contact simulator of planetary gears: meshes, elements, bodies, contact.
+
+pub mod body;
+pub mod complementarity;
+pub mod contact;
+pub mod element;
+mod error;
+mod material;
+pub mod mesh;
+pub mod statics;
+
+pub use error::FeError;
+pub use material::Elastic;

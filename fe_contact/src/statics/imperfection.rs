@@ -1,0 +1,69 @@
+//! Small departures from the perfect set, as offsets of the gaps.
+
+use gearset::{Gear, MeshKind};
+
+use super::races::Races;
+use crate::contact::PairCells;
+
+/// One sun tooth out of its place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PitchError {
+    /// Tooth of the sun; tooth 0 is centred on the sun's angle.
+    pub tooth: i64,
+    /// Material missing on the loaded flank along the line of action (negative: too much), m.
+    pub amount: f64,
+}
+
+/// Departures from the perfect set.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Imperfections {
+    /// Displacement of a planet's nominal place: (n, radial, tangential), m.
+    pub displaced_planets: Vec<(usize, f64, f64)>,
+    /// Sun teeth out of place.
+    pub pitch_errors: Vec<PitchError>,
+}
+
+impl Imperfections {
+    /// Seen in the mirror if `sign` is negative: tangential places and tooth numbers turn round.
+    pub(super) fn mirrored(mut self, sign: f64) -> Self {
+        if sign < 0.0 {
+            self.displaced_planets.iter_mut().for_each(|d| d.2 = -d.2);
+            self.pitch_errors.iter_mut().for_each(|e| e.tooth = -e.tooth);
+        }
+        self
+    }
+
+    /// What is added to the gaps of a pair, m.
+    pub(super) fn gap(
+        &self,
+        kind: MeshKind,
+        planet: usize,
+        pair: &PairCells,
+        races: &Races,
+        sun_angle: f64,
+        sun: Option<&Gear>,
+    ) -> f64 {
+        let mut gap = 0.0;
+        for (n, radial, tangential) in &self.displaced_planets {
+            if *n == planet {
+                let row = match kind {
+                    MeshKind::SunPlanet => &pair.row[3..5],
+                    MeshKind::RingPlanet => &pair.row[0..2],
+                };
+                // A displacement that approaches closes the gap.
+                gap -= row[0] * radial + row[1] * tangential;
+            }
+        }
+        if let (MeshKind::SunPlanet, Some(sun)) = (kind, sun) {
+            let turned = pair.axes[0] + races.psi[planet] - sun_angle;
+            let tooth = (turned / sun.pitch_angle()).round() as i64;
+            let teeth = i64::from(sun.teeth);
+            for e in &self.pitch_errors {
+                if (e.tooth - tooth).rem_euclid(teeth) == 0 {
+                    gap += e.amount;
+                }
+            }
+        }
+        gap
+    }
+}

@@ -1,0 +1,13 @@
+//! Static equilibrium: one mesh alone, and the whole set.
+
+mod bodies;
+mod imperfection;
+mod pair;
+mod races;
+mod set;
+
+pub use bodies::{Bodies, FeSettings};
+pub use imperfection::{Imperfections, PitchError};
+pub use pair::{PairAtPhase, PairCycle, ToothPairLoad, at_phase, pair_cycle, press};
+pub use races::{CARRIER, PLANETS, RING, Races, SUN};
+pub use set::{MeshState, SetCycle, SetState, StaticSet};

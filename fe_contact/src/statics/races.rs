@@ -1,0 +1,176 @@
+//! The rigid races of a set: coordinates, bearings, and how pairs approach.
+
+use nalgebra::DMatrix;
+
+use gearset::{MeshKind, Motion, Scene, Support, Torsional};
+
+use super::bodies::Bodies;
+use crate::error::FeError;
+
+/// Coordinates of the races in the carrier frame: carrier, ring and sun (x, y, u), then each planet
+/// (ζ, η, u); u = r θ with the base radius, for the carrier the centre distance. Held ones are left
+/// out.
+#[derive(Debug, Clone)]
+pub struct Races {
+    /// ψ_n, rad.
+    pub psi: Vec<f64>,
+    /// Index of each of the 3(3 + N) coordinates.
+    index: Vec<Option<usize>>,
+    /// Radii r in u = r θ: carrier, ring, sun, planet, m.
+    pub radii: [f64; 4],
+    /// Stiffness of all bearings, the carrier's flexibility included, n×n, N/m.
+    pub stiffness: DMatrix<f64>,
+    /// Torsional support between sun and ground and so on is part of `stiffness`.
+    pub count: usize,
+}
+
+/// Position of each body's first coordinate.
+pub const CARRIER: usize = 0;
+/// Ring.
+pub const RING: usize = 1;
+/// Sun.
+pub const SUN: usize = 2;
+/// Planet 0; the others follow.
+pub const PLANETS: usize = 3;
+
+impl Races {
+    /// Races of a set with its bearings.
+    ///
+    /// # Errors
+    /// If the carrier's mesh fails or a radius is not known.
+    pub fn new(scene: &Scene, bodies: &Bodies, psi: &[f64]) -> Result<Self, FeError> {
+        let geometry = &bodies.geometry;
+        let n = psi.len();
+        let base = |gear: Option<&gearset::Gear>| gear.map_or(0.0, |g| g.base_radius);
+        let radii = [
+            geometry.center_distance,
+            base(geometry.ring.as_ref()),
+            base(geometry.sun.as_ref()),
+            geometry.planet.base_radius,
+        ];
+        let supports = [scene.supports.carrier, scene.supports.ring, scene.supports.sun];
+        let mut next = 0;
+        let mut index = Vec::with_capacity(3 * (3 + n));
+        for body in 0..3 + n {
+            for axis in 0..3 {
+                let free = match supports.get(body).map(|s| s.motion) {
+                    None | Some(Motion::Free) => true,
+                    Some(Motion::RotationHeld) => axis < 2,
+                    Some(Motion::Held) => false,
+                };
+                index.push(free.then(|| {
+                    next += 1;
+                    next - 1
+                }));
+            }
+        }
+        let mut races = Self {
+            psi: psi.to_vec(),
+            index,
+            radii,
+            stiffness: DMatrix::zeros(next, next),
+            count: next,
+        };
+        for (body, support) in supports.iter().enumerate() {
+            let per_u = torsional(support, radii[body]);
+            for (axis, k) in [support.bearing, support.bearing, per_u].into_iter().enumerate() {
+                if let Some(i) = races.of(body, axis) {
+                    races.stiffness[(i, i)] += k;
+                }
+            }
+        }
+        races.planet_bearings(scene, bodies)?;
+        Ok(races)
+    }
+
+    /// Index of a coordinate, `None` if it is held.
+    pub fn of(&self, body: usize, axis: usize) -> Option<usize> {
+        self.index[3 * body + axis]
+    }
+
+    /// Number of planets.
+    pub fn planets(&self) -> usize {
+        self.psi.len()
+    }
+
+    /// Planet bearings in series with the carrier: (I/k + A)⁻¹ on the elongations
+    /// planet race − rigid seat, radial and tangential.
+    fn planet_bearings(&mut self, scene: &Scene, bodies: &Bodies) -> Result<(), FeError> {
+        let n = self.planets();
+        let mut compliance = match scene.geometry.as_ref().and_then(|g| g.carrier) {
+            Some(input) => {
+                let (a, b) = (bodies.geometry.center_distance, bodies.geometry.face_width);
+                crate::body::CarrierBody::new(&input, a, &self.psi, &bodies.material, b)?
+                    .flexibility
+            }
+            None => DMatrix::zeros(2 * n, 2 * n),
+        };
+        for planet in 0..n {
+            let special = scene.overrides.iter().find(|o| o.planet == planet);
+            let k = special.and_then(|o| o.bearing).unwrap_or(scene.supports.planet_bearing);
+            if k <= 0.0 {
+                return Err(FeError::NoEquilibrium(format!(
+                    "`planet.bearing_n_per_m` is {k}: planet {planet} is held by nothing else"
+                )));
+            }
+            for axis in 0..2 {
+                compliance[(2 * planet + axis, 2 * planet + axis)] += 1.0 / k;
+            }
+        }
+        let stiffness = compliance
+            .cholesky()
+            .ok_or_else(|| FeError::NoEquilibrium("the carrier is not stable".into()))?
+            .inverse();
+        // Elongations as rows on the coordinates.
+        let mut rows = DMatrix::<f64>::zeros(2 * n, self.count);
+        for planet in 0..n {
+            let (sin, cos) = self.psi[planet].sin_cos();
+            let carrier = [[cos, sin, 0.0], [-sin, cos, 1.0]];
+            for (axis, seat) in carrier.into_iter().enumerate() {
+                if let Some(i) = self.of(PLANETS + planet, axis) {
+                    rows[(2 * planet + axis, i)] += 1.0;
+                }
+                for (k, share) in seat.into_iter().enumerate() {
+                    if let Some(i) = self.of(CARRIER, k) {
+                        rows[(2 * planet + axis, i)] -= share;
+                    }
+                }
+            }
+        }
+        self.stiffness += rows.transpose() * stiffness * rows;
+        Ok(())
+    }
+
+    /// A pair's approach on the coordinates, from its row on driver and driven in the mesh frame
+    /// of planet n.
+    pub fn approach(&self, kind: MeshKind, planet: usize, row: &[f64; 6]) -> Vec<f64> {
+        let mut b = vec![0.0; self.count];
+        let (sin, cos) = self.psi[planet].sin_cos();
+        let [first, second] = [[row[0], row[1], row[2]], [row[3], row[4], row[5]]];
+        let (central, central_row, planet_row, radius) = match kind {
+            MeshKind::SunPlanet => (SUN, first, second, self.radii[2]),
+            MeshKind::RingPlanet => (RING, second, first, self.radii[1]),
+        };
+        // The mesh frame stands ψ_n on from the carrier frame; the planet's ζ, η are its axes.
+        let [p, q, arm] = central_row;
+        let turned = [cos * p - sin * q, sin * p + cos * q, arm / radius];
+        let own = [planet_row[0], planet_row[1], planet_row[2] / self.radii[3]];
+        for (body, entries) in [(central, turned), (PLANETS + planet, own)] {
+            for (axis, value) in entries.into_iter().enumerate() {
+                if let Some(i) = self.of(body, axis) {
+                    b[i] += value;
+                }
+            }
+        }
+        b
+    }
+}
+
+fn torsional(support: &Support, radius: f64) -> f64 {
+    match support.torsional {
+        Torsional::PerLength(k) => k,
+        // k_θ / r²
+        Torsional::PerAngle(k) if radius > 0.0 => k / (radius * radius),
+        Torsional::PerAngle(_) => 0.0,
+    }
+}

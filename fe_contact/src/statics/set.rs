@@ -1,0 +1,506 @@
+//! Static equilibrium of a whole set: all 2N meshes in contact together.
+//!
+//! The races' coordinates q minimise the convex potential
+//!
+//! ```text
+//! Φ(q) = ½ qᵀ K q − fᵀ q + Σ_meshes Ψ(B q),   Ψ(δ) = max over p ≥ 0 of pᵀ(δ − g) − ½ pᵀ C p
+//! ```
+//!
+//! whose gradient is K q − f + Σ P b (forces P of the pairs, rows b) and whose Hessian is
+//! K + Σ bᵀ S b with the meshes' tangents S. Newton's method with a line search ends in finitely
+//! many steps, since Ψ is piecewise quadratic.
+
+use std::collections::HashMap;
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+use rayon::prelude::*;
+
+use gearset::{Facing, MeshKind, Phasing, PlanetPositions, Scene};
+
+use super::bodies::Bodies;
+use super::imperfection::Imperfections;
+use super::pair::ToothPairLoad;
+use super::races::{PLANETS, Races, SUN};
+use crate::complementarity::ComplementaritySolver;
+use crate::contact::{MeshAnswer, MeshTable};
+use crate::error::FeError;
+
+/// A set ready for static loads.
+#[derive(Debug)]
+pub struct StaticSet<'s> {
+    bodies: &'s Bodies,
+    races: Races,
+    /// Seen in the mirror if the torque is clockwise, so that the loaded flanks always are those of
+    /// a counter-clockwise one.
+    sign: f64,
+    /// Phases of all meshes with planet 0's sun mesh at phase 0: sun meshes, then ring meshes.
+    offsets: Vec<(MeshKind, usize, f64)>,
+    /// Sun's angle (mirrored frame) where planet 0's sun mesh is at phase 0, rad.
+    start_angle: f64,
+    imperfections: Imperfections,
+}
+
+/// One mesh of a set in equilibrium.
+#[derive(Debug, Clone)]
+pub struct MeshState {
+    /// Which mesh.
+    pub kind: MeshKind,
+    /// Planet n.
+    pub planet: usize,
+    /// Phase, cycles in [0, 1).
+    pub phase: f64,
+    /// Sum of the pair forces, N.
+    pub force: f64,
+    /// Rigid approach along the line of action, m.
+    pub approach: f64,
+    /// ∂F/∂δ with every pair's approach growing alike, N/m.
+    pub tangent: f64,
+    /// Loaded pairs.
+    pub pairs: Vec<ToothPairLoad>,
+}
+
+/// A set in equilibrium at one position. Displacements in the carrier frame, counter-clockwise.
+#[derive(Debug, Clone)]
+pub struct SetState {
+    /// Position in the mesh cycle: phase of planet 0's sun mesh, cycles.
+    pub position: f64,
+    /// Displacements (x, y, m; θ, rad) of carrier, ring, sun.
+    pub central: [[f64; 3]; 3],
+    /// Displacements (ζ, η, m; θ, rad) of the planets.
+    pub planets: Vec<[f64; 3]>,
+    /// All meshes: sun meshes, then ring meshes.
+    pub meshes: Vec<MeshState>,
+    /// Largest imbalance of any race over the load.
+    pub residual: f64,
+    /// Equilibrium iterations.
+    pub iterations: usize,
+    /// Factorisations and pivots of the contact solver.
+    pub contact_iterations: usize,
+}
+
+impl SetState {
+    /// r_b · sun rotation, m.
+    pub fn transmission_error(&self, sun_base_radius: f64) -> f64 {
+        self.central[2][2] * sun_base_radius
+    }
+}
+
+/// Equilibrium over one mesh cycle.
+#[derive(Debug, Clone)]
+pub struct SetCycle {
+    /// Torque on the sun, N·m.
+    pub torque_nm: f64,
+    /// Even positions from 0.
+    pub states: Vec<SetState>,
+}
+
+impl SetCycle {
+    /// Root mean square about the mean of the sun's rotation (rad) and of its translation (m): the
+    /// square root of the mean of |(x, y) − mean|².
+    pub fn sun_rms(&self) -> (f64, f64) {
+        let n = self.states.len() as f64;
+        let mean = [0, 1, 2].map(|i| self.states.iter().map(|s| s.central[2][i]).sum::<f64>() / n);
+        let square = |i: usize| {
+            self.states.iter().map(|s| (s.central[2][i] - mean[i]).powi(2)).sum::<f64>() / n
+        };
+        (square(2).sqrt(), (square(0) + square(1)).sqrt())
+    }
+}
+
+/// Tables of all (mesh kind, phase) a cycle needs; equal phases share one.
+type Tables = HashMap<(MeshKind, i64), MeshTable>;
+
+/// Phases nearer than this many parts of a cycle are the same phase, rounded differently.
+const PHASE_RESOLUTION: f64 = 1e12;
+
+/// Fewest loaded cells a patch may have.
+const LEAST_CELLS: usize = 4;
+
+fn key(kind: MeshKind, phase: f64) -> (MeshKind, i64) {
+    (kind, (phase * PHASE_RESOLUTION).round() as i64)
+}
+
+/// Phase in [0, 1), what rounds to 1 being 0.
+fn cycle(phase: f64) -> f64 {
+    let reduced = phase - phase.floor();
+    if reduced * PHASE_RESOLUTION >= PHASE_RESOLUTION - 0.5 { 0.0 } else { reduced }
+}
+
+impl<'s> StaticSet<'s> {
+    /// A set under a torque on the sun of the given sense.
+    ///
+    /// # Errors
+    /// If the scene is no whole set, or the carrier's mesh fails.
+    pub fn new(
+        scene: &Scene,
+        bodies: &'s Bodies,
+        sense: Facing,
+        imperfections: Imperfections,
+    ) -> Result<Self, FeError> {
+        let sign = sense.sign();
+        let missing = || FeError::Missing {
+            key: "geometry.sun and geometry.ring".into(),
+            why: "a whole set has both meshes",
+        };
+        // The mirror keeps assembly steps whole.
+        let positions = PlanetPositions {
+            psi_rad: scene.planets.psi_rad.iter().map(|psi| sign * psi).collect(),
+            steps: scene
+                .planets
+                .steps
+                .as_ref()
+                .map(|steps| steps.iter().map(|s| if sign < 0.0 { -s } else { *s }).collect()),
+        };
+        let phasing = Phasing::new(&bodies.geometry, &positions).ok_or_else(missing)?;
+        let at_zero = phasing.phases(0.0, Facing::CounterClockwise);
+        let first = at_zero.sun_planet[0];
+        let list = |kind, phases: &[f64]| -> Vec<(MeshKind, usize, f64)> {
+            phases.iter().enumerate().map(|(n, phase)| (kind, n, phase - first)).collect()
+        };
+        let mut offsets = list(MeshKind::SunPlanet, &at_zero.sun_planet);
+        offsets.extend(list(MeshKind::RingPlanet, &at_zero.ring_planet));
+        let teeth = bodies.geometry.sun.as_ref().map_or(1, |sun| sun.teeth);
+        let start_angle = -first * std::f64::consts::TAU / f64::from(teeth);
+        let races = Races::new(scene, bodies, &positions.psi_rad)?;
+        let imperfections = imperfections.mirrored(sign);
+        Ok(Self { bodies, races, sign, offsets, start_angle, imperfections })
+    }
+
+    /// Equilibrium at `positions` even positions of one mesh cycle; `torque_nm` is the magnitude of
+    /// the sun's torque, its sense being the set's.
+    ///
+    /// # Errors
+    /// If contact cannot be solved, the cells do not suffice, or nothing holds the set.
+    pub fn cycle(
+        &self,
+        torque_nm: f64,
+        positions: usize,
+        solver: &(dyn ComplementaritySolver + Sync),
+    ) -> Result<SetCycle, FeError> {
+        let list: Vec<f64> = (0..positions).map(|i| i as f64 / positions as f64).collect();
+        let tables = self.tables(torque_nm, &list)?;
+        let mut states = Vec::with_capacity(positions);
+        let mut start = None;
+        for position in list {
+            let (q, state) = self.solve(torque_nm, position, &tables, start.as_ref(), solver)?;
+            start = Some(q);
+            states.push(state);
+        }
+        Ok(SetCycle { torque_nm: self.sign * torque_nm, states })
+    }
+
+    /// Tables for all meshes at the given positions.
+    fn tables(&self, torque_nm: f64, positions: &[f64]) -> Result<Tables, FeError> {
+        // No mesh carries more than the whole torque on a few planets; twice the even share leaves
+        // room for uneven ones, and an overflow is reported.
+        let share = torque_nm / self.races.radii[2] / self.races.planets() as f64;
+        let settings = self.bodies.cells(share.max(1.0));
+        let mut wanted: Vec<(MeshKind, f64)> = Vec::new();
+        let mut seen = std::collections::HashSet::new();
+        for position in positions {
+            for (kind, _, offset) in &self.offsets {
+                let phase = cycle(position + offset);
+                if seen.insert(key(*kind, phase)) {
+                    wanted.push((*kind, phase));
+                }
+            }
+        }
+        let made: Result<Vec<_>, FeError> = wanted
+            .par_iter()
+            .map(|(kind, phase)| {
+                let missing = || FeError::Missing {
+                    key: format!("mesh {}", kind.name()),
+                    why: "a whole set has both meshes",
+                };
+                let mesh = self.bodies.geometry.mesh(*kind).ok_or_else(missing)?;
+                let pair = self.bodies.pair(*kind).ok_or_else(missing)?;
+                Ok((key(*kind, *phase), MeshTable::new(mesh, pair, *phase, &settings)?))
+            })
+            .collect();
+        Ok(made?.into_iter().collect())
+    }
+
+    fn solve(
+        &self,
+        torque_nm: f64,
+        position: f64,
+        tables: &Tables,
+        start: Option<&DVector<f64>>,
+        solver: &dyn ComplementaritySolver,
+    ) -> Result<(DVector<f64>, SetState), FeError> {
+        const MOST: usize = 60;
+        let n = self.races.count;
+        let load = torque_nm / self.races.radii[2];
+        let mut f = DVector::zeros(n);
+        if let Some(i) = self.races.of(SUN, 2) {
+            f[i] = load;
+        }
+        let sun_angle = self.start_angle
+            + position * std::f64::consts::TAU
+                / f64::from(self.bodies.geometry.sun.as_ref().map_or(1, |s| s.teeth));
+        // Every mesh with its rows and gap offsets.
+        let meshes: Vec<Placed<'_>> = self
+            .offsets
+            .iter()
+            .map(|(kind, planet, offset)| {
+                let phase = cycle(position + offset);
+                let table = &tables[&key(*kind, phase)];
+                let rows: Vec<DVector<f64>> = table
+                    .pairs
+                    .iter()
+                    .map(|p| DVector::from_vec(self.races.approach(*kind, *planet, &p.row)))
+                    .collect();
+                let offsets = table
+                    .pairs
+                    .iter()
+                    .map(|p| {
+                        let sun = self.bodies.geometry.sun.as_ref();
+                        self.imperfections.gap(*kind, *planet, p, &self.races, sun_angle, sun)
+                    })
+                    .collect();
+                Placed { kind: *kind, planet: *planet, phase, table, rows, offsets }
+            })
+            .collect();
+        if load == 0.0 {
+            let answers = meshes.iter().map(Placed::untouched).collect::<Vec<_>>();
+            let q = DVector::zeros(n);
+            let state = self.state(position, &q, &meshes, &answers, 0.0, (0, 0));
+            return Ok((q, state));
+        }
+        let mut q = match start {
+            Some(q) => q.clone(),
+            None => self.first_guess(&f, &meshes)?,
+        };
+        let mut warm: Vec<Option<Vec<bool>>> = meshes.iter().map(|m| Some(m.guess())).collect();
+        let mut contact_iterations = 0;
+        let mut evaluate = |q: &DVector<f64>, warm: &mut Vec<Option<Vec<bool>>>| {
+            let mut answers = Vec::with_capacity(meshes.len());
+            for (mesh, warm) in meshes.iter().zip(warm.iter_mut()) {
+                let answer = mesh.answer(q, solver, warm.as_deref())?;
+                contact_iterations += answer.iterations;
+                if answer.active.iter().any(|a| *a) {
+                    *warm = Some(answer.active.clone());
+                }
+                answers.push(answer);
+            }
+            Ok::<_, FeError>(answers)
+        };
+        let potential = |q: &DVector<f64>, answers: &[MeshAnswer]| {
+            let energy: f64 = answers.iter().map(|a| a.energy).sum();
+            0.5 * (&self.races.stiffness * q).dot(q) - f.dot(q) + energy
+        };
+        let mut answers = evaluate(&q, &mut warm)?;
+        let mut residual = f64::INFINITY;
+        for iteration in 1..=MOST {
+            let mut r = &f - &self.races.stiffness * &q;
+            let mut hessian = self.races.stiffness.clone();
+            for (mesh, answer) in meshes.iter().zip(&answers) {
+                mesh.add_to(&mut r, &mut hessian, answer);
+            }
+            residual = r.amax() / load;
+            if residual < 1e-11 {
+                for (mesh, answer) in meshes.iter().zip(&answers) {
+                    mesh.table.check_patches(answer, LEAST_CELLS)?;
+                    mesh.check_window(&q)?;
+                }
+                let counts = (iteration, contact_iterations);
+                let state = self.state(position, &q, &meshes, &answers, residual, counts);
+                return Ok((q, state));
+            }
+            // A mesh out of contact leaves the matrix singular: lend it the first guess's springs.
+            let step = match Cholesky::new(hessian.clone()) {
+                Some(factor) => factor.solve(&r),
+                None => {
+                    for mesh in &meshes {
+                        mesh.add_nominal(&mut hessian, self.nominal_stiffness());
+                    }
+                    Cholesky::new(hessian).ok_or_else(turns_freely)?.solve(&r)
+                }
+            };
+            let (before, slope) = (potential(&q, &answers), r.dot(&step));
+            let mut scale = 1.0;
+            loop {
+                let trial = &q + scale * &step;
+                let found = evaluate(&trial, &mut warm)?;
+                let rounding = 1e-12 * (before.abs() + slope.abs());
+                if potential(&trial, &found) <= before - 1e-4 * scale * slope + rounding
+                    || scale < 1e-6
+                {
+                    (q, answers) = (trial, found);
+                    break;
+                }
+                scale *= 0.5;
+            }
+        }
+        Err(FeError::NotConverged { iterations: MOST, residual })
+    }
+
+    /// E b/13: about the stiffness of one pair of steel teeth per unit length.
+    fn nominal_stiffness(&self) -> f64 {
+        self.bodies.material.young * self.bodies.geometry.face_width / 13.0
+    }
+
+    /// Equilibrium with a spring in each mesh's nearest pair.
+    fn first_guess(
+        &self,
+        f: &DVector<f64>,
+        meshes: &[Placed<'_>],
+    ) -> Result<DVector<f64>, FeError> {
+        let mut matrix = self.races.stiffness.clone();
+        for mesh in meshes {
+            mesh.add_nominal(&mut matrix, self.nominal_stiffness());
+        }
+        Ok(Cholesky::new(matrix).ok_or_else(turns_freely)?.solve(f))
+    }
+
+    /// Results in the frame of the scene.
+    fn state(
+        &self,
+        position: f64,
+        q: &DVector<f64>,
+        meshes: &[Placed<'_>],
+        answers: &[MeshAnswer],
+        residual: f64,
+        (iterations, contact_iterations): (usize, usize),
+    ) -> SetState {
+        let of = |body: usize, radius: f64| {
+            let value = |axis| self.races.of(body, axis).map_or(0.0, |i| q[i]);
+            // Mirrored back: y and θ change sign.
+            [value(0), self.sign * value(1), self.sign * value(2) / radius]
+        };
+        let radii = self.races.radii;
+        SetState {
+            position,
+            central: [0, 1, 2].map(|body| of(body, radii[body])),
+            planets: (0..self.races.planets()).map(|n| of(PLANETS + n, radii[3])).collect(),
+            meshes: meshes
+                .iter()
+                .zip(answers)
+                .map(|(mesh, answer)| mesh.state(q, answer))
+                .collect(),
+            residual,
+            iterations,
+            contact_iterations,
+        }
+    }
+}
+
+fn turns_freely() -> FeError {
+    FeError::NoEquilibrium(
+        "the set can turn freely under the torque: hold the rotation of two central members, or \
+         give them a torsional support"
+            .into(),
+    )
+}
+
+/// One mesh at one position.
+struct Placed<'t> {
+    kind: MeshKind,
+    planet: usize,
+    phase: f64,
+    table: &'t MeshTable,
+    /// Approach of each pair on the races' coordinates.
+    rows: Vec<DVector<f64>>,
+    /// Gap offsets of the pairs, m.
+    offsets: Vec<f64>,
+}
+
+impl Placed<'_> {
+    fn approaches(&self, q: &DVector<f64>) -> Vec<f64> {
+        self.rows.iter().map(|b| b.dot(q)).collect()
+    }
+
+    fn answer(
+        &self,
+        q: &DVector<f64>,
+        solver: &dyn ComplementaritySolver,
+        warm: Option<&[bool]>,
+    ) -> Result<MeshAnswer, FeError> {
+        self.table.answer(&self.approaches(q), &self.offsets, solver, warm)
+    }
+
+    fn untouched(&self) -> MeshAnswer {
+        let n = self.table.gaps.len();
+        MeshAnswer {
+            pair_forces: vec![0.0; self.rows.len()],
+            tangent: DMatrix::zeros(self.rows.len(), self.rows.len()),
+            cell_forces: vec![0.0; n],
+            active: vec![false; n],
+            energy: 0.0,
+            iterations: 0,
+        }
+    }
+
+    /// Cells likely in contact: the middle of each pair's grid.
+    fn guess(&self) -> Vec<bool> {
+        let mut active = Vec::with_capacity(self.table.gaps.len());
+        for pair in &self.table.pairs {
+            let reach = 0.5 * pair.width * pair.x.len() as f64;
+            active.extend(pair.x.iter().map(|x| x.abs() < 0.5 * reach));
+        }
+        active
+    }
+
+    fn add_to(&self, r: &mut DVector<f64>, hessian: &mut DMatrix<f64>, answer: &MeshAnswer) {
+        for (k, b) in self.rows.iter().enumerate() {
+            *r -= answer.pair_forces[k] * b;
+            for (l, c) in self.rows.iter().enumerate() {
+                let s = answer.tangent[(k, l)];
+                if s != 0.0 {
+                    hessian.ger(s, b, c, 1.0);
+                }
+            }
+        }
+    }
+
+    fn add_nominal(&self, matrix: &mut DMatrix<f64>, stiffness: f64) {
+        let least = |k: &usize| {
+            let pair = &self.table.pairs[*k];
+            let own = &self.table.gaps[pair.first..pair.first + pair.x.len()];
+            own.iter().fold(f64::INFINITY, |a, g| a.min(*g)) + self.offsets[*k]
+        };
+        let nearest = (0..self.rows.len()).min_by(|a, b| least(a).total_cmp(&least(b)));
+        if let Some(b) = nearest.map(|k| &self.rows[k]) {
+            matrix.ger(stiffness, b, b, 1.0);
+        }
+    }
+
+    /// Refuses a deflection that reaches a corner left out of the table.
+    fn check_window(&self, q: &DVector<f64>) -> Result<(), FeError> {
+        let deepest = self.approaches(q).into_iter().fold(0.0, f64::max);
+        if deepest >= self.table.next_gap {
+            return Err(FeError::NoEquilibrium(format!(
+                "planet {}'s {} mesh gives way by {:.1} µm, beyond the window for tip contact of \
+                 {:.1} µm: the load is too large for these teeth",
+                self.planet,
+                self.kind.name(),
+                deepest * 1e6,
+                self.table.next_gap * 1e6
+            )));
+        }
+        Ok(())
+    }
+
+    fn state(&self, q: &DVector<f64>, answer: &MeshAnswer) -> MeshState {
+        let approaches = self.approaches(q);
+        let loaded =
+            self.table.pairs.iter().enumerate().filter(|(k, _)| answer.pair_forces[*k] > 0.0);
+        let pairs = loaded.map(|(k, cells)| ToothPairLoad {
+            index: cells.index,
+            force: answer.pair_forces[k],
+            peak_pressure: self.table.peak_pressure(k, &answer.cell_forces),
+        });
+        // On the path all pairs approach alike; a mesh always has one there or at a corner.
+        let on_path =
+            self.table.pairs.iter().position(|p| p.location == crate::contact::Location::Path);
+        MeshState {
+            kind: self.kind,
+            planet: self.planet,
+            phase: self.phase,
+            force: answer.pair_forces.iter().sum(),
+            approach: on_path.or(Some(0)).map_or(0.0, |k| approaches[k]),
+            tangent: answer.tangent.sum(),
+            pairs: pairs.collect(),
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! The `[fe_contact]` table.
+
+use crate::reader::{Bound, Section};
+use crate::scene::{ElementFamily, FeContactInput, PlaneState};
+
+pub(crate) fn fe_contact(s: Section<'_, '_>) -> FeContactInput {
+    let default = FeContactInput::default();
+    let planes = [("strain", PlaneState::Strain), ("stress", PlaneState::Stress)];
+    let plane = s.choice("plane", &planes, "state of the gears' plane");
+    let elements = [
+        ("linear", ElementFamily::Linear),
+        ("incompatible", ElementFamily::Incompatible),
+        ("quadratic", ElementFamily::Quadratic),
+    ];
+    let element = s.choice("element", &elements, "quadrilateral behind the flanks");
+    let flank = s.integer("flank_elements", (3, 64), "elements along one flank");
+    let cells = s.integer("contact_cells", (8, 400), "contact cells of one tooth pair");
+    let why = "depth below the flank at which half-plane and FE are matched";
+    let matching_depth = s.number("matching_depth_mm", Bound::Positive, why).map(|d| d * 1e-3);
+    let points = s.integer("matching_points", (1, 2), "1: the paper's eq. (1); 2: extrapolated");
+    s.finish();
+    FeContactInput {
+        plane: plane.unwrap_or(default.plane),
+        element: element.unwrap_or(default.element),
+        flank_elements: flank.map_or(default.flank_elements, |n| n as u32),
+        contact_cells: cells.map_or(default.contact_cells, |n| n as u32),
+        matching_depth,
+        matching_points: points.map_or(default.matching_points, |n| n as u32),
+    }
+}
