@@ -20,6 +20,10 @@ pub enum Verb {
     Modes(Modes),
     /// Which mesh harmonics excite which kinds of modes, and how strongly.
     Rules(Rules),
+    /// One mesh cycle at rest: transmission error, mesh stiffness, load sharing, pressure.
+    Static(Static),
+    /// Finite-element meshes of a scene: quality, mass properties, flexibility, pictures.
+    Mesh(MeshVerb),
     /// Write or explain a scene file.
     #[command(subcommand)]
     Scene(SceneVerb),
@@ -76,6 +80,63 @@ pub struct Rules {
     /// Highest harmonic of mesh frequency.
     #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub harmonics: u32,
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum TableFormat {
+    /// A table for people.
+    Text,
+    /// Stable keys for programs; schemas in `schemas/`.
+    Json,
+    /// One row a position and tooth pair.
+    Csv,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ContactSolver {
+    /// Warm-started active set.
+    ActiveSet,
+    /// Lemke's pivoting, the paper's family.
+    Lemke,
+    /// Interior-point method at 1e-12; slow.
+    InteriorPoint,
+}
+
+#[derive(Debug, Args)]
+pub struct Static {
+    /// Scene file: a whole set, or one mesh (`kind = "gear_pair"`).
+    pub scene: PathBuf,
+    /// Torques on the sun, N·m; negative is clockwise. A set's operating torque if left out.
+    #[arg(long, value_name = "NM,…", value_delimiter = ',', allow_negative_numbers = true)]
+    pub torque_nm: Vec<f64>,
+    /// Normal force of a gear pair, N.
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub normal_force_n: Option<f64>,
+    /// Even positions in the mesh cycle, from phase 0.
+    #[arg(long, default_value_t = 140, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub positions: u32,
+    /// Solver of the contact problem.
+    #[arg(long, value_enum, default_value_t = ContactSolver::ActiveSet)]
+    pub solver: ContactSolver,
+    /// Also draw figures into this folder (SVG).
+    #[arg(long, value_name = "DIR")]
+    pub figures: Option<PathBuf>,
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    pub format: TableFormat,
+}
+
+#[derive(Debug, Args)]
+pub struct MeshVerb {
+    /// Scene file.
+    pub scene: PathBuf,
+    /// Draw the assembled meshes into this file (SVG).
+    #[arg(long, value_name = "FILE")]
+    pub svg: Option<PathBuf>,
+    /// Write each body's mesh into this folder (VTU, for ParaView).
+    #[arg(long, value_name = "DIR")]
+    pub vtu: Option<PathBuf>,
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
 }

@@ -1,5 +1,5 @@
 //! The `epicyclic` command, and the facade over the crates that do the work:
-//! [`gearset`], [`dynamics`], [`lumped`] and [`validation`].
+//! [`gearset`], [`dynamics`], [`lumped`], [`fe_contact`] and [`validation`].
 
 mod arguments;
 mod commands;
@@ -7,6 +7,7 @@ mod error;
 mod output;
 
 pub use dynamics;
+pub use fe_contact;
 pub use gearset;
 pub use lumped;
 pub use validation;

@@ -5,6 +5,7 @@ pub mod complementarity;
 pub mod contact;
 pub mod element;
 mod error;
+pub mod export;
 mod material;
 pub mod mesh;
 pub mod statics;

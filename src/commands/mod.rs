@@ -2,11 +2,17 @@
 
 mod chart;
 mod compare;
+mod figure;
+mod mesh;
+mod mesh_picture;
 mod modes;
 mod report;
 mod rules;
 mod scene;
 mod schema;
+mod static_pair;
+mod static_set;
+mod statics;
 mod validate;
 
 pub use schema::schemas;
@@ -25,6 +31,8 @@ pub(crate) fn dispatch(arguments: Arguments, out: &mut dyn Write) -> Result<bool
         Verb::Validate(arguments) => validate::run(&arguments, out),
         Verb::Modes(arguments) => modes::run(&arguments, out).map(|()| true),
         Verb::Rules(arguments) => rules::run(&arguments, out).map(|()| true),
+        Verb::Static(arguments) => statics::run(&arguments, out).map(|()| true),
+        Verb::Mesh(arguments) => mesh::run(&arguments, out).map(|()| true),
         Verb::Scene(verb) => scene::run(&verb, out).map(|()| true),
         Verb::Compare(arguments) => compare::run(&arguments, out),
     }
@@ -33,6 +41,20 @@ pub(crate) fn dispatch(arguments: Arguments, out: &mut dyn Write) -> Result<bool
 /// Reads a scene, or says what is wrong with it.
 fn read_scene(path: &Path) -> Result<Scene, CommandError> {
     Scene::from_file(path).map_err(|source| CommandError::Scene { path: path.to_owned(), source })
+}
+
+/// Writes a file, creating its folder if need be.
+fn save(path: &Path, text: &str) -> Result<(), CommandError> {
+    let failed = |source| CommandError::File { what: "cannot write", path: path.into(), source };
+    if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
+        std::fs::create_dir_all(folder).map_err(failed)?;
+    }
+    std::fs::write(path, text).map_err(failed)
+}
+
+/// A scene that FE/contact cannot work with, or cannot be solved.
+fn fe_refused(path: &Path) -> impl Fn(fe_contact::FeError) -> CommandError + '_ {
+    |e| unfit(path, e.to_string())
 }
 
 /// A valid scene that this verb cannot use.

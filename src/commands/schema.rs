@@ -3,9 +3,12 @@
 use schemars::{JsonSchema, Schema, schema_for};
 use validation::{Comparison, Verdict};
 
+use super::mesh::MeshOutput;
 use super::modes::ModesOutput;
 use super::rules::RulesOutput;
 use super::scene::SceneSummary;
+use super::static_pair::PairOutput;
+use super::static_set::SetOutput;
 
 /// `(file name, schema)` of each verb; the files in `schemas/` are regenerated with the snapshots.
 pub fn schemas() -> Vec<(&'static str, Schema)> {
@@ -17,6 +20,9 @@ pub fn schemas() -> Vec<(&'static str, Schema)> {
         ("modes", of::<ModesOutput>()),
         ("rules", of::<RulesOutput>()),
         ("scene_check", of::<SceneSummary>()),
+        ("static_pair", of::<PairOutput>()),
+        ("static_set", of::<SetOutput>()),
+        ("mesh", of::<MeshOutput>()),
         ("compare", of::<Comparison>()),
     ]
 }

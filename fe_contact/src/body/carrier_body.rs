@@ -20,6 +20,8 @@ pub struct CarrierBody {
     pub mass: f64,
     /// Polar inertia about the centre, kg m².
     pub inertia: f64,
+    /// Degrees of freedom, three for each seat among them.
+    pub unknowns: usize,
     /// Displacement of the seats under unit forces on them, 2N×2N: radial and tangential of each
     /// planet in turn, m/N.
     pub flexibility: DMatrix<f64>,
@@ -113,6 +115,6 @@ impl CarrierBody {
         // The seats are filled: the whole annulus weighs.
         let [r, s] = [input.bore_radius, input.outer_radius].map(|r| r * r);
         let mass = material.density * face_width * std::f64::consts::PI * (s - r);
-        Ok(Self { mesh, mass, inertia: 0.5 * mass * (r + s), flexibility })
+        Ok(Self { mesh, mass, inertia: 0.5 * mass * (r + s), unknowns: next, flexibility })
     }
 }

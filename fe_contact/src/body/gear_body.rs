@@ -207,6 +207,24 @@ impl GearBody {
         self.responses.get(usize::try_from(offset + reach).ok()?)
     }
 
+    /// Normal displacement at `depth` (m) below mid-flank of the tooth `offset` on, under a unit
+    /// normal force at mid-flank of tooth 0, m/N. Zero where the depth leaves the tooth.
+    pub fn mid_flank_flexibility(&self, side: Side, depth: f64, offset: i64) -> f64 {
+        let outline = &self.mesh.outline;
+        let l = 0.5 * outline.flank_length();
+        let (p, t) = (outline.flank_point(l), outline.flank_tangent(l));
+        // Into the material: the tangent towards the tip turned to the tooth's axis.
+        let sign = side.sign();
+        let mut inwards = [-t[1], t[0]];
+        if inwards[1] > 0.0 {
+            inwards = inwards.map(|x| -x);
+        }
+        let inwards = [inwards[0], sign * inwards[1]];
+        let at = [p[0] + depth * inwards[0], sign * p[1] + depth * inwards[1]];
+        let Some(deep) = self.locate(at) else { return 0.0 };
+        self.flexibility((&self.flank_point(side, l), inwards), offset, (&deep, inwards))
+    }
+
     /// Displacement along `measured` of a deep point on the tooth `offset` on from the loaded one,
     /// under a unit force along `force` at a flank point; directions in the teeth's own frames, m/N.
     pub fn flexibility(

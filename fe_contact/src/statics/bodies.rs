@@ -17,8 +17,47 @@ pub struct FeSettings {
     pub matching: Matching,
 }
 
-/// Default matching depth in base pitches.
+/// Default matching depth in base pitches, if the elements are small enough for it.
 const DEPTH_IN_BASE_PITCHES: f64 = 0.07;
+
+/// Least depth in flank elements that the default takes, and that is allowed: nearer to the load the
+/// element field is not yet that of a point load. See the plateau in `docs/fe_contact.md`.
+const DEPTH_IN_ELEMENTS: [f64; 2] = [0.85, 0.7];
+
+/// Deepest matching point in thicknesses of the tooth at mid-flank: beyond its middle the half-plane
+/// has nothing to say about a tooth.
+const DEEPEST_IN_THICKNESSES: f64 = 0.5;
+
+/// The matching depth, on its plateau.
+fn matching<'b>(
+    input: &FeContactInput,
+    base_pitch: f64,
+    bodies: impl Iterator<Item = &'b GearBody>,
+) -> Result<Matching, FeError> {
+    let (mut element, mut thickness) = (0.0f64, f64::INFINITY);
+    for body in bodies {
+        let outline = &body.mesh.outline;
+        let length = outline.flank_length();
+        element = element.max(length / f64::from(input.flank_elements));
+        thickness = thickness.min(2.0 * outline.flank_point(0.5 * length)[1]);
+    }
+    let default = (DEPTH_IN_BASE_PITCHES * base_pitch).max(DEPTH_IN_ELEMENTS[0] * element);
+    let depth = input.matching_depth.unwrap_or(default);
+    let points = input.matching_points as usize;
+    let (low, high) =
+        (DEPTH_IN_ELEMENTS[1] * element, DEEPEST_IN_THICKNESSES * thickness / points.max(1) as f64);
+    if depth < low || depth > high {
+        return Err(FeError::Unfit {
+            key: "fe_contact.matching_depth_mm".into(),
+            value: format!("{:.4}", depth * 1e3),
+            allowed: format!("{:.4} to {:.4}", low * 1e3, high * 1e3),
+            why: "the elements do not resolve the load above it, nor is the tooth a half-plane \
+                  below it; more `fe_contact.flank_elements` lower the first limit"
+                .into(),
+        });
+    }
+    Ok(Matching { depth, points })
+}
 
 /// Gears of a scene with their flexibility.
 #[derive(Debug, Clone)]
@@ -50,9 +89,6 @@ impl Bodies {
         let geometry = Geometry::from_scene(scene).and_then(Result::ok).ok_or(missing)?;
         let input = scene.fe_contact;
         let material = Elastic::new(&scene.material, input.plane);
-        let depth = input.matching_depth.unwrap_or(DEPTH_IN_BASE_PITCHES * geometry.base_pitch);
-        let points = input.matching_points as usize;
-        let settings = FeSettings { input, matching: Matching { depth, points } };
         let make = |name: &'static str, gear: &Gear| -> Result<GearBody, FeError> {
             let mesh = GearMesh::new(name, gear, input.element, input.flank_elements as usize)?;
             GearBody::new(mesh, material, geometry.face_width)
@@ -74,6 +110,9 @@ impl Bodies {
             Err(panic) => std::panic::resume_unwind(panic),
         };
         let (sun, planet) = (sun?, planet?);
+        let all = [sun.as_ref(), Some(&planet), ring.as_ref()];
+        let matching = matching(&input, geometry.base_pitch, all.into_iter().flatten())?;
+        let settings = FeSettings { input, matching };
         Ok(Self { geometry, settings, material, sun, planet, ring })
     }
 

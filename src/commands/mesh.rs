@@ -1,0 +1,201 @@
+//! `mesh SCENE`.
+
+use std::io::Write;
+
+use fe_contact::body::{CarrierBody, GearBody};
+use fe_contact::export::{Drawn, vtu};
+use fe_contact::mesh::Side;
+use fe_contact::statics::Bodies;
+use gearset::{LumpedInput, Scene, SceneKind};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::arguments::{Format, MeshVerb};
+use crate::error::CommandError;
+use crate::output;
+
+use super::mesh_picture::assembled;
+use super::{fe_refused, read_scene, save};
+
+/// `mesh --format json`.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct MeshOutput {
+    bodies: Vec<BodyOutput>,
+}
+
+/// One body.
+#[derive(Debug, Serialize, JsonSchema)]
+struct BodyOutput {
+    /// sun, planet, ring or carrier.
+    body: String,
+    elements: usize,
+    /// Displacements that are free.
+    degrees_of_freedom: usize,
+    mass_kg: f64,
+    /// About the centre.
+    polar_inertia_kg_m2: f64,
+    /// The scene's lumped values, if it has them.
+    lumped_mass_kg: Option<f64>,
+    lumped_inertia_kg_m2: Option<f64>,
+    /// Of gears.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    teeth: Option<TeethOutput>,
+    /// Of the carrier: mean displacement of a pin seat along a unit force on it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seat_flexibility_m_per_n: Option<f64>,
+}
+
+/// Mesh and flexibility of a gear's teeth.
+#[derive(Debug, Serialize, JsonSchema)]
+struct TeethOutput {
+    flank_elements: u32,
+    /// Largest distance from the Hermite flank to the involute.
+    flank_error_um: f64,
+    least_corner_angle_deg: f64,
+    largest_corner_angle_deg: f64,
+    largest_aspect_ratio: f64,
+    /// Smallest det J over the largest in one element.
+    least_jacobian_ratio: f64,
+    /// Normal displacement at matching depth below mid-flank under a unit normal force there.
+    flexibility_m_per_n: f64,
+    /// The same point of the neighbouring tooth, over that.
+    neighbour_share: f64,
+}
+
+pub(crate) fn run(arguments: &MeshVerb, out: &mut dyn Write) -> Result<(), CommandError> {
+    let path = &arguments.scene;
+    let scene = read_scene(path)?;
+    let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
+    let carrier = carrier(&scene, &bodies).transpose().map_err(fe_refused(path))?;
+    if let Some(file) = &arguments.svg {
+        save(file, &assembled(&scene, &bodies, carrier.as_ref()))?;
+    }
+    let gears = [bodies.sun.as_ref(), Some(&bodies.planet), bodies.ring.as_ref()];
+    let gears: Vec<&GearBody> = gears.into_iter().flatten().collect();
+    if let Some(folder) = &arguments.vtu {
+        for body in &gears {
+            save(&folder.join(format!("{}.vtu", body.mesh.name)), &vtu(&Drawn::gear(&body.mesh)))?;
+        }
+        if let Some(body) = &carrier {
+            save(&folder.join("carrier.vtu"), &vtu(&Drawn::carrier(&body.mesh)))?;
+        }
+    }
+    let mut list: Vec<BodyOutput> =
+        gears.iter().map(|body| gear(body, &bodies, scene.lumped.as_ref())).collect();
+    if let Some(body) = &carrier {
+        let n = body.flexibility.nrows();
+        let lumped = scene.lumped.as_ref();
+        list.push(BodyOutput {
+            body: "carrier".into(),
+            elements: body.mesh.elements.len(),
+            degrees_of_freedom: body.unknowns,
+            mass_kg: body.mass,
+            polar_inertia_kg_m2: body.inertia,
+            lumped_mass_kg: lumped.and_then(|l| l.mass.carrier),
+            lumped_inertia_kg_m2: lumped.and_then(|l| {
+                Some(l.inertia_over_r2.carrier? * bodies.geometry.center_distance.powi(2))
+            }),
+            teeth: None,
+            seat_flexibility_m_per_n: Some(body.flexibility.trace() / n as f64),
+        });
+    }
+    let result = MeshOutput { bodies: list };
+    match arguments.format {
+        Format::Json => output::json(out, &result),
+        Format::Text => Ok(text(&scene, &result, out)?),
+    }
+}
+
+/// The carrier of a whole set whose scene gives its shape.
+fn carrier(scene: &Scene, bodies: &Bodies) -> Option<Result<CarrierBody, fe_contact::FeError>> {
+    let input = scene.geometry.as_ref()?.carrier.filter(|_| scene.kind == SceneKind::Planetary)?;
+    let (a, b) = (bodies.geometry.center_distance, bodies.geometry.face_width);
+    Some(CarrierBody::new(&input, a, &scene.planets.psi_rad, &bodies.material, b))
+}
+
+fn gear(body: &GearBody, bodies: &Bodies, lumped: Option<&LumpedInput>) -> BodyOutput {
+    let name = body.mesh.name;
+    let gear = body.mesh.outline.gear();
+    let of = |values: &gearset::PerBody| match name {
+        "sun" => values.sun,
+        "ring" => values.ring,
+        _ => values.planet,
+    };
+    let quality = body.mesh.quality();
+    let depth = bodies.settings.matching.depth;
+    let own = body.mid_flank_flexibility(Side::Ccw, depth, 0);
+    BodyOutput {
+        body: name.into(),
+        elements: body.mesh.elements.len(),
+        degrees_of_freedom: body.unknowns,
+        mass_kg: body.mass,
+        polar_inertia_kg_m2: body.inertia,
+        lumped_mass_kg: lumped.and_then(|l| of(&l.mass)),
+        lumped_inertia_kg_m2: lumped
+            .and_then(|l| Some(of(&l.inertia_over_r2)? * gear.base_radius.powi(2))),
+        teeth: Some(TeethOutput {
+            flank_elements: bodies.settings.input.flank_elements,
+            flank_error_um: body.mesh.flank_error() * 1e6,
+            least_corner_angle_deg: quality.least_angle_deg,
+            largest_corner_angle_deg: quality.largest_angle_deg,
+            largest_aspect_ratio: quality.aspect_ratio,
+            least_jacobian_ratio: quality.jacobian_ratio,
+            flexibility_m_per_n: own,
+            neighbour_share: body.mid_flank_flexibility(Side::Ccw, depth, 1) / own,
+        }),
+        seat_flexibility_m_per_n: None,
+    }
+}
+
+fn text(scene: &Scene, result: &MeshOutput, out: &mut dyn Write) -> std::io::Result<()> {
+    writeln!(out, "{}", scene.title)?;
+    let header =
+        ["body", "elements", "free", "mass kg", "lumped kg", "inertia kg m²", "lumped kg m²"];
+    let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6]);
+    let beside = |value: Option<f64>, own: f64| match value {
+        Some(v) => format!("{v:.4e} ({:+.1} %)", 100.0 * (own / v - 1.0)),
+        None => "–".into(),
+    };
+    for b in &result.bodies {
+        table.add_row(vec![
+            b.body.clone(),
+            b.elements.to_string(),
+            b.degrees_of_freedom.to_string(),
+            format!("{:.4}", b.mass_kg),
+            beside(b.lumped_mass_kg, b.mass_kg),
+            format!("{:.4e}", b.polar_inertia_kg_m2),
+            beside(b.lumped_inertia_kg_m2, b.polar_inertia_kg_m2),
+        ]);
+    }
+    writeln!(out, "{table}")?;
+    let header = [
+        "body",
+        "flank error µm",
+        "angles °",
+        "aspect",
+        "det J ratio",
+        "flexibility µm/kN",
+        "neighbour",
+    ];
+    let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6]);
+    for b in &result.bodies {
+        if let Some(t) = &b.teeth {
+            table.add_row(vec![
+                b.body.clone(),
+                format!("{:.4}", t.flank_error_um),
+                format!("{:.0} to {:.0}", t.least_corner_angle_deg, t.largest_corner_angle_deg),
+                format!("{:.1}", t.largest_aspect_ratio),
+                format!("{:.2}", t.least_jacobian_ratio),
+                format!("{:.4}", t.flexibility_m_per_n * 1e9),
+                format!("{:.1} %", 100.0 * t.neighbour_share),
+            ]);
+        }
+        if let Some(f) = b.seat_flexibility_m_per_n {
+            let row = [b.body.clone(), "–".into(), "–".into(), "–".into(), "–".into()];
+            let mut row: Vec<String> = row.into();
+            row.extend([format!("{:.4}", f * 1e9), "–".into()]);
+            table.add_row(row);
+        }
+    }
+    writeln!(out, "{table}")
+}

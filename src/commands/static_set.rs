@@ -1,0 +1,397 @@
+//! `static` of a whole set.
+
+use std::io::Write;
+use std::path::Path;
+
+use fe_contact::statics::{Bodies, Imperfections, MeshState, SetCycle, SetState, StaticSet};
+use gearset::{Facing, Scene};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::arguments::{Static, TableFormat};
+use crate::error::CommandError;
+use crate::output;
+
+use super::figure::{Curve, Labels, chart};
+use super::static_pair::PairLoad;
+use super::{fe_refused, save, statics, unfit};
+
+/// `static --format json` of a whole set. Displacements in the carrier frame, counter-clockwise.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct SetOutput {
+    /// One entry for each torque.
+    torques: Vec<TorqueOutput>,
+}
+
+/// One mesh cycle under one torque.
+#[derive(Debug, Serialize, JsonSchema)]
+struct TorqueOutput {
+    /// On the sun.
+    torque_nm: f64,
+    /// Root mean square about the mean over the cycle.
+    sun_rotation_rms_urad: f64,
+    /// Root mean square of |(x, y) − mean| over the cycle.
+    sun_translation_rms_um: f64,
+    /// r_b · sun rotation.
+    transmission_error_mean_um: f64,
+    transmission_error_peak_to_peak_um: f64,
+    /// All 2N meshes: sun meshes, then ring meshes.
+    meshes: Vec<MeshSummary>,
+    /// Even positions from 0, where planet 0's sun mesh is at phase 0.
+    positions: Vec<SetPosition>,
+    work: Work,
+}
+
+/// One mesh over the cycle.
+#[derive(Debug, Serialize, JsonSchema)]
+struct MeshSummary {
+    mesh: String,
+    planet: usize,
+    mean_force_n: f64,
+    least_force_n: f64,
+    largest_force_n: f64,
+    /// Mean of F over rigid approach along the line of action.
+    mean_secant_stiffness_n_per_m: f64,
+    mean_tangent_stiffness_n_per_m: f64,
+}
+
+/// One position.
+#[derive(Debug, Serialize, JsonSchema)]
+struct SetPosition {
+    position: f64,
+    sun: Displacement,
+    carrier: Displacement,
+    ring: Displacement,
+    /// x radial, y tangential.
+    planets: Vec<Displacement>,
+    meshes: Vec<MeshPosition>,
+}
+
+/// Displacement of a race.
+#[derive(Debug, Serialize, JsonSchema)]
+struct Displacement {
+    x_um: f64,
+    y_um: f64,
+    rotation_urad: f64,
+}
+
+/// One mesh at one position.
+#[derive(Debug, Serialize, JsonSchema)]
+struct MeshPosition {
+    mesh: String,
+    planet: usize,
+    phase: f64,
+    force_n: f64,
+    approach_um: f64,
+    tangent_stiffness_n_per_m: f64,
+    pairs: Vec<PairLoad>,
+}
+
+/// What the result took.
+#[derive(Debug, Serialize, JsonSchema)]
+struct Work {
+    equilibrium_iterations: usize,
+    /// Factorisations or pivots of the contact solver.
+    contact_iterations: usize,
+    /// Largest imbalance of any race over the load.
+    worst_residual: f64,
+}
+
+pub(super) fn run(
+    arguments: &Static,
+    scene: &Scene,
+    torques: &[f64],
+    out: &mut dyn Write,
+) -> Result<(), CommandError> {
+    let path = &arguments.scene;
+    let bodies = Bodies::new(scene).map_err(fe_refused(path))?;
+    let solver = statics::solver(arguments.solver);
+    let mut cycles = Vec::new();
+    for torque in torques {
+        let sense = match *torque > 0.0 {
+            true => Facing::CounterClockwise,
+            false => Facing::Clockwise,
+        };
+        let set = StaticSet::new(scene, &bodies, sense, Imperfections::default())
+            .map_err(fe_refused(path))?;
+        let positions = arguments.positions as usize;
+        cycles.push(set.cycle(torque.abs(), positions, solver).map_err(fe_refused(path))?);
+    }
+    let radius = bodies.geometry.sun.as_ref().map(|sun| sun.base_radius);
+    let radius = radius.ok_or_else(|| unfit(path, "`geometry.sun` is absent"))?;
+    if let Some(folder) = &arguments.figures {
+        draw(scene, &cycles, radius, folder)?;
+    }
+    match arguments.format {
+        TableFormat::Json => {
+            let torques = cycles.iter().map(|c| describe(c, radius)).collect();
+            output::json(out, &SetOutput { torques })
+        }
+        TableFormat::Csv => Ok(csv(&cycles, out)?),
+        TableFormat::Text => Ok(text(scene, &cycles, radius, out)?),
+    }
+}
+
+/// Mean, least and largest of a quantity over a cycle.
+fn spread(cycle: &SetCycle, of: impl Fn(&SetState) -> f64) -> (f64, f64, f64) {
+    let values: Vec<f64> = cycle.states.iter().map(of).collect();
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let least = values.iter().fold(f64::INFINITY, |a, v| a.min(*v));
+    (mean, least, values.iter().fold(f64::NEG_INFINITY, |a, v| a.max(*v)))
+}
+
+fn describe(cycle: &SetCycle, radius: f64) -> TorqueOutput {
+    let (rotation, translation) = cycle.sun_rms();
+    let (mean, least, largest) = spread(cycle, |s| s.transmission_error(radius));
+    let summary = |(i, m): (usize, &MeshState)| {
+        let (mean_force_n, least_force_n, largest_force_n) = spread(cycle, |s| s.meshes[i].force);
+        MeshSummary {
+            mesh: m.kind.name().into(),
+            planet: m.planet,
+            mean_force_n,
+            least_force_n,
+            largest_force_n,
+            mean_secant_stiffness_n_per_m: spread(cycle, |s| {
+                s.meshes[i].force / s.meshes[i].approach
+            })
+            .0,
+            mean_tangent_stiffness_n_per_m: spread(cycle, |s| s.meshes[i].tangent).0,
+        }
+    };
+    let displacement = |[x, y, theta]: [f64; 3]| Displacement {
+        x_um: x * 1e6,
+        y_um: y * 1e6,
+        rotation_urad: theta * 1e6,
+    };
+    let mesh = |m: &MeshState| MeshPosition {
+        mesh: m.kind.name().into(),
+        planet: m.planet,
+        phase: m.phase,
+        force_n: m.force,
+        approach_um: m.approach * 1e6,
+        tangent_stiffness_n_per_m: m.tangent,
+        pairs: m
+            .pairs
+            .iter()
+            .map(|l| PairLoad {
+                index: l.index,
+                force_n: l.force,
+                peak_pressure_pa: l.peak_pressure,
+            })
+            .collect(),
+    };
+    let position = |s: &SetState| SetPosition {
+        position: s.position,
+        carrier: displacement(s.central[0]),
+        ring: displacement(s.central[1]),
+        sun: displacement(s.central[2]),
+        planets: s.planets.iter().map(|p| displacement(*p)).collect(),
+        meshes: s.meshes.iter().map(mesh).collect(),
+    };
+    TorqueOutput {
+        torque_nm: cycle.torque_nm,
+        sun_rotation_rms_urad: rotation * 1e6,
+        sun_translation_rms_um: translation * 1e6,
+        transmission_error_mean_um: mean * 1e6,
+        transmission_error_peak_to_peak_um: (largest - least) * 1e6,
+        meshes: cycle.states[0].meshes.iter().enumerate().map(summary).collect(),
+        positions: cycle.states.iter().map(position).collect(),
+        work: Work {
+            equilibrium_iterations: cycle.states.iter().map(|s| s.iterations).sum(),
+            contact_iterations: cycle.states.iter().map(|s| s.contact_iterations).sum(),
+            worst_residual: cycle.states.iter().fold(0.0, |a, s| a.max(s.residual)),
+        },
+    }
+}
+
+fn csv(cycles: &[SetCycle], out: &mut dyn Write) -> std::io::Result<()> {
+    writeln!(
+        out,
+        "torque_nm,position,mesh,planet,phase,mesh_force_n,pair,force_n,peak_pressure_pa,sun_x_um,sun_y_um,sun_rotation_urad"
+    )?;
+    for cycle in cycles {
+        for s in &cycle.states {
+            let [x, y, theta] = s.central[2].map(|v| v * 1e6);
+            for m in &s.meshes {
+                for l in &m.pairs {
+                    writeln!(
+                        out,
+                        "{},{},{},{},{},{},{},{},{},{x},{y},{theta}",
+                        cycle.torque_nm,
+                        s.position,
+                        m.kind.name(),
+                        m.planet,
+                        m.phase,
+                        m.force,
+                        l.index,
+                        l.force,
+                        l.peak_pressure
+                    )?;
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn text(
+    scene: &Scene,
+    cycles: &[SetCycle],
+    radius: f64,
+    out: &mut dyn Write,
+) -> std::io::Result<()> {
+    writeln!(out, "{}", scene.title)?;
+    for cycle in cycles {
+        let found = describe(cycle, radius);
+        writeln!(
+            out,
+            "{} N·m on the sun, {} positions of the mesh cycle",
+            cycle.torque_nm,
+            cycle.states.len()
+        )?;
+        let header = [
+            "mesh",
+            "planet",
+            "mean N",
+            "least N",
+            "largest N",
+            "secant 1e6 N/m",
+            "tangent 1e6 N/m",
+        ];
+        let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6]);
+        for m in &found.meshes {
+            table.add_row(vec![
+                m.mesh.clone(),
+                m.planet.to_string(),
+                format!("{:.1}", m.mean_force_n),
+                format!("{:.1}", m.least_force_n),
+                format!("{:.1}", m.largest_force_n),
+                format!("{:.1}", m.mean_secant_stiffness_n_per_m * 1e-6),
+                format!("{:.1}", m.mean_tangent_stiffness_n_per_m * 1e-6),
+            ]);
+        }
+        writeln!(out, "{table}")?;
+        writeln!(
+            out,
+            "transmission error r_b θ_sun: mean {:.3} µm, peak to peak {:.4} µm",
+            found.transmission_error_mean_um, found.transmission_error_peak_to_peak_um
+        )?;
+        writeln!(
+            out,
+            "sun about its mean: rotation {:.4} µrad RMS, translation {:.4} µm RMS",
+            found.sun_rotation_rms_urad, found.sun_translation_rms_um
+        )?;
+        let Work { equilibrium_iterations, contact_iterations, worst_residual } = found.work;
+        writeln!(
+            out,
+            "{equilibrium_iterations} equilibrium and {contact_iterations} contact iterations, imbalance {worst_residual:.0e} of the load"
+        )?;
+    }
+    if cycles.len() > 1 {
+        let header = [
+            "torque N·m",
+            "rotation µrad",
+            "translation µm",
+            "rotation ÷ first",
+            "translation ÷ first",
+        ];
+        let mut table = output::table(&header, &[0, 1, 2, 3, 4]);
+        let (r0, t0) = cycles[0].sun_rms();
+        for cycle in cycles {
+            let (r, t) = cycle.sun_rms();
+            table.add_row(vec![
+                cycle.torque_nm.to_string(),
+                format!("{:.4}", r * 1e6),
+                format!("{:.4}", t * 1e6),
+                format!("{:.3}", r / r0),
+                format!("{:.3}", t / t0),
+            ]);
+        }
+        writeln!(out, "{table}")?;
+    }
+    Ok(())
+}
+
+fn draw(
+    scene: &Scene,
+    cycles: &[SetCycle],
+    radius: f64,
+    folder: &Path,
+) -> Result<(), CommandError> {
+    let Some(cycle) = cycles.last() else { return Ok(()) };
+    let about = format!("{}, {} N·m on the sun", scene.title, cycle.torque_nm);
+    let error = cycle.states.iter().map(|s| (s.position, s.transmission_error(radius) * 1e6));
+    let svg = chart(
+        &Labels {
+            title: "Transmission error of the set",
+            subtitle: about.clone(),
+            x: "mesh cycle",
+            y: "r_b θ of the sun, µm",
+        },
+        &[Curve::new("", error.collect())],
+    );
+    save(&folder.join("transmission_error.svg"), &svg)?;
+    let curves: Vec<Curve> = cycle.states[0]
+        .meshes
+        .iter()
+        .enumerate()
+        .map(|(i, m)| {
+            let forces = cycle.states.iter().map(|s| (s.position, s.meshes[i].force * 1e-3));
+            let curve = Curve::new(format!("{} {}", m.kind.name(), m.planet), forces.collect());
+            if m.kind == gearset::MeshKind::RingPlanet { curve.dashed() } else { curve }
+        })
+        .collect();
+    let svg = chart(
+        &Labels {
+            title: "Load sharing between the planets",
+            subtitle: about.clone(),
+            x: "mesh cycle",
+            y: "mesh force, kN",
+        },
+        &curves,
+    );
+    save(&folder.join("load_sharing.svg"), &svg)?;
+    let stiffness: Vec<Curve> = cycle.states[0]
+        .meshes
+        .iter()
+        .enumerate()
+        .filter(|(_, m)| m.planet == 0)
+        .map(|(i, m)| {
+            let values = cycle.states.iter().map(|s| (s.position, s.meshes[i].tangent * 1e-6));
+            Curve::new(m.kind.name(), values.collect())
+        })
+        .collect();
+    let svg = chart(
+        &Labels {
+            title: "Tangent mesh stiffness, planet 0",
+            subtitle: about,
+            x: "mesh cycle",
+            y: "∂F/∂δ, 1e6 N/m",
+        },
+        &stiffness,
+    );
+    save(&folder.join("mesh_stiffness.svg"), &svg)?;
+    if cycles.len() > 1 {
+        let (r0, t0) = cycles[0].sun_rms();
+        let over = |of: &dyn Fn(&SetCycle) -> f64| -> Vec<(f64, f64)> {
+            cycles.iter().map(|c| (c.torque_nm.abs(), of(c))).collect()
+        };
+        let svg = chart(
+            &Labels {
+                title: "Static deflection of the sun against torque",
+                subtitle: format!(
+                    "{}, RMS about the mean, over that at the first torque",
+                    scene.title
+                ),
+                x: "sun torque, N·m",
+                y: "normalised RMS",
+            },
+            &[
+                Curve::new("rotation", over(&|c| c.sun_rms().0 / r0)),
+                Curve::new("translation", over(&|c| c.sun_rms().1 / t0)).dashed(),
+            ],
+        );
+        save(&folder.join("rms_against_torque.svg"), &svg)?;
+    }
+    Ok(())
+}

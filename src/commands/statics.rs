@@ -1,0 +1,83 @@
+//! `static SCENE`: a gear pair or a whole set at rest.
+
+use std::io::Write;
+
+use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, InteriorPoint, Lemke};
+use gearset::{Kinematics, Scene, SceneKind};
+
+use crate::arguments::{ContactSolver, Static};
+use crate::error::CommandError;
+
+use super::{read_scene, static_pair, static_set, unfit};
+
+pub(crate) fn run(arguments: &Static, out: &mut dyn Write) -> Result<(), CommandError> {
+    let scene = read_scene(&arguments.scene)?;
+    if scene.geometry.is_none() {
+        let reason = "[geometry] is absent: teeth are needed to touch";
+        return Err(unfit(&arguments.scene, reason));
+    }
+    match scene.kind {
+        SceneKind::GearPair => {
+            let force = pair_force(arguments, &scene)?;
+            static_pair::run(arguments, &scene, force, out)
+        }
+        SceneKind::Planetary => {
+            let torques = set_torques(arguments, &scene)?;
+            static_set::run(arguments, &scene, &torques, out)
+        }
+    }
+}
+
+/// The solver asked for.
+pub(super) fn solver(which: ContactSolver) -> &'static (dyn ComplementaritySolver + Sync) {
+    match which {
+        ContactSolver::ActiveSet => &ActiveSet,
+        ContactSolver::Lemke => &Lemke,
+        ContactSolver::InteriorPoint => &InteriorPoint,
+    }
+}
+
+fn refused(argument: &'static str, reason: impl Into<String>) -> CommandError {
+    CommandError::Argument { argument, reason: reason.into() }
+}
+
+fn pair_force(arguments: &Static, scene: &Scene) -> Result<f64, CommandError> {
+    if !arguments.torque_nm.is_empty() {
+        let argument = "--torque-nm";
+        return Err(refused(argument, "a gear pair is loaded by --normal-force-n, in N"));
+    }
+    let Some(force) = arguments.normal_force_n else {
+        let name = &scene.title;
+        let reason = format!("is absent: `{name}` is a gear pair, loaded by a normal force in N");
+        return Err(refused("--normal-force-n", reason));
+    };
+    if !(force.is_finite() && force > 0.0) {
+        let reason = format!("{force}: allowed is a finite force above 0 N; flanks only press");
+        return Err(refused("--normal-force-n", reason));
+    }
+    Ok(force)
+}
+
+/// Torques on the sun: those asked for, or the operating point's.
+fn set_torques(arguments: &Static, scene: &Scene) -> Result<Vec<f64>, CommandError> {
+    if arguments.normal_force_n.is_some() {
+        let argument = "--normal-force-n";
+        return Err(refused(argument, "a whole set is loaded by --torque-nm on the sun"));
+    }
+    if let Some(bad) = arguments.torque_nm.iter().find(|t| !t.is_finite() || **t == 0.0) {
+        let reason = format!("{bad}: allowed are finite torques other than 0 N·m");
+        return Err(refused("--torque-nm", reason));
+    }
+    if !arguments.torque_nm.is_empty() {
+        return Ok(arguments.torque_nm.clone());
+    }
+    let operation = scene.operation.zip(Kinematics::from_scene(scene).and_then(Result::ok));
+    let torque = operation.map(|(o, kinematics)| kinematics.torques_nm(o.torque_nm).sun);
+    match torque.filter(|t| *t != 0.0) {
+        Some(torque) => Ok(vec![torque]),
+        None => Err(unfit(
+            &arguments.scene,
+            "`operation.torque_nm` is absent or 0: give it, or the argument --torque-nm",
+        )),
+    }
+}
