@@ -44,9 +44,12 @@ pub struct Validate {
     /// Also write the verdict and the mode tables to this folder (Markdown, JSON, SVG).
     #[arg(long, value_name = "DIR")]
     pub report: Option<PathBuf>,
-    /// How much to run; until there are slow checks the two are the same.
+    /// How much to run; checks left out are listed as not run.
     #[arg(long, value_enum, default_value_t = Profile::Quick)]
     pub profile: Profile,
+    /// Only checks whose id starts so, e.g. `table3.` or `fe.hertz`.
+    #[arg(long, value_name = "PREFIX", default_value = "", hide_default_value = true)]
+    pub only: String,
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
 }

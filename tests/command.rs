@@ -188,7 +188,7 @@ fn the_binary_itself_prints_the_verdict_and_refuses_bad_input() {
 
 #[test]
 fn the_counts_in_the_readme_are_those_of_the_verdict() {
-    let verdict = validation::validate().unwrap();
+    let verdict = validation::validate(validation::Profile::Quick, "").unwrap();
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
     let readme = std::fs::read_to_string(path).unwrap();
     let words = format!(

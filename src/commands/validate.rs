@@ -6,16 +6,22 @@ use anstyle::{AnsiColor, Style};
 use comfy_table::Cell;
 use validation::{Check, Status, Value, Verdict};
 
-use crate::arguments::{Format, Validate};
+use crate::arguments::{Format, Profile, Validate};
 use crate::error::CommandError;
 use crate::output;
 
 use super::report;
 
 pub(crate) fn run(arguments: &Validate, out: &mut dyn Write) -> Result<bool, CommandError> {
-    // Both profiles run everything as long as there is nothing slow.
-    let _ = arguments.profile;
-    let verdict = validation::validate()?;
+    let profile = match arguments.profile {
+        Profile::Quick => validation::Profile::Quick,
+        Profile::Full => validation::Profile::Full,
+    };
+    let verdict = validation::validate(profile, &arguments.only)?;
+    if verdict.checks.is_empty() {
+        let reason = format!("`{}`: no check's id starts so", arguments.only);
+        return Err(CommandError::Argument { argument: "--only", reason });
+    }
     if let Some(folder) = &arguments.report {
         report::write(&verdict, folder)?;
     }

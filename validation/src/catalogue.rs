@@ -7,6 +7,8 @@ use gearset::{Scene, SceneError};
 pub enum PublishedScene {
     /// OH-58, four planets, consistent geometry, true spacing.
     Oh58FourPlanets,
+    /// The same with the tooth thickness for which masses and inertias agree best.
+    Oh58BestThickness,
     /// OH-58, three planets, consistent geometry.
     Oh58ThreePlanets,
     /// OH-58 lumped model as published: 24.6° twice, equal spacing, four planets.
@@ -31,6 +33,7 @@ pub fn scene(which: PublishedScene) -> Result<Scene, SceneError> {
     }
     Scene::from_toml(match which {
         PublishedScene::Oh58FourPlanets => file!("oh58_4p.toml"),
+        PublishedScene::Oh58BestThickness => file!("oh58_4p_best_thickness.toml"),
         PublishedScene::Oh58ThreePlanets => file!("oh58_3p.toml"),
         PublishedScene::Oh58FourPlanetsAsPublished => file!("oh58_4p_as_published.toml"),
         PublishedScene::Oh58ThreePlanetsAsPublished => file!("oh58_3p_as_published.toml"),

@@ -143,6 +143,13 @@ impl Check {
         Self::assemble(subject, expected, actual, None, Tolerance::exact(), within)
     }
 
+    /// A check that the profile leaves out.
+    pub fn not_run(subject: Subject<'_>, expected: impl Into<Value>, tolerance: Tolerance) -> Self {
+        let mut check = Self::assemble(subject, expected, 0.0, None, tolerance, false);
+        (check.actual, check.status) = (None, Status::NotRun);
+        check
+    }
+
     fn assemble(
         subject: Subject<'_>,
         expected: impl Into<Value>,

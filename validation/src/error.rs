@@ -12,6 +12,12 @@ pub enum ValidationError {
     /// A scene of the catalogue lacks something a check needs.
     #[error("a scene of the catalogue has no {0}")]
     Incomplete(&'static str),
+    /// The FE/contact model.
+    #[error(transparent)]
+    Fe(#[from] fe_contact::FeError),
+    /// A contact problem.
+    #[error(transparent)]
+    Contact(#[from] fe_contact::complementarity::ComplementarityError),
     /// A lumped model.
     #[error(transparent)]
     Lumped(#[from] lumped::LumpedError),

@@ -1,5 +1,6 @@
 //! Contact between flanks: half-plane and FE matched, cells, forces.
 
+pub mod cylinders;
 pub mod half_plane;
 pub mod hertz;
 mod law;

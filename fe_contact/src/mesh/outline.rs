@@ -116,6 +116,33 @@ impl Outline {
         polar(sign, angle)
     }
 
+    /// How far the inward normal at the tip corner runs inside the tooth, m: to the other flank, at
+    /// most the tooth's height.
+    pub fn depth_at_tip(&self) -> f64 {
+        let l = self.flank_length();
+        let ([x, y], [tx, ty]) = (self.flank_point(l), self.flank_tangent(l));
+        // The tangent turned towards the axis.
+        let normal = if tx * self.radial_sign() > 0.0 {
+            [ty * self.radial_sign(), -tx * self.radial_sign()]
+        } else {
+            [-ty * self.radial_sign(), tx * self.radial_sign()]
+        };
+        let inside = |t: f64| {
+            let (p, q) = (x + t * normal[0], y + t * normal[1]);
+            let r = p.hypot(q);
+            q.atan2(p) > -self.gear.tooth_thickness(r) / (2.0 * r)
+        };
+        let (mut low, mut high) = (0.0, (self.gear.tip_radius - self.gear.root_radius).abs());
+        if inside(high) {
+            return high;
+        }
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if inside(middle) { low = middle } else { high = middle }
+        }
+        low
+    }
+
     /// Length of the straight radial part between fillet and base circle; zero where the fillet
     /// meets the involute.
     pub fn radial_line(&self) -> f64 {

@@ -28,24 +28,29 @@ const DEPTH_IN_ELEMENTS: [f64; 2] = [0.85, 0.7];
 /// has nothing to say about a tooth.
 const DEEPEST_IN_THICKNESSES: f64 = 0.5;
 
+/// Share of the normal's run inside the tooth at its tip corner that the deepest point may use.
+const WITHIN_TIP: f64 = 0.9;
+
 /// The matching depth, on its plateau.
 fn matching<'b>(
     input: &FeContactInput,
     base_pitch: f64,
     bodies: impl Iterator<Item = &'b GearBody>,
 ) -> Result<Matching, FeError> {
-    let (mut element, mut thickness) = (0.0f64, f64::INFINITY);
+    let (mut element, mut thickness, mut at_tip) = (0.0f64, f64::INFINITY, f64::INFINITY);
     for body in bodies {
         let outline = &body.mesh.outline;
         let length = outline.flank_length();
         element = element.max(length / f64::from(input.flank_elements));
         thickness = thickness.min(2.0 * outline.flank_point(0.5 * length)[1]);
+        at_tip = at_tip.min(outline.depth_at_tip());
     }
     let default = (DEPTH_IN_BASE_PITCHES * base_pitch).max(DEPTH_IN_ELEMENTS[0] * element);
-    let depth = input.matching_depth.unwrap_or(default);
     let points = input.matching_points as usize;
-    let (low, high) =
-        (DEPTH_IN_ELEMENTS[1] * element, DEEPEST_IN_THICKNESSES * thickness / points.max(1) as f64);
+    // The deepest point must stay in the tooth even below its tip corner.
+    let deepest = (DEEPEST_IN_THICKNESSES * thickness).min(WITHIN_TIP * at_tip);
+    let (low, high) = (DEPTH_IN_ELEMENTS[1] * element, deepest / points.max(1) as f64);
+    let depth = input.matching_depth.unwrap_or(default.min(high));
     if depth < low || depth > high {
         return Err(FeError::Unfit {
             key: "fe_contact.matching_depth_mm".into(),

@@ -85,7 +85,7 @@ impl PairCycle {
 }
 
 /// Fewest loaded cells a patch may have.
-const LEAST_CELLS: usize = 4;
+const LEAST_CELLS: usize = 6;
 
 /// Load step of the tangent stiffness.
 const LOAD_STEP: f64 = 0.01;

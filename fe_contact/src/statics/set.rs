@@ -114,7 +114,7 @@ type Tables = HashMap<(MeshKind, i64), MeshTable>;
 const PHASE_RESOLUTION: f64 = 1e12;
 
 /// Fewest loaded cells a patch may have.
-const LEAST_CELLS: usize = 4;
+const LEAST_CELLS: usize = 6;
 
 fn key(kind: MeshKind, phase: f64) -> (MeshKind, i64) {
     (kind, (phase * PHASE_RESOLUTION).round() as i64)
@@ -308,13 +308,13 @@ impl<'s> StaticSet<'s> {
                 return Ok((q, state));
             }
             // A mesh out of contact leaves the matrix singular: lend it the first guess's springs.
-            let step = match Cholesky::new(hessian.clone()) {
+            let step = match definite(hessian.clone()) {
                 Some(factor) => factor.solve(&r),
                 None => {
                     for mesh in &meshes {
                         mesh.add_nominal(&mut hessian, self.nominal_stiffness());
                     }
-                    Cholesky::new(hessian).ok_or_else(turns_freely)?.solve(&r)
+                    definite(hessian).ok_or_else(turns_freely)?.solve(&r)
                 }
             };
             let (before, slope) = (potential(&q, &answers), r.dot(&step));
@@ -350,7 +350,7 @@ impl<'s> StaticSet<'s> {
         for mesh in meshes {
             mesh.add_nominal(&mut matrix, self.nominal_stiffness());
         }
-        Ok(Cholesky::new(matrix).ok_or_else(turns_freely)?.solve(f))
+        Ok(definite(matrix).ok_or_else(turns_freely)?.solve(f))
     }
 
     /// Results in the frame of the scene.
@@ -383,6 +383,15 @@ impl<'s> StaticSet<'s> {
             contact_iterations,
         }
     }
+}
+
+/// Cholesky factor of a matrix that is positive definite by more than rounding.
+fn definite(matrix: DMatrix<f64>) -> Option<Cholesky<f64, nalgebra::Dyn>> {
+    let diagonal = matrix.diagonal();
+    let factor = Cholesky::new(matrix)?;
+    let l = factor.l_dirty();
+    let is_sound = (0..diagonal.len()).all(|i| l[(i, i)].powi(2) > 1e-11 * diagonal[i]);
+    is_sound.then_some(factor)
 }
 
 fn turns_freely() -> FeError {

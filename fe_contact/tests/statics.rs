@@ -1,0 +1,215 @@
+//! Symmetries of statics: roles of the gears, numbering, threads; bodies; faults.
+
+use std::path::Path;
+use std::sync::OnceLock;
+
+use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, InteriorPoint, Lemke};
+use fe_contact::contact::{MeshTable, PairFrame};
+use fe_contact::statics::{Bodies, Imperfections, StaticSet, at_phase, pair_cycle};
+use fe_contact::{Elastic, FeError};
+use gearset::{Facing, Mesh, MeshKind, Scene};
+
+fn scene(name: &str) -> Scene {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
+    Scene::from_file(&path).unwrap()
+}
+
+const FORCE: f64 = 10_700.67;
+
+/// The set's bodies on a coarse mesh, made once.
+fn bodies() -> &'static Bodies {
+    static BODIES: OnceLock<Bodies> = OnceLock::new();
+    BODIES.get_or_init(|| {
+        let mut scene = scene("oh58_4p.toml");
+        scene.fe_contact.flank_elements = 8;
+        Bodies::new(&scene).unwrap()
+    })
+}
+
+/// The sun mesh described from the planet's side: planet driving, path run through backwards.
+#[test]
+fn the_result_does_not_depend_on_which_flank_is_the_reference() {
+    let b = bodies();
+    let mesh = b.geometry.mesh(MeshKind::SunPlanet).unwrap();
+    let (sun, planet) = (b.geometry.sun.as_ref().unwrap(), &b.geometry.planet);
+    let swapped = Mesh::sun_planet(planet, sun, b.geometry.center_distance).unwrap();
+    let settings = b.cells(FORCE);
+    let [on_sun, on_planet] = b.pair(MeshKind::SunPlanet).unwrap();
+    for phase in [0.0, 0.13, 0.5, 0.7, 0.93] {
+        let string = mesh.path_start + phase * mesh.base_pitch;
+        let mirrored = (mesh.driven_string(string) - swapped.path_start) / swapped.base_pitch;
+        let one = MeshTable::new(mesh, [on_sun, on_planet], phase, &settings).unwrap();
+        let two = MeshTable::new(&swapped, [on_planet, on_sun], mirrored, &settings).unwrap();
+        // The same approach of every pair: torques would differ, as the two gears' arms do at a
+        // corner.
+        let forces = |table: &MeshTable| {
+            let n = table.pairs.len();
+            let found = table.answer(&vec![18e-6; n], &vec![0.0; n], &ActiveSet, None);
+            let mut list = found.unwrap().pair_forces;
+            list.sort_by(f64::total_cmp);
+            list
+        };
+        let (first, second) = (forces(&one), forces(&two));
+        assert_eq!(first.len(), second.len());
+        for (p, q) in first.iter().zip(&second) {
+            assert!((p - q).abs() < 1e-9 * FORCE, "{phase}: {p} {q}");
+        }
+    }
+}
+
+/// The three solvers through the whole chain.
+#[test]
+fn solvers_agree_on_teeth() {
+    for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
+        let solve = |solver: &dyn ComplementaritySolver| {
+            at_phase(bodies(), kind, FORCE, 0.52, solver).unwrap().deflection
+        };
+        let base = solve(&ActiveSet);
+        assert!((solve(&Lemke) / base - 1.0).abs() < 1e-10);
+        assert!((solve(&InteriorPoint) / base - 1.0).abs() < 1e-7);
+    }
+}
+
+#[test]
+fn one_thread_and_two_give_the_same_bits() {
+    let scene = scene("oh58_4p.toml");
+    let run = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| {
+            let set = StaticSet::new(
+                &scene,
+                bodies(),
+                Facing::CounterClockwise,
+                Imperfections::default(),
+            );
+            let cycle = set.unwrap().cycle(1413.0, 14, &ActiveSet).unwrap();
+            cycle.states.iter().flat_map(|s| s.central[2].map(f64::to_bits)).collect::<Vec<_>>()
+        })
+    };
+    assert_eq!(run(1), run(2));
+}
+
+/// A force along the flank's normal turns the body by its base radius, whatever the point.
+#[test]
+fn arms_are_base_radii_on_the_path_and_the_opposing_flanks_at_corners() {
+    for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
+        let mesh = bodies().geometry.mesh(kind).unwrap();
+        let [driver, driven] =
+            [gearset::MeshMember::Driver, gearset::MeshMember::Driven].map(|m| mesh.gear(m));
+        for i in 0..40 {
+            let phase = f64::from(i) / 40.0;
+            for k in -1..=2 {
+                let Some(frame) = PairFrame::new(mesh, phase, k) else { continue };
+                let row = frame.approach_row();
+                let (a, b) = (row[2].abs() / driver.base_radius, row[5].abs() / driven.base_radius);
+                use fe_contact::contact::Location;
+                match frame.location {
+                    Location::Path => assert!((a - 1.0).abs() < 1e-12 && (b - 1.0).abs() < 1e-12),
+                    // The gear whose flank is pressed on has its base radius.
+                    Location::Corner(gearset::MeshMember::Driver) => {
+                        assert!((b - 1.0).abs() < 1e-12);
+                    }
+                    Location::Corner(gearset::MeshMember::Driven) => {
+                        assert!((a - 1.0).abs() < 1e-12);
+                    }
+                }
+                assert!(frame.gap >= -1e-12);
+            }
+        }
+    }
+}
+
+/// Gaps across the flanks are those of two circles of the curvature radii.
+#[test]
+fn gaps_follow_the_relative_curvature() {
+    for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
+        let mesh = bodies().geometry.mesh(kind).unwrap();
+        for phase in [0.3, 0.7] {
+            let frame = PairFrame::new(mesh, phase, 0).unwrap();
+            for x in [-2e-4, -1e-4, 1e-4, 2e-4] {
+                let (gap, expected) = (frame.gap_at(x), x * x / (2.0 * frame.radius()));
+                assert!((gap / expected - 1.0).abs() < 0.03, "{kind:?} {gap:e} {expected:e}");
+            }
+            assert!(frame.gap_at(0.0).abs() < 1e-15);
+        }
+    }
+}
+
+/// Maxwell–Betti: the matched compliance is symmetric to a fraction of a percent before its
+/// symmetric part is taken, and positive definite after.
+#[test]
+fn compliance_is_nearly_reciprocal() {
+    let b = bodies();
+    for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
+        let (mesh, pair) = (b.geometry.mesh(kind).unwrap(), b.pair(kind).unwrap());
+        for phase in [0.1, 0.6] {
+            let table = MeshTable::new(mesh, pair, phase, &b.cells(FORCE)).unwrap();
+            assert!(table.asymmetry < 0.02, "{}", table.asymmetry);
+            assert!(nalgebra::Cholesky::new(table.compliance.clone()).is_some());
+        }
+    }
+}
+
+#[test]
+fn a_grid_too_coarse_for_the_load_is_refused_with_its_remedy() {
+    let mut coarse = bodies().clone();
+    coarse.settings.input.contact_cells = 8;
+    let refused = pair_cycle(&coarse, MeshKind::SunPlanet, FORCE, 20, &ActiveSet);
+    let error = refused.map(|_| ()).unwrap_err();
+    assert!(matches!(error, FeError::GridTooCoarse { .. }), "{error}");
+    let message = error.to_string();
+    assert!(message.contains("contact_cells"), "{message}");
+}
+
+#[test]
+fn a_set_that_nothing_holds_is_refused() {
+    let mut free = scene("oh58_4p.toml");
+    free.supports.carrier.motion = gearset::Motion::Free;
+    let set = StaticSet::new(&free, bodies(), Facing::CounterClockwise, Imperfections::default());
+    let refused = set.unwrap().cycle(1000.0, 1, &ActiveSet);
+    let error = refused.map(|_| ()).unwrap_err();
+    assert!(matches!(error, FeError::NoEquilibrium(_)), "{error}");
+}
+
+#[test]
+fn without_a_bore_there_is_no_race() {
+    let mut boreless = scene("oh58_sun_planet_pair.toml");
+    boreless.geometry.as_mut().unwrap().planet.body_radius = None;
+    let refused = Bodies::new(&boreless).unwrap_err().to_string();
+    assert!(refused.contains("geometry.planet.bore_diameter_mm"), "{refused}");
+}
+
+/// Coupling through the rim dies out tooth by tooth: what is kept, four teeth on either side, holds
+/// all of a mesh, and what other meshes of the same gear do to it, half a dozen teeth away or more,
+/// is left out.
+#[test]
+fn coupling_through_the_rim_dies_out() {
+    let b = bodies();
+    let depth = b.settings.matching.depth;
+    for body in [b.sun.as_ref().unwrap(), &b.planet, b.ring.as_ref().unwrap()] {
+        for side in [fe_contact::mesh::Side::Ccw, fe_contact::mesh::Side::Cw] {
+            let at = |offset: i64| body.mid_flank_flexibility(side, depth, offset);
+            let own = at(0);
+            for sign in [-1, 1] {
+                let list = [1, 2, 3, 4].map(|k| at(sign * k) / own);
+                assert!(list[0] > 0.03 && list[0] < 0.15, "{list:?}");
+                assert!(list.windows(2).all(|w| w[1] < 0.7 * w[0]), "{list:?}");
+                assert!(list[3] < 0.025, "{list:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_ring_of_material_weighs_what_it_should() {
+    let b = bodies();
+    let m: &Elastic = &b.material;
+    let ring = b.ring.as_ref().unwrap();
+    let gear = ring.mesh.outline.gear();
+    let area = |inner: f64, outer: f64| std::f64::consts::PI * (outer * outer - inner * inner);
+    let unit = m.density * b.geometry.face_width;
+    // Between the solid rim and the rim with solid teeth.
+    let rim = gear.body_radius.unwrap();
+    let (least, most) = (unit * area(gear.root_radius, rim), unit * area(gear.tip_radius, rim));
+    assert!(ring.mass > least && ring.mass < most);
+}

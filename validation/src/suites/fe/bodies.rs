@@ -1,0 +1,121 @@
+//! Masses and inertias against the paper's lumped ones, and the tooth thickness that suits them.
+
+use fe_contact::Elastic;
+use fe_contact::body::CarrierBody;
+use fe_contact::mesh::GearMesh;
+use gearset::{Gear, Geometry, Scene, ThicknessInput};
+
+use super::Lab;
+use crate::catalogue::{PublishedScene, scene};
+use crate::check::{Check, ReferenceKind};
+use crate::error::ValidationError;
+
+/// Elements along the flank for masses alone.
+const FLANK_ELEMENTS: usize = 6;
+
+/// Mass (kg) and polar inertia (kg m²) of sun and planet, beside the scene's lumped values.
+fn gears(scene: &Scene) -> Result<[(f64, f64); 4], ValidationError> {
+    let missing = || ValidationError::Incomplete("sun, or lumped mass or inertia of it");
+    let geometry = Geometry::from_scene(scene).and_then(Result::ok).ok_or_else(missing)?;
+    let material = Elastic::new(&scene.material, scene.fe_contact.plane);
+    let lumped = scene.lumped.as_ref().ok_or_else(missing)?;
+    let of = |name, gear: &Gear| -> Result<(f64, f64), ValidationError> {
+        let mesh = GearMesh::new(name, gear, scene.fe_contact.element, FLANK_ELEMENTS)?;
+        Ok(mesh.mass_properties(&material, geometry.face_width)?)
+    };
+    let sun_gear = geometry.sun.as_ref().ok_or_else(missing)?;
+    let (sun, planet) = (of("sun", sun_gear)?, of("planet", &geometry.planet)?);
+    let inertia = |over_r2: Option<f64>, gear: &Gear| Some(over_r2? * gear.base_radius.powi(2));
+    let known = |x: Option<f64>| x.ok_or_else(missing);
+    Ok([
+        (known(lumped.mass.sun)?, sun.0),
+        (known(inertia(lumped.inertia_over_r2.sun, sun_gear))?, sun.1),
+        (known(lumped.mass.planet)?, planet.0),
+        (known(inertia(lumped.inertia_over_r2.planet, &geometry.planet))?, planet.1),
+    ])
+}
+
+/// Root mean square of the four relative differences.
+fn misfit(scene: &Scene, share: f64) -> Result<f64, ValidationError> {
+    let mut scene = scene.clone();
+    if let Some(ThicknessInput::Backlash { planet_share, .. }) =
+        scene.geometry.as_mut().map(|g| &mut g.thickness)
+    {
+        *planet_share = share;
+    }
+    let list = gears(&scene)?;
+    Ok((list.iter().map(|(paper, ours)| (ours / paper - 1.0).powi(2)).sum::<f64>() / 4.0).sqrt())
+}
+
+/// The planet's share of tooth thickness with the smallest misfit, by golden section.
+fn best_share(scene: &Scene) -> Result<f64, ValidationError> {
+    let golden = 0.5 * (5f64.sqrt() - 1.0);
+    let (mut low, mut high) = (0.3, 0.6);
+    let at = |a: f64, b: f64| (b - golden * (b - a), a + golden * (b - a));
+    let (mut p, mut q) = at(low, high);
+    let (mut f, mut g) = (misfit(scene, p)?, misfit(scene, q)?);
+    while high - low > 1e-4 {
+        if f < g {
+            (high, q, g) = (q, p, f);
+            p = at(low, high).0;
+            f = misfit(scene, p)?;
+        } else {
+            (low, p, f) = (p, q, g);
+            q = at(low, high).1;
+            g = misfit(scene, q)?;
+        }
+    }
+    Ok(0.5 * (low + high))
+}
+
+pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+    let mut checks = Vec::new();
+    let source = &lab.reference.parker.source;
+    let published = ReferenceKind::Published;
+    let names = [
+        ("sun", "mass", "kg"),
+        ("sun", "inertia", "kg m²"),
+        ("planet", "mass", "kg"),
+        ("planet", "inertia", "kg m²"),
+    ];
+    for ((body, what, unit), (paper, ours)) in names.into_iter().zip(gears(&lab.four)?) {
+        let id = format!("fe.bodies.{what}.{body}");
+        let title = format!("{what} of the {body}'s mesh against the printed lumped one");
+        checks.push(lab.number(&id, &title, published, source, unit, paper, ours)?);
+    }
+    let geometry = lab.four.geometry.as_ref().and_then(|g| g.carrier);
+    let carrier = geometry.ok_or(ValidationError::Incomplete("carrier"))?;
+    let (a, width) = (lab.bodies.geometry.center_distance, lab.bodies.geometry.face_width);
+    let psi = &lab.four.planets.psi_rad;
+    let body = CarrierBody::new(&carrier, a, psi, &lab.bodies.material, width)?;
+    let lumped = lab.four.lumped.as_ref().ok_or(ValidationError::Incomplete("lumped"))?;
+    let printed = lumped.mass.carrier.zip(lumped.inertia_over_r2.carrier.map(|i| i * a * a));
+    let (mass, inertia) = printed.ok_or(ValidationError::Incomplete("carrier's mass"))?;
+    let title = "mass of the carrier's annulus against the printed lumped one";
+    checks.push(lab.number(
+        "fe.bodies.mass.carrier",
+        title,
+        published,
+        source,
+        "kg",
+        mass,
+        body.mass,
+    )?);
+    let title = "polar inertia of the carrier's annulus against the printed lumped one";
+    let id = "fe.bodies.inertia.carrier";
+    checks.push(lab.number(id, title, published, source, "kg m²", inertia, body.inertia)?);
+    let best = best_share(&lab.four)?;
+    let second = scene(PublishedScene::Oh58BestThickness)?;
+    let kept = match second.geometry.as_ref().map(|g| g.thickness) {
+        Some(ThicknessInput::Backlash { planet_share, .. }) => planet_share,
+        _ => return Err(ValidationError::Incomplete("planet_share")),
+    };
+    let title = "planet's share of tooth thickness for which masses and inertias agree best, as in scenes/oh58_4p_best_thickness.toml";
+    let source = "scenes/oh58_4p_best_thickness.toml";
+    let kind = ReferenceKind::OwnRegression;
+    checks.push(lab.number("fe.bodies.best_share", title, kind, source, "", kept, best)?);
+    let title = "root mean square of the four differences at that share";
+    let misfit = 100.0 * misfit(&lab.four, best)?;
+    checks.push(lab.at_most("fe.bodies.best_misfit", title, "%", misfit)?);
+    Ok(checks)
+}
