@@ -213,3 +213,46 @@ fn a_ring_of_material_weighs_what_it_should() {
     let (least, most) = (unit * area(gear.root_radius, rim), unit * area(gear.tip_radius, rim));
     assert!(ring.mass > least && ring.mass < most);
 }
+
+/// A planet pressed 300 µm into the sun meets it on both flanks, whose backlash is 91 µm; one left in
+/// its place meets it on the loaded flanks alone.
+#[test]
+fn back_flanks_press_where_the_backlash_is_used_up() {
+    let scene = scene("oh58_3p.toml");
+    let run = |shift: f64| {
+        let imperfections =
+            Imperfections { displaced_planets: vec![(1, shift, 0.0)], ..Imperfections::default() };
+        let set = StaticSet::new(&scene, bodies(), Facing::CounterClockwise, imperfections);
+        set.unwrap().cycle(200.0, 3, &ActiveSet).unwrap()
+    };
+    for state in &run(0.0).states {
+        assert!(state.backs.is_empty());
+    }
+    for state in &run(-300e-6).states {
+        assert!(state.residual < 1e-9);
+        let jammed: Vec<_> = state.backs.iter().filter(|m| m.force > 0.0).collect();
+        assert!(jammed.iter().any(|m| m.kind == MeshKind::SunPlanet && m.planet == 1));
+        // Opposite flanks press against each other: both carry more than the torque asks for.
+        let front = state.meshes.iter().find(|m| m.kind == MeshKind::SunPlanet && m.planet == 1);
+        assert!(front.unwrap().force > 200.0 / 3.0 / 35.2e-3);
+    }
+}
+
+/// Sun and ring with no backlash at all: in the nominal place every back flank touches as well, and a
+/// load opens them.
+#[test]
+fn without_backlash_the_load_opens_the_back_flanks() {
+    let mut tight = scene("oh58_3p.toml");
+    let geometry = tight.geometry.as_mut().unwrap();
+    geometry.thickness =
+        gearset::ThicknessInput::Backlash { sun_planet: 0.0, ring_planet: 0.0, planet_share: 0.5 };
+    tight.fe_contact.flank_elements = 8;
+    let b = Bodies::new(&tight).unwrap();
+    let set = StaticSet::new(&tight, &b, Facing::CounterClockwise, Imperfections::default());
+    for state in &set.unwrap().cycle(1130.0, 4, &ActiveSet).unwrap().states {
+        assert!(state.residual < 1e-9);
+        let back: f64 = state.backs.iter().map(|m| m.force).sum();
+        let front: f64 = state.meshes.iter().map(|m| m.force).sum();
+        assert!(back < 0.2 * front, "{back} {front}");
+    }
+}

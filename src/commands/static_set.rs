@@ -65,6 +65,9 @@ struct SetPosition {
     /// x radial, y tangential.
     planets: Vec<Displacement>,
     meshes: Vec<MeshPosition>,
+    /// Meshes whose back flanks touch; phases count in the mirrored mesh.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    back_flanks: Vec<MeshPosition>,
 }
 
 /// Displacement of a race.
@@ -187,6 +190,7 @@ fn describe(cycle: &SetCycle, radius: f64) -> TorqueOutput {
         sun: displacement(s.central[2]),
         planets: s.planets.iter().map(|p| displacement(*p)).collect(),
         meshes: s.meshes.iter().map(mesh).collect(),
+        back_flanks: s.backs.iter().filter(|m| m.force > 0.0).map(mesh).collect(),
     };
     TorqueOutput {
         torque_nm: cycle.torque_nm,

@@ -103,11 +103,16 @@ impl MeshTable {
     }
 
     /// Refuses a loaded cell at the end of a grid that ends within the flanks, and a patch of too
-    /// few cells.
+    /// few cells under `worth_judging` (N) or more.
     ///
     /// # Errors
     /// [`FeError::GridOverflow`], [`FeError::GridTooCoarse`].
-    pub fn check_patches(&self, answer: &MeshAnswer, least_cells: usize) -> Result<(), FeError> {
+    pub fn check_patches(
+        &self,
+        answer: &MeshAnswer,
+        least_cells: usize,
+        worth_judging: f64,
+    ) -> Result<(), FeError> {
         for (k, cells) in self.pairs.iter().enumerate() {
             let (pair, force_n) = (cells.index, answer.pair_forces[k]);
             if force_n <= 0.0 {
@@ -124,7 +129,8 @@ impl MeshTable {
             // rests on a cell or two: neither carries its load by the cells' number.
             let is_whole = cells.location == Location::Path && !ends[0] && !ends[1];
             let total: f64 = answer.pair_forces.iter().sum();
-            if is_whole && force_n > 0.3 * total && loaded < least_cells {
+            let counts = force_n >= worth_judging && force_n > 0.3 * total;
+            if is_whole && counts && loaded < least_cells {
                 let cells = cells.x.len();
                 let least = least_cells;
                 return Err(FeError::GridTooCoarse { pair, force_n, loaded, least, cells });

@@ -33,6 +33,17 @@ impl Imperfections {
         self
     }
 
+    /// What a displaced planet adds to the gap of a pair with this row, m.
+    pub(super) fn shift(&self, kind: MeshKind, planet: usize, row: &[f64; 6]) -> f64 {
+        let own = match kind {
+            MeshKind::SunPlanet => &row[3..5],
+            MeshKind::RingPlanet => &row[0..2],
+        };
+        let displaced = self.displaced_planets.iter().filter(|d| d.0 == planet);
+        // A displacement that approaches closes the gap.
+        displaced.map(|(_, radial, tangential)| -(own[0] * radial + own[1] * tangential)).sum()
+    }
+
     /// What is added to the gaps of a pair, m.
     pub(super) fn gap(
         &self,
@@ -43,17 +54,7 @@ impl Imperfections {
         sun_angle: f64,
         sun: Option<&Gear>,
     ) -> f64 {
-        let mut gap = 0.0;
-        for (n, radial, tangential) in &self.displaced_planets {
-            if *n == planet {
-                let row = match kind {
-                    MeshKind::SunPlanet => &pair.row[3..5],
-                    MeshKind::RingPlanet => &pair.row[0..2],
-                };
-                // A displacement that approaches closes the gap.
-                gap -= row[0] * radial + row[1] * tangential;
-            }
-        }
+        let mut gap = self.shift(kind, planet, &pair.row);
         if let (MeshKind::SunPlanet, Some(sun)) = (kind, sun) {
             let turned = pair.axes[0] + races.psi[planet] - sun_angle;
             let tooth = (turned / sun.pitch_angle()).round() as i64;

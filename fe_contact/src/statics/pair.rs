@@ -130,7 +130,7 @@ pub fn at_phase(
             settings.window *= 2.0;
             continue;
         }
-        table.check_patches(&answer, LEAST_CELLS)?;
+        table.check_patches(&answer, LEAST_CELLS, 0.0)?;
         let stepped = force * (1.0 + LOAD_STEP);
         let (further, _) = turn(&table, mesh, stepped, solver, Some((deflection, &answer)))?;
         let arms = arms(&table, mesh);

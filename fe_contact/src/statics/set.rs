@@ -10,6 +10,7 @@
 //! K + Σ bᵀ S b with the meshes' tangents S. Newton's method with a line search ends in finitely
 //! many steps, since Ψ is piecewise quadratic.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -22,7 +23,7 @@ use super::imperfection::Imperfections;
 use super::pair::ToothPairLoad;
 use super::races::{PLANETS, Races, SUN};
 use crate::complementarity::ComplementaritySolver;
-use crate::contact::{MeshAnswer, MeshTable};
+use crate::contact::{CellSettings, MeshAnswer, MeshTable, PairFrame};
 use crate::error::FeError;
 
 /// A set ready for static loads.
@@ -35,9 +36,22 @@ pub struct StaticSet<'s> {
     sign: f64,
     /// Phases of all meshes with planet 0's sun mesh at phase 0: sun meshes, then ring meshes.
     offsets: Vec<(MeshKind, usize, f64)>,
+    /// The same for the back flanks, whose phases run backwards, with their normal backlash, m.
+    backs: Vec<BackFlank>,
     /// Sun's angle (mirrored frame) where planet 0's sun mesh is at phase 0, rad.
     start_angle: f64,
     imperfections: Imperfections,
+}
+
+/// The back flanks of one mesh.
+#[derive(Debug, Clone, Copy)]
+struct BackFlank {
+    kind: MeshKind,
+    planet: usize,
+    /// Phase of the mirrored mesh at position 0, cycles.
+    offset: f64,
+    /// Normal backlash: what the flanks stand apart when those in front just touch, m.
+    backlash: f64,
 }
 
 /// One mesh of a set in equilibrium.
@@ -70,6 +84,8 @@ pub struct SetState {
     pub planets: Vec<[f64; 3]>,
     /// All meshes: sun meshes, then ring meshes.
     pub meshes: Vec<MeshState>,
+    /// Loaded back flanks; phases count in the mirrored mesh.
+    pub backs: Vec<MeshState>,
     /// Largest imbalance of any race over the load.
     pub residual: f64,
     /// Equilibrium iterations.
@@ -112,6 +128,9 @@ type Tables = HashMap<(MeshKind, i64), MeshTable>;
 
 /// Phases nearer than this many parts of a cycle are the same phase, rounded differently.
 const PHASE_RESOLUTION: f64 = 1e12;
+
+/// How often grids are laid out anew for four times the load.
+const RESIZINGS: usize = 3;
 
 /// Fewest loaded cells a patch may have.
 const LEAST_CELLS: usize = 6;
@@ -159,11 +178,26 @@ impl<'s> StaticSet<'s> {
         };
         let mut offsets = list(MeshKind::SunPlanet, &at_zero.sun_planet);
         offsets.extend(list(MeshKind::RingPlanet, &at_zero.ring_planet));
-        let teeth = bodies.geometry.sun.as_ref().map_or(1, |sun| sun.teeth);
-        let start_angle = -first * std::f64::consts::TAU / f64::from(teeth);
+        // The other flanks at the same sun angle. The planets stand where the flanks in front touch,
+        // one sun-mesh backlash ahead of where the back flanks would.
+        let at_back = phasing.phases(-first * pitch_angle(bodies), Facing::Clockwise);
+        let normal = |kind| bodies.geometry.normal_backlash(kind).unwrap_or(0.0);
+        let ahead = normal(MeshKind::SunPlanet) / bodies.geometry.base_pitch;
+        let back = |kind, phases: &[f64], ahead: f64| -> Vec<BackFlank> {
+            let one = |(planet, phase): (usize, &f64)| BackFlank {
+                kind,
+                planet,
+                offset: phase + ahead,
+                backlash: normal(kind),
+            };
+            phases.iter().enumerate().map(one).collect()
+        };
+        let mut backs = back(MeshKind::SunPlanet, &at_back.sun_planet, 0.0);
+        backs.extend(back(MeshKind::RingPlanet, &at_back.ring_planet, ahead));
+        let start_angle = -first * pitch_angle(bodies);
         let races = Races::new(scene, bodies, &positions.psi_rad)?;
         let imperfections = imperfections.mirrored(sign);
-        Ok(Self { bodies, races, sign, offsets, start_angle, imperfections })
+        Ok(Self { bodies, races, sign, offsets, backs, start_angle, imperfections })
     }
 
     /// Equilibrium at `positions` even positions of one mesh cycle; `torque_nm` is the magnitude of
@@ -177,12 +211,34 @@ impl<'s> StaticSet<'s> {
         positions: usize,
         solver: &(dyn ComplementaritySolver + Sync),
     ) -> Result<SetCycle, FeError> {
+        // Grids are sized for an even share of the load. Where a mesh carries far more (a planet out
+        // of place), all are laid out anew for more.
+        let share = torque_nm / self.races.radii[2] / self.races.planets() as f64;
+        let mut sized_for = share.max(1.0);
+        for _ in 0..RESIZINGS {
+            match self.cycle_on(torque_nm, positions, sized_for, solver) {
+                Err(FeError::GridOverflow { .. }) => sized_for *= 4.0,
+                result => return result,
+            }
+        }
+        self.cycle_on(torque_nm, positions, sized_for, solver)
+    }
+
+    fn cycle_on(
+        &self,
+        torque_nm: f64,
+        positions: usize,
+        sized_for: f64,
+        solver: &(dyn ComplementaritySolver + Sync),
+    ) -> Result<SetCycle, FeError> {
         let list: Vec<f64> = (0..positions).map(|i| i as f64 / positions as f64).collect();
-        let tables = self.tables(torque_nm, &list)?;
+        let settings = self.bodies.cells(sized_for);
+        let tables = self.tables(&settings, &list)?;
         let mut states = Vec::with_capacity(positions);
         let mut start = None;
         for position in list {
-            let (q, state) = self.solve(torque_nm, position, &tables, start.as_ref(), solver)?;
+            let with = (&tables, &settings);
+            let (q, state) = self.solve(torque_nm, position, with, start.as_ref(), solver)?;
             start = Some(q);
             states.push(state);
         }
@@ -190,11 +246,7 @@ impl<'s> StaticSet<'s> {
     }
 
     /// Tables for all meshes at the given positions.
-    fn tables(&self, torque_nm: f64, positions: &[f64]) -> Result<Tables, FeError> {
-        // No mesh carries more than the whole torque on a few planets; twice the even share leaves
-        // room for uneven ones, and an overflow is reported.
-        let share = torque_nm / self.races.radii[2] / self.races.planets() as f64;
-        let settings = self.bodies.cells(share.max(1.0));
+    fn tables(&self, settings: &CellSettings, positions: &[f64]) -> Result<Tables, FeError> {
         let mut wanted: Vec<(MeshKind, f64)> = Vec::new();
         let mut seen = std::collections::HashSet::new();
         for position in positions {
@@ -208,13 +260,10 @@ impl<'s> StaticSet<'s> {
         let made: Result<Vec<_>, FeError> = wanted
             .par_iter()
             .map(|(kind, phase)| {
-                let missing = || FeError::Missing {
-                    key: format!("mesh {}", kind.name()),
-                    why: "a whole set has both meshes",
-                };
+                let missing = || missing_mesh(*kind);
                 let mesh = self.bodies.geometry.mesh(*kind).ok_or_else(missing)?;
                 let pair = self.bodies.pair(*kind).ok_or_else(missing)?;
-                Ok((key(*kind, *phase), MeshTable::new(mesh, pair, *phase, &settings)?))
+                Ok((key(*kind, *phase), MeshTable::new(mesh, pair, *phase, settings)?))
             })
             .collect();
         Ok(made?.into_iter().collect())
@@ -224,22 +273,19 @@ impl<'s> StaticSet<'s> {
         &self,
         torque_nm: f64,
         position: f64,
-        tables: &Tables,
+        (tables, settings): (&Tables, &CellSettings),
         start: Option<&DVector<f64>>,
         solver: &dyn ComplementaritySolver,
     ) -> Result<(DVector<f64>, SetState), FeError> {
-        const MOST: usize = 60;
         let n = self.races.count;
         let load = torque_nm / self.races.radii[2];
         let mut f = DVector::zeros(n);
         if let Some(i) = self.races.of(SUN, 2) {
             f[i] = load;
         }
-        let sun_angle = self.start_angle
-            + position * std::f64::consts::TAU
-                / f64::from(self.bodies.geometry.sun.as_ref().map_or(1, |s| s.teeth));
+        let sun_angle = self.start_angle + position * pitch_angle(self.bodies);
         // Every mesh with its rows and gap offsets.
-        let meshes: Vec<Placed<'_>> = self
+        let mut meshes: Vec<Placed<'_>> = self
             .offsets
             .iter()
             .map(|(kind, planet, offset)| {
@@ -258,6 +304,7 @@ impl<'s> StaticSet<'s> {
                         self.imperfections.gap(*kind, *planet, p, &self.races, sun_angle, sun)
                     })
                     .collect();
+                let table = Cow::Borrowed(table);
                 Placed { kind: *kind, planet: *planet, phase, table, rows, offsets }
             })
             .collect();
@@ -271,6 +318,74 @@ impl<'s> StaticSet<'s> {
             Some(q) => q.clone(),
             None => self.first_guess(&f, &meshes)?,
         };
+        let (mut found, mut counts) = self.balance(&f, load, &mut q, &meshes, solver)?;
+        if self.backs_touch(&q)? {
+            for back in &self.backs {
+                meshes.push(self.back(back, position, settings)?);
+            }
+            let (again, more) = self.balance(&f, load, &mut q, &meshes, solver)?;
+            (found, counts) = (again, (counts.0 + more.0, counts.1 + more.1));
+        }
+        let (answers, residual) = found;
+        for (mesh, answer) in meshes.iter().zip(&answers) {
+            // A mesh that carries next to nothing rests on few cells, and that decides nothing.
+            mesh.table.check_patches(answer, LEAST_CELLS, 0.2 * settings.force)?;
+            mesh.check_window(&q)?;
+        }
+        let state = self.state(position, &q, &meshes, &answers, residual, counts);
+        Ok((q, state))
+    }
+
+    /// Whether any back flanks meet at these displacements.
+    fn backs_touch(&self, q: &DVector<f64>) -> Result<bool, FeError> {
+        for back in &self.backs {
+            let mesh = self.bodies.geometry.mesh(back.kind);
+            let frame = mesh.and_then(|mesh| PairFrame::new(mesh, 0.3, 0));
+            let row = frame.map(|frame| mirrored(&frame.approach_row()));
+            let row = row.ok_or_else(|| missing_mesh(back.kind))?;
+            let b = DVector::from_vec(self.races.approach(back.kind, back.planet, &row));
+            let shift = self.imperfections.shift(back.kind, back.planet, &row);
+            if b.dot(q) - shift >= back.backlash {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// The back flanks of one mesh: the mesh seen in the mirror along its line of centres. They
+    /// share no compliance with the flanks in front.
+    fn back(
+        &self,
+        back: &BackFlank,
+        position: f64,
+        settings: &CellSettings,
+    ) -> Result<Placed<'static>, FeError> {
+        let missing = || missing_mesh(back.kind);
+        let mesh = self.bodies.geometry.mesh(back.kind).ok_or_else(missing)?;
+        let pair = self.bodies.pair(back.kind).ok_or_else(missing)?;
+        let phase = cycle(back.offset - position);
+        let table = MeshTable::new(mesh, pair, phase, settings)?;
+        let mut rows = Vec::with_capacity(table.pairs.len());
+        let mut offsets = Vec::with_capacity(table.pairs.len());
+        for p in &table.pairs {
+            let row = mirrored(&p.row);
+            rows.push(DVector::from_vec(self.races.approach(back.kind, back.planet, &row)));
+            offsets.push(back.backlash + self.imperfections.shift(back.kind, back.planet, &row));
+        }
+        let table = Cow::Owned(table);
+        Ok(Placed { kind: back.kind, planet: back.planet, phase, table, rows, offsets })
+    }
+
+    /// Newton's method from q; answers of all meshes with the residual, and the iterations it took.
+    fn balance(
+        &self,
+        f: &DVector<f64>,
+        load: f64,
+        q: &mut DVector<f64>,
+        meshes: &[Placed<'_>],
+        solver: &dyn ComplementaritySolver,
+    ) -> Result<Balance, FeError> {
+        const MOST: usize = 60;
         let mut warm: Vec<Option<Vec<bool>>> = meshes.iter().map(|m| Some(m.guess())).collect();
         let mut contact_iterations = 0;
         let mut evaluate = |q: &DVector<f64>, warm: &mut Vec<Option<Vec<bool>>>| {
@@ -289,44 +404,38 @@ impl<'s> StaticSet<'s> {
             let energy: f64 = answers.iter().map(|a| a.energy).sum();
             0.5 * (&self.races.stiffness * q).dot(q) - f.dot(q) + energy
         };
-        let mut answers = evaluate(&q, &mut warm)?;
+        let mut answers = evaluate(q, &mut warm)?;
         let mut residual = f64::INFINITY;
         for iteration in 1..=MOST {
-            let mut r = &f - &self.races.stiffness * &q;
+            let mut r = f - &self.races.stiffness * &*q;
             let mut hessian = self.races.stiffness.clone();
             for (mesh, answer) in meshes.iter().zip(&answers) {
                 mesh.add_to(&mut r, &mut hessian, answer);
             }
             residual = r.amax() / load;
             if residual < 1e-11 {
-                for (mesh, answer) in meshes.iter().zip(&answers) {
-                    mesh.table.check_patches(answer, LEAST_CELLS)?;
-                    mesh.check_window(&q)?;
-                }
-                let counts = (iteration, contact_iterations);
-                let state = self.state(position, &q, &meshes, &answers, residual, counts);
-                return Ok((q, state));
+                return Ok(((answers, residual), (iteration, contact_iterations)));
             }
             // A mesh out of contact leaves the matrix singular: lend it the first guess's springs.
             let step = match definite(hessian.clone()) {
                 Some(factor) => factor.solve(&r),
                 None => {
-                    for mesh in &meshes {
+                    for mesh in meshes {
                         mesh.add_nominal(&mut hessian, self.nominal_stiffness());
                     }
                     definite(hessian).ok_or_else(turns_freely)?.solve(&r)
                 }
             };
-            let (before, slope) = (potential(&q, &answers), r.dot(&step));
+            let (before, slope) = (potential(q, &answers), r.dot(&step));
             let mut scale = 1.0;
             loop {
-                let trial = &q + scale * &step;
+                let trial = &*q + scale * &step;
                 let found = evaluate(&trial, &mut warm)?;
                 let rounding = 1e-12 * (before.abs() + slope.abs());
                 if potential(&trial, &found) <= before - 1e-4 * scale * slope + rounding
                     || scale < 1e-6
                 {
-                    (q, answers) = (trial, found);
+                    (*q, answers) = (trial, found);
                     break;
                 }
                 scale *= 0.5;
@@ -369,20 +478,36 @@ impl<'s> StaticSet<'s> {
             [value(0), self.sign * value(1), self.sign * value(2) / radius]
         };
         let radii = self.races.radii;
+        let mut states: Vec<MeshState> =
+            meshes.iter().zip(answers).map(|(mesh, answer)| mesh.state(q, answer)).collect();
         SetState {
             position,
             central: [0, 1, 2].map(|body| of(body, radii[body])),
             planets: (0..self.races.planets()).map(|n| of(PLANETS + n, radii[3])).collect(),
-            meshes: meshes
-                .iter()
-                .zip(answers)
-                .map(|(mesh, answer)| mesh.state(q, answer))
-                .collect(),
+            backs: states.split_off(self.offsets.len()),
+            meshes: states,
             residual,
             iterations,
             contact_iterations,
         }
     }
+}
+
+/// Answers of all meshes with the largest residual over the load; equilibrium and contact iterations.
+type Balance = ((Vec<MeshAnswer>, f64), (usize, usize));
+
+fn missing_mesh(kind: MeshKind) -> FeError {
+    FeError::Missing { key: format!("mesh {}", kind.name()), why: "a whole set has both meshes" }
+}
+
+/// Angle between the sun's teeth, rad.
+fn pitch_angle(bodies: &Bodies) -> f64 {
+    bodies.geometry.sun.as_ref().map_or(0.0, gearset::Gear::pitch_angle)
+}
+
+/// A pair's row seen in the mirror along the line of centres: y and θ turn round.
+fn mirrored(row: &[f64; 6]) -> [f64; 6] {
+    [row[0], -row[1], -row[2], row[3], -row[4], -row[5]]
 }
 
 /// Cholesky factor of a matrix that is positive definite by more than rounding.
@@ -407,7 +532,7 @@ struct Placed<'t> {
     kind: MeshKind,
     planet: usize,
     phase: f64,
-    table: &'t MeshTable,
+    table: Cow<'t, MeshTable>,
     /// Approach of each pair on the races' coordinates.
     rows: Vec<DVector<f64>>,
     /// Gap offsets of the pairs, m.
