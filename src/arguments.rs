@@ -126,6 +126,26 @@ pub struct Static {
     /// Also draw figures into this folder (SVG).
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
+    /// Of a gear pair: turn the driving gear's race by this approach over its base radius instead of
+    /// loading it, at one phase; µm.
+    #[arg(long, value_name = "UM", conflicts_with_all = ["normal_force_n", "torque_nm", "figures"])]
+    pub approach_um: Option<f64>,
+    /// Phase of that approach, cycles.
+    #[arg(long, value_name = "CYCLES", requires = "approach_um", allow_negative_numbers = true)]
+    pub phase: Option<f64>,
+    /// Write the same question as a CalculiX deck.
+    #[arg(long, value_name = "FILE", requires = "approach_um")]
+    pub export_inp: Option<PathBuf>,
+    /// Elements per half-width of the contact in that deck.
+    #[arg(long, value_name = "N", default_value_t = 12.0, value_parser = elements, requires = "export_inp")]
+    pub export_per_half_width: f64,
+    /// Elements along the other flanks in that deck.
+    #[arg(long, value_name = "N", default_value_t = 12, requires = "export_inp",
+          value_parser = clap::value_parser!(u32).range(3..=64))]
+    pub export_flank_elements: u32,
+    /// Teeth kept on either side of the loaded ones in that deck; whole gears if left out.
+    #[arg(long, value_name = "N", requires = "export_inp")]
+    pub export_teeth: Option<u32>,
     #[arg(long, value_enum, default_value_t = TableFormat::Text)]
     pub format: TableFormat,
 }
@@ -183,6 +203,13 @@ pub struct Compare {
     pub tolerance_percent: f64,
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
+}
+
+fn elements(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if (1.0..=100.0).contains(&x) => Ok(x),
+        _ => Err("a number from 1 to 100".into()),
+    }
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {

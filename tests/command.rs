@@ -49,8 +49,13 @@ fn modes_of_oh58_as_json() {
 fn every_json_output_keeps_to_its_schema() {
     let modes = csv_of_own_modes();
     let set = scene("oh58_4p.toml");
-    let runs: [(&str, Vec<&str>); 5] = [
-        ("validate", vec!["validate"]),
+    let pair = scene("oh58_sun_planet_pair.toml");
+    let runs: [(&str, Vec<&str>); 9] = [
+        ("validate", vec!["validate", "--only", "table"]),
+        ("mesh", vec!["mesh", &set]),
+        ("static_set", vec!["static", &set, "--positions", "1"]),
+        ("static_pair", vec!["static", &pair, "--normal-force-n", "1e4", "--positions", "2"]),
+        ("static_approach", vec!["static", &pair, "--approach-um", "20", "--phase", "0.7"]),
         ("modes", vec!["modes", &set, "--carrier-speeds-rpm", "0,535.7"]),
         ("rules", vec!["rules", &set]),
         ("scene_check", vec!["scene", "check", &set]),
@@ -176,7 +181,7 @@ fn a_fault_is_shown_with_its_line_underlined() {
 #[test]
 fn the_binary_itself_prints_the_verdict_and_refuses_bad_input() {
     let binary = env!("CARGO_BIN_EXE_epicyclic");
-    let good = Command::new(binary).arg("validate").output().unwrap();
+    let good = Command::new(binary).args(["validate", "--only", "table3."]).output().unwrap();
     assert_eq!(good.status.code(), Some(0));
     let text = String::from_utf8(good.stdout).unwrap();
     assert!(text.contains("table3.lumped.6") && text.contains("0 failed"), "{text}");
@@ -187,21 +192,90 @@ fn the_binary_itself_prints_the_verdict_and_refuses_bad_input() {
 }
 
 #[test]
-fn the_counts_in_the_readme_are_those_of_the_verdict() {
-    let verdict = validation::validate(validation::Profile::Quick, "").unwrap();
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let readme = std::fs::read_to_string(path).unwrap();
-    let words = format!(
-        "{} checks pass, {} fail, {} published value",
-        verdict.passed, verdict.failed, verdict.missed
-    );
-    assert!(readme.contains(&words), "README.md should say: {words}");
+fn a_report_that_cannot_be_written_is_one_message() {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    let (code, _, err) =
+        run(&["validate", "--only", "table1.", "--report", file.path().to_str().unwrap()]);
+    assert_eq!(code, 2);
+    assert!(err.contains("cannot write"), "{err}");
+}
+
+/// The contract of one mesh: keys, definitions that can be checked, numbers of the right size.
+#[test]
+fn static_of_one_mesh_as_json() {
+    let pair = scene("oh58_sun_planet_pair.toml");
+    let arguments =
+        ["static", &pair, "--normal-force-n", "10700.67", "--positions", "16", "--format", "json"];
+    let result = json(&arguments);
+    let number = |key: &str| result[key].as_f64().unwrap();
+    let positions = result["positions"].as_array().unwrap();
+    assert_eq!(positions.len(), 16);
+    let errors: Vec<f64> =
+        positions.iter().map(|p| p["transmission_error_um"].as_f64().unwrap()).collect();
+    let mean = errors.iter().sum::<f64>() / 16.0;
+    assert!((mean - number("transmission_error_mean_um")).abs() < 1e-9);
+    let secant = errors.iter().map(|e| 10_700.67 / (e * 1e-6)).sum::<f64>() / 16.0;
+    assert!((secant / number("mean_secant_stiffness_n_per_m") - 1.0).abs() < 1e-12);
+    assert!(number("mean_tangent_stiffness_n_per_m") > secant);
+    let mut loaded = 0;
+    for p in positions {
+        let pairs = p["pairs"].as_array().unwrap();
+        loaded += pairs.len();
+        let total: f64 = pairs.iter().map(|l| l["force_n"].as_f64().unwrap()).sum();
+        // Arms at a corner are within 2 % of the base radius.
+        assert!((total / 10_700.67 - 1.0).abs() < 0.02);
+    }
+    let ratio = number("effective_contact_ratio");
+    assert!((ratio - loaded as f64 / 16.0).abs() < 1e-12 && ratio > 1.4565);
 }
 
 #[test]
-fn a_report_that_cannot_be_written_is_one_message() {
-    let file = tempfile::NamedTempFile::new().unwrap();
-    let (code, _, err) = run(&["validate", "--report", file.path().to_str().unwrap()]);
-    assert_eq!(code, 2);
-    assert!(err.contains("cannot write"), "{err}");
+fn static_refuses_what_makes_no_sense_with_one_message() {
+    let (pair, set) = (scene("oh58_sun_planet_pair.toml"), scene("oh58_4p.toml"));
+    let lumped = scene("lin_parker_1999_3p.toml");
+    let cases: [(&[&str], &str); 9] = [
+        (&["static", &pair], "--normal-force-n"),
+        (&["static", &pair, "--normal-force-n", "-5"], "above 0 N"),
+        (&["static", &pair, "--torque-nm", "5"], "--normal-force-n"),
+        (&["static", &set, "--normal-force-n", "5"], "--torque-nm"),
+        (&["static", &set, "--torque-nm", "0"], "other than 0"),
+        (&["static", &set, "--torque-nm", "nan"], "finite"),
+        (&["static", &set, "--approach-um", "5"], "only a gear pair"),
+        (&["static", &lumped], "[geometry] is absent"),
+        (&["static", &pair, "--normal-force-n", "5", "--positions", "0"], "--positions"),
+    ];
+    for (arguments, words) in cases {
+        let (code, out, err) = run(arguments);
+        assert_eq!(code, 2, "{arguments:?}");
+        assert!(out.is_empty() && err.contains(words), "{arguments:?}: {err}");
+    }
+}
+
+#[test]
+fn figures_and_meshes_are_written_where_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let set = scene("oh58_3p.toml");
+    let drawn = run(&[
+        "static",
+        &set,
+        "--torque-nm",
+        "400,800",
+        "--positions",
+        "4",
+        "--figures",
+        &at("figures"),
+    ]);
+    assert_eq!(drawn.0, 0, "{}", drawn.2);
+    for name in ["transmission_error", "load_sharing", "mesh_stiffness", "rms_against_torque"] {
+        let text = std::fs::read_to_string(at(&format!("figures/{name}.svg"))).unwrap();
+        assert!(text.contains("<svg") && text.contains("<path"), "{name}");
+    }
+    let meshed = run(&["mesh", &set, "--svg", &at("mesh.svg"), "--vtu", &at("vtu")]);
+    assert_eq!(meshed.0, 0, "{}", meshed.2);
+    for name in ["sun", "planet", "ring", "carrier"] {
+        let text = std::fs::read_to_string(at(&format!("vtu/{name}.vtu"))).unwrap();
+        assert!(text.contains("UnstructuredGrid"), "{name}");
+    }
+    assert!(std::fs::read_to_string(at("mesh.svg")).unwrap().contains("</svg>"));
 }

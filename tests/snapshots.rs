@@ -115,6 +115,35 @@ fn verdict() {
     assert_json("verdict", &["validate"]);
 }
 
+/// The verdict as kept: what the test above has just been held against.
+fn kept_verdict() -> Value {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots/verdict.snap");
+    let text = std::fs::read_to_string(path).unwrap();
+    let body = text.splitn(3, "---\n").nth(2).unwrap();
+    serde_json::from_str(body).unwrap()
+}
+
+#[test]
+fn the_counts_in_the_readme_are_those_of_the_verdict() {
+    let verdict = kept_verdict();
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
+    let readme = std::fs::read_to_string(path).unwrap();
+    let (passed, failed, missed) = (&verdict["passed"], &verdict["failed"], &verdict["missed"]);
+    let words = format!("{passed} checks pass, {failed} fail, {missed} published value");
+    assert!(readme.contains(&words), "README.md should say: {words}");
+}
+
+#[test]
+fn ids_of_checks_are_unique() {
+    let verdict = kept_verdict();
+    let checks = verdict["checks"].as_array().unwrap();
+    let mut ids: Vec<&str> = checks.iter().map(|c| c["id"].as_str().unwrap()).collect();
+    let before = ids.len();
+    ids.sort_unstable();
+    ids.dedup();
+    assert_eq!(ids.len(), before);
+}
+
 #[test]
 fn modes() {
     for name in [

@@ -109,6 +109,38 @@ fn each_kind_of_fault_names_its_key_and_says_why() {
             "geometry.center_distance_mm",
             "overlap",
         ),
+        (
+            &[("bore_diameter_mm = 136.8", "bore_diameter_mm = 160.0")],
+            "geometry.carrier.bore_diameter_mm",
+            "inside the annulus",
+        ),
+        (
+            &[("pin_seat_diameter_mm = 20.0", "pin_seat_diameter_mm = -1.0")],
+            "geometry.carrier.pin_seat_diameter_mm",
+            "above 0",
+        ),
+        (&[("plane = \"strain\"", "plane = \"strained\"")], "fe_contact.plane", "\"stress\""),
+        (
+            &[("element = \"quadratic\"", "element = \"cubic\"")],
+            "fe_contact.element",
+            "incompatible",
+        ),
+        (
+            &[("flank_elements = 14", "flank_elements = 1000")],
+            "fe_contact.flank_elements",
+            "3 to 64",
+        ),
+        (&[("contact_cells = 40", "contact_cells = 2")], "fe_contact.contact_cells", "8 to 400"),
+        (
+            &[("contact_cells = 40", "contact_cell = 40")],
+            "fe_contact.contact_cell",
+            "did you mean `contact_cells`",
+        ),
+        (
+            &[("# matching_depth_mm = 0.57", "matching_depth_mm = -0.57")],
+            "fe_contact.matching_depth_mm",
+            "above 0",
+        ),
         (&[("planet_base_diameter_mm = 91.26", "")], "geometry.base_pitch_mm", "exactly one of"),
         (&[("mass_kg = { sun = 0.40, ", "mass_kg = { ")], "lumped.mass_kg.sun", "can move"),
         (&[("planet = 1.27e-3, ", "")], "lumped.inertia_kg_m2.planet", "can rotate"),

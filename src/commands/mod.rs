@@ -10,6 +10,7 @@ mod report;
 mod rules;
 mod scene;
 mod schema;
+mod static_approach;
 mod static_pair;
 mod static_set;
 mod statics;

@@ -7,6 +7,7 @@ use super::mesh::MeshOutput;
 use super::modes::ModesOutput;
 use super::rules::RulesOutput;
 use super::scene::SceneSummary;
+use super::static_approach::ApproachOutput;
 use super::static_pair::PairOutput;
 use super::static_set::SetOutput;
 
@@ -20,6 +21,7 @@ pub fn schemas() -> Vec<(&'static str, Schema)> {
         ("modes", of::<ModesOutput>()),
         ("rules", of::<RulesOutput>()),
         ("scene_check", of::<SceneSummary>()),
+        ("static_approach", of::<ApproachOutput>()),
         ("static_pair", of::<PairOutput>()),
         ("static_set", of::<SetOutput>()),
         ("mesh", of::<MeshOutput>()),

@@ -66,7 +66,6 @@ struct SetPosition {
     planets: Vec<Displacement>,
     meshes: Vec<MeshPosition>,
     /// Meshes whose back flanks touch; phases count in the mirrored mesh.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     back_flanks: Vec<MeshPosition>,
 }
 

@@ -8,7 +8,7 @@ use gearset::{Kinematics, Scene, SceneKind};
 use crate::arguments::{ContactSolver, Static};
 use crate::error::CommandError;
 
-use super::{read_scene, static_pair, static_set, unfit};
+use super::{read_scene, static_approach, static_pair, static_set, unfit};
 
 pub(crate) fn run(arguments: &Static, out: &mut dyn Write) -> Result<(), CommandError> {
     let scene = read_scene(&arguments.scene)?;
@@ -17,6 +17,12 @@ pub(crate) fn run(arguments: &Static, out: &mut dyn Write) -> Result<(), Command
         return Err(unfit(&arguments.scene, reason));
     }
     match scene.kind {
+        SceneKind::GearPair if arguments.approach_um.is_some() => {
+            static_approach::run(arguments, &scene, out)
+        }
+        _ if arguments.approach_um.is_some() => {
+            Err(refused("--approach-um", "only a gear pair is turned by an approach"))
+        }
         SceneKind::GearPair => {
             let force = pair_force(arguments, &scene)?;
             static_pair::run(arguments, &scene, force, out)
@@ -37,7 +43,7 @@ pub(super) fn solver(which: ContactSolver) -> &'static (dyn ComplementaritySolve
     }
 }
 
-fn refused(argument: &'static str, reason: impl Into<String>) -> CommandError {
+pub(super) fn refused(argument: &'static str, reason: impl Into<String>) -> CommandError {
     CommandError::Argument { argument, reason: reason.into() }
 }
 

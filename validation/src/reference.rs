@@ -28,6 +28,8 @@ pub struct Reference {
     pub lin_parker: LinParker,
     /// Parker, Agashe & Vijayakar (2000).
     pub parker: Parker2000,
+    /// One mesh by CalculiX.
+    pub calculix: Calculix,
     /// Listed misses.
     pub misses: Vec<Miss>,
     tolerances: Vec<ToleranceEntry>,
@@ -144,6 +146,38 @@ pub struct Strengths {
     pub values: Vec<f64>,
 }
 
+/// `calculix_2_20.toml`; what the checks use of it.
+#[derive(Debug, Deserialize)]
+pub struct Calculix {
+    /// Program, version, where it comes from.
+    pub source: String,
+    /// Solved cases.
+    pub case: Vec<CalculixCase>,
+}
+
+/// One mesh at one phase and approach.
+#[derive(Debug, Deserialize)]
+#[allow(missing_docs)] // the keys say it all, units included
+pub struct CalculixCase {
+    pub id: String,
+    pub scene: String,
+    pub what: String,
+    pub phase: f64,
+    pub approach_um: f64,
+    /// Moment on the driving race over its base radius, extrapolated to a hard contact.
+    pub force_n: f64,
+    pub pair: Vec<CalculixPair>,
+}
+
+/// One tooth pair of it.
+#[derive(Debug, Deserialize)]
+#[allow(missing_docs)] // the keys say it all, units included
+pub struct CalculixPair {
+    pub index: i64,
+    /// Of the ellipse fitted to the faces' mean pressures; absent at corners.
+    pub peak_pressure_mpa: Option<f64>,
+}
+
 /// One listed miss.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -203,6 +237,7 @@ impl Reference {
         Ok(Self {
             lin_parker: file!("lin_parker_1999.toml"),
             parker: file!("parker_2000.toml"),
+            calculix: file!("calculix_2_20.toml"),
             misses: misses.miss,
             tolerances: tolerances.tolerance,
         })

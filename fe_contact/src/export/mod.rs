@@ -1,5 +1,6 @@
 //! Meshes for other programs and for the eye.
 
+pub mod calculix;
 mod outline;
 mod svg;
 mod vtu;

@@ -1,6 +1,7 @@
 //! FE/contact statics: every check needs the bodies, which are made once.
 
 mod bodies;
+mod calculix;
 mod controls;
 mod convergence;
 mod fig12;
@@ -95,10 +96,11 @@ pub(crate) fn checks(
     profile: Profile,
     concerns: &dyn Fn(&str) -> bool,
 ) -> Result<Vec<Check>, ValidationError> {
-    let suites: [(&str, Suite); 9] = [
+    let suites: [(&str, Suite); 10] = [
         ("fe.hertz.", hertz::checks),
         ("fe.convergence.", convergence::checks),
         ("fe.resolved.", resolved::checks),
+        ("fe.calculix.", calculix::checks),
         ("fe.bodies.", bodies::checks),
         ("fe.stiffness.", stiffness::checks),
         ("fe.iso_6336.", iso6336::checks),

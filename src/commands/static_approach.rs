@@ -1,0 +1,103 @@
+//! `static --approach-um`: a gear pair at one phase, its race turned; the same as a CalculiX deck.
+
+use std::io::Write;
+use std::time::Instant;
+
+use fe_contact::export::calculix::{DeckSettings, deck};
+use fe_contact::statics::{Bodies, at_approach};
+use gearset::Scene;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::arguments::{Static, TableFormat};
+use crate::error::CommandError;
+use crate::output;
+
+use super::{fe_refused, save, statics, unfit};
+
+/// `static --approach-um --format json`.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct ApproachOutput {
+    /// Torque on the driving gear over its base radius.
+    force_n: f64,
+    /// Meshing, factorising and solving on this machine: for comparing two programs in one run.
+    seconds: f64,
+    /// Solving alone.
+    solve_seconds: f64,
+    pairs: Vec<ApproachPair>,
+}
+
+/// One pair within reach.
+#[derive(Debug, Serialize, JsonSchema)]
+struct ApproachPair {
+    index: i64,
+    force_n: f64,
+    /// Of the ellipse fitted to the pressures; null at a corner, where they are singular.
+    peak_pressure_pa: Option<f64>,
+}
+
+pub(super) fn run(
+    arguments: &Static,
+    scene: &Scene,
+    out: &mut dyn Write,
+) -> Result<(), CommandError> {
+    let path = &arguments.scene;
+    let kind = scene.pair.ok_or_else(|| unfit(path, "`mesh` is absent"))?;
+    let approach_um = arguments.approach_um.unwrap_or(0.0);
+    if !(approach_um.is_finite() && approach_um > 0.0) {
+        let reason = format!("{approach_um}: allowed is a finite approach above 0 µm");
+        return Err(statics::refused("--approach-um", reason));
+    }
+    let phase = arguments.phase.unwrap_or(0.0);
+    if !phase.is_finite() {
+        let reason = format!("{phase}: allowed is a finite number of cycles");
+        return Err(statics::refused("--phase", reason));
+    }
+    let phase = phase.rem_euclid(1.0);
+    let start = Instant::now();
+    let bodies = Bodies::new(scene).map_err(fe_refused(path))?;
+    let before = Instant::now();
+    let solver = statics::solver(arguments.solver);
+    let own = at_approach(&bodies, kind, phase, approach_um * 1e-6, solver);
+    let own = own.map_err(fe_refused(path))?;
+    let (seconds, solve_seconds) = (start.elapsed().as_secs_f64(), before.elapsed().as_secs_f64());
+    if let Some(file) = &arguments.export_inp {
+        let settings = DeckSettings {
+            per_half_width: arguments.export_per_half_width,
+            flank_elements: arguments.export_flank_elements as usize,
+            teeth: arguments.export_teeth.map(|n| n as usize),
+            ..DeckSettings::default()
+        };
+        save(file, &deck(&bodies, &own, &settings).map_err(fe_refused(path))?)?;
+    }
+    let pairs = own.pairs.iter().map(|p| ApproachPair {
+        index: p.index,
+        force_n: p.force,
+        peak_pressure_pa: p.peak_pressure,
+    });
+    let result =
+        ApproachOutput { force_n: own.force, seconds, solve_seconds, pairs: pairs.collect() };
+    match arguments.format {
+        TableFormat::Json => output::json(out, &result),
+        TableFormat::Csv => {
+            writeln!(out, "pair,force_n,peak_pressure_pa")?;
+            for p in &result.pairs {
+                let peak = p.peak_pressure_pa.map_or(String::new(), |p| p.to_string());
+                writeln!(out, "{},{},{peak}", p.index, p.force_n)?;
+            }
+            Ok(())
+        }
+        TableFormat::Text => {
+            let (name, force) = (kind.name(), result.force_n);
+            writeln!(out, "{}", scene.title)?;
+            writeln!(out, "{name} mesh at phase {phase}, approach {approach_um} µm: {force:.2} N")?;
+            for p in &result.pairs {
+                let peak = p.peak_pressure_pa.map_or("at a corner".to_owned(), |p| {
+                    format!("peak pressure {:.1} MPa", p * 1e-6)
+                });
+                writeln!(out, "pair {}: {:.2} N, {peak}", p.index, p.force_n)?;
+            }
+            Ok(())
+        }
+    }
+}
