@@ -1,7 +1,7 @@
 //! One mesh whose driving race is turned by a given angle: force for equal approach, the question
 //! another program is asked.
 
-use gearset::{Mesh, MeshKind, MeshMember};
+use gearset::{MeshKind, MeshMember};
 
 use super::bodies::Bodies;
 use crate::complementarity::ComplementaritySolver;
@@ -51,7 +51,7 @@ pub fn at_approach(
     approach: f64,
     solver: &dyn ComplementaritySolver,
 ) -> Result<MeshAtApproach, FeError> {
-    let (mesh, pair) = (mesh_of(bodies, kind)?, bodies.pair(kind).ok_or_else(|| missing(kind))?);
+    let (mesh, pair) = bodies.joined(kind)?;
     let r_b = mesh.gear(MeshMember::Driver).base_radius;
     // Grids are sized by a force: first that of teeth of usual stiffness E b/13, then the one found.
     let mut force = approach * bodies.material.young * bodies.geometry.face_width / 13.0;
@@ -88,12 +88,4 @@ pub fn at_approach(
         "no teeth touch at phase {phase:.4} and an approach of {:.3} µm",
         approach * 1e6
     )))
-}
-
-fn missing(kind: MeshKind) -> FeError {
-    FeError::Missing { key: format!("mesh {}", kind.name()), why: "it is asked for" }
-}
-
-fn mesh_of(bodies: &Bodies, kind: MeshKind) -> Result<&Mesh, FeError> {
-    bodies.geometry.mesh(kind).ok_or_else(|| missing(kind))
 }

@@ -1,6 +1,6 @@
 //! The flexible gears of a scene.
 
-use gearset::{FeContactInput, Gear, Geometry, MeshKind, MeshMember, Scene};
+use gearset::{FeContactInput, Gear, Geometry, Mesh, MeshKind, MeshMember, Scene};
 
 use crate::body::GearBody;
 use crate::contact::{CellSettings, Matching};
@@ -130,6 +130,15 @@ impl Bodies {
         }
     }
 
+    /// A mesh with both its bodies, driver first.
+    ///
+    /// # Errors
+    /// If the scene has no such mesh.
+    pub fn joined(&self, kind: MeshKind) -> Result<(&Mesh, [&GearBody; 2]), FeError> {
+        let found = self.geometry.mesh(kind).zip(self.pair(kind));
+        found.ok_or_else(|| missing_mesh(kind))
+    }
+
     /// Both bodies of a mesh, driver first.
     pub fn pair(&self, kind: MeshKind) -> Option<[&GearBody; 2]> {
         Some([self.body(kind, MeshMember::Driver)?, self.body(kind, MeshMember::Driven)?])
@@ -149,4 +158,13 @@ impl Bodies {
             window: force / stiffness,
         }
     }
+}
+
+/// A mesh the scene does not have.
+pub(crate) fn missing_mesh(kind: MeshKind) -> FeError {
+    let key = match kind {
+        MeshKind::SunPlanet => "geometry.sun",
+        MeshKind::RingPlanet => "geometry.ring",
+    };
+    FeError::Missing { key: key.into(), why: "its mesh with the planet is asked for" }
 }

@@ -4,12 +4,16 @@ mod approach;
 mod bodies;
 mod imperfection;
 mod pair;
+mod placed;
 mod races;
 mod set;
+mod state;
 
 pub use approach::{MeshAtApproach, PairAtApproach, at_approach};
+pub(crate) use bodies::missing_mesh;
 pub use bodies::{Bodies, FeSettings};
 pub use imperfection::{Imperfections, PitchError};
 pub use pair::{PairAtPhase, PairCycle, ToothPairLoad, at_phase, pair_cycle, press};
 pub use races::{CARRIER, PLANETS, RING, Races, SUN};
-pub use set::{MeshState, SetCycle, SetState, StaticSet};
+pub use set::StaticSet;
+pub use state::{MeshState, SetCycle, SetState};

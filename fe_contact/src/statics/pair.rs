@@ -117,10 +117,7 @@ pub fn at_phase(
     phase: f64,
     solver: &dyn ComplementaritySolver,
 ) -> Result<PairAtPhase, FeError> {
-    let missing =
-        || FeError::Missing { key: format!("mesh {}", kind.name()), why: "it is asked for" };
-    let mesh = bodies.geometry.mesh(kind).ok_or_else(missing)?;
-    let pair = bodies.pair(kind).ok_or_else(missing)?;
+    let (mesh, pair) = bodies.joined(kind)?;
     let mut settings = bodies.cells(force * (1.0 + LOAD_STEP));
     loop {
         let table = MeshTable::new(mesh, pair, phase, &settings)?;

@@ -18,10 +18,11 @@ use rayon::prelude::*;
 
 use gearset::{Facing, MeshKind, Phasing, PlanetPositions, Scene};
 
-use super::bodies::Bodies;
+use super::bodies::{Bodies, missing_mesh};
 use super::imperfection::Imperfections;
-use super::pair::ToothPairLoad;
+use super::placed::Placed;
 use super::races::{PLANETS, Races, SUN};
+use super::state::{MeshState, SetCycle, SetState};
 use crate::complementarity::ComplementaritySolver;
 use crate::contact::{CellSettings, MeshAnswer, MeshTable, PairFrame};
 use crate::error::FeError;
@@ -52,75 +53,6 @@ struct BackFlank {
     offset: f64,
     /// Normal backlash: what the flanks stand apart when those in front just touch, m.
     backlash: f64,
-}
-
-/// One mesh of a set in equilibrium.
-#[derive(Debug, Clone)]
-pub struct MeshState {
-    /// Which mesh.
-    pub kind: MeshKind,
-    /// Planet n.
-    pub planet: usize,
-    /// Phase, cycles in [0, 1).
-    pub phase: f64,
-    /// Sum of the pair forces, N.
-    pub force: f64,
-    /// Rigid approach along the line of action, m.
-    pub approach: f64,
-    /// ∂F/∂δ with every pair's approach growing alike, N/m.
-    pub tangent: f64,
-    /// Loaded pairs.
-    pub pairs: Vec<ToothPairLoad>,
-}
-
-/// A set in equilibrium at one position. Displacements in the carrier frame, counter-clockwise.
-#[derive(Debug, Clone)]
-pub struct SetState {
-    /// Position in the mesh cycle: phase of planet 0's sun mesh, cycles.
-    pub position: f64,
-    /// Displacements (x, y, m; θ, rad) of carrier, ring, sun.
-    pub central: [[f64; 3]; 3],
-    /// Displacements (ζ, η, m; θ, rad) of the planets.
-    pub planets: Vec<[f64; 3]>,
-    /// All meshes: sun meshes, then ring meshes.
-    pub meshes: Vec<MeshState>,
-    /// Loaded back flanks; phases count in the mirrored mesh.
-    pub backs: Vec<MeshState>,
-    /// Largest imbalance of any race over the load.
-    pub residual: f64,
-    /// Equilibrium iterations.
-    pub iterations: usize,
-    /// Factorisations and pivots of the contact solver.
-    pub contact_iterations: usize,
-}
-
-impl SetState {
-    /// r_b · sun rotation, m.
-    pub fn transmission_error(&self, sun_base_radius: f64) -> f64 {
-        self.central[2][2] * sun_base_radius
-    }
-}
-
-/// Equilibrium over one mesh cycle.
-#[derive(Debug, Clone)]
-pub struct SetCycle {
-    /// Torque on the sun, N·m.
-    pub torque_nm: f64,
-    /// Even positions from 0.
-    pub states: Vec<SetState>,
-}
-
-impl SetCycle {
-    /// Root mean square about the mean of the sun's rotation (rad) and of its translation (m): the
-    /// square root of the mean of |(x, y) − mean|².
-    pub fn sun_rms(&self) -> (f64, f64) {
-        let n = self.states.len() as f64;
-        let mean = [0, 1, 2].map(|i| self.states.iter().map(|s| s.central[2][i]).sum::<f64>() / n);
-        let square = |i: usize| {
-            self.states.iter().map(|s| (s.central[2][i] - mean[i]).powi(2)).sum::<f64>() / n
-        };
-        (square(2).sqrt(), (square(0) + square(1)).sqrt())
-    }
 }
 
 /// Tables of all (mesh kind, phase) a cycle needs; equal phases share one.
@@ -157,10 +89,6 @@ impl<'s> StaticSet<'s> {
         imperfections: Imperfections,
     ) -> Result<Self, FeError> {
         let sign = sense.sign();
-        let missing = || FeError::Missing {
-            key: "geometry.sun and geometry.ring".into(),
-            why: "a whole set has both meshes",
-        };
         // The mirror keeps assembly steps whole.
         let positions = PlanetPositions {
             psi_rad: scene.planets.psi_rad.iter().map(|psi| sign * psi).collect(),
@@ -170,7 +98,9 @@ impl<'s> StaticSet<'s> {
                 .as_ref()
                 .map(|steps| steps.iter().map(|s| if sign < 0.0 { -s } else { *s }).collect()),
         };
-        let phasing = Phasing::new(&bodies.geometry, &positions).ok_or_else(missing)?;
+        bodies.joined(MeshKind::SunPlanet)?;
+        let phasing = Phasing::new(&bodies.geometry, &positions)
+            .ok_or_else(|| missing_mesh(MeshKind::RingPlanet))?;
         let at_zero = phasing.phases(0.0, Facing::CounterClockwise);
         let first = at_zero.sun_planet[0];
         let list = |kind, phases: &[f64]| -> Vec<(MeshKind, usize, f64)> {
@@ -260,9 +190,7 @@ impl<'s> StaticSet<'s> {
         let made: Result<Vec<_>, FeError> = wanted
             .par_iter()
             .map(|(kind, phase)| {
-                let missing = || missing_mesh(*kind);
-                let mesh = self.bodies.geometry.mesh(*kind).ok_or_else(missing)?;
-                let pair = self.bodies.pair(*kind).ok_or_else(missing)?;
+                let (mesh, pair) = self.bodies.joined(*kind)?;
                 Ok((key(*kind, *phase), MeshTable::new(mesh, pair, *phase, settings)?))
             })
             .collect();
@@ -360,9 +288,7 @@ impl<'s> StaticSet<'s> {
         position: f64,
         settings: &CellSettings,
     ) -> Result<Placed<'static>, FeError> {
-        let missing = || missing_mesh(back.kind);
-        let mesh = self.bodies.geometry.mesh(back.kind).ok_or_else(missing)?;
-        let pair = self.bodies.pair(back.kind).ok_or_else(missing)?;
+        let (mesh, pair) = self.bodies.joined(back.kind)?;
         let phase = cycle(back.offset - position);
         let table = MeshTable::new(mesh, pair, phase, settings)?;
         let mut rows = Vec::with_capacity(table.pairs.len());
@@ -496,10 +422,6 @@ impl<'s> StaticSet<'s> {
 /// Answers of all meshes with the largest residual over the load; equilibrium and contact iterations.
 type Balance = ((Vec<MeshAnswer>, f64), (usize, usize));
 
-fn missing_mesh(kind: MeshKind) -> FeError {
-    FeError::Missing { key: format!("mesh {}", kind.name()), why: "a whole set has both meshes" }
-}
-
 /// Angle between the sun's teeth, rad.
 fn pitch_angle(bodies: &Bodies) -> f64 {
     bodies.geometry.sun.as_ref().map_or(0.0, gearset::Gear::pitch_angle)
@@ -525,116 +447,4 @@ fn turns_freely() -> FeError {
          give them a torsional support"
             .into(),
     )
-}
-
-/// One mesh at one position.
-struct Placed<'t> {
-    kind: MeshKind,
-    planet: usize,
-    phase: f64,
-    table: Cow<'t, MeshTable>,
-    /// Approach of each pair on the races' coordinates.
-    rows: Vec<DVector<f64>>,
-    /// Gap offsets of the pairs, m.
-    offsets: Vec<f64>,
-}
-
-impl Placed<'_> {
-    fn approaches(&self, q: &DVector<f64>) -> Vec<f64> {
-        self.rows.iter().map(|b| b.dot(q)).collect()
-    }
-
-    fn answer(
-        &self,
-        q: &DVector<f64>,
-        solver: &dyn ComplementaritySolver,
-        warm: Option<&[bool]>,
-    ) -> Result<MeshAnswer, FeError> {
-        self.table.answer(&self.approaches(q), &self.offsets, solver, warm)
-    }
-
-    fn untouched(&self) -> MeshAnswer {
-        let n = self.table.gaps.len();
-        MeshAnswer {
-            pair_forces: vec![0.0; self.rows.len()],
-            tangent: DMatrix::zeros(self.rows.len(), self.rows.len()),
-            cell_forces: vec![0.0; n],
-            active: vec![false; n],
-            energy: 0.0,
-            iterations: 0,
-        }
-    }
-
-    /// Cells likely in contact: the middle of each pair's grid.
-    fn guess(&self) -> Vec<bool> {
-        let mut active = Vec::with_capacity(self.table.gaps.len());
-        for pair in &self.table.pairs {
-            let reach = 0.5 * pair.width * pair.x.len() as f64;
-            active.extend(pair.x.iter().map(|x| x.abs() < 0.5 * reach));
-        }
-        active
-    }
-
-    fn add_to(&self, r: &mut DVector<f64>, hessian: &mut DMatrix<f64>, answer: &MeshAnswer) {
-        for (k, b) in self.rows.iter().enumerate() {
-            *r -= answer.pair_forces[k] * b;
-            for (l, c) in self.rows.iter().enumerate() {
-                let s = answer.tangent[(k, l)];
-                if s != 0.0 {
-                    hessian.ger(s, b, c, 1.0);
-                }
-            }
-        }
-    }
-
-    fn add_nominal(&self, matrix: &mut DMatrix<f64>, stiffness: f64) {
-        let least = |k: &usize| {
-            let pair = &self.table.pairs[*k];
-            let own = &self.table.gaps[pair.first..pair.first + pair.x.len()];
-            own.iter().fold(f64::INFINITY, |a, g| a.min(*g)) + self.offsets[*k]
-        };
-        let nearest = (0..self.rows.len()).min_by(|a, b| least(a).total_cmp(&least(b)));
-        if let Some(b) = nearest.map(|k| &self.rows[k]) {
-            matrix.ger(stiffness, b, b, 1.0);
-        }
-    }
-
-    /// Refuses a deflection that reaches a corner left out of the table.
-    fn check_window(&self, q: &DVector<f64>) -> Result<(), FeError> {
-        let deepest = self.approaches(q).into_iter().fold(0.0, f64::max);
-        if deepest >= self.table.next_gap {
-            return Err(FeError::NoEquilibrium(format!(
-                "planet {}'s {} mesh gives way by {:.1} µm, beyond the window for tip contact of \
-                 {:.1} µm: the load is too large for these teeth",
-                self.planet,
-                self.kind.name(),
-                deepest * 1e6,
-                self.table.next_gap * 1e6
-            )));
-        }
-        Ok(())
-    }
-
-    fn state(&self, q: &DVector<f64>, answer: &MeshAnswer) -> MeshState {
-        let approaches = self.approaches(q);
-        let loaded =
-            self.table.pairs.iter().enumerate().filter(|(k, _)| answer.pair_forces[*k] > 0.0);
-        let pairs = loaded.map(|(k, cells)| ToothPairLoad {
-            index: cells.index,
-            force: answer.pair_forces[k],
-            peak_pressure: self.table.peak_pressure(k, &answer.cell_forces),
-        });
-        // On the path all pairs approach alike; a mesh always has one there or at a corner.
-        let on_path =
-            self.table.pairs.iter().position(|p| p.location == crate::contact::Location::Path);
-        MeshState {
-            kind: self.kind,
-            planet: self.planet,
-            phase: self.phase,
-            force: answer.pair_forces.iter().sum(),
-            approach: on_path.or(Some(0)).map_or(0.0, |k| approaches[k]),
-            tangent: answer.tangent.sum(),
-            pairs: pairs.collect(),
-        }
-    }
 }

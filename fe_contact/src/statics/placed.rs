@@ -1,0 +1,129 @@
+//! One mesh of a set at one position: its cells, and its pairs' rows on the races' coordinates.
+
+use std::borrow::Cow;
+
+use nalgebra::{DMatrix, DVector};
+
+use gearset::MeshKind;
+
+use super::pair::ToothPairLoad;
+use super::state::MeshState;
+use crate::complementarity::ComplementaritySolver;
+use crate::contact::{Location, MeshAnswer, MeshTable};
+use crate::error::FeError;
+
+/// One mesh at one position.
+pub(super) struct Placed<'t> {
+    pub(super) kind: MeshKind,
+    pub(super) planet: usize,
+    pub(super) phase: f64,
+    pub(super) table: Cow<'t, MeshTable>,
+    /// Approach of each pair on the races' coordinates.
+    pub(super) rows: Vec<DVector<f64>>,
+    /// Gap offsets of the pairs, m.
+    pub(super) offsets: Vec<f64>,
+}
+
+impl Placed<'_> {
+    fn approaches(&self, q: &DVector<f64>) -> Vec<f64> {
+        self.rows.iter().map(|b| b.dot(q)).collect()
+    }
+
+    pub(super) fn answer(
+        &self,
+        q: &DVector<f64>,
+        solver: &dyn ComplementaritySolver,
+        warm: Option<&[bool]>,
+    ) -> Result<MeshAnswer, FeError> {
+        self.table.answer(&self.approaches(q), &self.offsets, solver, warm)
+    }
+
+    pub(super) fn untouched(&self) -> MeshAnswer {
+        let n = self.table.gaps.len();
+        MeshAnswer {
+            pair_forces: vec![0.0; self.rows.len()],
+            tangent: DMatrix::zeros(self.rows.len(), self.rows.len()),
+            cell_forces: vec![0.0; n],
+            active: vec![false; n],
+            energy: 0.0,
+            iterations: 0,
+        }
+    }
+
+    /// Cells likely in contact: the middle of each pair's grid.
+    pub(super) fn guess(&self) -> Vec<bool> {
+        let mut active = Vec::with_capacity(self.table.gaps.len());
+        for pair in &self.table.pairs {
+            let reach = 0.5 * pair.width * pair.x.len() as f64;
+            active.extend(pair.x.iter().map(|x| x.abs() < 0.5 * reach));
+        }
+        active
+    }
+
+    pub(super) fn add_to(
+        &self,
+        r: &mut DVector<f64>,
+        hessian: &mut DMatrix<f64>,
+        answer: &MeshAnswer,
+    ) {
+        for (k, b) in self.rows.iter().enumerate() {
+            *r -= answer.pair_forces[k] * b;
+            for (l, c) in self.rows.iter().enumerate() {
+                let s = answer.tangent[(k, l)];
+                if s != 0.0 {
+                    hessian.ger(s, b, c, 1.0);
+                }
+            }
+        }
+    }
+
+    pub(super) fn add_nominal(&self, matrix: &mut DMatrix<f64>, stiffness: f64) {
+        let least = |k: &usize| {
+            let pair = &self.table.pairs[*k];
+            let own = &self.table.gaps[pair.first..pair.first + pair.x.len()];
+            own.iter().fold(f64::INFINITY, |a, g| a.min(*g)) + self.offsets[*k]
+        };
+        let nearest = (0..self.rows.len()).min_by(|a, b| least(a).total_cmp(&least(b)));
+        if let Some(b) = nearest.map(|k| &self.rows[k]) {
+            matrix.ger(stiffness, b, b, 1.0);
+        }
+    }
+
+    /// Refuses a deflection that reaches a corner left out of the table.
+    pub(super) fn check_window(&self, q: &DVector<f64>) -> Result<(), FeError> {
+        let deepest = self.approaches(q).into_iter().fold(0.0, f64::max);
+        if deepest >= self.table.next_gap {
+            return Err(FeError::NoEquilibrium(format!(
+                "planet {}'s {} mesh gives way by {:.1} µm, beyond the window for tip contact of \
+                 {:.1} µm: the load is too large for these teeth",
+                self.planet,
+                self.kind.name(),
+                deepest * 1e6,
+                self.table.next_gap * 1e6
+            )));
+        }
+        Ok(())
+    }
+
+    pub(super) fn state(&self, q: &DVector<f64>, answer: &MeshAnswer) -> MeshState {
+        let approaches = self.approaches(q);
+        let loaded =
+            self.table.pairs.iter().enumerate().filter(|(k, _)| answer.pair_forces[*k] > 0.0);
+        let pairs = loaded.map(|(k, cells)| ToothPairLoad {
+            index: cells.index,
+            force: answer.pair_forces[k],
+            peak_pressure: self.table.peak_pressure(k, &answer.cell_forces),
+        });
+        // On the path all pairs approach alike; a mesh always has one there or at a corner.
+        let on_path = self.table.pairs.iter().position(|p| p.location == Location::Path);
+        MeshState {
+            kind: self.kind,
+            planet: self.planet,
+            phase: self.phase,
+            force: answer.pair_forces.iter().sum(),
+            approach: on_path.or(Some(0)).map_or(0.0, |k| approaches[k]),
+            tangent: answer.tangent.sum(),
+            pairs: pairs.collect(),
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! A set in equilibrium: what came out, at one position and over a mesh cycle.
+
+use gearset::MeshKind;
+
+use super::pair::ToothPairLoad;
+
+/// One mesh of a set in equilibrium.
+#[derive(Debug, Clone)]
+pub struct MeshState {
+    /// Which mesh.
+    pub kind: MeshKind,
+    /// Planet n.
+    pub planet: usize,
+    /// Phase, cycles in [0, 1).
+    pub phase: f64,
+    /// Sum of the pair forces, N.
+    pub force: f64,
+    /// Rigid approach along the line of action, m.
+    pub approach: f64,
+    /// ∂F/∂δ with every pair's approach growing alike, N/m.
+    pub tangent: f64,
+    /// Loaded pairs.
+    pub pairs: Vec<ToothPairLoad>,
+}
+
+/// A set in equilibrium at one position. Displacements in the carrier frame, counter-clockwise.
+#[derive(Debug, Clone)]
+pub struct SetState {
+    /// Position in the mesh cycle: phase of planet 0's sun mesh, cycles.
+    pub position: f64,
+    /// Displacements (x, y, m; θ, rad) of carrier, ring, sun.
+    pub central: [[f64; 3]; 3],
+    /// Displacements (ζ, η, m; θ, rad) of the planets.
+    pub planets: Vec<[f64; 3]>,
+    /// All meshes: sun meshes, then ring meshes.
+    pub meshes: Vec<MeshState>,
+    /// Loaded back flanks; phases count in the mirrored mesh.
+    pub backs: Vec<MeshState>,
+    /// Largest imbalance of any race over the load.
+    pub residual: f64,
+    /// Equilibrium iterations.
+    pub iterations: usize,
+    /// Factorisations and pivots of the contact solver.
+    pub contact_iterations: usize,
+}
+
+impl SetState {
+    /// r_b · sun rotation, m.
+    pub fn transmission_error(&self, sun_base_radius: f64) -> f64 {
+        self.central[2][2] * sun_base_radius
+    }
+}
+
+/// Equilibrium over one mesh cycle.
+#[derive(Debug, Clone)]
+pub struct SetCycle {
+    /// Torque on the sun, N·m.
+    pub torque_nm: f64,
+    /// Even positions from 0.
+    pub states: Vec<SetState>,
+}
+
+impl SetCycle {
+    /// Root mean square about the mean of the sun's rotation (rad) and of its translation (m): the
+    /// square root of the mean of |(x, y) − mean|².
+    pub fn sun_rms(&self) -> (f64, f64) {
+        let n = self.states.len() as f64;
+        let mean = [0, 1, 2].map(|i| self.states.iter().map(|s| s.central[2][i]).sum::<f64>() / n);
+        let square = |i: usize| {
+            self.states.iter().map(|s| (s.central[2][i] - mean[i]).powi(2)).sum::<f64>() / n
+        };
+        (square(2).sqrt(), (square(0) + square(1)).sqrt())
+    }
+}
