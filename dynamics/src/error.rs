@@ -46,3 +46,32 @@ pub enum EigenError {
         size: usize,
     },
 }
+
+/// Why a record has no spectrum.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SpectrumError {
+    /// A record without a period.
+    #[error("a record of {samples} samples is too short for a spectrum")]
+    TooShort {
+        /// Number of samples.
+        samples: usize,
+    },
+    /// A sample interval that is not positive and finite.
+    #[error("sample interval {value} s is not positive and finite")]
+    Interval {
+        /// The interval, s.
+        value: f64,
+    },
+    /// A sample that is not finite.
+    #[error("sample {sample} is not finite")]
+    NotFinite {
+        /// Its index.
+        sample: usize,
+    },
+    /// No padded length, or one beyond memory.
+    #[error("padding to {value} times the length is not possible")]
+    Padding {
+        /// The factor.
+        value: usize,
+    },
+}

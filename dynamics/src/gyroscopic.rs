@@ -1,9 +1,9 @@
 //! Undamped systems with gyroscopic terms: (s² M + s G + K) φ = 0.
 
 use faer::Mat;
-use faer::linalg::solvers::Eigen;
 
 use crate::error::EigenError;
+use crate::state_space::complex_eigen;
 use crate::symmetric::{check_input, check_residual, largest_or_nan};
 
 /// One mode of a gyroscopic system.
@@ -45,8 +45,8 @@ pub fn gyroscopic_modes(
         (false, true) => -scaled(k, i - n, j) / (reference * reference),
         (false, false) => -scaled(g, i - n, j - n) / reference,
     });
-    let solution = Eigen::new_from_real(companion.as_ref())
-        .map_err(|_| EigenError::NoConvergence { size: 2 * n })?;
+    let solution =
+        complex_eigen(&companion).map_err(|_| EigenError::NoConvergence { size: 2 * n })?;
     let values = solution.S().column_vector();
     let vectors = solution.U();
     let mut all: Vec<(f64, f64, usize)> =
@@ -163,6 +163,37 @@ mod tests {
         assert!((modes[0].omega - (natural - speed)).abs() < 1e-10 * natural);
         assert!((modes[1].omega - (natural + speed)).abs() < 1e-10 * natural);
         assert!(modes.iter().all(|mode| mode.growth.abs() < 1e-9 * natural));
+    }
+
+    /// Two equal gyroscopes, mixed: a repeated complex pair whose vectors faer's real route gets wrong.
+    #[test]
+    fn repeated_gyroscopic_pairs_keep_sound_vectors() {
+        let (spin, k) = (1.3, 2.0);
+        let (s, c) = 0.7f64.sin_cos();
+        // Coordinates 0, 1 are one gyroscope, 2, 3 the other; rows 0 and 2, 1 and 3 are turned.
+        let turn = Mat::from_fn(4, 4, |i, j| match (i % 2 == j % 2, i / 2, j / 2) {
+            (true, a, b) if a == b => c,
+            (true, 0, _) => -s,
+            (true, _, _) => s,
+            _ => 0.0,
+        });
+        let pure = Mat::from_fn(4, 4, |i, j| match i / 2 == j / 2 {
+            true => spin * (i as f64 - j as f64),
+            false => 0.0,
+        });
+        let g = &turn * &pure * turn.transpose();
+        let g = Mat::from_fn(4, 4, |i, j| 0.5 * (g[(i, j)] - g[(j, i)]));
+        let kk = Mat::from_fn(4, 4, |i, j| if i == j { k } else { 0.0 });
+        let modes = gyroscopic_modes(&[1.0; 4], &g, &kk).unwrap();
+        let root = (0.25f64 * spin * spin + k).sqrt();
+        for (mode, exact) in modes.iter().zip([
+            root - 0.5 * spin,
+            root - 0.5 * spin,
+            root + 0.5 * spin,
+            root + 0.5 * spin,
+        ]) {
+            assert!((mode.omega - exact).abs() < 1e-10);
+        }
     }
 
     #[test]

@@ -46,6 +46,28 @@ pub enum FeError {
         /// What the solver said.
         cause: String,
     },
+    /// The modes of a body did not come out.
+    #[error("the modes of the {body} with its race held: {cause}")]
+    Modes {
+        /// Body.
+        body: &'static str,
+        /// Why.
+        cause: dynamics::EigenError,
+    },
+    /// Motion left all bounds.
+    #[error(
+        "the motion diverges: at {time_s:e} s the {quantity} of the {body} is {value:e}; a smaller step (`dynamics.steps_per_cycle`) or more damping may hold it"
+    )]
+    Diverged {
+        /// Time, s.
+        time_s: f64,
+        /// Body.
+        body: String,
+        /// Which of its displacements.
+        quantity: &'static str,
+        /// Its value, m.
+        value: f64,
+    },
     /// A matching point lies outside its tooth.
     #[error(
         "at mesh phase {phase:.4} the matching point {depth_mm:.3} mm below the {body}'s flank lies outside its tooth: choose a smaller `fe_contact.matching_depth_mm`"

@@ -9,6 +9,7 @@ pub mod export;
 mod material;
 pub mod mesh;
 pub mod statics;
+pub mod vibration;
 
 pub use error::FeError;
 pub use material::Elastic;

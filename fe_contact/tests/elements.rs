@@ -146,7 +146,7 @@ impl Grid {
                 }
             }
         }
-        triplets.factorise(next, "test").unwrap().solve(&mut right);
+        triplets.matrix(next, "test").unwrap().factorise("test").unwrap().solve(&mut right);
         for (node, first) in number.iter().enumerate() {
             if let Some(first) = first {
                 u[node] = [right[(*first, 0)], right[(first + 1, 0)]];

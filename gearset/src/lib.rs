@@ -10,6 +10,7 @@ pub mod involute;
 mod kinematics;
 mod mesh;
 mod parse;
+mod parse_dynamics;
 mod parse_fe_contact;
 mod parse_geometry;
 mod parse_lumped;

@@ -7,6 +7,7 @@ use crate::check;
 use crate::fault::{Fault, SceneError};
 use crate::geometry::Geometry;
 use crate::mesh::MeshKind;
+use crate::parse_dynamics::dynamics;
 use crate::parse_fe_contact::fe_contact;
 use crate::parse_geometry::geometry;
 use crate::parse_lumped::lumped;
@@ -109,6 +110,7 @@ fn read(document: &Document<'_>, root: Section<'_, '_>) -> Option<Scene> {
     let damping = damping(root.section("damping"));
     let operation = root.section("operation").and_then(operation);
     let fe_contact = root.section("fe_contact").map(fe_contact).unwrap_or_default();
+    let dynamics = root.section("dynamics").map(dynamics).unwrap_or_default();
     root.finish();
     Some(Scene {
         kind: kind?,
@@ -125,6 +127,7 @@ fn read(document: &Document<'_>, root: Section<'_, '_>) -> Option<Scene> {
         damping,
         operation,
         fe_contact,
+        dynamics,
     })
 }
 
@@ -414,14 +417,20 @@ fn overrides(
 
 fn damping(s: Option<Section<'_, '_>>) -> Damping {
     // 2 % of critical at 780 and 2100 Hz.
-    let default = Damping { mass_proportional_per_s: 142.9, stiffness_proportional_s: 2.21e-6 };
+    let (alpha, beta) = (142.9, 2.21e-6);
+    let default =
+        Damping { mass_proportional_per_s: alpha, stiffness_proportional_s: beta, bearing_s: beta };
     let Some(s) = s else { return default };
     let alpha = s.number("mass_proportional_per_s", Bound::NonNegative, "α in C = αM + βK");
     let beta = s.number("stiffness_proportional_s", Bound::NonNegative, "β in C = αM + βK");
+    let why = "viscous damping of every bearing over its stiffness";
+    let bearing = s.number("bearing_s", Bound::NonNegative, why);
     s.finish();
     Damping {
         mass_proportional_per_s: alpha.unwrap_or(default.mass_proportional_per_s),
         stiffness_proportional_s: beta.unwrap_or(default.stiffness_proportional_s),
+        // With the same β the set as a whole is proportionally damped.
+        bearing_s: bearing.or(beta).unwrap_or(default.bearing_s),
     }
 }
 

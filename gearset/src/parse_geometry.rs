@@ -104,11 +104,15 @@ fn carrier(s: Section<'_, '_>) -> Option<CarrierInput> {
     let outer_radius = radius("outer_diameter_mm", "edge of the carrier's annulus");
     let why = "rigid seat of each planet's pin";
     let seat = s.number("pin_seat_diameter_mm", Bound::Positive, why).map(|d| d * 0.5e-3);
+    let bodies = [("flexible", false), ("rigid", true)];
+    let is_rigid =
+        s.choice("body", &bodies, "whether the annulus gives way between bore and seats");
     s.finish();
     Some(CarrierInput {
         bore_radius: bore_radius?,
         outer_radius: outer_radius?,
         pin_seat_radius: seat.unwrap_or(10e-3),
+        is_rigid: is_rigid.unwrap_or(false),
     })
 }
 

@@ -45,6 +45,37 @@ pub struct Scene {
     pub operation: Option<Operation>,
     /// Choices of the FE/contact model.
     pub fe_contact: FeContactInput,
+    /// Choices of its motion in time.
+    pub dynamics: DynamicsInput,
+}
+
+/// What stands behind the teeth when the set vibrates: the rungs of the fidelity ladder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Rung {
+    /// Rigid inertia, FE flexibility without inertia of its own.
+    QuasiStatic,
+    /// Besides, so many modes of each body with its race held.
+    Modal(u32),
+    /// Every FE degree of freedom.
+    Full,
+}
+
+/// Choices of motion in time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct DynamicsInput {
+    /// Bodies.
+    pub rung: Rung,
+    /// Time steps in a mesh cycle.
+    pub steps_per_cycle: u32,
+    /// Whether the carrier frame's gyroscopic and centripetal terms act.
+    pub gyroscopic: bool,
+}
+
+impl Default for DynamicsInput {
+    fn default() -> Self {
+        Self { rung: Rung::QuasiStatic, steps_per_cycle: 140, gyroscopic: false }
+    }
 }
 
 /// State of a two-dimensional continuum.
@@ -171,6 +202,8 @@ pub struct CarrierInput {
     pub outer_radius: f64,
     /// Radius of the rigid, material-filled pin seats, m.
     pub pin_seat_radius: f64,
+    /// Whether it is taken as rigid between bore and seats.
+    pub is_rigid: bool,
 }
 
 /// Generating rack.
@@ -360,6 +393,8 @@ pub struct Damping {
     pub mass_proportional_per_s: f64,
     /// β, s.
     pub stiffness_proportional_s: f64,
+    /// Viscous damping of every bearing over its stiffness, s.
+    pub bearing_s: f64,
 }
 
 /// A central member.

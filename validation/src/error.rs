@@ -18,6 +18,15 @@ pub enum ValidationError {
     /// A contact problem.
     #[error(transparent)]
     Contact(#[from] fe_contact::complementarity::ComplementarityError),
+    /// An eigenproblem.
+    #[error(transparent)]
+    Eigen(#[from] dynamics::EigenError),
+    /// Modes from records.
+    #[error("identification: {0}")]
+    Identify(#[from] dynamics::identify::IdentifyError),
+    /// A spectrum.
+    #[error(transparent)]
+    Spectrum(#[from] dynamics::SpectrumError),
     /// A lumped model.
     #[error(transparent)]
     Lumped(#[from] lumped::LumpedError),

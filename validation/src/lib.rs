@@ -4,6 +4,7 @@ mod catalogue;
 mod check;
 mod compare;
 mod error;
+pub mod modal;
 mod reference;
 mod suites;
 mod verdict;

@@ -1,9 +1,9 @@
-//! Sparse stiffness matrices and their Cholesky factors.
+//! Sparse symmetric matrices and their Cholesky factors.
 
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Llt, SymbolicLlt};
 use faer::sparse::{SparseColMat, Triplet};
-use faer::{Mat, Side};
+use faer::{Mat, MatMut, Side};
 
 use crate::error::FeError;
 
@@ -21,19 +21,81 @@ impl Triplets {
         }
     }
 
-    /// Factorises the n×n matrix.
+    /// The n×n matrix.
+    ///
+    /// # Errors
+    /// If an entry lies outside.
+    pub fn matrix(&self, n: usize, body: &'static str) -> Result<Sparse, FeError> {
+        let lower = SparseColMat::<usize, f64>::try_new_from_triplets(n, n, &self.entries)
+            .map_err(|e| FeError::Factorisation { body, cause: format!("{e:?}") })?;
+        Ok(Sparse { lower })
+    }
+}
+
+/// A sparse symmetric matrix, lower triangle kept.
+#[derive(Debug, Clone)]
+pub struct Sparse {
+    lower: SparseColMat<usize, f64>,
+}
+
+impl Sparse {
+    /// Order.
+    pub fn size(&self) -> usize {
+        self.lower.nrows()
+    }
+
+    /// Non-zero entries of the lower triangle.
+    pub fn entries(&self) -> usize {
+        self.lower.compute_nnz()
+    }
+
+    /// a A + b B; both of one order.
+    ///
+    /// # Errors
+    /// If the sum cannot be formed.
+    pub fn combined(&self, a: f64, other: &Self, b: f64) -> Result<Self, FeError> {
+        let failed = |cause: String| FeError::Factorisation { body: "body", cause };
+        let list = [(a, &self.lower), (b, &other.lower)];
+        let entries: Vec<Triplet<usize, usize, f64>> = list
+            .iter()
+            .flat_map(|(factor, matrix)| {
+                matrix.triplet_iter().map(move |t| Triplet::new(t.row, t.col, factor * t.val))
+            })
+            .collect();
+        let n = self.size();
+        let lower = SparseColMat::try_new_from_triplets(n, n, &entries)
+            .map_err(|e| failed(format!("{e:?}")))?;
+        Ok(Self { lower })
+    }
+
+    /// y += factor · A x.
+    pub fn multiply_add(&self, factor: f64, x: &[f64], y: &mut [f64]) {
+        let (starts, rows) = (self.lower.symbolic().col_ptr(), self.lower.symbolic().row_idx());
+        let values = self.lower.val();
+        for column in 0..x.len() {
+            let (mut sum, moved) = (0.0, factor * x[column]);
+            for k in starts[column]..starts[column + 1] {
+                let (row, value) = (rows[k], values[k]);
+                y[row] += value * moved;
+                if row != column {
+                    sum += value * x[row];
+                }
+            }
+            y[column] += factor * sum;
+        }
+    }
+
+    /// Factorises it.
     ///
     /// # Errors
     /// If it is not positive definite.
-    pub fn factorise(&self, n: usize, body: &'static str) -> Result<Factor, FeError> {
+    pub fn factorise(&self, body: &'static str) -> Result<Factor, FeError> {
         let failed = |cause: String| FeError::Factorisation { body, cause };
-        let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(n, n, &self.entries)
+        let symbolic = SymbolicLlt::try_new(self.lower.symbolic(), Side::Lower)
             .map_err(|e| failed(format!("{e:?}")))?;
-        let symbolic = SymbolicLlt::try_new(matrix.symbolic(), Side::Lower)
+        let llt = Llt::try_new_with_symbolic(symbolic, self.lower.as_ref(), Side::Lower)
             .map_err(|e| failed(format!("{e:?}")))?;
-        let llt = Llt::try_new_with_symbolic(symbolic, matrix.as_ref(), Side::Lower)
-            .map_err(|e| failed(format!("{e:?}")))?;
-        Ok(Factor { llt, matrix, size: n })
+        Ok(Factor { llt, size: self.size() })
     }
 }
 
@@ -41,7 +103,6 @@ impl Triplets {
 #[derive(Debug, Clone)]
 pub struct Factor {
     llt: Llt<usize, f64>,
-    matrix: SparseColMat<usize, f64>,
     /// Order of the matrix.
     pub size: usize,
 }
@@ -52,8 +113,9 @@ impl Factor {
         self.llt.solve_in_place(right.as_mut());
     }
 
-    /// Non-zero entries of the lower triangle of the matrix.
-    pub fn entries(&self) -> usize {
-        self.matrix.compute_nnz()
+    /// Solves for one right-hand side, in place.
+    pub fn solve_one(&self, right: &mut [f64]) {
+        let n = right.len();
+        self.llt.solve_in_place(MatMut::from_column_major_slice_mut(right, n, 1));
     }
 }

@@ -6,6 +6,7 @@ use nalgebra::DMatrix;
 use gearset::CarrierInput;
 
 use super::assembly::Triplets;
+use super::matrices::BodyMatrices;
 use crate::element::matrices;
 use crate::error::FeError;
 use crate::material::Elastic;
@@ -25,6 +26,14 @@ pub struct CarrierBody {
     /// Displacement of the seats under unit forces on them, 2N×2N: radial and tangential of each
     /// planet in turn, m/N.
     pub flexibility: DMatrix<f64>,
+    /// Matrices between bore and the rest.
+    pub matrices: BodyMatrices,
+    /// First of each seat's three degrees of freedom (x, y, θ about its centre).
+    pub seat_unknown: Vec<usize>,
+    /// Whether it is taken as rigid.
+    pub is_rigid: bool,
+    /// ψ of each seat, rad.
+    psi: Vec<f64>,
 }
 
 /// A node's displacement as a sum over unknowns: (unknown, coefficient).
@@ -70,21 +79,31 @@ impl CarrierBody {
             })
             .collect();
         let shape = CarrierMesh::shape();
-        let mut triplets = Triplets::default();
+        let (mut stiffness, mut masses) = (Triplets::default(), Triplets::default());
+        let mut coupling = [(); 3].map(|()| vec![0.0; next]);
         for (i, nodes) in mesh.elements.iter().enumerate() {
             let nodes = &nodes[..shape.count()];
             let points: Vec<_> = nodes.iter().map(|n| mesh.points[*n]).collect();
-            let k = matrices(&shape, &points, material, face_width, false)
-                .map_err(|cause| FeError::Distorted { body: "carrier", element: i, cause })?
-                .stiffness;
+            let own = matrices(&shape, &points, material, face_width, false)
+                .map_err(|cause| FeError::Distorted { body: "carrier", element: i, cause })?;
             for (a, node_a) in nodes.iter().enumerate() {
                 for (b, node_b) in nodes.iter().enumerate() {
+                    // Rigid motion of node b with the bore: x, y, θ.
+                    let [x, y] = mesh.points[*node_b];
+                    let rigid = [[1.0, 0.0, -y], [0.0, 1.0, x]];
                     for r in 0..2 {
-                        for c in 0..2 {
-                            for (row, p) in &terms[*node_a][r] {
+                        for (row, p) in &terms[*node_a][r] {
+                            for c in 0..2 {
+                                let (k, m) = (
+                                    own.stiffness[(2 * a + r, 2 * b + c)],
+                                    own.mass[(2 * a + r, 2 * b + c)],
+                                );
                                 for (column, q) in &terms[*node_b][c] {
-                                    let value = p * q * k[(2 * a + r, 2 * b + c)];
-                                    triplets.add(*row, *column, value);
+                                    stiffness.add(*row, *column, p * q * k);
+                                    masses.add(*row, *column, p * q * m);
+                                }
+                                for (k, moved) in rigid[c].iter().enumerate() {
+                                    coupling[k][*row] += p * m * moved;
                                 }
                             }
                         }
@@ -92,7 +111,24 @@ impl CarrierBody {
                 }
             }
         }
-        let factor = triplets.factorise(next, "carrier")?;
+        // The seats are filled with material.
+        let r = input.pin_seat_radius;
+        let filling = material.density * face_width * std::f64::consts::PI * r * r;
+        for (first, [x, y]) in seat_unknown.iter().zip(&mesh.seats) {
+            for k in 0..3 {
+                let own = if k == 2 { 0.5 * filling * r * r } else { filling };
+                masses.add(first + k, first + k, own);
+            }
+            coupling[0][*first] += filling;
+            coupling[1][first + 1] += filling;
+            coupling[2][*first] -= filling * y;
+            coupling[2][first + 1] += filling * x;
+            coupling[2][first + 2] += 0.5 * filling * r * r;
+        }
+        let stiffness = stiffness.matrix(next, "carrier")?;
+        let factor = stiffness.factorise("carrier")?;
+        let matrices =
+            BodyMatrices { stiffness, mass: masses.matrix(next, "carrier")?, coupling, size: next };
         let count = psi.len();
         // Unit forces radially and tangentially on each seat.
         let direction = |n: usize, k: usize| {
@@ -108,13 +144,33 @@ impl CarrierBody {
             }
         }
         factor.solve(&mut right);
-        let flexibility = DMatrix::from_fn(2 * count, 2 * count, |row, column| {
+        let mut flexibility = DMatrix::from_fn(2 * count, 2 * count, |row, column| {
             let (n, d) = (row / 2, direction(row / 2, row % 2));
             d[0] * right[(seat_unknown[n], column)] + d[1] * right[(seat_unknown[n] + 1, column)]
         });
-        // The seats are filled: the whole annulus weighs.
+        if input.is_rigid {
+            flexibility.fill(0.0);
+        }
+        // The whole annulus weighs, its seats filled.
         let [r, s] = [input.bore_radius, input.outer_radius].map(|r| r * r);
         let mass = material.density * face_width * std::f64::consts::PI * (s - r);
-        Ok(Self { mesh, mass, inertia: 0.5 * mass * (r + s), unknowns: next, flexibility })
+        Ok(Self {
+            mesh,
+            mass,
+            inertia: 0.5 * mass * (r + s),
+            unknowns: next,
+            flexibility,
+            matrices,
+            seat_unknown,
+            is_rigid: input.is_rigid,
+            psi: psi.to_vec(),
+        })
+    }
+
+    /// Radial (0) or tangential (1) displacement of a seat as a sum over degrees of freedom.
+    pub fn seat_terms(&self, n: usize, axis: usize) -> [(usize, f64); 2] {
+        let (sin, cos) = self.psi[n].sin_cos();
+        let d = if axis == 0 { [cos, sin] } else { [-sin, cos] };
+        [(self.seat_unknown[n], d[0]), (self.seat_unknown[n] + 1, d[1])]
     }
 }

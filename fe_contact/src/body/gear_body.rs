@@ -3,8 +3,7 @@
 use faer::Mat;
 use nalgebra::DMatrix;
 
-use super::assembly::{Factor, Triplets};
-use crate::element::matrices;
+use super::matrices::{BodyMatrices, number_unknowns};
 use crate::error::FeError;
 use crate::material::Elastic;
 use crate::mesh::{GearMesh, Side};
@@ -67,7 +66,8 @@ impl GearBody {
     pub fn new(mesh: GearMesh, material: Elastic, face_width: f64) -> Result<Self, FeError> {
         let (mass, inertia) = mesh.mass_properties(&material, face_width)?;
         let unknown_of = number_unknowns(&mesh);
-        let factor = stiffness(&mesh, &material, face_width, &unknown_of)?;
+        let matrices = BodyMatrices::of_gear(&mesh, &material, face_width)?;
+        let factor = matrices.stiffness.factorise(mesh.name)?;
         let sector = mesh.sector(0);
         let mut column_of = vec![usize::MAX; sector.points.len()];
         let mut load_nodes = Vec::new();
@@ -225,6 +225,58 @@ impl GearBody {
         self.flexibility((&self.flank_point(side, l), inwards), offset, (&deep, inwards))
     }
 
+    /// Node of the sector behind a column pair of the response.
+    pub fn node_of(&self, column: usize) -> usize {
+        self.load_nodes[column / 2]
+    }
+
+    /// A load spread like a half ellipse of half-width `w` (m) about arc length ℓ: functions of the
+    /// flank, as columns of the response, with weights that sum to those of a unit load. What would
+    /// lie beyond an end of the flank is folded back.
+    pub fn flank_load(&self, side: Side, l: f64, w: f64) -> Vec<(usize, f64)> {
+        const POINTS: usize = 7;
+        let length = self.mesh.outline.flank_length();
+        let mut load: Vec<(usize, f64)> = Vec::new();
+        for i in 1..=POINTS {
+            // Gauss–Chebyshev rule of the second kind: ∫ f √(1−s²) ds = Σ π/(n+1) sin²θ_i f(cos θ_i)
+            let angle = std::f64::consts::PI * i as f64 / (POINTS + 1) as f64;
+            let share = 2.0 / (POINTS + 1) as f64 * angle.sin().powi(2);
+            let at = (l + w * angle.cos()).abs();
+            let point = self.flank_point(side, at.min(2.0 * length - at));
+            for (column, weight) in point.columns.into_iter().zip(point.weights) {
+                match load.iter_mut().find(|(known, _)| *known == column) {
+                    Some((_, sum)) => *sum += share * weight,
+                    None => load.push((column, share * weight)),
+                }
+            }
+        }
+        load
+    }
+
+    /// Displacement along `measured`, averaged as the second load is spread, on the tooth `offset` on
+    /// from the loaded one, under a unit force along `force` spread as the first; directions in the
+    /// teeth's own frames, m/N.
+    pub fn surface_flexibility(
+        &self,
+        (load, force): (&[(usize, f64)], [f64; 2]),
+        offset: i64,
+        (point, measured): (&[(usize, f64)], [f64; 2]),
+    ) -> f64 {
+        let Some(response) = self.response(offset) else { return 0.0 };
+        let mut sum = 0.0;
+        for (column, w) in load {
+            for (k, f) in force.iter().enumerate() {
+                for (at, n) in point {
+                    let node = self.node_of(*at);
+                    for (r, m) in measured.iter().enumerate() {
+                        sum += w * f * n * m * response[(2 * node + r, column + k)];
+                    }
+                }
+            }
+        }
+        sum
+    }
+
     /// Displacement along `measured` of a deep point on the tooth `offset` on from the loaded one,
     /// under a unit force along `force` at a flank point; directions in the teeth's own frames, m/N.
     pub fn flexibility(
@@ -246,69 +298,4 @@ impl GearBody {
         }
         sum
     }
-}
-
-/// Unknown number (of x; y is the next) of each node; `usize::MAX` on the race.
-fn number_unknowns(mesh: &GearMesh) -> Vec<usize> {
-    let mut next = 0;
-    let number = |held: &bool| {
-        if *held {
-            return usize::MAX;
-        }
-        next += 2;
-        next - 2
-    };
-    mesh.on_race.iter().map(number).collect()
-}
-
-/// K with the race held. Element matrices are computed once in the tooth's frame and turned, so
-/// that the body is as periodic as its teeth.
-fn stiffness(
-    mesh: &GearMesh,
-    material: &Elastic,
-    face_width: f64,
-    unknown_of: &[usize],
-) -> Result<Factor, FeError> {
-    let incompatible = mesh.family == gearset::ElementFamily::Incompatible;
-    let mut of_sectors = Vec::new();
-    for sector in &mesh.sectors {
-        let mut list = Vec::with_capacity(sector.elements.len());
-        for (i, e) in sector.elements.iter().enumerate() {
-            let points: Vec<_> =
-                e.nodes[..e.shape.count()].iter().map(|n| sector.points[*n]).collect();
-            let m = matrices(&e.shape, &points, material, face_width, incompatible)
-                .map_err(|cause| FeError::Distorted { body: mesh.name, element: i, cause })?;
-            list.push(m.stiffness);
-        }
-        of_sectors.push(list);
-    }
-    let mut triplets = Triplets::default();
-    for e in &mesh.elements {
-        let k = &of_sectors[mesh.sector_of[e.tooth]][e.local];
-        let (sin, cos) = mesh.tooth_angle(e.tooth).sin_cos();
-        let count = e.shape.count();
-        for a in 0..count {
-            let row = unknown_of[e.nodes[a]];
-            if row == usize::MAX {
-                continue;
-            }
-            for b in 0..count {
-                let column = unknown_of[e.nodes[b]];
-                if column == usize::MAX {
-                    continue;
-                }
-                let block = |r: usize, c: usize| k[(2 * a + r, 2 * b + c)];
-                // R k Rᵀ with R = [c −s; s c]
-                let [p, q, r, s] = [block(0, 0), block(0, 1), block(1, 0), block(1, 1)];
-                let top = [cos * p - sin * r, cos * q - sin * s];
-                let low = [sin * p + cos * r, sin * q + cos * s];
-                triplets.add(row, column, top[0] * cos - top[1] * sin);
-                triplets.add(row, column + 1, top[0] * sin + top[1] * cos);
-                triplets.add(row + 1, column, low[0] * cos - low[1] * sin);
-                triplets.add(row + 1, column + 1, low[0] * sin + low[1] * cos);
-            }
-        }
-    }
-    let size = 2 * unknown_of.iter().filter(|u| **u != usize::MAX).count();
-    triplets.factorise(size, mesh.name)
 }

@@ -4,9 +4,11 @@ pub mod cylinders;
 pub mod half_plane;
 pub mod hertz;
 mod law;
+mod maps;
 mod pair;
 mod table;
 
 pub use law::MeshAnswer;
+pub use maps::{ContactMap, ContactMaps};
 pub use pair::{Location, PairFrame, ToothFrame, candidates, members};
 pub use table::{CellSettings, Matching, MeshTable, PairCells};

@@ -14,6 +14,7 @@ pub(crate) use bodies::missing_mesh;
 pub use bodies::{Bodies, FeSettings};
 pub use imperfection::{Imperfections, PitchError};
 pub use pair::{PairAtPhase, PairCycle, ToothPairLoad, at_phase, pair_cycle, press};
+pub(crate) use placed::Placed;
 pub use races::{CARRIER, PLANETS, RING, Races, SUN};
-pub use set::StaticSet;
+pub use set::{SetTables, StaticSet};
 pub use state::{MeshState, SetCycle, SetState};

@@ -13,15 +13,16 @@ use crate::contact::{Location, MeshAnswer, MeshTable};
 use crate::error::FeError;
 
 /// One mesh at one position.
-pub(super) struct Placed<'t> {
-    pub(super) kind: MeshKind,
-    pub(super) planet: usize,
-    pub(super) phase: f64,
-    pub(super) table: Cow<'t, MeshTable>,
+#[derive(Debug)]
+pub(crate) struct Placed<'t> {
+    pub(crate) kind: MeshKind,
+    pub(crate) planet: usize,
+    pub(crate) phase: f64,
+    pub(crate) table: Cow<'t, MeshTable>,
     /// Approach of each pair on the races' coordinates.
-    pub(super) rows: Vec<DVector<f64>>,
+    pub(crate) rows: Vec<DVector<f64>>,
     /// Gap offsets of the pairs, m.
-    pub(super) offsets: Vec<f64>,
+    pub(crate) offsets: Vec<f64>,
 }
 
 impl Placed<'_> {
@@ -29,7 +30,7 @@ impl Placed<'_> {
         self.rows.iter().map(|b| b.dot(q)).collect()
     }
 
-    pub(super) fn answer(
+    pub(crate) fn answer(
         &self,
         q: &DVector<f64>,
         solver: &dyn ComplementaritySolver,
@@ -38,7 +39,7 @@ impl Placed<'_> {
         self.table.answer(&self.approaches(q), &self.offsets, solver, warm)
     }
 
-    pub(super) fn untouched(&self) -> MeshAnswer {
+    pub(crate) fn untouched(&self) -> MeshAnswer {
         let n = self.table.gaps.len();
         MeshAnswer {
             pair_forces: vec![0.0; self.rows.len()],
@@ -51,7 +52,7 @@ impl Placed<'_> {
     }
 
     /// Cells likely in contact: the middle of each pair's grid.
-    pub(super) fn guess(&self) -> Vec<bool> {
+    pub(crate) fn guess(&self) -> Vec<bool> {
         let mut active = Vec::with_capacity(self.table.gaps.len());
         for pair in &self.table.pairs {
             let reach = 0.5 * pair.width * pair.x.len() as f64;
@@ -60,7 +61,7 @@ impl Placed<'_> {
         active
     }
 
-    pub(super) fn add_to(
+    pub(crate) fn add_to(
         &self,
         r: &mut DVector<f64>,
         hessian: &mut DMatrix<f64>,
@@ -77,7 +78,7 @@ impl Placed<'_> {
         }
     }
 
-    pub(super) fn add_nominal(&self, matrix: &mut DMatrix<f64>, stiffness: f64) {
+    pub(crate) fn add_nominal(&self, matrix: &mut DMatrix<f64>, stiffness: f64) {
         let least = |k: &usize| {
             let pair = &self.table.pairs[*k];
             let own = &self.table.gaps[pair.first..pair.first + pair.x.len()];
@@ -90,7 +91,7 @@ impl Placed<'_> {
     }
 
     /// Refuses a deflection that reaches a corner left out of the table.
-    pub(super) fn check_window(&self, q: &DVector<f64>) -> Result<(), FeError> {
+    pub(crate) fn check_window(&self, q: &DVector<f64>) -> Result<(), FeError> {
         let deepest = self.approaches(q).into_iter().fold(0.0, f64::max);
         if deepest >= self.table.next_gap {
             return Err(FeError::NoEquilibrium(format!(
@@ -105,7 +106,7 @@ impl Placed<'_> {
         Ok(())
     }
 
-    pub(super) fn state(&self, q: &DVector<f64>, answer: &MeshAnswer) -> MeshState {
+    pub(crate) fn state(&self, q: &DVector<f64>, answer: &MeshAnswer) -> MeshState {
         let approaches = self.approaches(q);
         let loaded =
             self.table.pairs.iter().enumerate().filter(|(k, _)| answer.pair_forces[*k] > 0.0);

@@ -71,11 +71,10 @@ impl Races {
             stiffness: DMatrix::zeros(next, next),
             count: next,
         };
-        for (body, support) in supports.iter().enumerate() {
-            let per_u = torsional(support, radii[body]);
-            for (axis, k) in [support.bearing, support.bearing, per_u].into_iter().enumerate() {
+        for body in CARRIER..PLANETS {
+            for axis in 0..3 {
                 if let Some(i) = races.of(body, axis) {
-                    races.stiffness[(i, i)] += k;
+                    races.stiffness[(i, i)] += races.support(scene, body, axis);
                 }
             }
         }
@@ -86,6 +85,31 @@ impl Races {
     /// Index of a coordinate, `None` if it is held.
     pub fn of(&self, body: usize, axis: usize) -> Option<usize> {
         self.index[3 * body + axis]
+    }
+
+    /// Stiffness of a central member's own support on one of its coordinates, N/m.
+    pub(crate) fn support(&self, scene: &Scene, body: usize, axis: usize) -> f64 {
+        let support = [scene.supports.carrier, scene.supports.ring, scene.supports.sun][body];
+        match axis {
+            0 | 1 => support.bearing,
+            _ => torsional(&support, self.radii[body]),
+        }
+    }
+
+    /// Body and quantity of a coordinate.
+    pub(crate) fn name_of(&self, coordinate: usize) -> (String, &'static str) {
+        let place = self.index.iter().position(|i| *i == Some(coordinate)).unwrap_or(0);
+        let body = match place / 3 {
+            CARRIER => "carrier".to_owned(),
+            RING => "ring".to_owned(),
+            SUN => "sun".to_owned(),
+            planet => format!("planet {}", planet - PLANETS),
+        };
+        let names = match place / 3 < PLANETS {
+            true => ["x displacement", "y displacement", "rotation"],
+            false => ["radial displacement", "tangential displacement", "rotation"],
+        };
+        (body, names[place % 3])
     }
 
     /// Number of planets.
@@ -145,6 +169,23 @@ impl Races {
     /// of planet n.
     pub fn approach(&self, kind: MeshKind, planet: usize, row: &[f64; 6]) -> Vec<f64> {
         let mut b = vec![0.0; self.count];
+        for (body, entries) in self.approach_of_bodies(kind, planet, row) {
+            for (axis, value) in entries.into_iter().enumerate() {
+                if let Some(i) = self.of(body, axis) {
+                    b[i] += value;
+                }
+            }
+        }
+        b
+    }
+
+    /// The same, body by body: the central one, then the planet, on (x, y, u) of each.
+    pub fn approach_of_bodies(
+        &self,
+        kind: MeshKind,
+        planet: usize,
+        row: &[f64; 6],
+    ) -> [(usize, [f64; 3]); 2] {
         let (sin, cos) = self.psi[planet].sin_cos();
         let [first, second] = [[row[0], row[1], row[2]], [row[3], row[4], row[5]]];
         let (central, central_row, planet_row, radius) = match kind {
@@ -155,14 +196,7 @@ impl Races {
         let [p, q, arm] = central_row;
         let turned = [cos * p - sin * q, sin * p + cos * q, arm / radius];
         let own = [planet_row[0], planet_row[1], planet_row[2] / self.radii[3]];
-        for (body, entries) in [(central, turned), (PLANETS + planet, own)] {
-            for (axis, value) in entries.into_iter().enumerate() {
-                if let Some(i) = self.of(body, axis) {
-                    b[i] += value;
-                }
-            }
-        }
-        b
+        [(central, turned), (PLANETS + planet, own)]
     }
 }
 

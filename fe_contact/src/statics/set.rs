@@ -24,17 +24,17 @@ use super::placed::Placed;
 use super::races::{PLANETS, Races, SUN};
 use super::state::{MeshState, SetCycle, SetState};
 use crate::complementarity::ComplementaritySolver;
-use crate::contact::{CellSettings, MeshAnswer, MeshTable, PairFrame};
+use crate::contact::{CellSettings, MeshAnswer, MeshTable, PairCells, PairFrame};
 use crate::error::FeError;
 
 /// A set ready for static loads.
 #[derive(Debug)]
 pub struct StaticSet<'s> {
-    bodies: &'s Bodies,
-    races: Races,
+    pub(crate) bodies: &'s Bodies,
+    pub(crate) races: Races,
     /// Seen in the mirror if the torque is clockwise, so that the loaded flanks always are those of
     /// a counter-clockwise one.
-    sign: f64,
+    pub(crate) sign: f64,
     /// Phases of all meshes with planet 0's sun mesh at phase 0: sun meshes, then ring meshes.
     offsets: Vec<(MeshKind, usize, f64)>,
     /// The same for the back flanks, whose phases run backwards, with their normal backlash, m.
@@ -45,7 +45,7 @@ pub struct StaticSet<'s> {
 }
 
 /// The back flanks of one mesh.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 struct BackFlank {
     kind: MeshKind,
     planet: usize,
@@ -53,10 +53,34 @@ struct BackFlank {
     offset: f64,
     /// Normal backlash: what the flanks stand apart when those in front just touch, m.
     backlash: f64,
+    /// Approach of a pair on the path, on the races' coordinates, and what a displaced planet takes
+    /// from it, m.
+    row: DVector<f64>,
+    shift: f64,
 }
 
-/// Tables of all (mesh kind, phase) a cycle needs; equal phases share one.
-type Tables = HashMap<(MeshKind, i64), MeshTable>;
+/// Tables of all (mesh kind, phase) some positions need, for one size of load; equal phases share
+/// one.
+#[derive(Debug, Clone)]
+pub struct SetTables {
+    /// The tables.
+    pub list: Vec<MeshTable>,
+    place: HashMap<(MeshKind, i64), usize>,
+    /// Settings they were made with.
+    pub settings: CellSettings,
+}
+
+impl SetTables {
+    /// Memory of the compliances, bytes.
+    pub fn bytes(&self) -> usize {
+        self.list.iter().map(|table| 8 * table.compliance.len()).sum()
+    }
+
+    /// Place in the list of a mesh at a phase (cycles) the tables were made for.
+    pub(crate) fn place_of(&self, kind: MeshKind, phase: f64) -> usize {
+        self.place[&key(kind, phase)]
+    }
+}
 
 /// Phases nearer than this many parts of a cycle are the same phase, rounded differently.
 const PHASE_RESOLUTION: f64 = 1e12;
@@ -113,20 +137,24 @@ impl<'s> StaticSet<'s> {
         let at_back = phasing.phases(-first * pitch_angle(bodies), Facing::Clockwise);
         let normal = |kind| bodies.geometry.normal_backlash(kind).unwrap_or(0.0);
         let ahead = normal(MeshKind::SunPlanet) / bodies.geometry.base_pitch;
-        let back = |kind, phases: &[f64], ahead: f64| -> Vec<BackFlank> {
+        let races = Races::new(scene, bodies, &positions.psi_rad)?;
+        let imperfections = imperfections.mirrored(sign);
+        let back = |kind, phases: &[f64], ahead: f64| -> Result<Vec<BackFlank>, FeError> {
+            let frame = bodies.geometry.mesh(kind).and_then(|mesh| PairFrame::new(mesh, 0.3, 0));
+            let row = mirrored(&frame.ok_or_else(|| missing_mesh(kind))?.approach_row());
             let one = |(planet, phase): (usize, &f64)| BackFlank {
                 kind,
                 planet,
                 offset: phase + ahead,
                 backlash: normal(kind),
+                row: races.approach(kind, planet, &row).into(),
+                shift: imperfections.shift(kind, planet, &row),
             };
-            phases.iter().enumerate().map(one).collect()
+            Ok(phases.iter().enumerate().map(one).collect())
         };
-        let mut backs = back(MeshKind::SunPlanet, &at_back.sun_planet, 0.0);
-        backs.extend(back(MeshKind::RingPlanet, &at_back.ring_planet, ahead));
+        let mut backs = back(MeshKind::SunPlanet, &at_back.sun_planet, 0.0)?;
+        backs.extend(back(MeshKind::RingPlanet, &at_back.ring_planet, ahead)?);
         let start_angle = -first * pitch_angle(bodies);
-        let races = Races::new(scene, bodies, &positions.psi_rad)?;
-        let imperfections = imperfections.mirrored(sign);
         Ok(Self { bodies, races, sign, offsets, backs, start_angle, imperfections })
     }
 
@@ -162,21 +190,24 @@ impl<'s> StaticSet<'s> {
         solver: &(dyn ComplementaritySolver + Sync),
     ) -> Result<SetCycle, FeError> {
         let list: Vec<f64> = (0..positions).map(|i| i as f64 / positions as f64).collect();
-        let settings = self.bodies.cells(sized_for);
-        let tables = self.tables(&settings, &list)?;
+        let tables = self.tables(sized_for, &list)?;
         let mut states = Vec::with_capacity(positions);
         let mut start = None;
         for position in list {
-            let with = (&tables, &settings);
-            let (q, state) = self.solve(torque_nm, position, with, start.as_ref(), solver)?;
-            start = Some(q);
-            states.push(state);
+            let found = self.equilibrium(torque_nm, position, &tables, start.as_ref(), solver)?;
+            states.push(self.state(&found));
+            start = Some(found.q);
         }
         Ok(SetCycle { torque_nm: self.sign * torque_nm, states })
     }
 
-    /// Tables for all meshes at the given positions.
-    fn tables(&self, settings: &CellSettings, positions: &[f64]) -> Result<Tables, FeError> {
+    /// Tables for all meshes at the given positions (cycles), their grids sized for meshes that carry
+    /// `force` (N).
+    ///
+    /// # Errors
+    /// If a matching point lies outside its tooth.
+    pub fn tables(&self, force: f64, positions: &[f64]) -> Result<SetTables, FeError> {
+        let settings = self.bodies.cells(force);
         let mut wanted: Vec<(MeshKind, f64)> = Vec::new();
         let mut seen = std::collections::HashSet::new();
         for position in positions {
@@ -187,97 +218,116 @@ impl<'s> StaticSet<'s> {
                 }
             }
         }
-        let made: Result<Vec<_>, FeError> = wanted
+        let list: Result<Vec<_>, FeError> = wanted
             .par_iter()
             .map(|(kind, phase)| {
                 let (mesh, pair) = self.bodies.joined(*kind)?;
-                Ok((key(*kind, *phase), MeshTable::new(mesh, pair, *phase, settings)?))
+                MeshTable::new(mesh, pair, *phase, &settings)
             })
             .collect();
-        Ok(made?.into_iter().collect())
+        let place =
+            wanted.iter().enumerate().map(|(i, (kind, phase))| (key(*kind, *phase), i)).collect();
+        Ok(SetTables { list: list?, place, settings })
     }
 
-    fn solve(
+    /// Generalised load of a torque on the sun (N m, magnitude) on the races' coordinates, N.
+    pub(crate) fn load(&self, torque_nm: f64) -> DVector<f64> {
+        let mut f = DVector::zeros(self.races.count);
+        if let Some(i) = self.races.of(SUN, 2) {
+            f[i] = torque_nm / self.races.radii[2];
+        }
+        f
+    }
+
+    /// Every mesh at a position, with its rows and gap offsets; the tables must hold its phases.
+    pub(crate) fn place<'t>(&self, position: f64, tables: &'t SetTables) -> Vec<Placed<'t>> {
+        let sun_angle = self.start_angle + position * pitch_angle(self.bodies);
+        let sun = self.bodies.geometry.sun.as_ref();
+        let one = |(kind, planet, offset): &(MeshKind, usize, f64)| {
+            let phase = cycle(position + offset);
+            let table = &tables.list[tables.place_of(*kind, phase)];
+            let row = |p: &PairCells| self.races.approach(*kind, *planet, &p.row).into();
+            let gap = |p: &PairCells| {
+                self.imperfections.gap(*kind, *planet, p, &self.races, sun_angle, sun)
+            };
+            let rows = table.pairs.iter().map(row).collect();
+            let offsets = table.pairs.iter().map(gap).collect();
+            let table = Cow::Borrowed(table);
+            Placed { kind: *kind, planet: *planet, phase, table, rows, offsets }
+        };
+        self.offsets.iter().map(one).collect()
+    }
+
+    /// Equilibrium at one position.
+    ///
+    /// # Errors
+    /// As [`StaticSet::cycle`].
+    pub(crate) fn equilibrium<'t>(
         &self,
         torque_nm: f64,
         position: f64,
-        (tables, settings): (&Tables, &CellSettings),
+        tables: &'t SetTables,
         start: Option<&DVector<f64>>,
         solver: &dyn ComplementaritySolver,
-    ) -> Result<(DVector<f64>, SetState), FeError> {
-        let n = self.races.count;
-        let load = torque_nm / self.races.radii[2];
-        let mut f = DVector::zeros(n);
-        if let Some(i) = self.races.of(SUN, 2) {
-            f[i] = load;
-        }
-        let sun_angle = self.start_angle + position * pitch_angle(self.bodies);
-        // Every mesh with its rows and gap offsets.
-        let mut meshes: Vec<Placed<'_>> = self
-            .offsets
-            .iter()
-            .map(|(kind, planet, offset)| {
-                let phase = cycle(position + offset);
-                let table = &tables[&key(*kind, phase)];
-                let rows: Vec<DVector<f64>> = table
-                    .pairs
-                    .iter()
-                    .map(|p| DVector::from_vec(self.races.approach(*kind, *planet, &p.row)))
-                    .collect();
-                let offsets = table
-                    .pairs
-                    .iter()
-                    .map(|p| {
-                        let sun = self.bodies.geometry.sun.as_ref();
-                        self.imperfections.gap(*kind, *planet, p, &self.races, sun_angle, sun)
-                    })
-                    .collect();
-                let table = Cow::Borrowed(table);
-                Placed { kind: *kind, planet: *planet, phase, table, rows, offsets }
-            })
-            .collect();
+    ) -> Result<Equilibrium<'t>, FeError> {
+        let f = self.load(torque_nm);
+        let load = f.amax();
+        let mut meshes = self.place(position, tables);
         if load == 0.0 {
             let answers = meshes.iter().map(Placed::untouched).collect::<Vec<_>>();
-            let q = DVector::zeros(n);
-            let state = self.state(position, &q, &meshes, &answers, 0.0, (0, 0));
-            return Ok((q, state));
+            let q = DVector::zeros(self.races.count);
+            return Ok(Equilibrium { position, q, meshes, answers, residual: 0.0, counts: (0, 0) });
         }
         let mut q = match start {
             Some(q) => q.clone(),
             None => self.first_guess(&f, &meshes)?,
         };
         let (mut found, mut counts) = self.balance(&f, load, &mut q, &meshes, solver)?;
-        if self.backs_touch(&q)? {
-            for back in &self.backs {
-                meshes.push(self.back(back, position, settings)?);
-            }
+        if self.backs_touch(&q) {
+            meshes.extend(self.place_backs(position, &tables.settings)?);
             let (again, more) = self.balance(&f, load, &mut q, &meshes, solver)?;
             (found, counts) = (again, (counts.0 + more.0, counts.1 + more.1));
         }
         let (answers, residual) = found;
         for (mesh, answer) in meshes.iter().zip(&answers) {
             // A mesh that carries next to nothing rests on few cells, and that decides nothing.
-            mesh.table.check_patches(answer, LEAST_CELLS, 0.2 * settings.force)?;
+            mesh.table.check_patches(answer, LEAST_CELLS, 0.2 * tables.settings.force)?;
             mesh.check_window(&q)?;
         }
-        let state = self.state(position, &q, &meshes, &answers, residual, counts);
-        Ok((q, state))
+        Ok(Equilibrium { position, q, meshes, answers, residual, counts })
+    }
+
+    /// Finds equilibrium anew after gap offsets were changed.
+    pub(crate) fn settle(
+        &self,
+        torque_nm: f64,
+        found: &mut Equilibrium<'_>,
+        solver: &dyn ComplementaritySolver,
+    ) -> Result<(), FeError> {
+        let f = self.load(torque_nm);
+        let ((answers, residual), counts) =
+            self.balance(&f, f.amax(), &mut found.q, &found.meshes, solver)?;
+        (found.answers, found.residual, found.counts) = (answers, residual, counts);
+        Ok(())
+    }
+
+    /// Phase of a front mesh (sun meshes, then ring meshes) at a position, cycles in [0, 1).
+    pub(crate) fn phase(&self, mesh: usize, position: f64) -> f64 {
+        cycle(position + self.offsets[mesh].2)
+    }
+
+    /// The back flanks of all meshes at a position.
+    pub(crate) fn place_backs(
+        &self,
+        position: f64,
+        settings: &CellSettings,
+    ) -> Result<Vec<Placed<'static>>, FeError> {
+        self.backs.iter().map(|back| self.back(back, position, settings)).collect()
     }
 
     /// Whether any back flanks meet at these displacements.
-    fn backs_touch(&self, q: &DVector<f64>) -> Result<bool, FeError> {
-        for back in &self.backs {
-            let mesh = self.bodies.geometry.mesh(back.kind);
-            let frame = mesh.and_then(|mesh| PairFrame::new(mesh, 0.3, 0));
-            let row = frame.map(|frame| mirrored(&frame.approach_row()));
-            let row = row.ok_or_else(|| missing_mesh(back.kind))?;
-            let b = DVector::from_vec(self.races.approach(back.kind, back.planet, &row));
-            let shift = self.imperfections.shift(back.kind, back.planet, &row);
-            if b.dot(q) - shift >= back.backlash {
-                return Ok(true);
-            }
-        }
-        Ok(false)
+    pub(crate) fn backs_touch(&self, q: &DVector<f64>) -> bool {
+        self.backs.iter().any(|back| back.row.dot(q) - back.shift >= back.backlash)
     }
 
     /// The back flanks of one mesh: the mesh seen in the mirror along its line of centres. They
@@ -389,34 +439,49 @@ impl<'s> StaticSet<'s> {
     }
 
     /// Results in the frame of the scene.
-    fn state(
-        &self,
-        position: f64,
-        q: &DVector<f64>,
-        meshes: &[Placed<'_>],
-        answers: &[MeshAnswer],
-        residual: f64,
-        (iterations, contact_iterations): (usize, usize),
-    ) -> SetState {
+    fn state(&self, found: &Equilibrium<'_>) -> SetState {
+        let Equilibrium { position, q, meshes, answers, residual, counts } = found;
+        let (central, planets) = self.displacements(q);
+        let mut states: Vec<MeshState> =
+            meshes.iter().zip(answers).map(|(mesh, answer)| mesh.state(q, answer)).collect();
+        SetState {
+            position: *position,
+            central,
+            planets,
+            backs: states.split_off(self.offsets.len()),
+            meshes: states,
+            residual: *residual,
+            iterations: counts.0,
+            contact_iterations: counts.1,
+        }
+    }
+
+    /// Displacements (m, m, rad) of carrier, ring, sun and of the planets in the frame of the scene.
+    pub(crate) fn displacements(&self, q: &DVector<f64>) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+        let radii = self.races.radii;
         let of = |body: usize, radius: f64| {
             let value = |axis| self.races.of(body, axis).map_or(0.0, |i| q[i]);
             // Mirrored back: y and θ change sign.
             [value(0), self.sign * value(1), self.sign * value(2) / radius]
         };
-        let radii = self.races.radii;
-        let mut states: Vec<MeshState> =
-            meshes.iter().zip(answers).map(|(mesh, answer)| mesh.state(q, answer)).collect();
-        SetState {
-            position,
-            central: [0, 1, 2].map(|body| of(body, radii[body])),
-            planets: (0..self.races.planets()).map(|n| of(PLANETS + n, radii[3])).collect(),
-            backs: states.split_off(self.offsets.len()),
-            meshes: states,
-            residual,
-            iterations,
-            contact_iterations,
-        }
+        let planets = (0..self.races.planets()).map(|n| of(PLANETS + n, radii[3])).collect();
+        ([0, 1, 2].map(|body| of(body, radii[body])), planets)
     }
+}
+
+/// A set in equilibrium.
+#[derive(Debug)]
+pub(crate) struct Equilibrium<'t> {
+    pub(crate) position: f64,
+    /// Races' coordinates, m.
+    pub(crate) q: DVector<f64>,
+    /// Sun meshes, ring meshes, and the back flanks if any touch.
+    pub(crate) meshes: Vec<Placed<'t>>,
+    pub(crate) answers: Vec<MeshAnswer>,
+    /// Largest imbalance over the load.
+    pub(crate) residual: f64,
+    /// Equilibrium and contact iterations.
+    pub(crate) counts: (usize, usize),
 }
 
 /// Answers of all meshes with the largest residual over the load; equilibrium and contact iterations.

@@ -1,4 +1,4 @@
-//! FE/contact statics: every check needs the bodies, which are made once.
+//! FE/contact: every check needs the bodies, which are made once.
 
 mod bodies;
 mod calculix;
@@ -7,6 +7,7 @@ mod convergence;
 mod fig12;
 mod hertz;
 mod iso6336;
+mod modal;
 mod resolved;
 mod sets;
 mod stiffness;
@@ -96,19 +97,20 @@ pub(crate) fn checks(
     profile: Profile,
     concerns: &dyn Fn(&str) -> bool,
 ) -> Result<Vec<Check>, ValidationError> {
-    let suites: [(&str, Suite); 10] = [
-        ("fe.hertz.", hertz::checks),
-        ("fe.convergence.", convergence::checks),
-        ("fe.resolved.", resolved::checks),
-        ("fe.calculix.", calculix::checks),
-        ("fe.bodies.", bodies::checks),
-        ("fe.stiffness.", stiffness::checks),
-        ("fe.iso_6336.", iso6336::checks),
-        ("fe.sets.", sets::checks),
-        ("fe.fig12.", fig12::checks),
-        ("fe.control.", controls::checks),
+    let suites: [(&[&str], Suite); 11] = [
+        (&["fe.hertz."], hertz::checks),
+        (&["fe.convergence."], convergence::checks),
+        (&["fe.resolved."], resolved::checks),
+        (&["fe.calculix."], calculix::checks),
+        (&["fe.bodies."], bodies::checks),
+        (&["fe.stiffness."], stiffness::checks),
+        (&["fe.iso_6336."], iso6336::checks),
+        (&["fe.sets."], sets::checks),
+        (&["fe.fig12."], fig12::checks),
+        (&["fe.control."], controls::checks),
+        (&["table2.fe_contact.", "table3.fe_contact.", "fe.modal."], modal::checks),
     ];
-    if !suites.iter().any(|(prefix, _)| concerns(prefix)) {
+    if !suites.iter().any(|(prefixes, _)| prefixes.iter().any(|p| concerns(p))) {
         return Ok(Vec::new());
     }
     let four = scene(PublishedScene::Oh58FourPlanets)?;
@@ -118,8 +120,8 @@ pub(crate) fn checks(
     let three = scene(PublishedScene::Oh58ThreePlanets)?;
     let lab = Lab { reference, profile, four, three, bodies, force };
     let mut checks = Vec::new();
-    for (prefix, suite) in suites {
-        if concerns(prefix) {
+    for (prefixes, suite) in suites {
+        if prefixes.iter().any(|p| concerns(p)) {
             checks.extend(suite(&lab)?);
         }
     }

@@ -1,0 +1,218 @@
+//! What to identify and how.
+
+use super::error::IdentifyError;
+
+/// How the records are thinned out before the block rows are laid. Rows stand `stride` samples
+/// apart; columns may start at any sample, so no sample is lost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Decimation {
+    /// Every `stride`-th sample, unfiltered: modes above half the new rate come out at the
+    /// frequency they fold to, maybe into the band.
+    Plain {
+        /// Samples from one block row to the next.
+        stride: usize,
+    },
+    /// A low-pass filter first. It looks only forward, so a decay stays a sum of the same
+    /// exponentials; its gain at each pole is taken out of the shapes again.
+    Filtered {
+        /// Samples from one block row to the next.
+        stride: usize,
+    },
+}
+
+impl Decimation {
+    /// Samples from one block row to the next.
+    pub fn stride(self) -> usize {
+        match self {
+            Decimation::Plain { stride } | Decimation::Filtered { stride } => stride,
+        }
+    }
+}
+
+/// The matrix whose singular vectors span the states.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// The block Hankel matrix itself.
+    Hankel,
+    /// Its correlation with the block rows before it (ERA/DC: Juang, Cooper & Wright 1988), whose
+    /// noise is another. Needs twice as many samples a column.
+    Correlation,
+}
+
+/// What the outputs are divided by, so that those of small unit do not drown.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Scaling {
+    /// Their root mean squares over all inputs. Not for outputs that hold nothing but rounding.
+    Rms,
+    /// Given numbers in the units of the outputs, best in the ratio of their noise.
+    Given(Vec<f64>),
+}
+
+/// When poles of consecutive orders count as the same.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tolerances {
+    /// |Δf| / f.
+    pub frequency: f64,
+    /// |Δζ| / ζ.
+    pub damping: f64,
+    /// 1 − MAC of the shapes, each output divided by its scale.
+    pub shape: f64,
+    /// |Δs| / |s| of poles at one order which count as one repeated pole, reported at their mean.
+    pub repeated: f64,
+}
+
+/// What to identify and how; [`Options::new`] fills in what usually does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Lowest and highest frequency wanted, Hz.
+    pub band: (f64, f64),
+    /// Thinning of the records.
+    pub decimation: Decimation,
+    /// Number of block rows p of the Hankel matrix.
+    pub block_rows: usize,
+    /// Largest number of block columns, spread evenly over the records.
+    pub block_columns: usize,
+    /// Highest number of states of the chart, two a mode; those out of the band count.
+    pub highest_order: usize,
+    /// Which matrix.
+    pub method: Method,
+    /// Scaling of the outputs.
+    pub scaling: Scaling,
+    /// Tolerances of the chart.
+    pub tolerances: Tolerances,
+    /// Orders in a row at which a pole must be stable to be a mode.
+    pub persistence: usize,
+    /// Modes of higher damping ratio are not wanted, nor those that are not damped.
+    pub highest_damping: f64,
+    /// Least coherence of a mode, 0 to 1.
+    pub coherence: f64,
+    /// Least amplitude of a mode relative to the strongest in the band, outputs scaled.
+    pub weakest: f64,
+}
+
+impl Options {
+    /// The usual options for a band (Hz) and a stride (samples). Close modes in noise want block
+    /// rows that reach far in time: a stride of half of what the band allows does well.
+    pub fn new(band: (f64, f64), stride: usize) -> Self {
+        Options {
+            band,
+            decimation: Decimation::Filtered { stride },
+            block_rows: 40,
+            block_columns: 1000,
+            highest_order: 60,
+            method: Method::Hankel,
+            scaling: Scaling::Rms,
+            tolerances: Tolerances { frequency: 0.01, damping: 0.05, shape: 0.02, repeated: 1e-3 },
+            persistence: 4,
+            highest_damping: 0.2,
+            coherence: 0.98,
+            weakest: 1e-6,
+        }
+    }
+
+    /// Refuses options out of their range, for records `interval` s a sample.
+    pub(super) fn check(&self, interval: f64) -> Result<(), IdentifyError> {
+        if !(interval > 0.0 && interval.is_finite()) {
+            return Err(IdentifyError::Interval { value: interval });
+        }
+        let (low, high) = self.band;
+        if !(low >= 0.0 && high > low && high.is_finite()) {
+            return Err(IdentifyError::Band { low, high });
+        }
+        let t = &self.tolerances;
+        let (positive, counted) = ("positive and finite", "at least one");
+        let numbers = [
+            ("tolerances.frequency", t.frequency),
+            ("tolerances.damping", t.damping),
+            ("tolerances.shape", t.shape),
+            ("tolerances.repeated", t.repeated),
+            ("highest_damping", self.highest_damping),
+        ];
+        for (option, value) in numbers {
+            if !(value > 0.0 && value.is_finite()) {
+                return Err(IdentifyError::Option { option, value, expected: positive });
+            }
+        }
+        for (option, value) in [("coherence", self.coherence), ("weakest", self.weakest)] {
+            if !(0.0..=1.0).contains(&value) {
+                return Err(IdentifyError::Option { option, value, expected: "from zero to one" });
+            }
+        }
+        let counts = [
+            ("decimation.stride", self.decimation.stride()),
+            ("block_rows", self.block_rows),
+            ("block_columns", self.block_columns),
+            ("persistence", self.persistence),
+        ];
+        for (option, count) in counts {
+            if count == 0 {
+                return Err(IdentifyError::Option { option, value: 0.0, expected: counted });
+            }
+        }
+        let order = self.highest_order;
+        if order < 2 {
+            let expected = "at least two, one mode";
+            return Err(IdentifyError::Option {
+                option: "highest_order",
+                value: order as f64,
+                expected,
+            });
+        }
+        let stride = self.decimation.stride();
+        let limit = 0.5 / (stride as f64 * interval);
+        // A filter needs room between the band and what folds into it.
+        let room = if matches!(self.decimation, Decimation::Filtered { .. }) { 0.9 } else { 1.0 };
+        if high > room * limit {
+            return Err(IdentifyError::Stride { high, limit: room * limit, stride });
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn unusable_options_are_refused() {
+        let usual = Options::new((10.0, 1000.0), 10);
+        let refused = |options: Options| options.check(1e-5).unwrap_err();
+        for (low, high) in [(-1.0, 10.0), (10.0, 10.0), (10.0, f64::INFINITY)] {
+            let options = Options { band: (low, high), ..usual.clone() };
+            assert_eq!(refused(options), IdentifyError::Band { low, high });
+        }
+        // Half the rate of one sample in 60 is 833 Hz.
+        for decimation in [Decimation::Plain { stride: 60 }, Decimation::Filtered { stride: 60 }] {
+            let found = refused(Options { decimation, ..usual.clone() });
+            assert!(matches!(found, IdentifyError::Stride { stride: 60, .. }), "{found}");
+        }
+        // 1000 Hz fit below 1020 Hz, but no filter fits between.
+        let decimation = Decimation::Filtered { stride: 49 };
+        let found = refused(Options { decimation, ..usual.clone() });
+        assert!(matches!(found, IdentifyError::Stride { stride: 49, .. }));
+        let named = |options: Options, name: &str| {
+            let found = refused(options);
+            let IdentifyError::Option { option, .. } = found else { panic!("{name}: {found}") };
+            assert_eq!(option, name);
+        };
+        named(Options::new((10.0, 1000.0), 0), "decimation.stride");
+        named(Options { block_rows: 0, ..usual.clone() }, "block_rows");
+        named(Options { block_columns: 0, ..usual.clone() }, "block_columns");
+        named(Options { persistence: 0, ..usual.clone() }, "persistence");
+        named(Options { highest_order: 1, ..usual.clone() }, "highest_order");
+        named(Options { highest_damping: f64::NAN, ..usual.clone() }, "highest_damping");
+        named(Options { coherence: 1.1, ..usual.clone() }, "coherence");
+        named(Options { weakest: -0.1, ..usual.clone() }, "weakest");
+        let tolerances = Tolerances { shape: 0.0, ..usual.tolerances };
+        named(Options { tolerances, ..usual.clone() }, "tolerances.shape");
+    }
+
+    #[test]
+    fn an_interval_must_be_positive() {
+        let options = Options::new((10.0, 1000.0), 10);
+        for value in [0.0, -1e-5, f64::INFINITY] {
+            assert_eq!(options.check(value), Err(IdentifyError::Interval { value }));
+        }
+        assert_eq!(options.check(1e-5), Ok(()));
+    }
+}

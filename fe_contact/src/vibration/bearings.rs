@@ -1,0 +1,220 @@
+//! Planet bearings on the carrier's pin seats, within one time step.
+
+use dynamics::{AverageAcceleration, Motion};
+use nalgebra::{DMatrix, DVector};
+
+use super::body::{Port, VibratingBody};
+use super::modal_body::FixedRaceMode;
+use crate::error::FeError;
+use crate::statics::{CARRIER, PLANETS, Races};
+
+/// Bearings between the planets' races and the seats of a carrier that may give way.
+///
+/// With e the elongations (planet's race less seat, radial and tangential) and Q the bearings'
+/// forces,
+///
+/// ```text
+/// Q = (I/k + A)⁻¹ (e + τ ė)
+/// ```
+///
+/// where A is the static flexibility of the carrier that its own state does not carry and τ the
+/// dashpots' ratio to the stiffness.
+#[derive(Debug)]
+pub(super) struct Bearings {
+    /// Elongations of rigid seats on the races' coordinates, 2N×n.
+    rigid: DMatrix<f64>,
+    /// Elongations on the races' coordinates within a step, the carrier's inertia included, 2N×n.
+    rows: DMatrix<f64>,
+    /// I/k + A, m/N.
+    pub(super) compliance: DMatrix<f64>,
+    ratio: f64,
+    /// (K'⁻¹ + G)⁻¹ with K' = (I/k + A)⁻¹ (1 + 2τ/h).
+    dynamic: DMatrix<f64>,
+    /// (I/k + A) / (1 + 2τ/h).
+    softened: DMatrix<f64>,
+    ports: Vec<Port>,
+    state: Motion,
+    history: DVector<f64>,
+    free: DVector<f64>,
+    forces: DVector<f64>,
+    /// −Q: what presses against the seats' directions.
+    pressing: Vec<f64>,
+    elongation: DVector<f64>,
+}
+
+impl Bearings {
+    pub(super) fn new(
+        races: &Races,
+        bearings: &[f64],
+        ports: Vec<Port>,
+        flexibility: &DMatrix<f64>,
+        carrier: &dyn VibratingBody,
+        ratio: f64,
+    ) -> Self {
+        let n = races.planets();
+        let mut rigid = DMatrix::zeros(2 * n, races.count);
+        for planet in 0..n {
+            let (sin, cos) = races.psi[planet].sin_cos();
+            for (axis, seat) in [[cos, sin, 0.0], [-sin, cos, 1.0]].into_iter().enumerate() {
+                if let Some(i) = races.of(PLANETS + planet, axis) {
+                    rigid[(2 * planet + axis, i)] += 1.0;
+                }
+                for (k, share) in seat.into_iter().enumerate() {
+                    if let Some(i) = races.of(CARRIER, k) {
+                        rigid[(2 * planet + axis, i)] -= share;
+                    }
+                }
+            }
+        }
+        // What the carrier's own modes carry is not given twice.
+        let carried = carrier.carried_flexibility(&ports);
+        let mut compliance =
+            DMatrix::from_fn(2 * n, 2 * n, |i, j| flexibility[(i, j)] - carried[i * 2 * n + j]);
+        for i in 0..2 * n {
+            compliance[(i, i)] += 1.0 / bearings[i / 2];
+        }
+        let zero = DVector::zeros(2 * n);
+        Self {
+            rows: rigid.clone(),
+            rigid,
+            dynamic: compliance.clone(),
+            softened: compliance.clone(),
+            compliance,
+            ratio,
+            ports,
+            state: Motion::at_rest(2 * n),
+            history: zero.clone(),
+            free: zero.clone(),
+            forces: zero.clone(),
+            pressing: vec![0.0; 2 * n],
+            elongation: zero,
+        }
+    }
+
+    /// Prepares for a step; returns what the bearings add to the races' stiffness, n×n.
+    pub(super) fn set_step(
+        &mut self,
+        rule: &AverageAcceleration,
+        races: &Races,
+        carrier: &dyn VibratingBody,
+    ) -> Result<DMatrix<f64>, FeError> {
+        let count = self.ports.len();
+        let receptance = carrier.receptance(&self.ports);
+        self.softened = &self.compliance / (1.0 + self.ratio * rule.damping());
+        let sum = &self.softened + DMatrix::from_row_slice(count, count, &receptance);
+        self.dynamic = sum.cholesky().ok_or_else(unstable)?.inverse();
+        self.rows = self.rigid.clone();
+        for (row, port) in self.ports.iter().enumerate() {
+            for (k, share) in carrier.coupling(port, 0.0).into_iter().enumerate() {
+                if let Some(i) = races.of(CARRIER, k) {
+                    self.rows[(row, i)] -= share;
+                }
+            }
+        }
+        Ok(self.rows.transpose() * &self.dynamic * &self.rows)
+    }
+
+    /// After the carrier's prediction: adds the bearings' history to the races' loads.
+    pub(super) fn predict(
+        &mut self,
+        rule: &AverageAcceleration,
+        carrier: &dyn VibratingBody,
+        load: &mut DVector<f64>,
+    ) {
+        // e_x = Bx − free, (K'⁻¹ + G) Q = e_x − τ' v*
+        let weight = self.ratio / (1.0 + self.ratio * rule.damping());
+        for (i, port) in self.ports.iter().enumerate() {
+            self.history[i] = weight * rule.velocity_history(self.state.x[i], self.state.v[i]);
+            self.free[i] = carrier.free(port) + self.history[i];
+        }
+        self.forces.gemv(1.0, &self.dynamic, &self.free, 0.0);
+        load.gemv_tr(1.0, &self.rows, &self.forces, 1.0);
+    }
+
+    /// Ends the step with the races at x; the carrier's body is ended with it.
+    pub(super) fn finish(
+        &mut self,
+        rule: &AverageAcceleration,
+        carrier: &mut dyn VibratingBody,
+        x: &DVector<f64>,
+        race: [f64; 3],
+    ) {
+        // Q = (K'⁻¹ + G)⁻¹ (Bx − free − τ' v*)
+        self.elongation.gemv(1.0, &self.rows, x, 0.0);
+        self.elongation -= &self.free;
+        self.forces.gemv(1.0, &self.dynamic, &self.elongation, 0.0);
+        // e = K'⁻¹ Q + τ' v*
+        self.elongation.gemv(1.0, &self.softened, &self.forces, 0.0);
+        self.elongation += &self.history;
+        self.state.advance(rule, self.elongation.as_slice());
+        self.press();
+        carrier.finish(race, 0.0, &self.ports, &self.pressing);
+    }
+
+    /// At rest with the races at x.
+    pub(super) fn rest(
+        &mut self,
+        carrier: &mut dyn VibratingBody,
+        whole: &DMatrix<f64>,
+        x: &DVector<f64>,
+    ) {
+        // Q = (I/k + A_whole)⁻¹ B x
+        let forces = whole * (&self.rigid * x);
+        self.state = Motion::at_rest(self.ports.len());
+        self.state.x.copy_from_slice((&self.compliance * &forces).as_slice());
+        self.forces = forces;
+        self.press();
+        carrier.rest_under(&self.ports, &self.pressing);
+    }
+
+    /// A stretched bearing pulls its seat along the port's direction.
+    fn press(&mut self) {
+        self.pressing.iter_mut().zip(self.forces.iter()).for_each(|(p, q)| *p = -q);
+    }
+
+    /// Stiffness on z = (races, carrier's modes, the rest), N/m.
+    pub(super) fn linearised(
+        &self,
+        modes: &[FixedRaceMode],
+        races: usize,
+        size: usize,
+    ) -> Result<DMatrix<f64>, FeError> {
+        let count = self.ports.len();
+        let mut rows = DMatrix::zeros(count, size);
+        rows.view_mut((0, 0), (count, races)).copy_from(&self.rigid);
+        for (i, port) in self.ports.iter().enumerate() {
+            for (j, mode) in modes.iter().enumerate() {
+                rows[(i, races + j)] = -port.read(&mode.shape);
+            }
+        }
+        let factor = self.compliance.clone().cholesky().ok_or_else(unstable)?;
+        Ok(rows.transpose() * factor.solve(&rows))
+    }
+
+    /// Forces of the bearings on the carrier's seats, radial and tangential of each planet, N.
+    pub(super) fn forces(&self) -> &[f64] {
+        self.forces.as_slice()
+    }
+
+    /// ∫ ėᵀ (I/k + A)⁻¹ ė dt over a step of rigid seats that moved the races by `moved`, J/s.
+    pub(super) fn dashpot_work(&self, rule: &AverageAcceleration, moved: &DVector<f64>) -> f64 {
+        let stretched = &self.rigid * moved;
+        match self.compliance.clone().cholesky() {
+            Some(factor) => stretched.dot(&factor.solve(&stretched)) / rule.step(),
+            None => f64::NAN,
+        }
+    }
+
+    /// ½ Qᵀ (I/k + A) Q at the elongations of the state, J.
+    pub(super) fn energy(&self) -> f64 {
+        let e = DVector::from_column_slice(&self.state.x);
+        match self.compliance.clone().cholesky() {
+            Some(factor) => 0.5 * e.dot(&factor.solve(&e)),
+            None => f64::NAN,
+        }
+    }
+}
+
+fn unstable() -> FeError {
+    FeError::NoEquilibrium("the carrier is not stable".into())
+}

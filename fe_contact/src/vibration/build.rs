@@ -1,0 +1,208 @@
+//! The bodies of a vibrating set, on the rung its scene asks for.
+
+use std::sync::Arc;
+
+use dynamics::AverageAcceleration;
+use gearset::{Motion as Support, Rung, Scene};
+use nalgebra::DMatrix;
+
+use super::body::{Port, VibratingBody};
+use super::damping::Proportional;
+use super::full_body::{FullBody, SharedFactors};
+use super::modal_body::{FixedRaceMode, ModalBody, fixed_race_modes};
+use super::set::Gear;
+use super::teeth::tooth_points;
+use crate::body::{BodyMatrices, CarrierBody, GearBody, number_unknowns};
+use crate::error::FeError;
+use crate::statics::{Bodies, CARRIER, PLANETS, RING, Races, SUN, SetTables, StaticSet};
+
+/// What all bodies of a set share.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Settings {
+    pub(super) rung: Rung,
+    pub(super) damping: Proportional,
+    pub(super) rule: AverageAcceleration,
+}
+
+/// Ring, sun and planets, their teeth where the position `start` (cycles) has them.
+pub(super) fn gears<'s>(
+    statics: &StaticSet<'s>,
+    scene: &Scene,
+    tables: &SetTables,
+    settings: &Settings,
+    start: f64,
+) -> Result<Vec<Gear<'s>>, FeError> {
+    let bodies = statics.bodies;
+    let races = &statics.races;
+    let angles = start_angles(statics, tables, start)?;
+    let missing = |key: &str| FeError::Missing { key: key.into(), why: "a set needs it" };
+    let ring = bodies.ring.as_ref().ok_or_else(|| missing("geometry.ring"))?;
+    let sun = bodies.sun.as_ref().ok_or_else(|| missing("geometry.sun"))?;
+    let kinds = [(RING, ring), (SUN, sun), (PLANETS, &bodies.planet)];
+    let mut gears = Vec::with_capacity(2 + races.planets());
+    for (kind, body) in kinds {
+        let unknown_of = Arc::new(number_unknowns(&body.mesh));
+        let mass = body_mass(statics, scene, kind)?;
+        let radius = races.radii[kind];
+        let make = flexible(settings, body.mesh.name, radius, mass, &|| {
+            BodyMatrices::of_gear(&body.mesh, &body.material, body.face_width)
+        })?;
+        let count = if kind == PLANETS { races.planets() } else { 1 };
+        for n in 0..count {
+            gears.push(Gear {
+                body,
+                vibrating: make(),
+                unknown_of: unknown_of.clone(),
+                start: angles[kind + n],
+                // The sun turns ahead of the carrier, planets and ring turn back.
+                rate: body.mesh.outline.gear().pitch_angle() * if kind == SUN { 1.0 } else { -1.0 },
+            });
+        }
+    }
+    Ok(gears)
+}
+
+/// A maker of bodies of one kind, which share what is constant.
+fn flexible<'a>(
+    settings: &Settings,
+    name: &'static str,
+    radius: f64,
+    mass: [f64; 3],
+    matrices: &dyn Fn() -> Result<BodyMatrices, FeError>,
+) -> Result<Box<dyn Fn() -> Box<dyn VibratingBody> + 'a>, FeError> {
+    let Settings { rung, damping, rule } = *settings;
+    match rung {
+        Rung::Full => {
+            let shared = SharedFactors::new(Arc::new(matrices()?), name, radius, damping, rule)?;
+            Ok(Box::new(move || Box::new(FullBody::new(mass, shared.clone()))))
+        }
+        Rung::QuasiStatic | Rung::Modal(_) => {
+            let modes: Arc<[FixedRaceMode]> = match rung {
+                Rung::Modal(n) => fixed_race_modes(&matrices()?, n as usize, radius, name)?.into(),
+                _ => Arc::new([]),
+            };
+            Ok(Box::new(move || Box::new(ModalBody::new(mass, damping, modes.clone(), rule))))
+        }
+    }
+}
+
+/// A carrier, the ports of its seats (radial and tangential of each), their static flexibility
+/// (2N×2N, m/N).
+pub(super) type SeatedCarrier = (Box<dyn VibratingBody>, Vec<Port>, DMatrix<f64>);
+
+/// The carrier with its seats' ports and static flexibility (2N×2N, m/N).
+pub(super) fn carrier(
+    statics: &StaticSet<'_>,
+    scene: &Scene,
+    settings: &Settings,
+) -> Result<SeatedCarrier, FeError> {
+    let races = &statics.races;
+    let n = races.planets();
+    let mass = body_mass(statics, scene, CARRIER)?;
+    let Some(body) = carrier_body(statics.bodies, scene, races)?.filter(|b| !b.is_rigid) else {
+        let rigid = Settings { rung: Rung::QuasiStatic, ..*settings };
+        let make = flexible(&rigid, "carrier", races.radii[CARRIER], mass, &|| {
+            Err(FeError::NoEquilibrium("a rigid carrier has no matrices".into()))
+        })?;
+        return Ok((make(), vec![Port::default(); 2 * n], DMatrix::zeros(2 * n, 2 * n)));
+    };
+    let make =
+        flexible(settings, "carrier", races.radii[CARRIER], mass, &|| Ok(body.matrices.clone()))?;
+    let port = |k: usize| Port { terms: body.seat_terms(k / 2, k % 2).to_vec() };
+    Ok((make(), (0..2 * n).map(port).collect(), body.flexibility.clone()))
+}
+
+fn carrier_body(
+    bodies: &Bodies,
+    scene: &Scene,
+    races: &Races,
+) -> Result<Option<CarrierBody>, FeError> {
+    let Some(input) = scene.geometry.as_ref().and_then(|g| g.carrier) else { return Ok(None) };
+    let (a, b) = (bodies.geometry.center_distance, bodies.geometry.face_width);
+    CarrierBody::new(&input, a, &races.psi, &bodies.material, b).map(Some)
+}
+
+/// Mass, mass and polar inertia over r² of a body of the set's order, kg: of its mesh; a carrier
+/// without geometry weighs what the lumped parameters say.
+pub(super) fn body_mass(
+    statics: &StaticSet<'_>,
+    scene: &Scene,
+    body: usize,
+) -> Result<[f64; 3], FeError> {
+    let races = &statics.races;
+    let bodies = statics.bodies;
+    let of_gear =
+        |gear: &GearBody, radius: f64| [gear.mass, gear.mass, gear.inertia / (radius * radius)];
+    let missing = |key: &str| FeError::Missing { key: key.into(), why: "its motion needs a mass" };
+    match body {
+        CARRIER => {
+            if let Some(own) = carrier_body(bodies, scene, races)? {
+                return Ok([own.mass, own.mass, own.inertia / races.radii[0].powi(2)]);
+            }
+            if scene.supports.carrier.motion == Support::Held {
+                return Ok([0.0; 3]);
+            }
+            let lumped = scene.lumped.as_ref();
+            let mass = lumped.and_then(|l| l.mass.carrier);
+            let mass = mass.ok_or_else(|| missing("geometry.carrier"))?;
+            let turning = lumped.and_then(|l| l.inertia_over_r2.carrier).unwrap_or(0.0);
+            Ok([mass, mass, turning])
+        }
+        RING => {
+            let ring = bodies.ring.as_ref().ok_or_else(|| missing("geometry.ring"))?;
+            Ok(of_gear(ring, races.radii[1]))
+        }
+        SUN => {
+            let sun = bodies.sun.as_ref().ok_or_else(|| missing("geometry.sun"))?;
+            Ok(of_gear(sun, races.radii[2]))
+        }
+        _ => Ok(of_gear(&bodies.planet, races.radii[3])),
+    }
+}
+
+/// Angle of tooth 0 of every body (carrier first, nil) at a position: that of a tooth in contact.
+fn start_angles(
+    statics: &StaticSet<'_>,
+    tables: &SetTables,
+    start: f64,
+) -> Result<Vec<f64>, FeError> {
+    let mut angles = vec![0.0; PLANETS + statics.races.planets()];
+    let mut known = vec![false; angles.len()];
+    for placed in statics.place(start, tables) {
+        for ends in tooth_points(statics.bodies, &statics.races, &placed)? {
+            for end in ends {
+                if !std::mem::replace(&mut known[end.body], true) {
+                    angles[end.body] = end.axis;
+                }
+            }
+        }
+    }
+    Ok(angles)
+}
+
+/// Stiffness of each planet's bearing, N/m.
+pub(super) fn bearing_stiffnesses(scene: &Scene, planets: usize) -> Vec<f64> {
+    let of = |n: usize| {
+        let special = scene.overrides.iter().find(|o| o.planet == n);
+        special.and_then(|o| o.bearing).unwrap_or(scene.supports.planet_bearing)
+    };
+    (0..planets).map(of).collect()
+}
+
+/// Gyroscopic matrix (kg/s) and centripetal stiffness (N/m) of bodies whose centres' coordinates
+/// stand in a frame that turns at Ω (rad/s): m (ẍ − 2Ωẏ − Ω²x), m (ÿ + 2Ωẋ − Ω²y).
+pub(super) fn gyroscopic_terms(races: &Races, mass: &[f64], speed: f64) -> [DMatrix<f64>; 2] {
+    let n = races.count;
+    let (mut g, mut k) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
+    for body in 0..PLANETS + races.planets() {
+        let (x, y) = (races.of(body, 0), races.of(body, 1));
+        for i in [x, y].into_iter().flatten() {
+            k[(i, i)] -= mass[i] * speed * speed;
+        }
+        if let (Some(x), Some(y)) = (x, y) {
+            g[(x, y)] -= 2.0 * mass[x] * speed;
+            g[(y, x)] += 2.0 * mass[x] * speed;
+        }
+    }
+    [g, k]
+}

@@ -1,0 +1,107 @@
+//! Where the energy of a set on rigid races is, and where it went.
+
+use nalgebra::DVector;
+
+use super::set::VibratingSet;
+
+/// Energies of the present state, J.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Energies {
+    /// Kinetic energy of the vibration.
+    pub kinetic: f64,
+    /// Bearings and supports, the carrier's flexibility among them.
+    pub bearings: f64,
+    /// ½ pᵀ C p of all meshes, FE flexibility and half-planes, as if it did not lag.
+    pub contact: f64,
+}
+
+/// What one step did, J.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StepWork {
+    /// Work of the external forces, their mean over the step times the displacement.
+    pub external: f64,
+    /// Lost in αM and in the dashpots.
+    pub damped: f64,
+    /// Work of the races against the pairs' forces, their mean over the step.
+    pub against_contact: f64,
+}
+
+/// State of the races at the start of a step.
+#[derive(Debug, Clone)]
+pub struct StepStart {
+    x: DVector<f64>,
+    v: DVector<f64>,
+    external: DVector<f64>,
+    pressed: DVector<f64>,
+}
+
+impl VibratingSet<'_> {
+    /// Energies of the quasi-static rung; bodies with a state of their own have more.
+    pub fn energies(&self) -> Energies {
+        let m = self.motion();
+        let x = DVector::from_column_slice(&m.x);
+        let kinetic = m.v.iter().zip(self.masses()).map(|(v, m)| 0.5 * m * v * v).sum();
+        let supports: f64 = x.iter().zip(self.supports.iter()).map(|(x, k)| 0.5 * k * x * x).sum();
+        Energies {
+            kinetic,
+            bearings: supports + self.bearings.energy(),
+            contact: self.contact_energy(),
+        }
+    }
+
+    /// ½ pᵀ C p of the present forces.
+    fn contact_energy(&self) -> f64 {
+        let Some(frame) = self.current_frame() else { return 0.0 };
+        let of = |mesh: &super::frame::FrameMesh| {
+            let delta = &self.approaches.as_slice()[mesh.first..mesh.first + mesh.count];
+            self.maps[mesh.table].map(mesh.map).energy(delta)
+        };
+        frame.meshes.iter().map(of).sum()
+    }
+
+    /// What the pairs' forces press the races with, N.
+    fn pressed(&self) -> DVector<f64> {
+        match self.current_frame() {
+            Some(frame) => frame.rigid.tr_mul(&self.forces.rows(0, frame.offsets.len())),
+            None => DVector::zeros(self.mass.len()),
+        }
+    }
+
+    /// To be taken before a step, for [`VibratingSet::work_since`] after it.
+    pub fn step_start(&self) -> StepStart {
+        let m = self.motion();
+        let x = DVector::from_column_slice(&m.x);
+        let pressed = self.pressed();
+        StepStart {
+            v: DVector::from_column_slice(&m.v),
+            external: self.external.clone(),
+            pressed,
+            x,
+        }
+    }
+
+    /// What the step since `start` did:
+    ///
+    /// ```text
+    /// T₁ − T₀ + V₁ − V₀ = external − damped − against_contact
+    /// ```
+    ///
+    /// holds to rounding for the average-acceleration method, V the bearings' energy.
+    pub fn work_since(&self, start: &StepStart) -> StepWork {
+        let m = self.motion();
+        let x = DVector::from_column_slice(&m.x);
+        let pressed = self.pressed();
+        let moved = &x - &start.x;
+        let mean_v = 0.5 * (DVector::from_column_slice(&m.v) + &start.v);
+        let mut damped = self.bearing_ratio * self.bearings.dashpot_work(&self.rule(), &moved);
+        for (i, dx) in moved.iter().enumerate() {
+            let c = self.damping.alpha * self.mass[i] + self.bearing_ratio * self.supports[i];
+            damped += c * mean_v[i] * dx;
+        }
+        StepWork {
+            external: 0.5 * (&self.external + &start.external).dot(&moved),
+            damped,
+            against_contact: 0.5 * (pressed + &start.pressed).dot(&moved),
+        }
+    }
+}

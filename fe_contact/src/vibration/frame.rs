@@ -1,0 +1,221 @@
+//! One position of the mesh cycle as a vibrating set sees it: all that depends on it alone.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::body::Port;
+use super::set::Gear;
+use super::teeth::{ToothPoint, fill_port, tooth_points};
+use crate::error::FeError;
+use crate::statics::{Bodies, Placed, Races};
+
+/// Solved combinations of contact maps that a frame keeps.
+const MOST_COMBINATIONS: usize = 6;
+
+/// One mesh of a frame: its pairs are `first..first + count`.
+#[derive(Debug, Clone)]
+pub(super) struct FrameMesh {
+    /// Table and maps.
+    pub(super) table: usize,
+    pub(super) first: usize,
+    pub(super) count: usize,
+    /// Numbers of the pairs.
+    pub(super) pairs: Vec<i64>,
+    /// Map last found to hold.
+    pub(super) map: usize,
+}
+
+/// Forces of all pairs for given free approaches b, as long as certain maps hold: P = V b + v.
+#[derive(Debug, Clone)]
+pub(super) struct Combination {
+    /// Maps by their ids, one a mesh.
+    pub(super) maps: Vec<u64>,
+    pub(super) slope: DMatrix<f64>,
+    pub(super) offset: DVector<f64>,
+}
+
+/// All pairs of a set at one position.
+#[derive(Debug)]
+pub(super) struct Frame {
+    /// Front meshes, then the back ones where they may touch.
+    pub(super) meshes: Vec<FrameMesh>,
+    /// Gap offsets, m.
+    pub(super) offsets: Vec<f64>,
+    /// Ends of each pair on the teeth; none for back flanks.
+    pub(super) ends: Vec<Option<[ToothPoint; 2]>>,
+    /// Number of the tooth of each end when the set has turned by less than a mesh cycle.
+    pub(super) teeth: Vec<Option<[i64; 2]>>,
+    /// (Pair, end) of the ports of each gear.
+    pub(super) own: Vec<Vec<(usize, usize)>>,
+    /// Approach on the races' coordinates with rigid bodies, pairs×n.
+    pub(super) rigid: DMatrix<f64>,
+    /// Approach on the races' coordinates within a step, pairs×n.
+    pub(super) rows: DMatrix<f64>,
+    /// A⁻¹ rowsᵀ, n×pairs, m/N.
+    pub(super) answers: DMatrix<f64>,
+    /// Y: what a unit force on one pair takes from the approach of another within a step, beyond
+    /// the cells' own compliance, m/N.
+    pub(super) receptance: DMatrix<f64>,
+    /// Static FE flexibility that no body's state carries, within meshes, m/N.
+    pub(super) lagging: DMatrix<f64>,
+    pub(super) combinations: Vec<Combination>,
+    /// Which combination gives way next.
+    pub(super) oldest: usize,
+}
+
+/// What a frame is built from.
+pub(super) struct Ground<'g> {
+    pub(super) bodies: &'g Bodies,
+    pub(super) races: &'g Races,
+    pub(super) gears: &'g [Gear<'g>],
+    /// A⁻¹ of the races, n×n.
+    pub(super) inverse: &'g DMatrix<f64>,
+    /// Weight of the forces at the end of a step in their lagged value.
+    pub(super) lag_end: f64,
+}
+
+impl Frame {
+    /// `placed` with the place of each table; the first `front` are front flanks. `turned`: mesh
+    /// cycles since the start.
+    pub(super) fn new(
+        ground: &Ground<'_>,
+        placed: &[Placed<'_>],
+        places: &[usize],
+        front: usize,
+        turned: f64,
+    ) -> Result<Self, FeError> {
+        let count: usize = placed.iter().map(|p| p.rows.len()).sum();
+        let n = ground.races.count;
+        let mut frame = Self {
+            meshes: Vec::with_capacity(placed.len()),
+            offsets: Vec::with_capacity(count),
+            ends: Vec::with_capacity(count),
+            teeth: Vec::with_capacity(count),
+            own: vec![Vec::new(); ground.gears.len()],
+            rigid: DMatrix::zeros(count, n),
+            rows: DMatrix::zeros(count, n),
+            answers: DMatrix::zeros(n, count),
+            receptance: DMatrix::zeros(count, count),
+            lagging: DMatrix::zeros(count, count),
+            combinations: Vec::with_capacity(MOST_COMBINATIONS),
+            oldest: 0,
+        };
+        for (which, (mesh, table)) in placed.iter().zip(places).enumerate() {
+            let first = frame.offsets.len();
+            for (k, row) in mesh.rows.iter().enumerate() {
+                frame.rigid.row_mut(first + k).tr_copy_from(row);
+            }
+            frame.offsets.extend(&mesh.offsets);
+            if which < front {
+                for ends in tooth_points(ground.bodies, ground.races, mesh)? {
+                    let teeth = ends.each_ref().map(|end| {
+                        let gear = &ground.gears[end.body - 1];
+                        gear.tooth_at(end.axis, turned)
+                    });
+                    frame.ends.push(Some(ends));
+                    frame.teeth.push(Some(teeth));
+                }
+            } else {
+                frame.ends.extend(mesh.rows.iter().map(|_| None));
+                frame.teeth.extend(mesh.rows.iter().map(|_| None));
+            }
+            frame.meshes.push(FrameMesh {
+                table: *table,
+                first,
+                count: mesh.rows.len(),
+                pairs: mesh.table.pairs.iter().map(|p| p.index).collect(),
+                map: 0,
+            });
+        }
+        frame.rows.copy_from(&frame.rigid);
+        for (k, gear) in ground.gears.iter().enumerate() {
+            frame.add_body(ground, k + 1, gear, turned);
+        }
+        frame.answers = ground.inverse * frame.rows.transpose();
+        frame.receptance += &frame.rows * &frame.answers;
+        frame.receptance -= (1.0 - ground.lag_end) * &frame.lagging;
+        Ok(frame)
+    }
+
+    /// Mesh of each pair.
+    pub(super) fn mesh_of(&self, pair: usize) -> usize {
+        self.meshes.iter().position(|m| pair < m.first + m.count).unwrap_or(0)
+    }
+
+    /// Elastic part of one gear: couplings, receptances between its ports, lagging flexibility.
+    fn add_body(&mut self, ground: &Ground<'_>, body: usize, gear: &Gear<'_>, turned: f64) {
+        let mut places: Vec<usize> = Vec::new();
+        let mut own: Vec<(ToothPoint, i64)> = Vec::new();
+        for (pair, (ends, teeth)) in self.ends.iter().zip(&self.teeth).enumerate() {
+            let (Some(ends), Some(teeth)) = (ends, teeth) else { continue };
+            for (e, (end, tooth)) in ends.iter().zip(teeth).enumerate() {
+                if end.body == body {
+                    self.own[body - 1].push((pair, e));
+                    places.push(pair);
+                    own.push((end.clone(), *tooth));
+                }
+            }
+        }
+        let count = gear.body.mesh.outline.gear().teeth as i64;
+        let carries = gear.vibrating.unknowns() > 0;
+        let (receptance, carried) = if carries {
+            let angle = gear.angle(turned);
+            let mut ports = vec![Port::default(); own.len()];
+            for (port, (end, tooth)) in ports.iter_mut().zip(&own) {
+                let tooth = tooth.rem_euclid(count) as usize;
+                fill_port(port, (gear.body, &gear.unknown_of), end, tooth);
+            }
+            for (pair, port) in places.iter().zip(&ports) {
+                for (axis, c) in gear.vibrating.coupling(port, angle).into_iter().enumerate() {
+                    if let Some(i) = ground.races.of(body, axis) {
+                        self.rows[(*pair, i)] += c;
+                    }
+                }
+            }
+            (gear.vibrating.receptance(&ports), gear.vibrating.carried_flexibility(&ports))
+        } else {
+            (Vec::new(), Vec::new())
+        };
+        let width = own.len();
+        for (i, a) in places.iter().enumerate() {
+            for (j, b) in places.iter().enumerate() {
+                let same = self.mesh_of(*a) == self.mesh_of(*b);
+                if carries {
+                    self.receptance[(*a, *b)] += receptance[i * width + j];
+                    if same {
+                        // The cells' compliance holds it already.
+                        self.receptance[(*a, *b)] -= carried[i * width + j];
+                        self.lagging[(*a, *b)] -= carried[i * width + j];
+                    }
+                }
+                if same {
+                    let ((on, tooth_on), (of, tooth_of)) = (&own[j], &own[i]);
+                    let offset = tooth_of - tooth_on;
+                    self.lagging[(*a, *b)] += gear.body.surface_flexibility(
+                        (&on.load, on.direction),
+                        offset,
+                        (&of.load, of.direction),
+                    );
+                }
+            }
+        }
+    }
+
+    /// Keeps a solved combination, the oldest giving way.
+    pub(super) fn keep(&mut self, combination: Combination) -> usize {
+        if self.combinations.len() < MOST_COMBINATIONS {
+            self.combinations.push(combination);
+            return self.combinations.len() - 1;
+        }
+        let place = self.oldest;
+        self.oldest = (self.oldest + 1) % MOST_COMBINATIONS;
+        self.combinations[place] = combination;
+        place
+    }
+
+    /// Memory, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        let matrices = [&self.rigid, &self.rows, &self.answers, &self.receptance, &self.lagging];
+        let own: usize = matrices.iter().map(|m| 8 * m.len()).sum();
+        own + self.combinations.iter().map(|c| 8 * (c.slope.len() + c.offset.len())).sum::<usize>()
+    }
+}

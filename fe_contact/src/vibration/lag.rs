@@ -1,0 +1,170 @@
+//! The lag that stiffness-proportional damping puts on flexibility without inertia.
+//!
+//! Where FE flexibility F follows forces P without inertia of its own, βK leaves
+//!
+//! ```text
+//! β u̇ + u = −F P,   so  u = −F P̃  with  β P̃' + P̃ = P
+//! ```
+//!
+//! β is microseconds, shorter than a step: the trapezoidal rule would ring on it. Forces are taken
+//! as the parabola through the last three steps instead, for which the equation is solved exactly.
+//! That is of second order for any ratio of step and lag, and damps what is faster than the step.
+//! The state belongs to tooth pairs, whose numbers move on by one whenever their mesh's phase starts
+//! anew.
+
+use dynamics::AverageAcceleration;
+
+/// Pairs −LEAST … WIDTH − 1 − LEAST are kept.
+const LEAST: i64 = 4;
+const WIDTH: usize = 12;
+
+/// Weights of the forces at the end, at the start and one step before it, and of the state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct LagRule {
+    pub(super) end: f64,
+    start: f64,
+    before: f64,
+    state: f64,
+}
+
+impl LagRule {
+    pub(super) fn new(beta: f64, rule: &AverageAcceleration) -> Self {
+        if beta <= 0.0 {
+            return Self { end: 1.0, start: 0.0, before: 0.0, state: 0.0 };
+        }
+        let z = rule.step() / beta;
+        // I_n = ∫₀¹ z e^{−z(1−s)} sⁿ ds
+        let i0 = -(-z).exp_m1();
+        let (i1, i2) = if z > 0.1 {
+            let i1 = 1.0 - i0 / z;
+            (i1, 1.0 - 2.0 * i1 / z)
+        } else {
+            // The recursion loses digits; the series I_n = Σ_k (−1)^k n! z^{k+1}/(n+1+k)! does not.
+            let series = |n: usize| {
+                let (mut term, mut sum) = (z / (n as f64 + 1.0), 0.0);
+                for k in 0..24 {
+                    sum += term;
+                    term *= -z / (n as f64 + 2.0 + k as f64);
+                }
+                sum
+            };
+            (series(1), series(2))
+        };
+        // Parabola through s = −1, 0, 1.
+        Self { end: 0.5 * (i2 + i1), start: i0 - i2, before: 0.5 * (i2 - i1), state: (-z).exp() }
+    }
+}
+
+/// Forces of one mesh's pairs as the lag remembers them.
+#[derive(Debug, Clone, Default)]
+pub(super) struct PairMemory {
+    filtered: [f64; WIDTH],
+    now: [f64; WIDTH],
+    before: [f64; WIDTH],
+}
+
+fn place(pair: i64) -> Option<usize> {
+    usize::try_from(pair + LEAST).ok().filter(|i| *i < WIDTH)
+}
+
+impl PairMemory {
+    /// As if the forces had always been these.
+    pub(super) fn rest(&mut self, forces: impl Iterator<Item = (i64, f64)>) {
+        *self = Self::default();
+        for (pair, force) in forces {
+            if let Some(i) = place(pair) {
+                (self.filtered[i], self.now[i], self.before[i]) = (force, force, force);
+            }
+        }
+    }
+
+    /// Part of P̃ at the end of the step that is known at its start.
+    pub(super) fn known(&self, rule: &LagRule, pair: i64) -> f64 {
+        place(pair).map_or(0.0, |i| {
+            rule.state * self.filtered[i] + rule.start * self.now[i] + rule.before * self.before[i]
+        })
+    }
+
+    /// Force of a pair at the end of the last step, N.
+    pub(super) fn now(&self, pair: i64) -> f64 {
+        place(pair).map_or(0.0, |i| self.now[i])
+    }
+
+    #[cfg(test)]
+    fn filtered(&self, pair: i64) -> f64 {
+        place(pair).map_or(0.0, |i| self.filtered[i])
+    }
+
+    /// Takes in the forces at the end of the step; pairs that are not named carry nothing.
+    pub(super) fn advance(&mut self, rule: &LagRule, forces: impl Iterator<Item = (i64, f64)>) {
+        let mut end = [0.0; WIDTH];
+        for (pair, force) in forces {
+            if let Some(i) = place(pair) {
+                end[i] = force;
+            }
+        }
+        for (i, end) in end.iter().enumerate() {
+            self.filtered[i] = rule.state * self.filtered[i]
+                + rule.start * self.now[i]
+                + rule.before * self.before[i]
+                + rule.end * end;
+        }
+        self.before = self.now;
+        self.now = end;
+    }
+
+    /// The mesh starts a new cycle: what was pair k is pair k + 1.
+    pub(super) fn move_on(&mut self) {
+        for list in [&mut self.filtered, &mut self.now, &mut self.before] {
+            list.copy_within(0..WIDTH - 1, 1);
+            list[0] = 0.0;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rule(z: f64) -> LagRule {
+        let beta = 2.21e-6;
+        LagRule::new(beta, &AverageAcceleration::new(z * beta).unwrap())
+    }
+
+    #[test]
+    fn a_steady_force_is_kept_and_weights_meet_where_the_formulas_change() {
+        for z in [1e-3, 0.05, 0.0999, 0.1001, 1.0, 6.0, 1e4] {
+            let r = rule(z);
+            assert!((r.end + r.start + r.before + r.state - 1.0).abs() < 1e-12, "{z}");
+        }
+        let (a, b) = (rule(0.0999999), rule(0.1000001));
+        assert!((a.end - b.end).abs() < 1e-6 && (a.before - b.before).abs() < 1e-6);
+    }
+
+    /// Parabolas are followed exactly: P = t² lags to t² − 2βt + 2β² − 2β² e^{−t/β}.
+    #[test]
+    fn a_parabola_is_followed_exactly() {
+        let beta = 2.21e-6;
+        for z in [0.03, 0.7, 5.0] {
+            let (h, r) = (z * beta, rule(z));
+            let mut memory = PairMemory::default();
+            memory.now[LEAST as usize] = 0.0;
+            memory.before[LEAST as usize] = h * h;
+            for step in 1..=20 {
+                let t = f64::from(step) * h;
+                memory.advance(&r, [(0, t * t)].into_iter());
+                let exact = t * t - 2.0 * beta * t - 2.0 * beta * beta * (-t / beta).exp_m1();
+                let found = memory.filtered(0);
+                assert!((found - exact).abs() < 1e-9 * t * t, "{z} {step}: {found} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn pairs_move_on() {
+        let mut memory = PairMemory::default();
+        memory.rest([(0, 5.0), (-1, 3.0)].into_iter());
+        memory.move_on();
+        assert_eq!((memory.filtered(1), memory.filtered(0)), (5.0, 3.0));
+    }
+}

@@ -1,0 +1,281 @@
+//! A set linearised about its present state: all touching cells keep touching, no others begin to.
+
+use faer::Mat;
+use nalgebra::{DMatrix, DVector};
+
+use super::body::{Port, out_of_frame};
+use super::modal_body::FixedRaceMode;
+use super::set::VibratingSet;
+use crate::error::FeError;
+use crate::statics::CARRIER;
+
+/// Matrices of the linearised set on z = (races, then modes of carrier, ring, sun, planets).
+///
+/// ```text
+/// M z̈ + C ż + K z + Rᵀ P = f,   P = S_c (R z − F P̃),   β P̃' + P̃ = P
+/// ```
+///
+/// K without contact; R: approaches of the touching pairs, S_c their stiffness with the FE
+/// flexibility F that lags taken out. In slow motion P = S R z.
+#[derive(Debug, Clone)]
+pub struct LinearSet {
+    /// M, kg.
+    pub mass: DMatrix<f64>,
+    /// C without the lag, N s/m.
+    pub damping: DMatrix<f64>,
+    /// K without contact, N/m.
+    pub supports: DMatrix<f64>,
+    /// R, pairs×z.
+    pub rows: DMatrix<f64>,
+    /// S, pairs×pairs, N/m.
+    pub contact: DMatrix<f64>,
+    /// S of each mesh with all its pairs approaching alike: sun meshes, then ring meshes, N/m.
+    pub mesh_tangents: Vec<f64>,
+    /// F, m/N.
+    lagging: DMatrix<f64>,
+    /// β, s.
+    beta: f64,
+    /// Number of race coordinates in front.
+    pub races: usize,
+}
+
+/// A mode of the damped linearised set.
+#[derive(Debug, Clone)]
+pub struct DampedMode {
+    /// |s|/2π, Hz.
+    pub frequency_hz: f64,
+    /// −Re s/|s|.
+    pub damping_ratio: f64,
+    /// Complex shape on z (re, im).
+    pub shape: Vec<(f64, f64)>,
+}
+
+impl VibratingSet<'_> {
+    /// Linearises about the present state.
+    ///
+    /// # Errors
+    /// If no mesh touches, or a body has every degree of freedom (`full`): its linearisation is the
+    /// limit of `modal`.
+    pub fn linearised(&self) -> Result<LinearSet, FeError> {
+        let frame = self.current_frame().ok_or_else(unloaded)?;
+        let n = self.races().count;
+        let turned = self.turned();
+        let no_modes = || {
+            FeError::NoEquilibrium(
+                "`dynamics.rung` = \"full\" has no small linearisation: take \"modal\"".into(),
+            )
+        };
+        let mut lists: Vec<(usize, f64, &[FixedRaceMode])> = Vec::new();
+        lists.push((CARRIER, 0.0, self.carrier.modes().ok_or_else(no_modes)?));
+        for (k, gear) in self.gears.iter().enumerate() {
+            let modes = gear.vibrating.modes().ok_or_else(no_modes)?;
+            lists.push((k + 1, gear.angle(turned), modes));
+        }
+        let elastic: usize = lists.iter().map(|(_, _, modes)| modes.len()).sum();
+        let size = n + elastic;
+        let (mut mass, mut supports) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
+        let mut damping = DMatrix::zeros(size, size);
+        for i in 0..n {
+            mass[(i, i)] = self.mass[i];
+            supports[(i, i)] = self.supports[i];
+        }
+        let mut first = n;
+        for (body, angle, modes) in &lists {
+            for (j, mode) in modes.iter().enumerate() {
+                let at = first + j;
+                mass[(at, at)] = 1.0;
+                for (axis, g) in out_of_frame(mode.participation, *angle).into_iter().enumerate() {
+                    if let Some(i) = self.races().of(*body, axis) {
+                        mass[(i, at)] = g;
+                        mass[(at, i)] = g;
+                    }
+                }
+            }
+            first += modes.len();
+        }
+        // Planet bearings on seats that may give way, and the central members' supports.
+        let bearings = self.bearings.linearised(lists[0].2, n, size)?;
+        supports += bearings;
+        damping += self.bearing_ratio * &supports;
+        let mut first = n;
+        for (_, _, modes) in &lists {
+            for (j, mode) in modes.iter().enumerate() {
+                supports[(first + j, first + j)] += mode.lambda;
+                damping[(first + j, first + j)] += self.damping.beta * mode.lambda;
+            }
+            first += modes.len();
+        }
+        damping += self.damping.alpha * &mass;
+        // Pairs that touch.
+        let count = frame.offsets.len();
+        let mut s = DMatrix::zeros(count, count);
+        let mut mesh_tangents = Vec::with_capacity(frame.meshes.len());
+        for mesh in &frame.meshes {
+            let map = self.maps[mesh.table].map(mesh.map);
+            mesh_tangents.push(map.stiffness.iter().sum());
+            for i in 0..mesh.count {
+                for j in 0..mesh.count {
+                    s[(mesh.first + i, mesh.first + j)] = map.stiffness[i * mesh.count + j];
+                }
+            }
+        }
+        if mesh_tangents.iter().all(|t: &f64| *t == 0.0) {
+            return Err(unloaded());
+        }
+        let mut rows = DMatrix::zeros(count, size);
+        rows.view_mut((0, 0), (count, n)).copy_from(&frame.rigid);
+        let mut carried = DMatrix::<f64>::zeros(count, count);
+        let mut first = n + lists[0].2.len();
+        for ((gear, own), (_, _, modes)) in self.gears.iter().zip(&frame.own).zip(&lists[1..]) {
+            if modes.is_empty() {
+                continue;
+            }
+            let mut ports = vec![Port::default(); own.len()];
+            for (port, at) in ports.iter_mut().zip(own) {
+                self.fill_one(port, frame, gear, *at);
+            }
+            for (port, (pair, _)) in ports.iter().zip(own) {
+                for (j, mode) in modes.iter().enumerate() {
+                    rows[(*pair, first + j)] += port.read(&mode.shape);
+                }
+            }
+            let static_part = gear.vibrating.carried_flexibility(&ports);
+            for (i, (a, _)) in own.iter().enumerate() {
+                for (j, (b, _)) in own.iter().enumerate() {
+                    if frame.mesh_of(*a) == frame.mesh_of(*b) {
+                        carried[(*a, *b)] += static_part[i * own.len() + j];
+                    }
+                }
+            }
+            first += modes.len();
+        }
+        // The cells' compliance holds what the modes carry; it must not act twice.
+        let contact = stiffened(&s, &carried)?;
+        Ok(LinearSet {
+            mass,
+            damping,
+            supports,
+            rows,
+            contact,
+            mesh_tangents,
+            lagging: frame.lagging.clone(),
+            beta: self.damping.beta,
+            races: n,
+        })
+    }
+}
+
+fn unloaded() -> FeError {
+    FeError::NoEquilibrium("no mesh touches: there is nothing to linearise about".into())
+}
+
+/// (I − S X)⁻¹ S: the stiffness with the compliance X taken out.
+fn stiffened(s: &DMatrix<f64>, x: &DMatrix<f64>) -> Result<DMatrix<f64>, FeError> {
+    let n = s.nrows();
+    (DMatrix::identity(n, n) - s * x)
+        .lu()
+        .solve(s)
+        .ok_or_else(|| FeError::NoEquilibrium("the linearised contact is singular".into()))
+}
+
+impl LinearSet {
+    /// K + Rᵀ S R, N/m.
+    pub fn stiffness(&self) -> DMatrix<f64> {
+        let sum = &self.supports + self.rows.transpose() * &self.contact * &self.rows;
+        0.5 * (&sum + sum.transpose())
+    }
+
+    /// Undamped frequencies (Hz, ascending) and M-orthonormal shapes, one a column.
+    ///
+    /// # Errors
+    /// If the eigenproblem fails.
+    pub fn undamped(&self) -> Result<(Vec<f64>, DMatrix<f64>), FeError> {
+        self.undamped_with(&self.stiffness())
+    }
+
+    /// The same with a stiffness of one's own.
+    ///
+    /// # Errors
+    /// If the eigenproblem fails.
+    pub fn undamped_with(&self, k: &DMatrix<f64>) -> Result<(Vec<f64>, DMatrix<f64>), FeError> {
+        let size = k.nrows();
+        let factor = self.mass.clone().cholesky().ok_or_else(|| {
+            FeError::NoEquilibrium("the mass matrix is not positive definite".into())
+        })?;
+        let l = factor.l();
+        // K̃ = L⁻¹ K L⁻ᵀ
+        let failed = || FeError::NoEquilibrium("the mass matrix is singular".into());
+        let half = l.solve_lower_triangular(k).ok_or_else(failed)?;
+        let scaled = l.solve_lower_triangular(&half.transpose()).ok_or_else(failed)?;
+        let matrix = Mat::from_fn(size, size, |i, j| scaled[(i, j)]);
+        let modes = dynamics::generalized_symmetric(&matrix, &vec![1.0; size])
+            .map_err(|cause| FeError::Modes { body: "linearised set", cause })?;
+        let turned = DMatrix::from_fn(size, size, |i, j| modes.vectors[(i, j)]);
+        let shapes = l.tr_solve_lower_triangular(&turned).ok_or_else(failed)?;
+        let frequency = |x: &f64| x.max(0.0).sqrt() / std::f64::consts::TAU;
+        Ok((modes.lambda.iter().map(frequency).collect(), shapes))
+    }
+
+    /// Modes with damping and lag that oscillate, by ascending frequency.
+    ///
+    /// # Errors
+    /// If the eigenproblem fails.
+    pub fn damped(&self) -> Result<Vec<DampedMode>, FeError> {
+        let size = self.mass.nrows();
+        let touching: Vec<usize> =
+            (0..self.rows.nrows()).filter(|i| self.contact.row(*i).amax() > 0.0).collect();
+        let has_lag = self.beta > 0.0 && self.lagging.amax() > 0.0;
+        let p = if has_lag { touching.len() } else { 0 };
+        let singular = || FeError::NoEquilibrium("the mass matrix is singular".into());
+        let factor = self.mass.clone().cholesky().ok_or_else(singular)?;
+        // Time in units of 1/ω₀, velocities in ω₀, forces in units of the stiffest pair's.
+        let omega0 = 1e4;
+        let unit = self.contact.amax();
+        let contact =
+            if has_lag { stiffened(&self.contact, &self.lagging)? } else { self.contact.clone() };
+        let k = &self.supports + self.rows.transpose() * &contact * &self.rows;
+        let (mk, mc) = (factor.solve(&k), factor.solve(&self.damping));
+        // P = S_c (R z − F P̃)
+        let lagged = factor.solve(&(self.rows.transpose() * &contact * &self.lagging));
+        let followed = &contact * &self.rows;
+        let kept = &contact * &self.lagging;
+        let total = 2 * size + p;
+        let mut a = Mat::zeros(total, total);
+        for i in 0..size {
+            a[(i, size + i)] = 1.0;
+            for j in 0..size {
+                a[(size + i, j)] = -mk[(i, j)] / (omega0 * omega0);
+                a[(size + i, size + j)] = -mc[(i, j)] / omega0;
+            }
+            for (j, pair) in touching.iter().enumerate().take(p) {
+                a[(size + i, 2 * size + j)] = lagged[(i, *pair)] * unit / (omega0 * omega0);
+            }
+        }
+        let rate = 1.0 / (self.beta.max(f64::MIN_POSITIVE) * omega0);
+        for (i, pair) in touching.iter().enumerate().take(p) {
+            for j in 0..size {
+                a[(2 * size + i, j)] = rate * followed[(*pair, j)] / unit;
+            }
+            for (j, other) in touching.iter().enumerate() {
+                let own = if i == j { 1.0 } else { 0.0 };
+                a[(2 * size + i, 2 * size + j)] = -rate * (own + kept[(*pair, *other)]);
+            }
+        }
+        let modes = dynamics::state_modes(&a)
+            .map_err(|cause| FeError::Modes { body: "linearised set", cause })?;
+        Ok(modes
+            .into_iter()
+            .filter(|m| m.exponent.1 > 1e-9 * m.natural_frequency())
+            .map(|m| DampedMode {
+                frequency_hz: omega0 * m.natural_frequency() / std::f64::consts::TAU,
+                damping_ratio: m.damping_ratio(),
+                shape: m.vector[..size].to_vec(),
+            })
+            .collect())
+    }
+
+    /// Forces of the touching pairs for displacements z in slow motion, N.
+    pub fn forces(&self, z: &DVector<f64>) -> DVector<f64> {
+        &self.contact * (&self.rows * z)
+    }
+}

@@ -1,0 +1,22 @@
+//! Sets in time: bodies on the rungs of the fidelity ladder, contact inside every step.
+
+mod bearings;
+mod body;
+mod build;
+mod damping;
+mod energy;
+mod frame;
+mod full_body;
+mod lag;
+mod linear;
+mod modal_body;
+mod set;
+mod teeth;
+
+pub use body::{Port, RaceMotion, VibratingBody};
+pub use damping::Proportional;
+pub use energy::{Energies, StepStart, StepWork};
+pub use full_body::{FullBody, SharedFactors};
+pub use linear::{DampedMode, LinearSet};
+pub use modal_body::{FixedRaceMode, ModalBody, fixed_race_modes};
+pub use set::{Counts, Motive, VibratingSet};

@@ -1,0 +1,31 @@
+//! The time step allocates nothing once its maps are known.
+
+use fe_contact::statics::{Bodies, Imperfections};
+use fe_contact::vibration::{Motive, VibratingSet};
+use gearset::{Facing, Rung, Scene};
+
+#[test]
+fn a_warm_step_allocates_nothing() {
+    for rung in [Rung::QuasiStatic, Rung::Modal(2)] {
+        let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
+        let mut scene = Scene::from_file(path.as_ref()).unwrap();
+        scene.fe_contact.flank_elements = 8;
+        scene.dynamics.rung = rung;
+        let bodies = Bodies::new(&scene).unwrap();
+        let motive = Motive::Turning { mesh_frequency: 500.0, steps_per_cycle: 28 };
+        let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
+        let mut set = VibratingSet::new(&scene, &bodies, sense, none, motive, 8000.0).unwrap();
+        set.rest(1130.0).unwrap();
+        let cold = allocation_counter::measure(|| set.step().unwrap());
+        assert!(cold.count_total > 0, "the first step builds its maps");
+        for _ in 0..150 * 28 {
+            set.step().unwrap();
+        }
+        let warm = allocation_counter::measure(|| {
+            for _ in 0..10 * 28 {
+                set.step().unwrap();
+            }
+        });
+        assert_eq!(warm.count_total, 0, "{rung:?}");
+    }
+}

@@ -1,0 +1,206 @@
+//! Sets in time: at rest, free, turning.
+
+use fe_contact::statics::{Bodies, Imperfections};
+use fe_contact::vibration::{Motive, VibratingSet};
+use gearset::{Facing, Rung, Scene};
+
+const TORQUE: f64 = 1130.0;
+
+fn scene(name: &str, rung: Rung) -> Scene {
+    let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    let mut scene = Scene::from_file(path.as_ref()).unwrap();
+    // Coarse, since nothing here depends on the mesh.
+    scene.fe_contact.flank_elements = 8;
+    scene.dynamics.rung = rung;
+    scene
+}
+
+fn force(scene: &Scene, bodies: &Bodies) -> f64 {
+    let sun = bodies.geometry.sun.as_ref().unwrap();
+    TORQUE / scene.planets.psi_rad.len() as f64 / sun.base_radius
+}
+
+fn set<'b>(scene: &Scene, bodies: &'b Bodies, motive: Motive) -> VibratingSet<'b> {
+    let sense = Facing::CounterClockwise;
+    let force = force(scene, bodies);
+    VibratingSet::new(scene, bodies, sense, Imperfections::default(), motive, force).unwrap()
+}
+
+fn standing(step: f64) -> Motive {
+    Motive::Standing { position: 0.3, step }
+}
+
+fn turning(steps_per_cycle: usize) -> Motive {
+    Motive::Turning { mesh_frequency: 500.0, steps_per_cycle }
+}
+
+/// Every rung stays at rest in its own equilibrium.
+#[test]
+fn a_set_at_rest_stays_at_rest() {
+    for rung in [Rung::QuasiStatic, Rung::Modal(3), Rung::Full] {
+        let scene = scene("oh58_4p", rung);
+        let bodies = Bodies::new(&scene).unwrap();
+        let mut set = set(&scene, &bodies, standing(5e-6));
+        set.rest(TORQUE).unwrap();
+        let start = set.motion().x.clone();
+        let size = start.iter().fold(0.0f64, |a, x| a.max(x.abs()));
+        for _ in 0..12 {
+            set.step().unwrap();
+        }
+        let moved = set.motion().x.iter().zip(&start).map(|(a, b)| (a - b).abs());
+        let moved = moved.fold(0.0f64, f64::max);
+        assert!(moved < 1e-9 * size, "{rung:?}: {moved:e} of {size:e}");
+    }
+}
+
+/// A torque that swells by a thousandth and back; the races' displacements after it.
+fn after_swell(scene: &Scene, bodies: &Bodies, steps: usize) -> Vec<f64> {
+    let span = 1e-3;
+    let step = span / steps as f64;
+    let mut set = set(scene, bodies, standing(step));
+    set.rest(TORQUE).unwrap();
+    let steady = set.external.clone();
+    let start = set.motion().x.clone();
+    for k in 1..=steps {
+        let t = k as f64 / steps as f64;
+        let swell = 1e-3 * (std::f64::consts::PI * t).sin().powi(4);
+        set.external.copy_from(&(&steady * (1.0 + swell)));
+        set.step().unwrap();
+    }
+    set.motion().x.iter().zip(&start).map(|(a, b)| a - b).collect()
+}
+
+#[test]
+fn newmark_is_of_second_order_with_and_without_lag() {
+    for beta in [None, Some(0.0)] {
+        let mut scene = scene("oh58_4p", Rung::QuasiStatic);
+        if let Some(beta) = beta {
+            scene.damping.stiffness_proportional_s = beta;
+        }
+        let bodies = Bodies::new(&scene).unwrap();
+        let runs = [200, 400, 800].map(|steps| after_swell(&scene, &bodies, steps));
+        let apart = |a: &[f64], b: &[f64]| {
+            a.iter().zip(b).map(|(x, y)| (x - y).powi(2)).sum::<f64>().sqrt()
+        };
+        let order = (apart(&runs[0], &runs[1]) / apart(&runs[1], &runs[2])).log2();
+        assert!((order - 2.0).abs() < 0.1, "β {beta:?}: order {order}");
+    }
+}
+
+/// T + V changes by what forces did, in every step, standing or turning.
+#[test]
+fn the_discrete_energy_identity_holds() {
+    let scene = scene("oh58_4p", Rung::QuasiStatic);
+    let bodies = Bodies::new(&scene).unwrap();
+    let mut set = set(&scene, &bodies, turning(140));
+    set.rest(TORQUE).unwrap();
+    let mut worst = 0.0f64;
+    let mut size = 0.0f64;
+    for _ in 0..420 {
+        let (before, start) = (set.energies(), set.step_start());
+        set.step().unwrap();
+        let (after, work) = (set.energies(), set.work_since(&start));
+        let change = after.kinetic - before.kinetic + after.bearings - before.bearings;
+        let done = work.external - work.damped - work.against_contact;
+        worst = worst.max((change - done).abs());
+        size = size.max(after.kinetic + after.bearings);
+    }
+    assert!(worst < 1e-10 * size, "{worst:e} of {size:e}");
+}
+
+/// Three planets in phase: the sun does not leave its centre, and planets move alike.
+#[test]
+fn three_planets_keep_the_sun_in_its_centre() {
+    let scene = scene("oh58_3p", Rung::QuasiStatic);
+    let bodies = Bodies::new(&scene).unwrap();
+    let mut set = set(&scene, &bodies, turning(70));
+    set.rest(TORQUE).unwrap();
+    for _ in 0..350 {
+        set.step().unwrap();
+        let (central, planets) = set.displacements();
+        let across = central[2][0].hypot(central[2][1]);
+        assert!(across < 1e-12, "{across:e}");
+        for planet in &planets[1..] {
+            for (a, b) in planet.iter().zip(&planets[0]) {
+                assert!((a - b).abs() < 1e-11);
+            }
+        }
+    }
+}
+
+/// The tangent of the linearised set is what statics does under a little more torque.
+#[test]
+fn linearisation_is_the_derivative_of_statics() {
+    let scene = scene("oh58_4p", Rung::QuasiStatic);
+    let bodies = Bodies::new(&scene).unwrap();
+    let mut set = set(&scene, &bodies, standing(5e-6));
+    set.rest(TORQUE).unwrap();
+    let linear = set.linearised().unwrap();
+    let (low, torque) = (set.motion().x.clone(), TORQUE * (1.0 + 1e-5));
+    let load = set.external.clone();
+    set.rest(torque).unwrap();
+    let step: Vec<f64> = set.motion().x.iter().zip(&low).map(|(a, b)| a - b).collect();
+    let step = nalgebra::DVector::from_vec(step);
+    let expected = linear.stiffness().lu().solve(&((&set.external) - load)).unwrap();
+    let off = (&step - &expected).norm() / expected.norm();
+    assert!(off < 1e-4, "{off:e}");
+}
+
+/// Damping by α and β alone: every low mode is proportionally damped but for the half-planes.
+#[test]
+fn linear_damping_is_near_that_of_proportional_damping() {
+    let scene = scene("oh58_3p", Rung::QuasiStatic);
+    let bodies = Bodies::new(&scene).unwrap();
+    let mut set = set(&scene, &bodies, standing(5e-6));
+    set.rest(TORQUE).unwrap();
+    let linear = set.linearised().unwrap();
+    let (alpha, beta) = (142.9, 2.21e-6);
+    for mode in linear.damped().unwrap().iter().take(8) {
+        let omega = std::f64::consts::TAU * mode.frequency_hz;
+        let proportional = 0.5 * (alpha / omega + beta * omega);
+        let share = mode.damping_ratio / proportional;
+        assert!(share > 0.95 && share < 1.001, "{}: {share}", mode.frequency_hz);
+    }
+}
+
+#[test]
+fn modes_and_full_bodies_answer_alike() {
+    // Every mode there is would be the full body; a few dozen come near.
+    let run = |rung| {
+        let scene = scene("oh58_3p", rung);
+        let bodies = Bodies::new(&scene).unwrap();
+        let mut set = set(&scene, &bodies, standing(5e-6));
+        set.rest(TORQUE).unwrap();
+        let (steady, start) = (set.external.clone(), set.motion().x.clone());
+        let mut path = Vec::new();
+        for k in 1..=60 {
+            let pulse = if k <= 8 { 1e-3 } else { 0.0 };
+            set.external.copy_from(&(&steady * (1.0 + pulse)));
+            set.step().unwrap();
+            path.extend(set.motion().x.iter().zip(&start).map(|(a, b)| a - b));
+        }
+        path
+    };
+    let full = run(Rung::Full);
+    let apart = |path: &[f64]| {
+        let square: f64 = path.iter().zip(&full).map(|(a, b)| (a - b).powi(2)).sum();
+        (square / full.iter().map(|x| x * x).sum::<f64>()).sqrt()
+    };
+    let few = apart(&run(Rung::QuasiStatic));
+    let more = apart(&run(Rung::Modal(12)));
+    assert!(few < 0.02, "{few}");
+    assert!(more < 0.8 * few, "{few} {more}");
+}
+
+#[test]
+fn divergence_names_time_body_and_quantity() {
+    let scene = scene("oh58_3p", Rung::QuasiStatic);
+    let bodies = Bodies::new(&scene).unwrap();
+    let mut set = set(&scene, &bodies, standing(5e-6));
+    set.rest(TORQUE).unwrap();
+    // A sun pushed aside by a thousand tonnes.
+    let sun = set.races().of(fe_contact::statics::SUN, 0).unwrap();
+    set.external[sun] = 1e10;
+    let said = (0..200).find_map(|_| set.step().err()).unwrap().to_string();
+    assert!(said.contains(" s the ") && said.contains("displacement"), "{said}");
+}

@@ -1,0 +1,40 @@
+//! The `[dynamics]` table.
+
+use crate::reader::Section;
+use crate::scene::{DynamicsInput, Rung};
+
+/// Rungs by name; the number of modes has a key of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Name {
+    QuasiStatic,
+    Modal,
+    Full,
+}
+
+pub(crate) fn dynamics(s: Section<'_, '_>) -> DynamicsInput {
+    let default = DynamicsInput::default();
+    let names = [("quasi_static", Name::QuasiStatic), ("modal", Name::Modal), ("full", Name::Full)];
+    let name = s.choice("rung", &names, "what stands behind the teeth");
+    let modes = s.integer("modes", (1, 400), "modes of each body with its race held");
+    if modes.is_some() && name != Some(Name::Modal) {
+        s.fault("modes", "with rung = \"modal\"", "no other rung takes a number of modes");
+    }
+    if name == Some(Name::Modal) && !s.has("modes") {
+        s.fault("modes", "a whole number from 1 to 400", "rung = \"modal\" needs it");
+    }
+    // Fewer steps than this leave nothing of a mesh cycle.
+    let steps = s.integer("steps_per_cycle", (16, 100_000), "time steps in a mesh cycle");
+    let switch = [("off", false), ("on", true)];
+    let gyroscopic = s.choice("gyroscopic", &switch, "terms of the turning carrier frame");
+    s.finish();
+    let rung = match (name, modes) {
+        (Some(Name::Full), _) => Rung::Full,
+        (Some(Name::Modal), Some(n)) => Rung::Modal(n as u32),
+        _ => Rung::QuasiStatic,
+    };
+    DynamicsInput {
+        rung,
+        steps_per_cycle: steps.map_or(default.steps_per_cycle, |n| n as u32),
+        gyroscopic: gyroscopic.unwrap_or(default.gyroscopic),
+    }
+}
