@@ -204,3 +204,96 @@ fn divergence_names_time_body_and_quantity() {
     let said = (0..200).find_map(|_| set.step().err()).unwrap().to_string();
     assert!(said.contains(" s the ") && said.contains("displacement"), "{said}");
 }
+
+#[test]
+fn what_cannot_run_is_refused_with_its_key() {
+    let mut scene = scene("oh58_3p", Rung::QuasiStatic);
+    let bodies = Bodies::new(&scene).unwrap();
+    let refused = |scene: &Scene, motive| {
+        let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
+        let made = VibratingSet::new(scene, &bodies, sense, none, motive, 1e4);
+        made.err().map(|e| e.to_string()).unwrap_or_default()
+    };
+    assert!(refused(&scene, turning(7)).contains("dynamics.steps_per_cycle"));
+    assert!(refused(&scene, standing(0.0)).contains("step"));
+    assert!(refused(&scene, standing(f64::NAN)).contains("step"));
+    let still = Motive::Turning { mesh_frequency: 0.0, steps_per_cycle: 140 };
+    assert!(refused(&scene, still).contains("operation.speed_rpm"));
+    for bad in [f64::NAN, f64::INFINITY, -1.0] {
+        scene.damping.stiffness_proportional_s = bad;
+        assert!(refused(&scene, standing(5e-6)).contains("damping.stiffness_proportional_s"));
+    }
+}
+
+/// Without torque the flanks stand apart and the set floats in its backlash; there is nothing to
+/// linearise about.
+#[test]
+fn without_torque_nothing_touches() {
+    let scene = scene("oh58_3p", Rung::QuasiStatic);
+    let bodies = Bodies::new(&scene).unwrap();
+    let mut set = set(&scene, &bodies, standing(5e-6));
+    set.rest(0.0).unwrap();
+    for _ in 0..10 {
+        set.step().unwrap();
+    }
+    assert!(set.motion().x.iter().all(|x| x.abs() < 1e-15));
+    assert!(set.linearised().unwrap_err().to_string().contains("no mesh touches"));
+}
+
+/// The sun thrown across its backlash meets the other flanks and comes back.
+#[test]
+fn a_sun_thrown_back_meets_the_other_flanks() {
+    let scene = scene("oh58_3p", Rung::QuasiStatic);
+    let bodies = Bodies::new(&scene).unwrap();
+    // Grids wide enough for the blow.
+    let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
+    let mut set = VibratingSet::new(&scene, &bodies, sense, none, standing(5e-6), 4e4).unwrap();
+    set.rest(TORQUE).unwrap();
+    let turning = set.races().of(fe_contact::statics::SUN, 2).unwrap();
+    let steady = set.external[turning];
+    set.external[turning] = -0.5 * steady;
+    let start = set.motion().x[turning];
+    let path: Vec<f64> = (0..400)
+        .map(|_| {
+            set.step().unwrap();
+            set.motion().x[turning]
+        })
+        .collect();
+    assert!(set.counts.with_backs > 0);
+    // It swings about where the reversed torque holds it, across both backlashes (0.2 mm along the
+    // line of action), and is thrown back.
+    let backlash = 2.0 * bodies.geometry.normal_backlash(gearset::MeshKind::SunPlanet).unwrap();
+    let (lowest, at) =
+        path.iter().zip(0..).fold((0.0, 0), |a, x| if *x.0 < a.0 { (*x.0, x.1) } else { a });
+    let middle = -0.5 * start - backlash;
+    assert!(lowest < middle && lowest > 2.0 * middle - start - backlash, "{lowest:e} {middle:e}");
+    assert!(path[at..].iter().any(|x| *x > middle), "it stays");
+}
+
+/// Clockwise torque on a mirrored set is the mirror of the motion.
+#[test]
+fn a_mirrored_set_under_reversed_torque_moves_as_the_mirror() {
+    let scene = scene("oh58_4p", Rung::QuasiStatic);
+    let mut mirrored = scene.clone();
+    let flip = |list: &mut Vec<f64>| list.iter_mut().for_each(|psi| *psi = -*psi);
+    flip(&mut mirrored.planets.psi_rad);
+    if let Some(steps) = &mut mirrored.planets.steps {
+        steps.iter_mut().for_each(|s| *s = -*s);
+    }
+    let bodies = Bodies::new(&scene).unwrap();
+    let run = |scene: &Scene, sense| {
+        let none = Imperfections::default();
+        let motive = turning(28);
+        let mut set = VibratingSet::new(scene, &bodies, sense, none, motive, 8e3).unwrap();
+        set.rest(TORQUE).unwrap();
+        for _ in 0..56 {
+            set.step().unwrap();
+        }
+        set.displacements().0[2]
+    };
+    let one = run(&scene, Facing::CounterClockwise);
+    let other = run(&mirrored, Facing::Clockwise);
+    let size = one[0].abs() + one[1].abs();
+    assert!((one[0] - other[0]).abs() < 1e-9 * size && (one[1] + other[1]).abs() < 1e-9 * size);
+    assert!((one[2] + other[2]).abs() < 1e-9 * one[2].abs());
+}

@@ -17,7 +17,7 @@ pub struct RaceMotion {
 }
 
 /// A place where something pushes at the flexible part of a body: what it measures of the elastic
-/// displacement, ℓ u = Σ weight · u[unknown], is also how a unit force there loads the body.
+/// displacement, ℓ u = Σ w u, is also how a unit force there loads the body.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Port {
     /// (degree of freedom in the body's frame, weight).

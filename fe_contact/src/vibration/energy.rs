@@ -3,6 +3,7 @@
 use nalgebra::DVector;
 
 use super::set::VibratingSet;
+use crate::error::FeError;
 
 /// Energies of the present state, J.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,5 +104,42 @@ impl VibratingSet<'_> {
             damped,
             against_contact: 0.5 * (pressed + &start.pressed).dot(&moved),
         }
+    }
+
+    /// Contact energy Ψ of the law without lag at the frame of one step in the cycle, races at x, J;
+    /// `None` if that frame was never visited.
+    fn potential(
+        &mut self,
+        step_in_cycle: usize,
+        x: &DVector<f64>,
+    ) -> Result<Option<f64>, FeError> {
+        let Some(frame) = self.frame_at(step_in_cycle) else { return Ok(None) };
+        let approaches = &frame.rigid * x - DVector::from_column_slice(&frame.offsets);
+        let meshes: Vec<(usize, usize, usize, usize)> =
+            frame.meshes.iter().map(|m| (m.table, m.first, m.count, m.map)).collect();
+        let mut energy = 0.0;
+        for (table, first, count, hint) in meshes {
+            energy += self.law_energy(table, &approaches.as_slice()[first..first + count], hint)?;
+        }
+        Ok(Some(energy))
+    }
+
+    /// What the turning of the meshes did to the contact energy over the step since `start`, J: the
+    /// nominal rotation's own work, by the trapezoidal rule on both ends' displacements. It has to be
+    /// asked for after every step of a cycle that was gone through before, and knows no lag (β = 0).
+    ///
+    /// # Errors
+    /// If a contact problem fails.
+    pub fn turning_work(&mut self, start: &StepStart) -> Result<Option<f64>, FeError> {
+        let (before, now) = self.last_two_steps();
+        let x = DVector::from_column_slice(&self.motion().x);
+        let mut sum = 0.0;
+        for x in [&start.x, &x] {
+            match (self.potential(now, x)?, self.potential(before, x)?) {
+                (Some(after), Some(earlier)) => sum += 0.5 * (after - earlier),
+                _ => return Ok(None),
+            }
+        }
+        Ok(Some(sum))
     }
 }

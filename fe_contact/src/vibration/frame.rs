@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::body::Port;
-use super::set::Gear;
+use super::gear::Gear;
 use super::teeth::{ToothPoint, fill_port, tooth_points};
 use crate::error::FeError;
 use crate::statics::{Bodies, Placed, Races};

@@ -7,10 +7,14 @@ mod damping;
 mod energy;
 mod frame;
 mod full_body;
+mod gear;
 mod lag;
 mod linear;
 mod modal_body;
+mod positions;
+mod rest;
 mod set;
+mod step;
 mod teeth;
 
 pub use body::{Port, RaceMotion, VibratingBody};

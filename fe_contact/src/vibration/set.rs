@@ -10,8 +10,6 @@
 //! with b from the state at the step's beginning. Cells that turn out wrong are changed until all
 //! complementarity conditions hold.
 
-use std::sync::Arc;
-
 use dynamics::{AverageAcceleration, Motion};
 use gearset::{Facing, Kinematics, Scene};
 use nalgebra::{DMatrix, DVector};
@@ -20,10 +18,9 @@ use super::bearings::Bearings;
 use super::body::{Port, RaceMotion, VibratingBody};
 use super::build;
 use super::damping::Proportional;
-use super::frame::{Combination, Frame, Ground};
+use super::frame::Frame;
+use super::gear::Gear;
 use super::lag::{LagRule, PairMemory};
-use super::teeth::fill_port;
-use crate::body::GearBody;
 use crate::complementarity::ActiveSet;
 use crate::contact::ContactMaps;
 use crate::error::FeError;
@@ -48,46 +45,15 @@ pub enum Motive {
     },
 }
 
-/// One gear that vibrates.
-#[derive(Debug)]
-pub(super) struct Gear<'s> {
-    pub(super) body: &'s GearBody,
-    pub(super) vibrating: Box<dyn VibratingBody>,
-    /// Degree of freedom of each node of its mesh.
-    pub(super) unknown_of: Arc<Vec<usize>>,
-    /// Angle of tooth 0 at the start, rad.
-    pub(super) start: f64,
-    /// Angle by which it turns against the carrier in a mesh cycle, rad.
-    pub(super) rate: f64,
-}
-
-impl Gear<'_> {
-    /// Angle of tooth 0 in the race's frame after some mesh cycles, rad.
-    pub(super) fn angle(&self, turned: f64) -> f64 {
-        self.start + self.rate * turned
-    }
-
-    /// Number of the tooth whose axis stands at an angle, rad.
-    pub(super) fn tooth_at(&self, axis: f64, turned: f64) -> i64 {
-        let pitch = self.body.mesh.outline.gear().pitch_angle();
-        ((axis - self.angle(turned)) / pitch).round() as i64
-    }
-
-    /// By how many teeth the numbers of a position move on in a mesh cycle.
-    fn teeth_per_cycle(&self) -> i64 {
-        -self.rate.signum() as i64
-    }
-}
-
 /// A set in time.
 #[derive(Debug)]
 pub struct VibratingSet<'s> {
     pub(super) statics: StaticSet<'s>,
     pub(super) tables: SetTables,
     pub(super) maps: Vec<ContactMaps>,
-    rule: AverageAcceleration,
-    motive: Motive,
-    lag: LagRule,
+    pub(super) rule: AverageAcceleration,
+    pub(super) motive: Motive,
+    pub(super) lag: LagRule,
     pub(super) damping: Proportional,
     /// Dashpots over stiffness, s.
     pub(super) bearing_ratio: f64,
@@ -98,30 +64,32 @@ pub struct VibratingSet<'s> {
     /// Stiffness of the central members' supports, n, N/m.
     pub(super) supports: DVector<f64>,
     /// (I/k + A)⁻¹ with the carrier's whole static flexibility.
-    seat_stiffness: DMatrix<f64>,
+    pub(super) seat_stiffness: DMatrix<f64>,
     /// Ring, sun, planets.
     pub(super) gears: Vec<Gear<'s>>,
     /// A⁻¹.
-    inverse: DMatrix<f64>,
+    pub(super) inverse: DMatrix<f64>,
     /// Gyroscopic and centripetal terms, n×n: G (kg/s) and −mΩ² (N/m).
-    gyroscopic: Option<[DMatrix<f64>; 2]>,
+    pub(super) gyroscopic: Option<[DMatrix<f64>; 2]>,
     /// By step in the cycle.
-    frames: Vec<Option<Frame>>,
-    frames_with_backs: Vec<Option<Frame>>,
+    pub(super) frames: Vec<Option<Frame>>,
+    pub(super) frames_with_backs: Vec<Option<Frame>>,
     /// Step in the cycle, cycles gone by, steps taken.
-    step_in_cycle: usize,
-    cycles: i64,
-    steps: u64,
+    pub(super) step_in_cycle: usize,
+    pub(super) cycles: i64,
+    pub(super) steps: u64,
     /// External forces on the races' coordinates at the end of the step, n, N.
     pub external: DVector<f64>,
     pub(super) motion: Motion,
-    memory: Vec<PairMemory>,
+    pub(super) memory: Vec<PairMemory>,
     /// Forces of the pairs of the current frame, N.
     pub(super) forces: DVector<f64>,
     /// Approaches of the pairs, less gap offsets, m.
     pub(super) approaches: DVector<f64>,
-    touched_back: bool,
-    work: Work,
+    pub(super) touched_back: bool,
+    /// Whether bodies are worth a thread each.
+    pub(super) is_large: bool,
+    pub(super) work: Work,
     /// What it took so far.
     pub counts: Counts,
 }
@@ -139,23 +107,28 @@ pub struct Counts {
     pub with_backs: u64,
 }
 
+/// Ports of one gear and what presses on each, N.
+pub(super) type Loads = (Vec<Port>, Vec<f64>);
+
 #[derive(Debug, Default)]
-struct Work {
-    load: DVector<f64>,
-    free: DVector<f64>,
-    b: DVector<f64>,
-    x: DVector<f64>,
-    history: Vec<f64>,
-    ids: Vec<u64>,
+pub(super) struct Work {
+    pub(super) load: DVector<f64>,
+    pub(super) free: DVector<f64>,
+    pub(super) b: DVector<f64>,
+    pub(super) x: DVector<f64>,
+    pub(super) history: Vec<f64>,
+    pub(super) ids: Vec<u64>,
+    /// Motion of each gear's race at the start of the step, and the load it answers with.
+    pub(super) started: Vec<(RaceMotion, [f64; 3])>,
     /// Ports and forces of each gear.
-    ports: Vec<(Vec<Port>, Vec<f64>)>,
+    pub(super) ports: Vec<Loads>,
 }
 
-/// Newton iterations of one step before it is given up.
-const MOST_ITERATIONS: usize = 60;
+/// Degrees of freedom of all bodies from which each gets a thread of its own.
+const LARGE: usize = 10_000;
 
-/// Displacements above this (m) are no vibration of a gear set.
-const BOUND: f64 = 1e-2;
+/// Fewest steps of a mesh cycle.
+const LEAST_STEPS: usize = 16;
 
 impl<'s> VibratingSet<'s> {
     /// A set at rest without load under a torque on the sun of the given sense, meshes sized for
@@ -171,6 +144,7 @@ impl<'s> VibratingSet<'s> {
         motive: Motive,
         force: f64,
     ) -> Result<Self, FeError> {
+        fit(scene, &motive)?;
         let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
         let (step, count, start) = match motive {
             Motive::Standing { position, step } => (step, 1, position),
@@ -254,6 +228,7 @@ impl<'s> VibratingSet<'s> {
             forces: DVector::zeros(0),
             approaches: DVector::zeros(0),
             touched_back: false,
+            is_large: false,
             work: Work::default(),
             counts: Counts::default(),
             statics,
@@ -263,6 +238,8 @@ impl<'s> VibratingSet<'s> {
         set.work.free = DVector::zeros(n);
         set.work.x = DVector::zeros(n);
         set.work.history = vec![0.0; n];
+        set.is_large = set.elastic_unknowns() > LARGE;
+        set.work.started = vec![Default::default(); set.gears.len()];
         set.work.ports = set.gears.iter().map(|_| Default::default()).collect();
         Ok(set)
     }
@@ -310,7 +287,7 @@ impl<'s> VibratingSet<'s> {
     }
 
     /// Position of a step in the cycle, cycles.
-    fn position(&self, step_in_cycle: usize) -> f64 {
+    pub(super) fn position(&self, step_in_cycle: usize) -> f64 {
         match self.motive {
             Motive::Standing { position, .. } => position,
             Motive::Turning { steps_per_cycle, .. } => {
@@ -327,412 +304,28 @@ impl<'s> VibratingSet<'s> {
         }
     }
 
-    /// Puts the set to rest under a torque on the sun (N m, magnitude) at its current position.
-    ///
-    /// # Errors
-    /// If there is no equilibrium.
-    pub fn rest(&mut self, torque_nm: f64) -> Result<(), FeError> {
-        let position = self.position(self.step_in_cycle);
-        let (solver, tables) = (&ActiveSet, &self.tables);
-        let first = self.statics.equilibrium(torque_nm, position, tables, None, solver)?;
-        let has_backs = first.meshes.len() > 2 * self.statics.races.planets();
-        drop(first);
-        self.external = self.statics.load(torque_nm);
-        let mut frame = self.take_frame(has_backs)?;
-        // Bodies with a state of their own feel all meshes at once; the cells' compliance knows one
-        // mesh alone.
-        let across = self.across_meshes(&frame);
-        let tables = &self.tables;
-        let mut found = self.statics.equilibrium(torque_nm, position, tables, None, solver)?;
-        let all = |list: &[crate::contact::MeshAnswer]| -> DVector<f64> {
-            let forces = list.iter().flat_map(|a| a.pair_forces.iter().copied());
-            DVector::from_vec(forces.collect())
-        };
-        let mut p = all(&found.answers);
-        if across.amax() > 0.0 && torque_nm != 0.0 {
-            for _ in 0..30 {
-                let shifted = &across * &p;
-                let mut offsets = frame.offsets.iter().zip(shifted.iter());
-                for offset in found.meshes.iter_mut().flat_map(|m| m.offsets.iter_mut()) {
-                    if let Some((nominal, shift)) = offsets.next() {
-                        *offset = nominal + shift;
-                    }
-                }
-                self.statics.settle(torque_nm, &mut found, solver)?;
-                let next = all(&found.answers);
-                let change = (&next - &p).amax();
-                p = next;
-                if change <= 1e-13 * p.amax() {
-                    break;
-                }
-            }
-        }
-        let q = found.q;
-        self.motion = Motion::at_rest(q.len());
-        self.motion.x.copy_from_slice(q.as_slice());
-        let offsets = DVector::from_column_slice(&frame.offsets);
-        self.approaches = &frame.rigid * &q - offsets - &across * &p;
-        self.bearings.rest(self.carrier.as_mut(), &self.seat_stiffness, &q);
-        self.fill_ports(&frame);
-        for (gear, (ports, forces)) in self.work.ports.iter_mut().enumerate() {
-            let own = &frame.own[gear];
-            if self.gears[gear].vibrating.unknowns() == 0 {
-                continue;
-            }
-            forces.clear();
-            forces.extend(own.iter().map(|(pair, _)| p[*pair]));
-            self.gears[gear].vibrating.rest_under(&ports[..own.len()], forces);
-        }
-        for (memory, mesh) in self.memory.iter_mut().zip(&frame.meshes) {
-            let own = &p.as_slice()[mesh.first..mesh.first + mesh.count];
-            memory.rest(mesh.pairs.iter().copied().zip(own.iter().copied()));
-        }
-        for mesh in &mut frame.meshes {
-            let range = mesh.first..mesh.first + mesh.count;
-            let delta = &self.approaches.as_slice()[range];
-            let scale = (self.tables.settings.force, self.tables.settings.window);
-            let table = &self.tables.list[mesh.table];
-            mesh.map = self.maps[mesh.table].find(table, delta, scale, mesh.map, solver)?;
-        }
-        self.forces = p;
-        self.touched_back = has_backs;
-        self.put_back(frame, has_backs);
-        Ok(())
+    /// A frame without back flanks.
+    pub(super) fn frame_at(&self, step_in_cycle: usize) -> Option<&Frame> {
+        self.frames[step_in_cycle].as_ref()
     }
 
-    /// Static flexibility between pairs of different meshes that the bodies' states carry, m/N.
-    fn across_meshes(&self, frame: &Frame) -> DMatrix<f64> {
-        let count = frame.offsets.len();
-        let mut across = DMatrix::zeros(count, count);
-        for (gear, own) in self.gears.iter().zip(&frame.own) {
-            if gear.vibrating.unknowns() == 0 {
-                continue;
-            }
-            let mut ports = vec![Port::default(); own.len()];
-            for (port, (pair, end)) in ports.iter_mut().zip(own) {
-                self.fill_one(port, frame, gear, (*pair, *end));
-            }
-            let carried = gear.vibrating.carried_flexibility(&ports);
-            for (i, (a, _)) in own.iter().enumerate() {
-                for (j, (b, _)) in own.iter().enumerate() {
-                    if frame.mesh_of(*a) != frame.mesh_of(*b) {
-                        across[(*a, *b)] += carried[i * own.len() + j];
-                    }
-                }
-            }
-        }
-        across
+    /// Steps in the cycle of the state before the last step and of the present one.
+    pub(super) fn last_two_steps(&self) -> (usize, usize) {
+        let count = self.frames.len();
+        ((self.step_in_cycle + count - 1) % count, self.step_in_cycle)
     }
 
-    pub(super) fn fill_one(
-        &self,
-        port: &mut Port,
-        frame: &Frame,
-        gear: &Gear<'_>,
-        at: (usize, usize),
-    ) {
-        let (Some(ends), Some(teeth)) = (&frame.ends[at.0], &frame.teeth[at.0]) else { return };
-        let count = gear.body.mesh.outline.gear().teeth as i64;
-        let tooth = teeth[at.1] + gear.teeth_per_cycle() * self.cycles;
-        let tooth = tooth.rem_euclid(count) as usize;
-        fill_port(port, (gear.body, &gear.unknown_of), &ends[at.1], tooth);
-    }
-
-    /// Ports of all gears with a state of their own.
-    fn fill_ports(&mut self, frame: &Frame) {
-        let mut lists = std::mem::take(&mut self.work.ports);
-        for ((gear, own), (ports, _)) in self.gears.iter().zip(&frame.own).zip(&mut lists) {
-            if gear.vibrating.unknowns() == 0 {
-                continue;
-            }
-            while ports.len() < own.len() {
-                ports.push(Port::default());
-            }
-            for (port, at) in ports.iter_mut().zip(own) {
-                self.fill_one(port, frame, gear, *at);
-            }
-        }
-        self.work.ports = lists;
-    }
-
-    /// The frame of the current step, built where it is not there yet.
-    fn take_frame(&mut self, with_backs: bool) -> Result<Frame, FeError> {
-        let k = self.step_in_cycle;
-        let list = if with_backs { &mut self.frames_with_backs } else { &mut self.frames };
-        if let Some(frame) = list[k].take() {
-            return Ok(frame);
-        }
-        let position = self.position(k);
-        let mut placed = self.statics.place(position, &self.tables);
-        let front = placed.len();
-        let mut places: Vec<usize> =
-            placed.iter().map(|p| self.tables.place_of(p.kind, p.phase)).collect();
-        if with_backs {
-            let backs = self.statics.place_backs(position, &self.tables.settings)?;
-            for (i, back) in backs.into_iter().enumerate() {
-                places.push(self.tables.list.len() + i);
-                placed.push(back);
-            }
-        }
-        let turned = match self.motive {
-            Motive::Standing { .. } => 0.0,
-            Motive::Turning { .. } => position,
-        };
-        let ground = Ground {
-            bodies: self.statics.bodies,
-            races: &self.statics.races,
-            gears: &self.gears,
-            inverse: &self.inverse,
-            lag_end: self.lag.end,
-        };
-        let frame = Frame::new(&ground, &placed, &places, front, turned)?;
-        let owned: Vec<crate::contact::MeshTable> =
-            placed.drain(front..).map(|p| p.table.into_owned()).collect();
-        for table in owned {
-            self.tables.list.push(table);
-            self.maps.push(ContactMaps::default());
-        }
-        Ok(frame)
-    }
-
-    fn put_back(&mut self, frame: Frame, with_backs: bool) {
-        let k = self.step_in_cycle;
-        let list = if with_backs { &mut self.frames_with_backs } else { &mut self.frames };
-        list[k] = Some(frame);
-    }
-
-    /// Motion of one body's race; held coordinates are still.
-    fn race(&self, body: usize) -> RaceMotion {
-        let mut race = RaceMotion::default();
-        for axis in 0..3 {
-            if let Some(i) = self.statics.races.of(body, axis) {
-                race.x[axis] = self.motion.x[i];
-                race.v[axis] = self.motion.v[i];
-                race.a[axis] = self.motion.a[i];
-            }
-        }
-        race
-    }
-
-    /// One step; the external forces must be those at its end.
-    ///
-    /// # Errors
-    /// If contact cannot be solved, its cells do not suffice, or the motion diverges.
-    pub fn step(&mut self) -> Result<(), FeError> {
-        self.tick();
-        let turned = self.turned();
-        self.work.load.copy_from(&self.external);
-        let race = self.race(CARRIER);
-        let own = self.carrier.predict(&race, 0.0);
-        add_of(&self.statics.races, CARRIER, own, &mut self.work.load);
-        for k in 0..self.gears.len() {
-            let (race, angle) = (self.race(k + 1), self.gears[k].angle(turned));
-            let own = self.gears[k].vibrating.predict(&race, angle);
-            add_of(&self.statics.races, k + 1, own, &mut self.work.load);
-        }
-        self.motion.velocity_history(&self.rule, &mut self.work.history);
-        for (i, v) in self.work.history.iter().enumerate() {
-            self.work.load[i] += self.bearing_ratio * self.supports[i] * v;
-        }
-        if let Some([g, _]) = &self.gyroscopic {
-            for (i, row) in g.row_iter().enumerate() {
-                self.work.load[i] +=
-                    row.iter().zip(&self.work.history).map(|(g, v)| g * v).sum::<f64>();
-            }
-        }
-        self.bearings.predict(&self.rule, self.carrier.as_ref(), &mut self.work.load);
-        self.work.free.gemv(1.0, &self.inverse, &self.work.load, 0.0);
-        let mut with_backs = false;
-        let mut frame = self.take_frame(false)?;
-        self.contact(&mut frame)?;
-        if self.statics.backs_touch(&self.work.x) {
-            self.put_back(frame, false);
-            with_backs = true;
-            frame = self.take_frame(true)?;
-            self.contact(&mut frame)?;
-            self.counts.with_backs += 1;
-        }
-        self.check(&frame)?;
-        self.finish(&frame, turned);
-        self.touched_back = with_backs;
-        self.put_back(frame, with_backs);
-        self.counts.steps += 1;
-        Ok(())
-    }
-
-    /// Moves the clock on, and the memories of meshes whose phase starts anew.
-    fn tick(&mut self) {
-        self.steps += 1;
-        if let Motive::Turning { steps_per_cycle, .. } = self.motive {
-            let before = self.position(self.step_in_cycle);
-            self.step_in_cycle += 1;
-            if self.step_in_cycle == steps_per_cycle {
-                self.step_in_cycle = 0;
-                self.cycles += 1;
-            }
-            let after = self.position(self.step_in_cycle);
-            for (mesh, memory) in self.memory.iter_mut().enumerate() {
-                if self.statics.phase(mesh, after) < self.statics.phase(mesh, before) {
-                    memory.move_on();
-                }
-            }
-        }
-    }
-
-    /// Solves for the pairs' forces and the races' displacements.
-    fn contact(&mut self, frame: &mut Frame) -> Result<(), FeError> {
-        let count = frame.offsets.len();
-        self.fill_ports(frame);
-        let work = &mut self.work;
-        // Positions differ in their number of pairs: the vectors fit the largest.
-        if work.b.len() < count {
-            work.b = DVector::zeros(count);
-        }
-        if self.forces.len() < count {
-            self.forces = DVector::zeros(count);
-            self.approaches = DVector::zeros(count);
-        }
-        // b = rows · x_free + elastic − offsets − lagging · known
-        work.b.rows_mut(0, count).gemv(1.0, &frame.rows, &work.free, 0.0);
-        for (b, offset) in work.b.iter_mut().zip(&frame.offsets) {
-            *b -= offset;
-        }
-        for ((gear, own), (ports, _)) in self.gears.iter().zip(&frame.own).zip(&work.ports) {
-            if gear.vibrating.unknowns() > 0 {
-                for ((pair, _), port) in own.iter().zip(ports) {
-                    work.b[*pair] += gear.vibrating.free(port);
-                }
-            }
-        }
-        for (memory, mesh) in self.memory.iter().zip(&frame.meshes) {
-            for (k, pair) in mesh.pairs.iter().enumerate() {
-                let known = memory.known(&self.lag, *pair);
-                if known != 0.0 {
-                    for i in mesh.first..mesh.first + mesh.count {
-                        work.b[i] -= frame.lagging[(i, mesh.first + k)] * known;
-                    }
-                }
-                // First guess: the forces of the step before.
-                self.forces[mesh.first + k] = memory.now(*pair);
-            }
-        }
-        for mesh in &frame.meshes[self.memory.len()..] {
-            self.forces.rows_mut(mesh.first, mesh.count).fill(0.0);
-        }
-        let (tables, solver) = (&self.tables, &ActiveSet);
-        let scale = (tables.settings.force, tables.settings.window);
-        let b = work.b.rows(0, count);
-        let mut approaches = self.approaches.rows_mut(0, count);
-        let mut forces = self.forces.rows_mut(0, count);
-        approaches.copy_from(&b);
-        approaches.gemv(-1.0, &frame.receptance, &forces, 1.0);
-        for mesh in &mut frame.meshes {
-            if mesh.map >= self.maps[mesh.table].count() {
-                let delta = &approaches.as_slice()[mesh.first..mesh.first + mesh.count];
-                let table = &tables.list[mesh.table];
-                mesh.map = self.maps[mesh.table].find(table, delta, scale, 0, solver)?;
-            }
-        }
-        let mut residual = f64::INFINITY;
-        for iteration in 0..MOST_ITERATIONS {
-            let known = combination(frame, &self.maps, &mut work.ids);
-            let place = match known {
-                Some(place) => place,
-                None => {
-                    self.counts.combinations += 1;
-                    let made = combine(frame, &self.maps, &work.ids)?;
-                    frame.keep(made)
-                }
-            };
-            self.counts.solutions += 1;
-            let chosen = &frame.combinations[place];
-            forces.copy_from(&chosen.offset);
-            forces.gemv(1.0, &chosen.slope, &b, 1.0);
-            // Where sets alternate, a part of the way is taken.
-            let part = if iteration < 12 { 1.0 } else { 0.5 };
-            residual = 0.0;
-            for (i, b) in b.iter().enumerate() {
-                let row = frame.receptance.row(i);
-                let along: f64 = row.iter().zip(forces.iter()).map(|(y, p)| y * p).sum();
-                let change = b - along - approaches[i];
-                residual = residual.max(change.abs());
-                approaches[i] += part * change;
-            }
-            let mut all_hold = part == 1.0 || residual < 1e-14;
-            for mesh in &mut frame.meshes {
-                let delta = &approaches.as_slice()[mesh.first..mesh.first + mesh.count];
-                let (table, maps) = (&tables.list[mesh.table], &mut self.maps[mesh.table]);
-                if !maps.holds(mesh.map, table, delta, scale) {
-                    mesh.map = maps.find(table, delta, scale, mesh.map, solver)?;
-                    all_hold = false;
-                }
-            }
-            if all_hold {
-                work.x.copy_from(&work.free);
-                work.x.gemv(-1.0, &frame.answers, &forces, 1.0);
-                return Ok(());
-            }
-        }
-        Err(FeError::NotConverged { iterations: MOST_ITERATIONS, residual })
-    }
-
-    /// Refuses what the tables do not cover, and motion beyond all bounds.
-    fn check(&self, frame: &Frame) -> Result<(), FeError> {
-        for (i, x) in self.work.x.iter().enumerate() {
-            if x.is_nan() || x.abs() > BOUND {
-                let (body, quantity) = self.statics.races.name_of(i);
-                return Err(FeError::Diverged { time_s: self.time(), body, quantity, value: *x });
-            }
-        }
-        for mesh in &frame.meshes {
-            let table = &self.tables.list[mesh.table];
-            let map = self.maps[mesh.table].map(mesh.map);
-            if let Some(pair) = map.overflows {
-                let (cells, force_n) = (&table.pairs[pair], self.forces[mesh.first + pair]);
-                if force_n > 0.0 {
-                    let reach_mm = 0.5e3 * cells.width * cells.x.len() as f64;
-                    let (phase, pair) = (table.phase, cells.index);
-                    return Err(FeError::GridOverflow { phase, pair, reach_mm, force_n });
-                }
-            }
-            let own = &self.approaches.as_slice()[mesh.first..mesh.first + mesh.count];
-            let deepest = own.iter().fold(0.0f64, |a, d| a.max(*d));
-            if deepest >= table.next_gap {
-                return Err(FeError::NoEquilibrium(format!(
-                    "a mesh gives way by {:.1} µm, beyond the window for tip contact of {:.1} µm",
-                    deepest * 1e6,
-                    table.next_gap * 1e6
-                )));
-            }
-        }
-        Ok(())
-    }
-
-    /// Ends the step.
-    fn finish(&mut self, frame: &Frame, turned: f64) {
-        let races = &self.statics.races;
-        let displaced = |x: &DVector<f64>, body: usize| {
-            [0, 1, 2].map(|axis| races.of(body, axis).map_or(0.0, |i| x[i]))
-        };
-        for (k, (gear, (ports, forces))) in
-            self.gears.iter_mut().zip(&mut self.work.ports).enumerate()
-        {
-            let own = &frame.own[k];
-            let angle = gear.angle(turned);
-            let race = displaced(&self.work.x, k + 1);
-            if gear.vibrating.unknowns() > 0 {
-                forces.clear();
-                forces.extend(own.iter().map(|(pair, _)| self.forces[*pair]));
-                gear.vibrating.finish(race, angle, &ports[..own.len()], forces);
-            }
-        }
-        let race = displaced(&self.work.x, CARRIER);
-        self.bearings.finish(&self.rule, self.carrier.as_mut(), &self.work.x, race);
-        self.motion.advance(&self.rule, self.work.x.as_slice());
-        for (memory, mesh) in self.memory.iter_mut().zip(&frame.meshes) {
-            let own = &self.forces.as_slice()[mesh.first..mesh.first + mesh.count];
-            memory.advance(&self.lag, mesh.pairs.iter().copied().zip(own.iter().copied()));
-        }
+    /// ½ pᵀ C p of one table at approaches less offsets, J.
+    pub(super) fn law_energy(
+        &mut self,
+        table: usize,
+        delta: &[f64],
+        hint: usize,
+    ) -> Result<f64, FeError> {
+        let scale = (self.tables.settings.force, self.tables.settings.window);
+        let maps = &mut self.maps[table];
+        let place = maps.find(&self.tables.list[table], delta, scale, hint, &ActiveSet)?;
+        Ok(maps.map(place).energy(delta))
     }
 
     /// The frame of the last step.
@@ -795,6 +388,39 @@ impl<'s> VibratingSet<'s> {
     }
 }
 
+/// Refuses damping that is no number, and steps that leave nothing of a cycle: scenes can be built in
+/// memory, past the reader's checks.
+fn fit(scene: &Scene, motive: &Motive) -> Result<(), FeError> {
+    let refuse = |key: &str, value: f64, allowed: &str, why: &str| {
+        let (key, value) = (key.to_owned(), format!("{value}"));
+        Err(FeError::Unfit { key, value, allowed: allowed.into(), why: why.into() })
+    };
+    let d = &scene.damping;
+    let values = [
+        ("damping.mass_proportional_per_s", d.mass_proportional_per_s),
+        ("damping.stiffness_proportional_s", d.stiffness_proportional_s),
+        ("damping.bearing_s", d.bearing_s),
+    ];
+    for (key, value) in values {
+        if !(value >= 0.0 && value.is_finite()) {
+            let why = "negative damping feeds the motion, and what is no number ends it";
+            return refuse(key, value, "a finite number, at least 0", why);
+        }
+    }
+    if let Motive::Turning { mesh_frequency, steps_per_cycle } = *motive {
+        if steps_per_cycle < LEAST_STEPS {
+            let why = "fewer steps see neither the second tooth pair nor a harmonic";
+            let value = steps_per_cycle as f64;
+            return refuse("dynamics.steps_per_cycle", value, "at least 16", why);
+        }
+        if !(mesh_frequency > 0.0 && mesh_frequency.is_finite()) {
+            let why = "a set that stands still has its own kind of run";
+            return refuse("operation.speed_rpm", mesh_frequency, "a speed above 0", why);
+        }
+    }
+    Ok(())
+}
+
 /// Speed of the carrier (rad/s) at a mesh frequency (Hz), the sun turning counter-clockwise.
 fn carrier_speed(scene: &Scene, mesh_frequency: f64) -> f64 {
     match Kinematics::from_scene(scene) {
@@ -802,41 +428,5 @@ fn carrier_speed(scene: &Scene, mesh_frequency: f64) -> f64 {
             k.speeds_rad_per_s.carrier.abs() * mesh_frequency / k.mesh_frequency_hz
         }
         _ => 0.0,
-    }
-}
-
-/// The combination whose maps hold now, if it was solved before; `ids` takes the maps' ids.
-fn combination(frame: &Frame, maps: &[ContactMaps], ids: &mut Vec<u64>) -> Option<usize> {
-    ids.clear();
-    ids.extend(frame.meshes.iter().map(|mesh| maps[mesh.table].map(mesh.map).id));
-    frame.combinations.iter().position(|c| c.maps == *ids)
-}
-
-/// (I + S Y) P = S b + P₀.
-fn combine(frame: &Frame, maps: &[ContactMaps], ids: &[u64]) -> Result<Combination, FeError> {
-    let count = frame.offsets.len();
-    let (mut s, mut p0) = (DMatrix::zeros(count, count), DVector::zeros(count));
-    for mesh in &frame.meshes {
-        let map = maps[mesh.table].map(mesh.map);
-        for i in 0..mesh.count {
-            p0[mesh.first + i] = map.forces[i];
-            for j in 0..mesh.count {
-                s[(mesh.first + i, mesh.first + j)] = map.stiffness[i * mesh.count + j];
-            }
-        }
-    }
-    let matrix = DMatrix::identity(count, count) + &s * &frame.receptance;
-    let lu = matrix.lu();
-    let singular = || FeError::NoEquilibrium("the step's contact problem is singular".into());
-    let slope = lu.solve(&s).ok_or_else(singular)?;
-    let offset = lu.solve(&p0).ok_or_else(singular)?;
-    Ok(Combination { maps: ids.to_vec(), slope, offset })
-}
-
-fn add_of(races: &Races, body: usize, own: [f64; 3], load: &mut DVector<f64>) {
-    for (axis, value) in own.into_iter().enumerate() {
-        if let Some(i) = races.of(body, axis) {
-            load[i] += value;
-        }
     }
 }

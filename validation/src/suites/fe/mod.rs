@@ -10,6 +10,7 @@ mod iso6336;
 mod modal;
 mod resolved;
 mod sets;
+mod stepping;
 mod stiffness;
 
 use fe_contact::complementarity::ActiveSet;
@@ -97,7 +98,7 @@ pub(crate) fn checks(
     profile: Profile,
     concerns: &dyn Fn(&str) -> bool,
 ) -> Result<Vec<Check>, ValidationError> {
-    let suites: [(&[&str], Suite); 11] = [
+    let suites: [(&[&str], Suite); 12] = [
         (&["fe.hertz."], hertz::checks),
         (&["fe.convergence."], convergence::checks),
         (&["fe.resolved."], resolved::checks),
@@ -109,6 +110,7 @@ pub(crate) fn checks(
         (&["fe.fig12."], fig12::checks),
         (&["fe.control."], controls::checks),
         (&["table2.fe_contact.", "table3.fe_contact.", "fe.modal."], modal::checks),
+        (&["fe.stepping."], stepping::checks),
     ];
     if !suites.iter().any(|(prefixes, _)| prefixes.iter().any(|p| concerns(p))) {
         return Ok(Vec::new());

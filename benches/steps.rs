@@ -1,0 +1,64 @@
+//! Cost of one time step on each rung, four planets turning at 1600 rpm under 1413 N·m, once the maps of
+//! a cycle are known. Counts are printed first: what a step is made of.
+
+use std::hint::black_box;
+use std::path::Path;
+
+use criterion::{Criterion, criterion_group, criterion_main};
+
+use fe_contact::statics::{Bodies, Imperfections};
+use fe_contact::vibration::{Motive, VibratingSet};
+use gearset::{Facing, Rung, Scene};
+
+const STEPS: usize = 140;
+const TORQUE: f64 = 1413.0;
+
+fn steps(c: &mut Criterion) {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut scene = Scene::from_file(&root.join("scenes/oh58_4p.toml")).unwrap();
+    // The coarsest flank that is allowed: only `full` and the set-up depend on the mesh.
+    scene.fe_contact.flank_elements = 8;
+    let bodies = Bodies::new(&scene).unwrap();
+    let force = TORQUE / 4.0 / bodies.geometry.sun.as_ref().unwrap().base_radius;
+    let mut group = c.benchmark_group("step");
+    group.sample_size(10);
+    let rungs = [
+        ("quasi_static", Rung::QuasiStatic, Some(60)),
+        ("modal_2", Rung::Modal(2), Some(60)),
+        ("modal_10", Rung::Modal(10), Some(60)),
+        ("full_standing", Rung::Full, None),
+    ];
+    for (name, rung, cycles) in rungs {
+        scene.dynamics.rung = rung;
+        // Every position of a turning `full` costs a solution for each port; standing has one.
+        let motive = match cycles {
+            Some(_) => Motive::Turning { mesh_frequency: 565.714, steps_per_cycle: STEPS },
+            None => Motive::Standing { position: 0.0, step: 12.6e-6 },
+        };
+        let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
+        let mut set = VibratingSet::new(&scene, &bodies, sense, none, motive, force).unwrap();
+        set.rest(TORQUE).unwrap();
+        for _ in 0..cycles.map_or(2, |c| c * STEPS) {
+            set.step().unwrap();
+        }
+        let before = set.counts;
+        for _ in 0..cycles.map_or(2, |_| STEPS) {
+            set.step().unwrap();
+        }
+        let (after, [solved, maps]) = (set.counts, set.contact_counts());
+        let [tables, kept, frames] = set.bytes().map(|b| b as f64 / 1e6);
+        println!(
+            "{name}: {} elastic unknowns; per step {:.2} solutions of all pairs, {:.3} new combinations; \
+             {solved} contact problems and {maps} maps so far; {tables:.1} MB tables, {kept:.1} MB maps, \
+             {frames:.1} MB positions",
+            set.elastic_unknowns(),
+            (after.solutions - before.solutions) as f64 / (after.steps - before.steps) as f64,
+            (after.combinations - before.combinations) as f64 / (after.steps - before.steps) as f64,
+        );
+        group.bench_function(name, |b| b.iter(|| black_box(&mut set).step().unwrap()));
+    }
+    group.finish();
+}
+
+criterion_group!(benches, steps);
+criterion_main!(benches);

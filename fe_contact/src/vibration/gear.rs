@@ -1,0 +1,37 @@
+//! One gear of a vibrating set.
+
+use std::sync::Arc;
+
+use super::body::VibratingBody;
+use crate::body::GearBody;
+
+/// One gear that vibrates.
+#[derive(Debug)]
+pub(super) struct Gear<'s> {
+    pub(super) body: &'s GearBody,
+    pub(super) vibrating: Box<dyn VibratingBody>,
+    /// Degree of freedom of each node of its mesh.
+    pub(super) unknown_of: Arc<Vec<usize>>,
+    /// Angle of tooth 0 at the start, rad.
+    pub(super) start: f64,
+    /// Angle by which it turns against the carrier in a mesh cycle, rad.
+    pub(super) rate: f64,
+}
+
+impl Gear<'_> {
+    /// Angle of tooth 0 in the race's frame after some mesh cycles, rad.
+    pub(super) fn angle(&self, turned: f64) -> f64 {
+        self.start + self.rate * turned
+    }
+
+    /// Number of the tooth whose axis stands at an angle, rad.
+    pub(super) fn tooth_at(&self, axis: f64, turned: f64) -> i64 {
+        let pitch = self.body.mesh.outline.gear().pitch_angle();
+        ((axis - self.angle(turned)) / pitch).round() as i64
+    }
+
+    /// By how many teeth the numbers of a position move on in a mesh cycle.
+    pub(super) fn teeth_per_cycle(&self) -> i64 {
+        -self.rate.signum() as i64
+    }
+}

@@ -1,0 +1,101 @@
+//! Frames of a set: built at the first visit of a position, and the ports of its teeth.
+
+use super::body::{Port, RaceMotion};
+use super::frame::{Frame, Ground};
+use super::gear::Gear;
+use super::set::{Motive, VibratingSet};
+use super::teeth::fill_port;
+use crate::contact::ContactMaps;
+use crate::error::FeError;
+
+impl VibratingSet<'_> {
+    pub(super) fn fill_one(
+        &self,
+        port: &mut Port,
+        frame: &Frame,
+        gear: &Gear<'_>,
+        at: (usize, usize),
+    ) {
+        let (Some(ends), Some(teeth)) = (&frame.ends[at.0], &frame.teeth[at.0]) else { return };
+        let count = gear.body.mesh.outline.gear().teeth as i64;
+        let tooth = teeth[at.1] + gear.teeth_per_cycle() * self.cycles;
+        let tooth = tooth.rem_euclid(count) as usize;
+        fill_port(port, (gear.body, &gear.unknown_of), &ends[at.1], tooth);
+    }
+
+    /// Ports of all gears with a state of their own.
+    pub(super) fn fill_ports(&mut self, frame: &Frame) {
+        let mut lists = std::mem::take(&mut self.work.ports);
+        for ((gear, own), (ports, _)) in self.gears.iter().zip(&frame.own).zip(&mut lists) {
+            if gear.vibrating.unknowns() == 0 {
+                continue;
+            }
+            while ports.len() < own.len() {
+                ports.push(Port::default());
+            }
+            for (port, at) in ports.iter_mut().zip(own) {
+                self.fill_one(port, frame, gear, *at);
+            }
+        }
+        self.work.ports = lists;
+    }
+
+    /// The frame of the current step, built where it is not there yet.
+    pub(super) fn take_frame(&mut self, with_backs: bool) -> Result<Frame, FeError> {
+        let k = self.step_in_cycle;
+        let list = if with_backs { &mut self.frames_with_backs } else { &mut self.frames };
+        if let Some(frame) = list[k].take() {
+            return Ok(frame);
+        }
+        let position = self.position(k);
+        let mut placed = self.statics.place(position, &self.tables);
+        let front = placed.len();
+        let mut places: Vec<usize> =
+            placed.iter().map(|p| self.tables.place_of(p.kind, p.phase)).collect();
+        if with_backs {
+            let backs = self.statics.place_backs(position, &self.tables.settings)?;
+            for (i, back) in backs.into_iter().enumerate() {
+                places.push(self.tables.list.len() + i);
+                placed.push(back);
+            }
+        }
+        let turned = match self.motive {
+            Motive::Standing { .. } => 0.0,
+            Motive::Turning { .. } => position,
+        };
+        let ground = Ground {
+            bodies: self.statics.bodies,
+            races: &self.statics.races,
+            gears: &self.gears,
+            inverse: &self.inverse,
+            lag_end: self.lag.end,
+        };
+        let frame = Frame::new(&ground, &placed, &places, front, turned)?;
+        let owned: Vec<crate::contact::MeshTable> =
+            placed.drain(front..).map(|p| p.table.into_owned()).collect();
+        for table in owned {
+            self.tables.list.push(table);
+            self.maps.push(ContactMaps::default());
+        }
+        Ok(frame)
+    }
+
+    pub(super) fn put_back(&mut self, frame: Frame, with_backs: bool) {
+        let k = self.step_in_cycle;
+        let list = if with_backs { &mut self.frames_with_backs } else { &mut self.frames };
+        list[k] = Some(frame);
+    }
+
+    /// Motion of one body's race; held coordinates are still.
+    pub(super) fn race(&self, body: usize) -> RaceMotion {
+        let mut race = RaceMotion::default();
+        for axis in 0..3 {
+            if let Some(i) = self.statics.races.of(body, axis) {
+                race.x[axis] = self.motion.x[i];
+                race.v[axis] = self.motion.v[i];
+                race.a[axis] = self.motion.a[i];
+            }
+        }
+        race
+    }
+}

@@ -1,0 +1,109 @@
+//! The equilibrium a vibrating set starts from, on its own rung.
+
+use dynamics::Motion;
+use nalgebra::{DMatrix, DVector};
+
+use super::body::Port;
+use super::frame::Frame;
+use super::set::VibratingSet;
+use crate::complementarity::ActiveSet;
+use crate::error::FeError;
+
+impl VibratingSet<'_> {
+    /// Puts the set to rest under a torque on the sun (N m, magnitude) at its current position.
+    ///
+    /// # Errors
+    /// If there is no equilibrium.
+    pub fn rest(&mut self, torque_nm: f64) -> Result<(), FeError> {
+        let position = self.position(self.step_in_cycle);
+        let (solver, tables) = (&ActiveSet, &self.tables);
+        let first = self.statics.equilibrium(torque_nm, position, tables, None, solver)?;
+        let has_backs = first.meshes.len() > 2 * self.statics.races.planets();
+        drop(first);
+        self.external = self.statics.load(torque_nm);
+        let mut frame = self.take_frame(has_backs)?;
+        // Bodies with a state of their own feel all meshes at once; the cells' compliance knows one
+        // mesh alone.
+        let across = self.across_meshes(&frame);
+        let tables = &self.tables;
+        let mut found = self.statics.equilibrium(torque_nm, position, tables, None, solver)?;
+        let all = |list: &[crate::contact::MeshAnswer]| -> DVector<f64> {
+            let forces = list.iter().flat_map(|a| a.pair_forces.iter().copied());
+            DVector::from_vec(forces.collect())
+        };
+        let mut p = all(&found.answers);
+        if across.amax() > 0.0 && torque_nm != 0.0 {
+            for _ in 0..30 {
+                let shifted = &across * &p;
+                let mut offsets = frame.offsets.iter().zip(shifted.iter());
+                for offset in found.meshes.iter_mut().flat_map(|m| m.offsets.iter_mut()) {
+                    if let Some((nominal, shift)) = offsets.next() {
+                        *offset = nominal + shift;
+                    }
+                }
+                self.statics.settle(torque_nm, &mut found, solver)?;
+                let next = all(&found.answers);
+                let change = (&next - &p).amax();
+                p = next;
+                if change <= 1e-13 * p.amax() {
+                    break;
+                }
+            }
+        }
+        let q = found.q;
+        self.motion = Motion::at_rest(q.len());
+        self.motion.x.copy_from_slice(q.as_slice());
+        let offsets = DVector::from_column_slice(&frame.offsets);
+        self.approaches = &frame.rigid * &q - offsets - &across * &p;
+        self.bearings.rest(self.carrier.as_mut(), &self.seat_stiffness, &q);
+        self.fill_ports(&frame);
+        for (gear, (ports, forces)) in self.work.ports.iter_mut().enumerate() {
+            let own = &frame.own[gear];
+            if self.gears[gear].vibrating.unknowns() == 0 {
+                continue;
+            }
+            forces.clear();
+            forces.extend(own.iter().map(|(pair, _)| p[*pair]));
+            self.gears[gear].vibrating.rest_under(&ports[..own.len()], forces);
+        }
+        for (memory, mesh) in self.memory.iter_mut().zip(&frame.meshes) {
+            let own = &p.as_slice()[mesh.first..mesh.first + mesh.count];
+            memory.rest(mesh.pairs.iter().copied().zip(own.iter().copied()));
+        }
+        for mesh in &mut frame.meshes {
+            let range = mesh.first..mesh.first + mesh.count;
+            let delta = &self.approaches.as_slice()[range];
+            let scale = (self.tables.settings.force, self.tables.settings.window);
+            let table = &self.tables.list[mesh.table];
+            mesh.map = self.maps[mesh.table].find(table, delta, scale, mesh.map, solver)?;
+        }
+        self.forces = p;
+        self.touched_back = has_backs;
+        self.put_back(frame, has_backs);
+        Ok(())
+    }
+
+    /// Static flexibility between pairs of different meshes that the bodies' states carry, m/N.
+    fn across_meshes(&self, frame: &Frame) -> DMatrix<f64> {
+        let count = frame.offsets.len();
+        let mut across = DMatrix::zeros(count, count);
+        for (gear, own) in self.gears.iter().zip(&frame.own) {
+            if gear.vibrating.unknowns() == 0 {
+                continue;
+            }
+            let mut ports = vec![Port::default(); own.len()];
+            for (port, (pair, end)) in ports.iter_mut().zip(own) {
+                self.fill_one(port, frame, gear, (*pair, *end));
+            }
+            let carried = gear.vibrating.carried_flexibility(&ports);
+            for (i, (a, _)) in own.iter().enumerate() {
+                for (j, (b, _)) in own.iter().enumerate() {
+                    if frame.mesh_of(*a) != frame.mesh_of(*b) {
+                        across[(*a, *b)] += carried[i * own.len() + j];
+                    }
+                }
+            }
+        }
+        across
+    }
+}

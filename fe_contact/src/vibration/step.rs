@@ -1,0 +1,300 @@
+//! One time step: the bodies' predictions, contact of all pairs, the bodies' answers.
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use super::body::RaceMotion;
+use super::frame::{Combination, Frame};
+use super::gear::Gear;
+use super::set::{Loads, Motive, VibratingSet};
+use crate::complementarity::ActiveSet;
+use crate::contact::ContactMaps;
+use crate::error::FeError;
+use crate::statics::{CARRIER, Races};
+
+/// Newton iterations of one step before it is given up.
+const MOST_ITERATIONS: usize = 60;
+
+/// Displacements above this (m) are no vibration of a gear set.
+const BOUND: f64 = 1e-2;
+
+impl VibratingSet<'_> {
+    /// One step; the external forces must be those at its end.
+    ///
+    /// # Errors
+    /// If contact cannot be solved, its cells do not suffice, or the motion diverges.
+    pub fn step(&mut self) -> Result<(), FeError> {
+        self.tick();
+        let turned = self.turned();
+        self.work.load.copy_from(&self.external);
+        let race = self.race(CARRIER);
+        let own = self.carrier.predict(&race, 0.0);
+        add_of(&self.statics.races, CARRIER, own, &mut self.work.load);
+        self.predict_gears(turned);
+        self.motion.velocity_history(&self.rule, &mut self.work.history);
+        for (i, v) in self.work.history.iter().enumerate() {
+            self.work.load[i] += self.bearing_ratio * self.supports[i] * v;
+        }
+        if let Some([g, _]) = &self.gyroscopic {
+            for (i, row) in g.row_iter().enumerate() {
+                self.work.load[i] +=
+                    row.iter().zip(&self.work.history).map(|(g, v)| g * v).sum::<f64>();
+            }
+        }
+        self.bearings.predict(&self.rule, self.carrier.as_ref(), &mut self.work.load);
+        self.work.free.gemv(1.0, &self.inverse, &self.work.load, 0.0);
+        let mut with_backs = false;
+        let mut frame = self.take_frame(false)?;
+        self.contact(&mut frame)?;
+        if self.statics.backs_touch(&self.work.x) {
+            self.put_back(frame, false);
+            with_backs = true;
+            frame = self.take_frame(true)?;
+            self.contact(&mut frame)?;
+            self.counts.with_backs += 1;
+        }
+        self.check(&frame)?;
+        self.finish(&frame, turned);
+        self.touched_back = with_backs;
+        self.put_back(frame, with_backs);
+        self.counts.steps += 1;
+        Ok(())
+    }
+
+    /// Starts the step of all gears; large ones side by side, which changes no bit.
+    fn predict_gears(&mut self, turned: f64) {
+        for k in 0..self.gears.len() {
+            self.work.started[k].0 = self.race(k + 1);
+        }
+        let one = |(gear, (race, load)): (&mut Gear<'_>, &mut (RaceMotion, [f64; 3]))| {
+            let angle = gear.angle(turned);
+            *load = gear.vibrating.predict(race, angle);
+        };
+        if self.is_large {
+            self.gears.par_iter_mut().zip(&mut self.work.started).for_each(one);
+        } else {
+            self.gears.iter_mut().zip(&mut self.work.started).for_each(one);
+        }
+        for (k, (_, load)) in self.work.started.iter().enumerate() {
+            add_of(&self.statics.races, k + 1, *load, &mut self.work.load);
+        }
+    }
+
+    /// Moves the clock on, and the memories of meshes whose phase starts anew.
+    fn tick(&mut self) {
+        self.steps += 1;
+        if let Motive::Turning { steps_per_cycle, .. } = self.motive {
+            let before = self.position(self.step_in_cycle);
+            self.step_in_cycle += 1;
+            if self.step_in_cycle == steps_per_cycle {
+                self.step_in_cycle = 0;
+                self.cycles += 1;
+            }
+            let after = self.position(self.step_in_cycle);
+            for (mesh, memory) in self.memory.iter_mut().enumerate() {
+                if self.statics.phase(mesh, after) < self.statics.phase(mesh, before) {
+                    memory.move_on();
+                }
+            }
+        }
+    }
+
+    /// Solves for the pairs' forces and the races' displacements.
+    fn contact(&mut self, frame: &mut Frame) -> Result<(), FeError> {
+        let count = frame.offsets.len();
+        self.fill_ports(frame);
+        let work = &mut self.work;
+        // Positions differ in their number of pairs: the vectors fit the largest.
+        if work.b.len() < count {
+            work.b = DVector::zeros(count);
+        }
+        if self.forces.len() < count {
+            self.forces = DVector::zeros(count);
+            self.approaches = DVector::zeros(count);
+        }
+        // b = rows · x_free + elastic − offsets − lagging · known
+        work.b.rows_mut(0, count).gemv(1.0, &frame.rows, &work.free, 0.0);
+        for (b, offset) in work.b.iter_mut().zip(&frame.offsets) {
+            *b -= offset;
+        }
+        for ((gear, own), (ports, _)) in self.gears.iter().zip(&frame.own).zip(&work.ports) {
+            if gear.vibrating.unknowns() > 0 {
+                for ((pair, _), port) in own.iter().zip(ports) {
+                    work.b[*pair] += gear.vibrating.free(port);
+                }
+            }
+        }
+        for (memory, mesh) in self.memory.iter().zip(&frame.meshes) {
+            for (k, pair) in mesh.pairs.iter().enumerate() {
+                let known = memory.known(&self.lag, *pair);
+                if known != 0.0 {
+                    for i in mesh.first..mesh.first + mesh.count {
+                        work.b[i] -= frame.lagging[(i, mesh.first + k)] * known;
+                    }
+                }
+                // First guess: the forces of the step before.
+                self.forces[mesh.first + k] = memory.now(*pair);
+            }
+        }
+        for mesh in &frame.meshes[self.memory.len()..] {
+            self.forces.rows_mut(mesh.first, mesh.count).fill(0.0);
+        }
+        let (tables, solver) = (&self.tables, &ActiveSet);
+        let scale = (tables.settings.force, tables.settings.window);
+        let b = work.b.rows(0, count);
+        let mut approaches = self.approaches.rows_mut(0, count);
+        let mut forces = self.forces.rows_mut(0, count);
+        approaches.copy_from(&b);
+        approaches.gemv(-1.0, &frame.receptance, &forces, 1.0);
+        for mesh in &mut frame.meshes {
+            if mesh.map >= self.maps[mesh.table].count() {
+                let delta = &approaches.as_slice()[mesh.first..mesh.first + mesh.count];
+                let table = &tables.list[mesh.table];
+                mesh.map = self.maps[mesh.table].find(table, delta, scale, 0, solver)?;
+            }
+        }
+        let mut residual = f64::INFINITY;
+        for iteration in 0..MOST_ITERATIONS {
+            let known = combination(frame, &self.maps, &mut work.ids);
+            let place = match known {
+                Some(place) => place,
+                None => {
+                    self.counts.combinations += 1;
+                    let made = combine(frame, &self.maps, &work.ids)?;
+                    frame.keep(made)
+                }
+            };
+            self.counts.solutions += 1;
+            let chosen = &frame.combinations[place];
+            forces.copy_from(&chosen.offset);
+            forces.gemv(1.0, &chosen.slope, &b, 1.0);
+            // Where sets alternate, a part of the way is taken.
+            let part = if iteration < 12 { 1.0 } else { 0.5 };
+            residual = 0.0;
+            for (i, b) in b.iter().enumerate() {
+                let row = frame.receptance.row(i);
+                let along: f64 = row.iter().zip(forces.iter()).map(|(y, p)| y * p).sum();
+                let change = b - along - approaches[i];
+                residual = residual.max(change.abs());
+                approaches[i] += part * change;
+            }
+            let mut all_hold = part == 1.0 || residual < 1e-14;
+            for mesh in &mut frame.meshes {
+                let delta = &approaches.as_slice()[mesh.first..mesh.first + mesh.count];
+                let (table, maps) = (&tables.list[mesh.table], &mut self.maps[mesh.table]);
+                if !maps.holds(mesh.map, table, delta, scale) {
+                    mesh.map = maps.find(table, delta, scale, mesh.map, solver)?;
+                    all_hold = false;
+                }
+            }
+            if all_hold {
+                work.x.copy_from(&work.free);
+                work.x.gemv(-1.0, &frame.answers, &forces, 1.0);
+                return Ok(());
+            }
+        }
+        Err(FeError::NotConverged { iterations: MOST_ITERATIONS, residual })
+    }
+
+    /// Refuses what the tables do not cover, and motion beyond all bounds.
+    fn check(&self, frame: &Frame) -> Result<(), FeError> {
+        for (i, x) in self.work.x.iter().enumerate() {
+            if x.is_nan() || x.abs() > BOUND {
+                let (body, quantity) = self.statics.races.name_of(i);
+                return Err(FeError::Diverged { time_s: self.time(), body, quantity, value: *x });
+            }
+        }
+        for mesh in &frame.meshes {
+            let table = &self.tables.list[mesh.table];
+            let map = self.maps[mesh.table].map(mesh.map);
+            if let Some(pair) = map.overflows {
+                let (cells, force_n) = (&table.pairs[pair], self.forces[mesh.first + pair]);
+                if force_n > 0.0 {
+                    let reach_mm = 0.5e3 * cells.width * cells.x.len() as f64;
+                    let (phase, pair) = (table.phase, cells.index);
+                    return Err(FeError::GridOverflow { phase, pair, reach_mm, force_n });
+                }
+            }
+            let own = &self.approaches.as_slice()[mesh.first..mesh.first + mesh.count];
+            let deepest = own.iter().fold(0.0f64, |a, d| a.max(*d));
+            if deepest >= table.next_gap {
+                return Err(FeError::NoEquilibrium(format!(
+                    "a mesh gives way by {:.1} µm, beyond the window for tip contact of {:.1} µm",
+                    deepest * 1e6,
+                    table.next_gap * 1e6
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends the step.
+    fn finish(&mut self, frame: &Frame, turned: f64) {
+        let races = &self.statics.races;
+        let displaced = |x: &DVector<f64>, body: usize| {
+            [0, 1, 2].map(|axis| races.of(body, axis).map_or(0.0, |i| x[i]))
+        };
+        for ((ports, forces), own) in self.work.ports.iter_mut().zip(&frame.own) {
+            if !ports.is_empty() {
+                forces.clear();
+                forces.extend(own.iter().map(|(pair, _)| self.forces[*pair]));
+            }
+        }
+        let x = &self.work.x;
+        let one = |(k, (gear, loads)): (usize, (&mut Gear<'_>, &Loads))| {
+            let (ports, forces) = loads;
+            if gear.vibrating.unknowns() > 0 {
+                let angle = gear.angle(turned);
+                gear.vibrating.finish(displaced(x, k + 1), angle, &ports[..forces.len()], forces);
+            }
+        };
+        if self.is_large {
+            self.gears.par_iter_mut().zip(&self.work.ports).enumerate().for_each(one);
+        } else {
+            self.gears.iter_mut().zip(&self.work.ports).enumerate().for_each(one);
+        }
+        let race = displaced(&self.work.x, CARRIER);
+        self.bearings.finish(&self.rule, self.carrier.as_mut(), &self.work.x, race);
+        self.motion.advance(&self.rule, self.work.x.as_slice());
+        for (memory, mesh) in self.memory.iter_mut().zip(&frame.meshes) {
+            let own = &self.forces.as_slice()[mesh.first..mesh.first + mesh.count];
+            memory.advance(&self.lag, mesh.pairs.iter().copied().zip(own.iter().copied()));
+        }
+    }
+}
+
+/// The combination whose maps hold now, if it was solved before; `ids` takes the maps' ids.
+fn combination(frame: &Frame, maps: &[ContactMaps], ids: &mut Vec<u64>) -> Option<usize> {
+    ids.clear();
+    ids.extend(frame.meshes.iter().map(|mesh| maps[mesh.table].map(mesh.map).id));
+    frame.combinations.iter().position(|c| c.maps == *ids)
+}
+
+/// (I + S Y) P = S b + P₀.
+fn combine(frame: &Frame, maps: &[ContactMaps], ids: &[u64]) -> Result<Combination, FeError> {
+    let count = frame.offsets.len();
+    let (mut s, mut p0) = (DMatrix::zeros(count, count), DVector::zeros(count));
+    for mesh in &frame.meshes {
+        let map = maps[mesh.table].map(mesh.map);
+        for i in 0..mesh.count {
+            p0[mesh.first + i] = map.forces[i];
+            for j in 0..mesh.count {
+                s[(mesh.first + i, mesh.first + j)] = map.stiffness[i * mesh.count + j];
+            }
+        }
+    }
+    let matrix = DMatrix::identity(count, count) + &s * &frame.receptance;
+    let lu = matrix.lu();
+    let singular = || FeError::NoEquilibrium("the step's contact problem is singular".into());
+    let slope = lu.solve(&s).ok_or_else(singular)?;
+    let offset = lu.solve(&p0).ok_or_else(singular)?;
+    Ok(Combination { maps: ids.to_vec(), slope, offset })
+}
+
+fn add_of(races: &Races, body: usize, own: [f64; 3], load: &mut DVector<f64>) {
+    for (axis, value) in own.into_iter().enumerate() {
+        if let Some(i) = races.of(body, axis) {
+            load[i] += value;
+        }
+    }
+}

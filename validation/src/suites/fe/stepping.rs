@@ -1,0 +1,138 @@
+//! The time step: energy, drift, ringing.
+
+use dynamics::{Window, spectrum};
+use fe_contact::statics::{Bodies, Imperfections};
+use fe_contact::vibration::{Motive, VibratingSet};
+use gearset::{Facing, Kinematics, Scene};
+
+use super::Lab;
+use crate::check::Check;
+use crate::error::ValidationError;
+
+/// The helicopter's nominal point.
+const TORQUE: f64 = 1413.0;
+const SPEED_RPM: f64 = 1600.0;
+
+fn turning<'b>(
+    scene: &Scene,
+    bodies: &'b Bodies,
+    steps_per_cycle: usize,
+) -> Result<VibratingSet<'b>, ValidationError> {
+    let missing = || ValidationError::Incomplete("numbers of teeth or operation");
+    let kinematics = Kinematics::from_scene(scene).and_then(Result::ok).ok_or_else(missing)?;
+    let per_rpm = kinematics.mesh_frequency_hz / kinematics.speeds_rpm.sun;
+    let mesh_frequency = (per_rpm * SPEED_RPM).abs();
+    let sun = bodies.geometry.sun.as_ref().ok_or(ValidationError::Incomplete("sun"))?;
+    let force = TORQUE / sun.base_radius / scene.planets.psi_rad.len() as f64;
+    let motive = Motive::Turning { mesh_frequency, steps_per_cycle };
+    let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
+    let mut set = VibratingSet::new(scene, bodies, sense, none, motive, force)?;
+    set.rest(TORQUE)?;
+    Ok(set)
+}
+
+pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+    let mut checks = energy(lab)?;
+    checks.extend(ringing(lab)?);
+    Ok(checks)
+}
+
+/// Identity of every step, closure with independent energies, drift.
+fn energy(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+    // Independent energies know no lag: β of the bodies is left out, all else damps.
+    let mut scene = lab.four.clone();
+    scene.damping.stiffness_proportional_s = 0.0;
+    let mut identity = 0.0f64;
+    let mut closures = Vec::new();
+    for steps in [140, 280] {
+        let mut set = turning(&scene, &lab.bodies, steps)?;
+        // The cycle that is measured goes through known frames.
+        for _ in 0..2 * steps {
+            set.step()?;
+        }
+        let (mut open, mut turned, mut size) = (0.0f64, 0.0f64, 0.0f64);
+        for _ in 0..steps {
+            let (before, start) = (set.energies(), set.step_start());
+            set.step()?;
+            let (after, work) = (set.energies(), set.work_since(&start));
+            let moved = after.kinetic - before.kinetic + after.bearings - before.bearings;
+            let done = work.external - work.damped;
+            size = size.max(after.kinetic + after.bearings);
+            identity = identity.max((moved - done + work.against_contact).abs() / size);
+            let turning = set.turning_work(&start)?.unwrap_or(f64::NAN);
+            open += moved + after.contact - before.contact - done - turning;
+            turned += turning.abs();
+        }
+        closures.push((open / turned).abs());
+    }
+    let title = "energy of races and bearings against the forces' work, every step at 1600 rpm and 1413 N·m";
+    let mut checks = vec![lab.at_most("fe.stepping.energy.identity", title, "", identity)?];
+    let title = format!(
+        "energy, contact's ½pᵀCp and the turning meshes' work included: what is open after a cycle over that work, 140 steps; {:.1e} with 280",
+        closures[1]
+    );
+    checks.push(lab.at_most("fe.stepping.energy.closure", &title, "", closures[0])?);
+    let title = "order at which that closes";
+    let order = (closures[0] / closures[1]).log2();
+    let kind = crate::check::ReferenceKind::Analytic;
+    let id = "fe.stepping.energy.closure_order";
+    checks.push(lab.number(
+        id,
+        title,
+        kind,
+        "average acceleration is of second order",
+        "",
+        2.0,
+        order,
+    )?);
+    // A thousand cycles: no secular drift.
+    let mut set = turning(&lab.four, &lab.bodies, 140)?;
+    let mut ends = Vec::new();
+    for _ in 0..1000 {
+        for _ in 0..140 {
+            set.step()?;
+        }
+        let e = set.energies();
+        ends.push(e.kinetic + e.bearings + e.contact);
+    }
+    let drift = (ends[999] / ends[499] - 1.0).abs();
+    let title = "energy after 1000 mesh cycles against that after 500, 1600 rpm and 1413 N·m";
+    checks.push(lab.at_most("fe.stepping.energy.drift", title, "", drift)?);
+    Ok(checks)
+}
+
+/// The shortest wave a step can carry must not stand out in the mesh forces.
+fn ringing(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+    let mut checks = Vec::new();
+    for (name, beta) in [("with_lag", None), ("without_lag", Some(0.0))] {
+        let mut scene = lab.four.clone();
+        if let Some(beta) = beta {
+            scene.damping.stiffness_proportional_s = beta;
+        }
+        let mut set = turning(&scene, &lab.bodies, 140)?;
+        for _ in 0..100 * 140 {
+            set.step()?;
+        }
+        let (mut forces, mut record) = (Vec::new(), Vec::new());
+        for _ in 0..140 {
+            set.step()?;
+            set.mesh_forces(&mut forces);
+            record.push(forces.clone());
+        }
+        let mut worst = 0.0f64;
+        for mesh in 0..record[0].len() {
+            let of_mesh: Vec<f64> = record.iter().map(|f| f[mesh]).collect();
+            let lines = spectrum(&of_mesh, 1.0, Window::Rectangular, 1)?.lines;
+            let size = |k: usize| lines[k].re.hypot(lines[k].im);
+            let around = (50..70).map(size).fold(0.0f64, f64::max);
+            worst = worst.max(size(70) / around);
+        }
+        let id = format!("fe.stepping.ringing.{name}");
+        let words = name.replace('_', " ");
+        let title = format!(
+            "amplitude at half the sampling rate over the largest between harmonics 50 and 69, mesh forces {words}"
+        );
+        checks.push(lab.at_most(&id, &title, "", worst)?);
+    }
+    Ok(checks)
+}
