@@ -30,6 +30,8 @@ pub struct Reference {
     pub parker: Parker2000,
     /// One mesh by CalculiX.
     pub calculix: Calculix,
+    /// Impulse tests with every degree of freedom.
+    pub full_impulse: FullImpulse,
     /// Listed misses.
     pub misses: Vec<Miss>,
     tolerances: Vec<ToleranceEntry>,
@@ -146,6 +148,28 @@ pub struct Strengths {
     pub values: Vec<f64>,
 }
 
+/// `full_impulse.toml`.
+#[derive(Debug, Deserialize)]
+#[allow(missing_docs)] // the keys say it all, units included
+pub struct FullImpulse {
+    pub source: String,
+    pub command: String,
+    pub flank_elements: u32,
+    pub torque_nm: f64,
+    pub position: f64,
+    pub set: Vec<FullImpulseSet>,
+}
+
+/// Modes of one set, ascending.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)] // the keys say it all, units included
+pub struct FullImpulseSet {
+    pub scene: String,
+    pub frequencies_hz: Vec<f64>,
+    pub damping_ratios: Vec<f64>,
+}
+
 /// `calculix_2_20.toml`; what the checks use of it.
 #[derive(Debug, Deserialize)]
 pub struct Calculix {
@@ -238,6 +262,7 @@ impl Reference {
             lin_parker: file!("lin_parker_1999.toml"),
             parker: file!("parker_2000.toml"),
             calculix: file!("calculix_2_20.toml"),
+            full_impulse: file!("full_impulse.toml"),
             misses: misses.miss,
             tolerances: tolerances.tolerance,
         })

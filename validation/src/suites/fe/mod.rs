@@ -9,6 +9,7 @@ mod hertz;
 mod iso6336;
 mod modal;
 mod resolved;
+mod rungs;
 mod sets;
 mod stepping;
 mod stiffness;
@@ -98,7 +99,7 @@ pub(crate) fn checks(
     profile: Profile,
     concerns: &dyn Fn(&str) -> bool,
 ) -> Result<Vec<Check>, ValidationError> {
-    let suites: [(&[&str], Suite); 12] = [
+    let suites: [(&[&str], Suite); 13] = [
         (&["fe.hertz."], hertz::checks),
         (&["fe.convergence."], convergence::checks),
         (&["fe.resolved."], resolved::checks),
@@ -111,6 +112,7 @@ pub(crate) fn checks(
         (&["fe.control."], controls::checks),
         (&["table2.fe_contact.", "table3.fe_contact.", "fe.modal."], modal::checks),
         (&["fe.stepping."], stepping::checks),
+        (&["fe.rungs."], rungs::checks),
     ];
     if !suites.iter().any(|(prefixes, _)| prefixes.iter().any(|p| concerns(p))) {
         return Ok(Vec::new());

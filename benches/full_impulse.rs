@@ -1,0 +1,39 @@
+//! Remakes `reference/full_impulse.toml`: impulse tests on bodies with every finite-element degree of
+//! freedom. Prints the file; about ten minutes on two cores.
+
+use std::path::Path;
+
+use fe_contact::statics::Bodies;
+use gearset::{Rung, Scene};
+use validation::modal::{ImpulseSettings, impulse_test};
+
+const FLANK_ELEMENTS: u32 = 8;
+const TORQUE: f64 = 1130.0;
+
+fn main() {
+    // `cargo bench … -- --test` only asks whether benches run.
+    if std::env::args().any(|argument| argument == "--test") {
+        return;
+    }
+    println!("kind = \"own truth\"");
+    println!(
+        "source = \"this program, rung full, fe_contact.flank_elements = {FLANK_ELEMENTS}, pulses of 5 µs, \
+         decays of 10 ms, 1130 N·m, position 0\""
+    );
+    println!("command = \"cargo bench --bench full_impulse\"");
+    println!("flank_elements = {FLANK_ELEMENTS}\ntorque_nm = {TORQUE:.1}\nposition = 0.0");
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    for name in ["oh58_3p", "oh58_4p"] {
+        let mut scene = Scene::from_file(&root.join(format!("{name}.toml"))).unwrap();
+        scene.fe_contact.flank_elements = FLANK_ELEMENTS;
+        scene.dynamics.rung = Rung::Full;
+        let bodies = Bodies::new(&scene).unwrap();
+        let test = impulse_test(&scene, &bodies, &ImpulseSettings::short(TORQUE, 0.0)).unwrap();
+        let list = |of: &dyn Fn(usize) -> String| {
+            (0..test.modes.len()).map(of).collect::<Vec<_>>().join(", ")
+        };
+        println!("\n[[set]]\nscene = \"{name}\"");
+        println!("frequencies_hz = [{}]", list(&|i| format!("{:.3}", test.modes[i].frequency_hz)));
+        println!("damping_ratios = [{}]", list(&|i| format!("{:.5}", test.modes[i].damping_ratio)));
+    }
+}
