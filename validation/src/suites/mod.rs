@@ -5,11 +5,11 @@ mod controls;
 pub(crate) mod explained;
 mod fe;
 mod lin_parker;
-mod modes_of;
+pub(crate) mod modes_of;
 mod rules;
 mod structure;
 mod table1;
-mod tables;
+pub(crate) mod tables;
 
 use crate::Profile;
 use crate::check::Check;

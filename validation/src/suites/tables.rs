@@ -2,6 +2,7 @@
 
 use gearset::Scene;
 use lumped::NaturalModes;
+use serde::Serialize;
 
 use crate::catalogue::{PublishedScene, scene};
 use crate::check::{Check, ReferenceKind, Subject};
@@ -24,8 +25,9 @@ pub(crate) fn checks(reference: &Reference) -> Result<Vec<Check>, ValidationErro
 }
 
 /// Which of the two tables.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Table {
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Table {
     /// Three planets.
     Two,
     /// Four planets.
@@ -33,21 +35,43 @@ pub(crate) enum Table {
 }
 
 impl Table {
-    fn number(self) -> usize {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Two, Self::Three];
+
+    /// Number in the paper.
+    pub fn number(self) -> usize {
         match self {
             Self::Two => 2,
             Self::Three => 3,
         }
     }
 
-    pub(crate) fn as_published(self) -> PublishedScene {
+    /// Number of planets in words.
+    pub fn planets(self) -> &'static str {
+        match self {
+            Self::Two => "three",
+            Self::Three => "four",
+        }
+    }
+
+    /// Its scene with consistent geometry.
+    pub fn consistent(self) -> PublishedScene {
+        match self {
+            Self::Two => PublishedScene::Oh58ThreePlanets,
+            Self::Three => PublishedScene::Oh58FourPlanets,
+        }
+    }
+
+    /// Its lumped scene as published.
+    pub fn as_published(self) -> PublishedScene {
         match self {
             Self::Two => PublishedScene::Oh58ThreePlanetsAsPublished,
             Self::Three => PublishedScene::Oh58FourPlanetsAsPublished,
         }
     }
 
-    fn printed(self, reference: &Reference) -> &ModeTable {
+    /// What is printed.
+    pub fn printed(self, reference: &Reference) -> &ModeTable {
         match self {
             Self::Two => &reference.parker.table2,
             Self::Three => &reference.parker.table3,

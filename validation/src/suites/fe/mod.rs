@@ -4,6 +4,7 @@ mod bodies;
 mod calculix;
 mod controls;
 mod convergence;
+mod fed;
 mod fig12;
 mod hertz;
 mod iso6336;
@@ -99,7 +100,7 @@ pub(crate) fn checks(
     profile: Profile,
     concerns: &dyn Fn(&str) -> bool,
 ) -> Result<Vec<Check>, ValidationError> {
-    let suites: [(&[&str], Suite); 13] = [
+    let suites: [(&[&str], Suite); 14] = [
         (&["fe.hertz."], hertz::checks),
         (&["fe.convergence."], convergence::checks),
         (&["fe.resolved."], resolved::checks),
@@ -113,6 +114,7 @@ pub(crate) fn checks(
         (&["table2.fe_contact.", "table3.fe_contact.", "fe.modal."], modal::checks),
         (&["fe.stepping."], stepping::checks),
         (&["fe.rungs."], rungs::checks),
+        (&["fe.fed."], fed::checks),
     ];
     if !suites.iter().any(|(prefixes, _)| prefixes.iter().any(|p| concerns(p))) {
         return Ok(Vec::new());

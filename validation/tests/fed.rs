@@ -1,0 +1,38 @@
+//! The lumped model fed from FE where the two models must be one: signs, inertias, senses.
+
+use fe_contact::statics::Bodies;
+use gearset::MeshKind;
+use validation::modal::{Preload, agreement, fed_lumped};
+use validation::{PublishedScene, scene};
+
+#[test]
+fn where_all_pairs_stand_on_the_path_the_models_are_one() {
+    let mut three = scene(PublishedScene::Oh58ThreePlanets).unwrap();
+    three.fe_contact.flank_elements = 10;
+    let bodies = Bodies::new(&three).unwrap();
+    let at = |torque_nm| Preload { torque_nm, position: 0.0, step_s: 5e-6 };
+    // The sun turning either way: the mirrored set is another with the same frequencies.
+    for torque in [1130.0, -1130.0] {
+        let found = agreement(&three, &bodies, &at(torque)).unwrap();
+        assert_eq!(found.corner_pairs, 0);
+        assert_eq!(found.modes, 2 + 3 + 9);
+        assert!(found.worst_percent.abs() < 1e-5, "{}", found.worst_percent);
+    }
+    let fed = fed_lumped(&three, &bodies, &at(1130.0)).unwrap();
+    let lumped = fed.lumped.as_ref().unwrap();
+    let planet = &bodies.planet;
+    let r = bodies.geometry.planet.base_radius;
+    assert_eq!(lumped.mass.planet, Some(planet.mass));
+    assert!((lumped.inertia_over_r2.planet.unwrap() * r * r / planet.inertia - 1.0).abs() < 1e-14);
+    let angle = bodies.geometry.mesh(MeshKind::RingPlanet).unwrap().pressure_angle;
+    assert_eq!(lumped.pressure_angle.ring_planet, angle);
+    // Phases alike: meshes alike; tangents of steel teeth an inch wide.
+    for own in &fed.overrides {
+        for (k, first) in
+            [(own.sun_mesh, fed.overrides[0].sun_mesh), (own.ring_mesh, fed.overrides[0].ring_mesh)]
+        {
+            let (k, first) = (k.unwrap(), first.unwrap());
+            assert!((k / first - 1.0).abs() < 1e-6 && (4e8..1.2e9).contains(&k), "{k}");
+        }
+    }
+}
