@@ -8,6 +8,7 @@ mod mesh_picture;
 mod modes;
 mod report;
 mod rules;
+mod rungs_chart;
 mod scene;
 mod schema;
 mod static_approach;

@@ -1,5 +1,5 @@
 //! The report folder: verdict as Markdown and JSON, the steps that explain the printed four-planet
-//! frequencies, and a Campbell chart of either set.
+//! frequencies, a Campbell chart of either set and, from the full profile, the error of the rungs.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -9,6 +9,7 @@ use validation::{PublishedScene, Reference, Status, ValidationError, Verdict, sc
 use crate::error::CommandError;
 
 use super::chart::campbell_svg;
+use super::rungs_chart::rungs_svg;
 use super::validate::{cells, status_word};
 
 /// Writes the folder, creating it if need be.
@@ -34,6 +35,9 @@ pub(crate) fn write(verdict: &Verdict, folder: &Path) -> Result<(), CommandError
         if let Some(svg) = campbell_svg(&scene, &modes) {
             save(name, svg)?;
         }
+    }
+    if let Some(svg) = rungs_svg(verdict) {
+        save("rungs.svg", svg)?;
     }
     Ok(())
 }

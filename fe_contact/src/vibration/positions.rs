@@ -99,3 +99,72 @@ impl VibratingSet<'_> {
         race
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use gearset::{Facing, Scene};
+
+    use super::*;
+    use crate::statics::{Bodies, Imperfections};
+
+    /// A pair keeps its teeth from step to step, when its number moves on and when a cycle ends; the
+    /// teeth it is given stand where the turning gears have them.
+    #[test]
+    fn pairs_keep_their_teeth() {
+        let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
+        let mut scene = Scene::from_file(path.as_ref()).unwrap();
+        scene.fe_contact.flank_elements = 8;
+        let bodies = Bodies::new(&scene).unwrap();
+        let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
+        let motive = Motive::Turning { mesh_frequency: 500.0, steps_per_cycle: 28 };
+        let mut set = VibratingSet::new(&scene, &bodies, sense, none, motive, 8000.0).unwrap();
+        set.rest(1130.0).unwrap();
+        // (mesh, pair, phase, teeth in the bodies' own numbers) of all pairs at the present step.
+        let seen = |set: &VibratingSet<'_>| {
+            let frame = set.current_frame().unwrap();
+            let mut list = Vec::new();
+            for (m, mesh) in frame.meshes.iter().enumerate() {
+                let phase = set.statics.phase(m, set.position(set.step_in_cycle));
+                for (k, pair) in mesh.pairs.iter().enumerate() {
+                    let at = mesh.first + k;
+                    let (ends, teeth) = (frame.ends[at].as_ref(), frame.teeth[at]);
+                    let teeth: Vec<i64> = ends
+                        .unwrap()
+                        .iter()
+                        .zip(teeth.unwrap())
+                        .map(|(end, tooth)| {
+                            let gear = &set.gears[end.body - 1];
+                            let count = gear.body.mesh.outline.gear().teeth as i64;
+                            // The axis of a whole number of pitches from where tooth 0 is now.
+                            let turned = set.position(set.step_in_cycle);
+                            let pitch = gear.body.mesh.outline.gear().pitch_angle();
+                            let exact = (end.axis - gear.angle(turned)) / pitch;
+                            assert!((exact - exact.round()).abs() < 1e-6, "{exact}");
+                            (tooth + gear.teeth_per_cycle() * set.cycles).rem_euclid(count)
+                        })
+                        .collect();
+                    list.push((m, *pair, phase, teeth));
+                }
+            }
+            list
+        };
+        let mut before = seen(&set);
+        let mut kept = 0;
+        for _ in 0..70 {
+            set.step().unwrap();
+            let now = seen(&set);
+            for (mesh, pair, phase, teeth) in &now {
+                let same = before.iter().find(|(m, p, earlier, _)| {
+                    m == mesh && *p + i64::from(phase < earlier) == *pair
+                });
+                // Pairs come within reach and leave it.
+                if let Some((_, _, _, earlier)) = same {
+                    assert_eq!(earlier, teeth, "mesh {mesh}, pair {pair}, phase {phase}");
+                    kept += 1;
+                }
+            }
+            before = now;
+        }
+        assert!(kept > 70 * 8);
+    }
+}
