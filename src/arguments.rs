@@ -22,6 +22,8 @@ pub enum Verb {
     Rules(Rules),
     /// One mesh cycle at rest: transmission error, mesh stiffness, load sharing, pressure.
     Static(Static),
+    /// Virtual modal test: pulses on the preloaded FE/contact set, modes from its free decay.
+    Impulse(Impulse),
     /// Finite-element meshes of a scene: quality, mass properties, flexibility, pictures.
     Mesh(MeshVerb),
     /// Write or explain a scene file.
@@ -93,7 +95,7 @@ pub enum TableFormat {
     Text,
     /// Stable keys for programs; schemas in `schemas/`.
     Json,
-    /// One row a position and tooth pair.
+    /// One row a position and tooth pair, or a mode.
     Csv,
 }
 
@@ -146,6 +148,32 @@ pub struct Static {
     /// Teeth kept on either side of the loaded ones in that deck; whole gears if left out.
     #[arg(long, value_name = "N", requires = "export_inp")]
     pub export_teeth: Option<u32>,
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    pub format: TableFormat,
+}
+
+#[derive(Debug, Args)]
+pub struct Impulse {
+    /// Scene file of a whole set.
+    pub scene: PathBuf,
+    /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out.
+    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
+    pub torque_nm: Option<f64>,
+    /// Position in the mesh cycle where the set stands, 0 to 1.
+    #[arg(long, value_name = "CYCLES", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub position: f64,
+    /// Time step, µs.
+    #[arg(long, value_name = "US", default_value_t = 5.0, allow_negative_numbers = true)]
+    pub step_us: f64,
+    /// Length of each free decay, ms.
+    #[arg(long, value_name = "MS", default_value_t = 40.0, allow_negative_numbers = true)]
+    pub duration_ms: f64,
+    /// Also linearise over the mesh cycle at half, once and one and a half times the torque.
+    #[arg(long)]
+    pub band: bool,
+    /// Also draw figures into this folder (SVG).
+    #[arg(long, value_name = "DIR")]
+    pub figures: Option<PathBuf>,
     #[arg(long, value_enum, default_value_t = TableFormat::Text)]
     pub format: TableFormat,
 }

@@ -50,12 +50,13 @@ fn every_json_output_keeps_to_its_schema() {
     let modes = csv_of_own_modes();
     let set = scene("oh58_4p.toml");
     let pair = scene("oh58_sun_planet_pair.toml");
-    let runs: [(&str, Vec<&str>); 9] = [
+    let runs: [(&str, Vec<&str>); 10] = [
         ("validate", vec!["validate", "--only", "table"]),
         ("mesh", vec!["mesh", &set]),
         ("static_set", vec!["static", &set, "--positions", "1"]),
         ("static_pair", vec!["static", &pair, "--normal-force-n", "1e4", "--positions", "2"]),
         ("static_approach", vec!["static", &pair, "--approach-um", "20", "--phase", "0.7"]),
+        ("impulse", vec!["impulse", &set, "--duration-ms", "10", "--band"]),
         ("modes", vec!["modes", &set, "--carrier-speeds-rpm", "0,535.7"]),
         ("rules", vec!["rules", &set]),
         ("scene_check", vec!["scene", "check", &set]),
@@ -249,6 +250,99 @@ fn static_refuses_what_makes_no_sense_with_one_message() {
         assert_eq!(code, 2, "{arguments:?}");
         assert!(out.is_empty() && err.contains(words), "{arguments:?}: {err}");
     }
+}
+
+#[test]
+fn impulse_refuses_what_makes_no_sense_with_one_message() {
+    let (pair, set) = (scene("oh58_sun_planet_pair.toml"), scene("oh58_4p.toml"));
+    let lumped = scene("lin_parker_1999_3p.toml");
+    let cases: [(&[&str], &str); 16] = [
+        (&["impulse", &pair], "`kind` is \"gear_pair\""),
+        (&["impulse", &lumped], "[geometry] is absent"),
+        (&["impulse", &set, "--torque-nm", "0"], "argument --torque-nm: 0 N·m: nothing touches"),
+        (&["impulse", &set, "--torque-nm", "-0"], "nothing touches"),
+        (&["impulse", &set, "--torque-nm", "nan"], "finite torque"),
+        (&["impulse", &set, "--torque-nm", "inf"], "finite torque"),
+        (&["impulse", &set, "--torque-nm", "1e9"], "--torque-nm"),
+        (&["impulse", &set, "--step-us", "0"], "step above 0"),
+        (&["impulse", &set, "--step-us", "-5"], "step above 0"),
+        (&["impulse", &set, "--step-us", "60"], "has 8 steps"),
+        (&["impulse", &set, "--duration-ms", "5"], "at least 9.05 ms"),
+        (&["impulse", &set, "--duration-ms", "nan"], "--duration-ms"),
+        (&["impulse", &set, "--duration-ms", "1e9"], "100000 steps"),
+        (&["impulse", &set, "--position", "2"], "from 0 to 1"),
+        (&["impulse", &set, "--band", "--format", "csv"], "--band"),
+        (&["impulse", "nowhere.toml"], "nowhere.toml"),
+    ];
+    for (arguments, words) in cases {
+        let (code, out, err) = run(arguments);
+        assert_eq!(code, 2, "{arguments:?}");
+        assert!(out.is_empty() && err.contains(words), "{arguments:?}: {err}");
+    }
+    // Every degree of freedom has no small linearisation to make a band of.
+    let folder = tempfile::tempdir().unwrap();
+    let path = with_rung(folder.path(), "oh58_3p.toml", "rung = \"full\"");
+    let (code, _, err) = run(&["impulse", &path, "--band"]);
+    assert!(code == 2 && err.contains("`dynamics.rung` = \"full\""), "{err}");
+}
+
+/// A scene of the repository on another rung, on coarse meshes.
+fn with_rung(folder: &Path, name: &str, rung: &str) -> String {
+    let text = std::fs::read_to_string(scene(name)).unwrap();
+    let path = folder.join(name);
+    let coarse = "[fe_contact]\nflank_elements = 6\nelement = \"linear\"";
+    std::fs::write(&path, format!("{text}\n{coarse}\n\n[dynamics]\n{rung}\n")).unwrap();
+    path.display().to_string()
+}
+
+/// The contract of the modal test: both routes agree, pulses keep to their kind, all tables are there.
+#[test]
+fn impulse_as_text_csv_and_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    let figures = folder.path().join("figures").display().to_string();
+    let set = scene("oh58_3p.toml");
+    let short = ["impulse", &set, "--torque-nm", "-1130", "--duration-ms", "20"];
+    let with = |more: &[&str]| {
+        let (code, out, err) = run(&[&short[..], more].concat());
+        assert_eq!(code, 0, "{err}");
+        out
+    };
+    let text = with(&["--band", "--figures", &figures]);
+    for words in ["-1130 N·m", "quasi_static", "sun torque", "-565, -1130, -1695 N·m", "84 of 84"]
+    {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    for (name, words) in [
+        ("spectrum", "force pulse on the carrier"),
+        ("stabilisation", "not stable"),
+        ("mode_shapes", "rotational"),
+        ("band", "565 N"),
+    ] {
+        let path = folder.path().join(format!("figures/{name}.svg"));
+        let svg = std::fs::read_to_string(path).unwrap();
+        assert!(svg.contains("<svg") && svg.contains(words) && !svg.contains("NaN"), "{name}");
+    }
+    let csv = with(&["--format", "csv"]);
+    let rows: Vec<Vec<&str>> = csv.lines().skip(1).map(|l| l.split(',').collect()).collect();
+    assert_eq!(rows.len(), 8);
+    for row in rows {
+        let apart: f64 = row[8].parse().unwrap();
+        assert!(row.len() == 10 && apart.abs() < 0.1, "{row:?}");
+    }
+}
+
+/// Every degree of freedom: the same modes, nothing to hold them against.
+#[test]
+fn impulse_without_a_small_linearisation() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = with_rung(folder.path(), "oh58_3p.toml", "rung = \"full\"");
+    let (code, text, err) =
+        run(&["impulse", &path, "--torque-nm", "1130", "--step-us", "40", "--duration-ms", "12"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(text.contains("rung: full") && text.contains("no small linearisation"), "{text}");
+    let rows: Vec<&str> = text.lines().filter(|l| l.contains("ational ")).collect();
+    let empty = |row: &&&str| row.matches('–').count() >= 4;
+    assert!(rows.iter().filter(empty).count() == 8, "{text}");
 }
 
 #[test]

@@ -3,8 +3,13 @@
 mod chart;
 mod compare;
 mod figure;
+mod impulse;
+mod impulse_figures;
+mod impulse_output;
+mod impulse_text;
 mod mesh;
 mod mesh_picture;
+mod mode_shapes;
 mod modes;
 mod report;
 mod rules;
@@ -34,6 +39,7 @@ pub(crate) fn dispatch(arguments: Arguments, out: &mut dyn Write) -> Result<bool
         Verb::Modes(arguments) => modes::run(&arguments, out).map(|()| true),
         Verb::Rules(arguments) => rules::run(&arguments, out).map(|()| true),
         Verb::Static(arguments) => statics::run(&arguments, out).map(|()| true),
+        Verb::Impulse(arguments) => impulse::run(&arguments, out).map(|()| true),
         Verb::Mesh(arguments) => mesh::run(&arguments, out).map(|()| true),
         Verb::Scene(verb) => scene::run(&verb, out).map(|()| true),
         Verb::Compare(arguments) => compare::run(&arguments, out),

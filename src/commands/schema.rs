@@ -3,6 +3,7 @@
 use schemars::{JsonSchema, Schema, schema_for};
 use validation::{Comparison, Verdict};
 
+use super::impulse_output::ImpulseOutput;
 use super::mesh::MeshOutput;
 use super::modes::ModesOutput;
 use super::rules::RulesOutput;
@@ -24,6 +25,7 @@ pub fn schemas() -> Vec<(&'static str, Schema)> {
         ("static_approach", of::<ApproachOutput>()),
         ("static_pair", of::<PairOutput>()),
         ("static_set", of::<SetOutput>()),
+        ("impulse", of::<ImpulseOutput>()),
         ("mesh", of::<MeshOutput>()),
         ("compare", of::<Comparison>()),
     ]

@@ -1,6 +1,7 @@
 //! `static SCENE`: a gear pair or a whole set at rest.
 
 use std::io::Write;
+use std::path::Path;
 
 use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, InteriorPoint, Lemke};
 use gearset::{Kinematics, Scene, SceneKind};
@@ -77,13 +78,15 @@ fn set_torques(arguments: &Static, scene: &Scene) -> Result<Vec<f64>, CommandErr
     if !arguments.torque_nm.is_empty() {
         return Ok(arguments.torque_nm.clone());
     }
+    Ok(vec![operating_torque(&arguments.scene, scene)?])
+}
+
+/// Torque on the sun at the operating point, other than 0.
+pub(super) fn operating_torque(path: &Path, scene: &Scene) -> Result<f64, CommandError> {
     let operation = scene.operation.zip(Kinematics::from_scene(scene).and_then(Result::ok));
     let torque = operation.map(|(o, kinematics)| kinematics.torques_nm(o.torque_nm).sun);
-    match torque.filter(|t| *t != 0.0) {
-        Some(torque) => Ok(vec![torque]),
-        None => Err(unfit(
-            &arguments.scene,
-            "`operation.torque_nm` is absent or 0: give it, or the argument --torque-nm",
-        )),
-    }
+    torque.filter(|t| *t != 0.0).ok_or_else(|| {
+        let reason = "`operation.torque_nm` is absent or 0: give it, or the argument --torque-nm";
+        unfit(path, reason)
+    })
 }

@@ -21,6 +21,17 @@ pub enum ValidationError {
     /// An eigenproblem.
     #[error(transparent)]
     Eigen(#[from] dynamics::EigenError),
+    /// Settings of an impulse test.
+    #[error(transparent)]
+    Settings(#[from] crate::modal::SettingsError),
+    /// A preload under which the set moves by itself.
+    #[error(
+        "{torque_nm} N·m: under this torque the set does not stay at rest, or small pulses leave it in large motion: there is no state to find modes about"
+    )]
+    Unsteady {
+        /// Torque on the sun, N m.
+        torque_nm: f64,
+    },
     /// Modes from records.
     #[error("identification: {0}")]
     Identify(#[from] dynamics::identify::IdentifyError),

@@ -1,5 +1,6 @@
 //! What to identify and how.
 
+use super::decimation::half_length;
 use super::error::IdentifyError;
 
 /// How the records are thinned out before the block rows are laid. Rows stand `stride` samples
@@ -107,6 +108,30 @@ impl Options {
             highest_damping: 0.2,
             coherence: 0.98,
             weakest: 1e-6,
+        }
+    }
+
+    /// Samples that records `interval` s a sample must have, of each of so many inputs: what the
+    /// filter takes, the block rows, and one column for every state, the least that can tell the
+    /// states apart.
+    pub fn samples_needed(&self, interval: f64, inputs: usize) -> usize {
+        let blocks = match self.method {
+            Method::Hankel => self.block_rows,
+            Method::Correlation => self.block_rows.saturating_mul(2),
+        };
+        let columns = self.highest_order.div_ceil(inputs.max(1));
+        let rows = blocks.saturating_mul(self.decimation.stride());
+        let filter = self.filter_half_length(interval).saturating_mul(2);
+        filter.saturating_add(rows).saturating_add(columns)
+    }
+
+    /// Samples the filter reaches to either side.
+    pub(super) fn filter_half_length(&self, interval: f64) -> usize {
+        match self.decimation {
+            Decimation::Filtered { stride } if stride > 1 => {
+                half_length(self.band.1, stride, interval)
+            }
+            _ => 0,
         }
     }
 

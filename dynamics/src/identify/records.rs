@@ -2,9 +2,9 @@
 
 use faer::c64;
 
-use super::decimation::{filter, gain, half_length, low_pass};
+use super::decimation::{filter, gain, low_pass};
 use super::error::IdentifyError;
-use super::options::{Decimation, Method, Options, Scaling};
+use super::options::{Options, Scaling};
 
 /// Records ready for the block Hankel matrix.
 pub(super) struct Records {
@@ -36,20 +36,8 @@ impl Records {
         let samples = check_shape(raw)?;
         let (inputs, outputs) = (raw.len(), raw[0].len());
         let stride = options.decimation.stride();
-        let half = match options.decimation {
-            Decimation::Filtered { stride } if stride > 1 => {
-                half_length(options.band.1, stride, interval)
-            }
-            _ => 0,
-        };
-        let blocks = match options.method {
-            Method::Hankel => options.block_rows,
-            Method::Correlation => options.block_rows.saturating_mul(2),
-        };
-        // One column for every state is the least that can tell them apart.
-        let columns = options.highest_order.div_ceil(inputs);
-        let rows = blocks.saturating_mul(stride);
-        let needed = half.saturating_mul(2).saturating_add(rows).saturating_add(columns);
+        let half = options.filter_half_length(interval);
+        let needed = options.samples_needed(interval, inputs);
         if samples < needed {
             return Err(IdentifyError::TooShort { samples, needed });
         }
@@ -148,6 +136,7 @@ fn input_scales(values: &[Vec<Vec<f64>>]) -> Result<Vec<f64>, IdentifyError> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::options::Decimation;
     use super::*;
 
     /// Two inputs, three outputs, 2000 samples of a decay.

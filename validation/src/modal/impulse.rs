@@ -1,14 +1,16 @@
 //! Pulses on a preloaded, standing set; its free decay; the modes in it.
 
-use dynamics::identify::{Identification, Options, Scaling, identify};
+use dynamics::identify::{Identification, Scaling, identify};
 use dynamics::orthonormal_basis;
+use fe_contact::FeError;
 use fe_contact::statics::{Bodies, CARRIER, PLANETS, Races, SUN};
 use fe_contact::vibration::VibratingSet;
 use gearset::Scene;
 
 use super::kinds::{RaceKinds, type_of};
-use super::linear::{Preload, preloaded};
+use super::linear::preloaded;
 use super::mode::FeMode;
+use super::settings::ImpulseSettings;
 use crate::error::ValidationError;
 
 /// A generalised force on the races for one time step.
@@ -18,48 +20,6 @@ pub struct Pulse {
     pub name: String,
     /// Its pattern on the races' coordinates, of unit size.
     pub pattern: Vec<f64>,
-}
-
-/// Settings of an impulse test.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ImpulseSettings {
-    /// Where and under what torque the set stands, and the step.
-    pub preload: Preload,
-    /// Length of each decay, s.
-    pub duration_s: f64,
-    /// Largest change of a mesh force, in parts of the largest mesh force.
-    pub size: f64,
-    /// Band in which modes are looked for, Hz.
-    pub band_hz: (f64, f64),
-    /// Steps of the trial that says how hard to push, and of the response to half the pulse.
-    pub trial_steps: usize,
-    /// Whether only the first of several like pulses are given: what costly bodies can afford.
-    pub is_short: bool,
-}
-
-impl ImpulseSettings {
-    /// At a preload, with steps of 5 µs for 40 ms, between 400 and 3000 Hz.
-    pub fn at(torque_nm: f64, position: f64) -> Self {
-        Self {
-            preload: Preload { torque_nm, position, step_s: 5e-6 },
-            duration_s: 0.04,
-            size: 2e-4,
-            band_hz: (400.0, 3000.0),
-            trial_steps: 400,
-            is_short: false,
-        }
-    }
-
-    /// The same for bodies with every degree of freedom: 10 ms, and as few pulses as reach all modes.
-    pub fn short(torque_nm: f64, position: f64) -> Self {
-        Self { duration_s: 0.01, trial_steps: 60, is_short: true, ..Self::at(torque_nm, position) }
-    }
-
-    /// Whether a pulse belongs to the test.
-    fn takes(&self, pulse: &Pulse) -> bool {
-        let left_out = ["carrier y force", "planets tangentially"];
-        !self.is_short || !left_out.iter().any(|name| pulse.name.starts_with(name))
-    }
 }
 
 /// What one pulse left behind.
@@ -143,23 +103,28 @@ pub fn pulses(races: &Races) -> Vec<Pulse> {
 /// Pushes a preloaded set with every pulse in turn and identifies its modes.
 ///
 /// # Errors
-/// If the set cannot be had, a step fails, or nothing can be identified.
+/// If the settings make no sense, the set cannot be had, a step fails, or nothing can be identified.
 pub fn impulse_test(
     scene: &Scene,
     bodies: &Bodies,
     settings: &ImpulseSettings,
 ) -> Result<ImpulseTest, ValidationError> {
+    settings.check()?;
     let mut set = preloaded(scene, bodies, &settings.preload)?;
-    let steps = (settings.duration_s / settings.preload.step_s).round().max(1.0) as usize;
+    let steps = settings.steps();
+    stand_still(&mut set, settings)?;
     let few = settings.trial_steps;
     let mut decays = Vec::new();
     let mut taken = 0;
-    for pulse in pulses(set.races()).into_iter().filter(|p| settings.takes(p)) {
+    for pulse in pulses(set.races()).into_iter().filter(|p| settings.takes(&p.name)) {
         // A short trial says how hard to push.
         let trial = 1e-3 * largest(&mesh_forces(&set)).max(1.0);
         let (_, change) = decay(&mut set, settings, &pulse, trial, steps.min(few))?;
         let force_n = trial * settings.size / change.max(f64::MIN_POSITIVE);
         let (records, force_change) = decay(&mut set, settings, &pulse, force_n, steps)?;
+        if force_change > PROPORTION * settings.size {
+            return Err(ValidationError::Unsteady { torque_nm: settings.preload.torque_nm });
+        }
         let (half, _) = decay(&mut set, settings, &pulse, 0.5 * force_n, steps.min(few))?;
         taken += (2 * steps.min(few) + steps) as u64;
         let peak = records.iter().map(|r| largest(r)).fold(0.0, f64::max);
@@ -171,21 +136,34 @@ pub fn impulse_test(
         decays.push(Decay { pulse, force_n, records, force_change, nonlinearity: off / peak });
     }
     let records: Vec<Vec<Vec<f64>>> = decays.iter().map(|d| d.records.clone()).collect();
-    let mut options = Options::new(settings.band_hz, stride(settings));
+    let mut options = settings.identification();
     // All outputs are metres; coordinates that rest must not be blown up.
     let scale = 1.0 / records.iter().flatten().map(|r| largest(r)).fold(0.0, f64::max);
-    // Every mode is pushed by some pulse; what is far weaker is what rounding left.
-    options.weakest = 1e-3;
     options.scaling = Scaling::Given(vec![scale; set.races().count]);
     let identification = identify(&records, settings.preload.step_s, &options)?;
     let modes = typed(&set, &identification)?;
     Ok(ImpulseTest { settings: *settings, decays, modes, identification, steps: taken })
 }
 
-/// Samples are thinned to about eight for the shortest period looked for.
-fn stride(settings: &ImpulseSettings) -> usize {
-    let wanted = 1.0 / (2.7 * settings.band_hz.1 * settings.preload.step_s);
-    (wanted.floor() as usize).max(1)
+/// Steps without a pulse, and the largest change of a mesh force over them in parts of the pulses'.
+const STILL: (usize, f64) = (20, 0.01);
+
+/// A pulse that changes a mesh force by more than so many times what it should sets off something
+/// else.
+const PROPORTION: f64 = 10.0;
+
+/// Makes sure that nothing moves before it is pushed.
+fn stand_still(
+    set: &mut VibratingSet<'_>,
+    settings: &ImpulseSettings,
+) -> Result<(), ValidationError> {
+    let unsteady = || ValidationError::Unsteady { torque_nm: settings.preload.torque_nm };
+    let nothing = Pulse { name: String::new(), pattern: vec![0.0; set.races().count] };
+    match decay(set, settings, &nothing, 0.0, STILL.0) {
+        Ok((_, change)) if change <= STILL.1 * settings.size => Ok(()),
+        Ok(_) | Err(ValidationError::Fe(FeError::Diverged { .. })) => Err(unsteady()),
+        Err(other) => Err(other),
+    }
 }
 
 fn largest(list: &[f64]) -> f64 {
