@@ -30,6 +30,10 @@ pub(super) struct ToothPoint {
 /// compliance always exceeds what is taken through the ports.
 const SPREAD_IN_DEPTHS: f64 = 1.5;
 
+/// The same in half-grids of cells, which are made for the load: counts where that is far above what
+/// the set is designed for.
+const SPREAD_IN_GRIDS: f64 = 5.0 / 3.0;
+
 /// Both ends of every pair of a mesh, driver first.
 ///
 /// # Errors
@@ -40,13 +44,15 @@ pub(super) fn tooth_points(
     placed: &Placed<'_>,
 ) -> Result<Vec<[ToothPoint; 2]>, FeError> {
     let (mesh, gears) = bodies.joined(placed.kind)?;
-    let spread = SPREAD_IN_DEPTHS * bodies.settings.matching.depth;
     let numbers = match placed.kind {
         MeshKind::SunPlanet => [SUN, PLANETS + placed.planet],
         MeshKind::RingPlanet => [PLANETS + placed.planet, RING],
     };
     let one = |cells: &crate::contact::PairCells| {
         let frame = PairFrame::new(mesh, placed.phase, cells.index)?;
+        let reach = 0.5 * cells.width * cells.x.len() as f64;
+        let spread =
+            (SPREAD_IN_DEPTHS * bodies.settings.matching.depth).max(SPREAD_IN_GRIDS * reach);
         Some([MeshMember::Driver, MeshMember::Driven].map(|member| {
             let (i, gear) = (member as usize, gears[member as usize]);
             let tooth = frame.tooth(member);
