@@ -15,6 +15,7 @@ pub use bodies::{Bodies, FeSettings};
 pub use imperfection::{Imperfections, PitchError};
 pub use pair::{PairAtPhase, PairCycle, ToothPairLoad, at_phase, pair_cycle, press};
 pub(crate) use placed::Placed;
+pub(crate) use races::planet_bearing;
 pub use races::{CARRIER, PLANETS, RING, Races, SUN};
 pub use set::{SetTables, StaticSet};
 pub use state::{MeshState, SetCycle, SetState};

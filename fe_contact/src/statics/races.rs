@@ -5,6 +5,7 @@ use nalgebra::DMatrix;
 use gearset::{MeshKind, Motion, Scene, Support, Torsional};
 
 use super::bodies::Bodies;
+use crate::body::CarrierBody;
 use crate::error::FeError;
 
 /// Coordinates of the races in the carrier frame: carrier, ring and sun (x, y, u), then each planet
@@ -20,6 +21,8 @@ pub struct Races {
     pub radii: [f64; 4],
     /// Stiffness of all bearings, the carrier's flexibility included, n×n, N/m.
     pub stiffness: DMatrix<f64>,
+    /// The flexible carrier, where the scene gives its shape.
+    pub carrier: Option<CarrierBody>,
     /// Torsional support between sun and ground and so on is part of `stiffness`.
     pub count: usize,
 }
@@ -64,11 +67,17 @@ impl Races {
                 }));
             }
         }
+        let shape = scene.geometry.as_ref().and_then(|g| g.carrier);
+        let (a, width) = (geometry.center_distance, geometry.face_width);
+        let carrier = shape
+            .map(|input| CarrierBody::new(&input, a, psi, &bodies.material, width))
+            .transpose()?;
         let mut races = Self {
             psi: psi.to_vec(),
             index,
             radii,
             stiffness: DMatrix::zeros(next, next),
+            carrier,
             count: next,
         };
         for body in CARRIER..PLANETS {
@@ -78,7 +87,7 @@ impl Races {
                 }
             }
         }
-        races.planet_bearings(scene, bodies)?;
+        races.planet_bearings(scene)?;
         Ok(races)
     }
 
@@ -119,19 +128,12 @@ impl Races {
 
     /// Planet bearings in series with the carrier: (I/k + A)⁻¹ on the elongations
     /// planet race − rigid seat, radial and tangential.
-    fn planet_bearings(&mut self, scene: &Scene, bodies: &Bodies) -> Result<(), FeError> {
+    fn planet_bearings(&mut self, scene: &Scene) -> Result<(), FeError> {
         let n = self.planets();
-        let mut compliance = match scene.geometry.as_ref().and_then(|g| g.carrier) {
-            Some(input) => {
-                let (a, b) = (bodies.geometry.center_distance, bodies.geometry.face_width);
-                crate::body::CarrierBody::new(&input, a, &self.psi, &bodies.material, b)?
-                    .flexibility
-            }
-            None => DMatrix::zeros(2 * n, 2 * n),
-        };
+        let rigid = || DMatrix::zeros(2 * n, 2 * n);
+        let mut compliance = self.carrier.as_ref().map_or_else(rigid, |c| c.flexibility.clone());
         for planet in 0..n {
-            let special = scene.overrides.iter().find(|o| o.planet == planet);
-            let k = special.and_then(|o| o.bearing).unwrap_or(scene.supports.planet_bearing);
+            let k = planet_bearing(scene, planet);
             if k <= 0.0 {
                 return Err(FeError::NoEquilibrium(format!(
                     "`planet.bearing_n_per_m` is {k}: planet {planet} is held by nothing else"
@@ -198,6 +200,12 @@ impl Races {
         let own = [planet_row[0], planet_row[1], planet_row[2] / self.radii[3]];
         [(central, turned), (PLANETS + planet, own)]
     }
+}
+
+/// Stiffness of one planet's bearing, N/m.
+pub(crate) fn planet_bearing(scene: &Scene, planet: usize) -> f64 {
+    let special = scene.overrides.iter().find(|o| o.planet == planet);
+    special.and_then(|o| o.bearing).unwrap_or(scene.supports.planet_bearing)
 }
 
 fn torsional(support: &Support, radius: f64) -> f64 {

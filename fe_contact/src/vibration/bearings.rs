@@ -92,7 +92,7 @@ impl Bearings {
     }
 
     /// Prepares for a step; returns what the bearings add to the races' stiffness, n×n.
-    pub(super) fn set_step(
+    pub(super) fn prepare(
         &mut self,
         rule: &AverageAcceleration,
         races: &Races,
@@ -189,11 +189,6 @@ impl Bearings {
         }
         let factor = self.compliance.clone().cholesky().ok_or_else(unstable)?;
         Ok(rows.transpose() * factor.solve(&rows))
-    }
-
-    /// Forces of the bearings on the carrier's seats, radial and tangential of each planet, N.
-    pub(super) fn forces(&self) -> &[f64] {
-        self.forces.as_slice()
     }
 
     /// ∫ ėᵀ (I/k + A)⁻¹ ė dt over a step of rigid seats that moved the races by `moved`, J/s.

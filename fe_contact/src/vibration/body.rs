@@ -1,9 +1,6 @@
 //! What a set asks of a vibrating body, whichever rung of the ladder it stands on.
 
-use dynamics::AverageAcceleration;
-
 use super::modal_body::FixedRaceMode;
-use crate::error::FeError;
 
 /// Displacement, velocity and acceleration of a race: x, y (m) and u = r θ (m) each.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -54,12 +51,6 @@ impl Port {
 ///
 /// The race's coordinates may stand in a frame turned by `angle` (rad) less than the body's own.
 pub trait VibratingBody: std::fmt::Debug + Send {
-    /// Prepares for steps of a given length; the state is kept.
-    ///
-    /// # Errors
-    /// If a matrix cannot be factorised.
-    fn set_step(&mut self, rule: AverageAcceleration) -> Result<(), FeError>;
-
     /// A, 3×3, N/m.
     fn race_stiffness(&self) -> [[f64; 3]; 3];
 
@@ -84,9 +75,6 @@ pub trait VibratingBody: std::fmt::Debug + Send {
 
     /// Puts the elastic state to rest under one force P for each port.
     fn rest_under(&mut self, ports: &[Port], forces: &[f64]);
-
-    /// Kinetic energy with the race moving so, and elastic energy of the body's own state, J.
-    fn energies(&self, race: &RaceMotion, angle: f64) -> [f64; 2];
 
     /// Modes that stand for the body, `None` where it has every degree of freedom.
     fn modes(&self) -> Option<&[FixedRaceMode]>;

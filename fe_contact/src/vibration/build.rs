@@ -12,9 +12,9 @@ use super::full_body::{FullBody, SharedFactors};
 use super::gear::Gear;
 use super::modal_body::{FixedRaceMode, ModalBody, fixed_race_modes};
 use super::teeth::tooth_points;
-use crate::body::{BodyMatrices, CarrierBody, GearBody, number_unknowns};
+use crate::body::{BodyMatrices, GearBody, number_unknowns};
 use crate::error::FeError;
-use crate::statics::{Bodies, CARRIER, PLANETS, RING, Races, SUN, SetTables, StaticSet};
+use crate::statics::{CARRIER, PLANETS, RING, Races, SUN, SetTables, StaticSet};
 
 /// What all bodies of a set share.
 #[derive(Debug, Clone, Copy)]
@@ -99,7 +99,7 @@ pub(super) fn carrier(
     let races = &statics.races;
     let n = races.planets();
     let mass = body_mass(statics, scene, CARRIER)?;
-    let Some(body) = carrier_body(statics.bodies, scene, races)?.filter(|b| !b.is_rigid) else {
+    let Some(body) = races.carrier.as_ref().filter(|b| !b.is_rigid) else {
         let rigid = Settings { rung: Rung::QuasiStatic, ..*settings };
         let make = flexible(&rigid, "carrier", races.radii[CARRIER], mass, &|| {
             Err(FeError::NoEquilibrium("a rigid carrier has no matrices".into()))
@@ -110,16 +110,6 @@ pub(super) fn carrier(
         flexible(settings, "carrier", races.radii[CARRIER], mass, &|| Ok(body.matrices.clone()))?;
     let port = |k: usize| Port { terms: body.seat_terms(k / 2, k % 2).to_vec() };
     Ok((make(), (0..2 * n).map(port).collect(), body.flexibility.clone()))
-}
-
-fn carrier_body(
-    bodies: &Bodies,
-    scene: &Scene,
-    races: &Races,
-) -> Result<Option<CarrierBody>, FeError> {
-    let Some(input) = scene.geometry.as_ref().and_then(|g| g.carrier) else { return Ok(None) };
-    let (a, b) = (bodies.geometry.center_distance, bodies.geometry.face_width);
-    CarrierBody::new(&input, a, &races.psi, &bodies.material, b).map(Some)
 }
 
 /// Mass, mass and polar inertia over r² of a body of the set's order, kg: of its mesh; a carrier
@@ -136,7 +126,7 @@ pub(super) fn body_mass(
     let missing = |key: &str| FeError::Missing { key: key.into(), why: "its motion needs a mass" };
     match body {
         CARRIER => {
-            if let Some(own) = carrier_body(bodies, scene, races)? {
+            if let Some(own) = &races.carrier {
                 return Ok([own.mass, own.mass, own.inertia / races.radii[0].powi(2)]);
             }
             if scene.supports.carrier.motion == Support::Held {
@@ -178,15 +168,6 @@ fn start_angles(
         }
     }
     Ok(angles)
-}
-
-/// Stiffness of each planet's bearing, N/m.
-pub(super) fn bearing_stiffnesses(scene: &Scene, planets: usize) -> Vec<f64> {
-    let of = |n: usize| {
-        let special = scene.overrides.iter().find(|o| o.planet == n);
-        special.and_then(|o| o.bearing).unwrap_or(scene.supports.planet_bearing)
-    };
-    (0..planets).map(of).collect()
 }
 
 /// Gyroscopic matrix (kg/s) and centripetal stiffness (N/m) of bodies whose centres' coordinates

@@ -14,7 +14,6 @@ use crate::error::FeError;
 #[derive(Debug, Clone)]
 pub struct SharedFactors {
     matrices: Arc<BodyMatrices>,
-    name: &'static str,
     /// K.
     stiff: Arc<Factor>,
     /// (4/h² + 2α/h) M + (1 + 2β/h) K.
@@ -40,17 +39,6 @@ impl SharedFactors {
         rule: AverageAcceleration,
     ) -> Result<Self, FeError> {
         let stiff = Arc::new(matrices.stiffness.factorise(name)?);
-        Self::with(matrices, name, stiff, radius, damping, rule)
-    }
-
-    fn with(
-        matrices: Arc<BodyMatrices>,
-        name: &'static str,
-        stiff: Arc<Factor>,
-        radius: f64,
-        damping: Proportional,
-        rule: AverageAcceleration,
-    ) -> Result<Self, FeError> {
         let inertia = rule.inertia() + damping.alpha * rule.damping();
         let stiffening = 1.0 + damping.beta * rule.damping();
         let sum = matrices.mass.combined(inertia, &matrices.stiffness, stiffening)?;
@@ -61,16 +49,7 @@ impl SharedFactors {
             dynamic.solve_one(&mut column);
             column
         });
-        Ok(Self {
-            matrices,
-            name,
-            stiff,
-            dynamic,
-            carried: Arc::new(carried),
-            rule,
-            damping,
-            radius,
-        })
+        Ok(Self { matrices, stiff, dynamic, carried: Arc::new(carried), rule, damping, radius })
     }
 
     /// 4/h² + 2α/h.
@@ -134,19 +113,6 @@ impl FullBody {
 }
 
 impl VibratingBody for FullBody {
-    fn set_step(&mut self, rule: AverageAcceleration) -> Result<(), FeError> {
-        let s = &self.shared;
-        self.shared = SharedFactors::with(
-            s.matrices.clone(),
-            s.name,
-            s.stiff.clone(),
-            s.radius,
-            s.damping,
-            rule,
-        )?;
-        Ok(())
-    }
-
     fn race_stiffness(&self) -> [[f64; 3]; 3] {
         let c = self.shared.inertia();
         let mut a = [[0.0; 3]; 3];
@@ -218,21 +184,6 @@ impl VibratingBody for FullBody {
         self.state = Motion::at_rest(n);
         ports.iter().zip(forces).for_each(|(port, p)| port.add_to(-p, &mut self.state.x));
         self.shared.stiff.solve_one(&mut self.state.x);
-    }
-
-    fn energies(&self, race: &RaceMotion, angle: f64) -> [f64; 2] {
-        let s = &self.shared;
-        let n = s.matrices.size;
-        let quadratic = |matrix: &crate::body::Sparse, u: &[f64]| {
-            let mut product = vec![0.0; n];
-            matrix.multiply_add(0.5, u, &mut product);
-            product.iter().zip(u).map(|(p, u)| p * u).sum::<f64>()
-        };
-        let turned = into_frame(race.v, angle);
-        let across: f64 = s.race_part(&self.state.v).iter().zip(turned).map(|(p, v)| p * v).sum();
-        let rigid: f64 = race.v.iter().zip(self.mass).map(|(v, m)| 0.5 * m * v * v).sum();
-        let own = quadratic(&s.matrices.mass, &self.state.v);
-        [rigid + across + own, quadratic(&s.matrices.stiffness, &self.state.x)]
     }
 
     fn modes(&self) -> Option<&[FixedRaceMode]> {

@@ -1,9 +1,9 @@
 //! A set linearised about its present state: all touching cells keep touching, no others begin to.
 
 use faer::Mat;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
-use super::body::{Port, out_of_frame};
+use super::body::out_of_frame;
 use super::modal_body::FixedRaceMode;
 use super::set::VibratingSet;
 use crate::error::FeError;
@@ -130,10 +130,7 @@ impl VibratingSet<'_> {
             if modes.is_empty() {
                 continue;
             }
-            let mut ports = vec![Port::default(); own.len()];
-            for (port, at) in ports.iter_mut().zip(own) {
-                self.fill_one(port, frame, gear, *at);
-            }
+            let ports = self.ports_of(frame, gear, own);
             for (port, (pair, _)) in ports.iter().zip(own) {
                 for (j, mode) in modes.iter().enumerate() {
                     rows[(*pair, first + j)] += port.read(&mode.shape);
@@ -190,14 +187,7 @@ impl LinearSet {
     /// # Errors
     /// If the eigenproblem fails.
     pub fn undamped(&self) -> Result<(Vec<f64>, DMatrix<f64>), FeError> {
-        self.undamped_with(&self.stiffness())
-    }
-
-    /// The same with a stiffness of one's own.
-    ///
-    /// # Errors
-    /// If the eigenproblem fails.
-    pub fn undamped_with(&self, k: &DMatrix<f64>) -> Result<(Vec<f64>, DMatrix<f64>), FeError> {
+        let k = self.stiffness();
         let size = k.nrows();
         let factor = self.mass.clone().cholesky().ok_or_else(|| {
             FeError::NoEquilibrium("the mass matrix is not positive definite".into())
@@ -205,7 +195,7 @@ impl LinearSet {
         let l = factor.l();
         // K̃ = L⁻¹ K L⁻ᵀ
         let failed = || FeError::NoEquilibrium("the mass matrix is singular".into());
-        let half = l.solve_lower_triangular(k).ok_or_else(failed)?;
+        let half = l.solve_lower_triangular(&k).ok_or_else(failed)?;
         let scaled = l.solve_lower_triangular(&half.transpose()).ok_or_else(failed)?;
         let matrix = Mat::from_fn(size, size, |i, j| scaled[(i, j)]);
         let modes = dynamics::generalized_symmetric(&matrix, &vec![1.0; size])
@@ -272,10 +262,5 @@ impl LinearSet {
                 shape: m.vector[..size].to_vec(),
             })
             .collect())
-    }
-
-    /// Forces of the touching pairs for displacements z in slow motion, N.
-    pub fn forces(&self, z: &DVector<f64>) -> DVector<f64> {
-        &self.contact * (&self.rows * z)
     }
 }

@@ -94,27 +94,20 @@ impl ModalBody {
         rule: AverageAcceleration,
     ) -> Self {
         let n = modes.len();
-        let mut body = Self {
-            mass,
-            damping,
-            modes,
-            rule,
-            dynamic: Vec::new(),
-            state: Motion::at_rest(n),
-            free: vec![0.0; n],
-            next: vec![0.0; n],
-        };
-        body.prepare(rule);
-        body
-    }
-
-    fn prepare(&mut self, rule: AverageAcceleration) {
-        let Proportional { alpha, beta } = self.damping;
+        let Proportional { alpha, beta } = damping;
         let of = |m: &FixedRaceMode| {
             rule.inertia() + (alpha + beta * m.lambda) * rule.damping() + m.lambda
         };
-        self.dynamic = self.modes.iter().map(of).collect();
-        self.rule = rule;
+        Self {
+            mass,
+            damping,
+            dynamic: modes.iter().map(of).collect(),
+            modes,
+            rule,
+            state: Motion::at_rest(n),
+            free: vec![0.0; n],
+            next: vec![0.0; n],
+        }
     }
 
     /// 4/h² + 2α/h.
@@ -124,11 +117,6 @@ impl ModalBody {
 }
 
 impl VibratingBody for ModalBody {
-    fn set_step(&mut self, rule: AverageAcceleration) -> Result<(), FeError> {
-        self.prepare(rule);
-        Ok(())
-    }
-
     fn race_stiffness(&self) -> [[f64; 3]; 3] {
         let c = self.inertia();
         let mut a = [[0.0; 3]; 3];
@@ -204,19 +192,6 @@ impl VibratingBody for ModalBody {
             *x = -ports.iter().zip(forces).map(|(port, p)| port.read(&mode.shape) * p).sum::<f64>()
                 / mode.lambda;
         }
-    }
-
-    fn energies(&self, race: &RaceMotion, angle: f64) -> [f64; 2] {
-        let turned = into_frame(race.v, angle);
-        let mut kinetic: f64 = race.v.iter().zip(self.mass).map(|(v, m)| 0.5 * m * v * v).sum();
-        let mut elastic = 0.0;
-        for (j, mode) in self.modes.iter().enumerate() {
-            let (x, v) = (self.state.x[j], self.state.v[j]);
-            let along: f64 = mode.participation.iter().zip(turned).map(|(g, q)| g * q).sum();
-            kinetic += v * (0.5 * v + along);
-            elastic += 0.5 * mode.lambda * x * x;
-        }
-        [kinetic, elastic]
     }
 
     fn modes(&self) -> Option<&[FixedRaceMode]> {

@@ -9,18 +9,26 @@ use crate::contact::ContactMaps;
 use crate::error::FeError;
 
 impl VibratingSet<'_> {
-    pub(super) fn fill_one(
-        &self,
-        port: &mut Port,
-        frame: &Frame,
-        gear: &Gear<'_>,
-        at: (usize, usize),
-    ) {
+    fn fill_one(&self, port: &mut Port, frame: &Frame, gear: &Gear<'_>, at: (usize, usize)) {
         let (Some(ends), Some(teeth)) = (&frame.ends[at.0], &frame.teeth[at.0]) else { return };
         let count = gear.body.mesh.outline.gear().teeth as i64;
         let tooth = teeth[at.1] + gear.teeth_per_cycle() * self.cycles;
         let tooth = tooth.rem_euclid(count) as usize;
         fill_port(port, (gear.body, &gear.unknown_of), &ends[at.1], tooth);
+    }
+
+    /// Ports of one gear.
+    pub(super) fn ports_of(
+        &self,
+        frame: &Frame,
+        gear: &Gear<'_>,
+        own: &[(usize, usize)],
+    ) -> Vec<Port> {
+        let mut ports = vec![Port::default(); own.len()];
+        for (port, at) in ports.iter_mut().zip(own) {
+            self.fill_one(port, frame, gear, *at);
+        }
+        ports
     }
 
     /// Ports of all gears with a state of their own.

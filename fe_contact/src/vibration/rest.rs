@@ -3,7 +3,6 @@
 use dynamics::Motion;
 use nalgebra::{DMatrix, DVector};
 
-use super::body::Port;
 use super::frame::Frame;
 use super::set::VibratingSet;
 use crate::complementarity::ActiveSet;
@@ -16,23 +15,23 @@ impl VibratingSet<'_> {
     /// If there is no equilibrium.
     pub fn rest(&mut self, torque_nm: f64) -> Result<(), FeError> {
         let position = self.position(self.step_in_cycle);
-        let (solver, tables) = (&ActiveSet, &self.tables);
-        let first = self.statics.equilibrium(torque_nm, position, tables, None, solver)?;
-        let has_backs = first.meshes.len() > 2 * self.statics.races.planets();
-        drop(first);
+        let solver = &ActiveSet;
+        let all = |list: &[crate::contact::MeshAnswer]| -> DVector<f64> {
+            let forces = list.iter().flat_map(|a| a.pair_forces.iter().copied());
+            DVector::from_vec(forces.collect())
+        };
+        let found = self.statics.equilibrium(torque_nm, position, &self.tables, None, solver)?;
+        let has_backs = found.meshes.len() > 2 * self.statics.races.planets();
+        let (mut q, mut p) = (found.q, all(&found.answers));
         self.external = self.statics.load(torque_nm);
         let mut frame = self.take_frame(has_backs)?;
         // Bodies with a state of their own feel all meshes at once; the cells' compliance knows one
         // mesh alone.
         let across = self.across_meshes(&frame);
-        let tables = &self.tables;
-        let mut found = self.statics.equilibrium(torque_nm, position, tables, None, solver)?;
-        let all = |list: &[crate::contact::MeshAnswer]| -> DVector<f64> {
-            let forces = list.iter().flat_map(|a| a.pair_forces.iter().copied());
-            DVector::from_vec(forces.collect())
-        };
-        let mut p = all(&found.answers);
         if across.amax() > 0.0 && torque_nm != 0.0 {
+            let tables = &self.tables;
+            let mut found =
+                self.statics.equilibrium(torque_nm, position, tables, Some(&q), solver)?;
             for _ in 0..30 {
                 let shifted = &across * &p;
                 let mut offsets = frame.offsets.iter().zip(shifted.iter());
@@ -49,8 +48,8 @@ impl VibratingSet<'_> {
                     break;
                 }
             }
+            q = found.q;
         }
-        let q = found.q;
         self.motion = Motion::at_rest(q.len());
         self.motion.x.copy_from_slice(q.as_slice());
         let offsets = DVector::from_column_slice(&frame.offsets);
@@ -91,11 +90,7 @@ impl VibratingSet<'_> {
             if gear.vibrating.unknowns() == 0 {
                 continue;
             }
-            let mut ports = vec![Port::default(); own.len()];
-            for (port, (pair, end)) in ports.iter_mut().zip(own) {
-                self.fill_one(port, frame, gear, (*pair, *end));
-            }
-            let carried = gear.vibrating.carried_flexibility(&ports);
+            let carried = gear.vibrating.carried_flexibility(&self.ports_of(frame, gear, own));
             for (i, (a, _)) in own.iter().enumerate() {
                 for (j, (b, _)) in own.iter().enumerate() {
                     if frame.mesh_of(*a) != frame.mesh_of(*b) {

@@ -24,7 +24,9 @@ use super::lag::{LagRule, PairMemory};
 use crate::complementarity::ActiveSet;
 use crate::contact::ContactMaps;
 use crate::error::FeError;
-use crate::statics::{Bodies, CARRIER, Imperfections, PLANETS, Races, SetTables, StaticSet};
+use crate::statics::{
+    Bodies, CARRIER, Imperfections, PLANETS, Races, SetTables, StaticSet, planet_bearing,
+};
 
 /// How a set moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -169,7 +171,8 @@ impl<'s> VibratingSet<'s> {
         let settings = build::Settings { rung: scene.dynamics.rung, damping, rule };
         let gears = build::gears(&statics, scene, &tables, &settings, start)?;
         let (carrier, ports, flexibility) = build::carrier(&statics, scene, &settings)?;
-        let of_bearings = build::bearing_stiffnesses(scene, races.planets());
+        let of_bearings: Vec<f64> =
+            (0..races.planets()).map(|n| planet_bearing(scene, n)).collect();
         let ratio = scene.damping.bearing_s;
         let bearings =
             Bearings::new(races, &of_bearings, ports, &flexibility, carrier.as_ref(), ratio);
@@ -195,7 +198,7 @@ impl<'s> VibratingSet<'s> {
         }
         let gyroscopic = match (scene.dynamics.gyroscopic, motive) {
             (true, Motive::Turning { mesh_frequency, .. }) => {
-                let speed = statics.sign * carrier_speed(scene, mesh_frequency);
+                let speed = carrier_speed(scene, mesh_frequency);
                 Some(build::gyroscopic_terms(races, &mass, speed))
             }
             _ => None,
@@ -248,11 +251,6 @@ impl<'s> VibratingSet<'s> {
         self.rule
     }
 
-    /// Step, s.
-    pub fn step_length(&self) -> f64 {
-        self.rule.step()
-    }
-
     /// Time since the start, s.
     pub fn time(&self) -> f64 {
         self.steps as f64 * self.rule.step()
@@ -262,7 +260,7 @@ impl<'s> VibratingSet<'s> {
     fn prepare(&mut self) -> Result<(), FeError> {
         let races = &self.statics.races;
         let n = races.count;
-        let mut a = self.bearings.set_step(&self.rule, races, self.carrier.as_ref())?;
+        let mut a = self.bearings.prepare(&self.rule, races, self.carrier.as_ref())?;
         let bodies = std::iter::once((CARRIER, self.carrier.as_ref()))
             .chain(self.gears.iter().enumerate().map(|(k, g)| (k + 1, g.vibrating.as_ref())));
         for (body, vibrating) in bodies {
@@ -355,11 +353,6 @@ impl<'s> VibratingSet<'s> {
         &self.mass
     }
 
-    /// Forces of the planets' bearings, radial and tangential of each, N.
-    pub fn bearing_forces(&self) -> &[f64] {
-        self.bearings.forces()
-    }
-
     /// Force of each mesh: sun meshes, ring meshes, and back flanks if they took part, N.
     pub fn mesh_forces(&self, out: &mut Vec<f64>) {
         out.clear();
@@ -421,11 +414,14 @@ fn fit(scene: &Scene, motive: &Motive) -> Result<(), FeError> {
     Ok(())
 }
 
-/// Speed of the carrier (rad/s) at a mesh frequency (Hz), the sun turning counter-clockwise.
+/// Speed of the carrier (rad/s) at a mesh frequency (Hz), seen so that the sun turns counter-clockwise
+/// against it, as positions in the mesh cycle count in either sense of torque.
 fn carrier_speed(scene: &Scene, mesh_frequency: f64) -> f64 {
     match Kinematics::from_scene(scene) {
         Some(Ok(k)) if k.mesh_frequency_hz > 0.0 => {
-            k.speeds_rad_per_s.carrier.abs() * mesh_frequency / k.mesh_frequency_hz
+            let speeds = k.speeds_rad_per_s;
+            let sense = (speeds.sun - speeds.carrier).signum();
+            sense * speeds.carrier * mesh_frequency / k.mesh_frequency_hz
         }
         _ => 0.0,
     }

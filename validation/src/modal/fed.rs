@@ -5,7 +5,6 @@
 //! between this model and the linearised FE/contact set is what a lumped model does not have: a
 //! carrier that gives way, and corner pairs that press along another normal than the line of action.
 
-use fe_contact::body::CarrierBody;
 use fe_contact::statics::{Bodies, Races};
 use gearset::{LumpedInput, MeshKind, PerBody, PerMesh, PlanetOverride, PlanetPositions, Scene};
 use lumped::{LumpedModel, ModeType, NaturalModes, Participation};
@@ -55,7 +54,7 @@ pub fn fed_from(
         let mesh = bodies.geometry.mesh(kind);
         mesh.map(|m| m.pressure_angle).ok_or(ValidationError::Incomplete("mesh of both kinds"))
     };
-    let (mass, inertia_over_r2) = mass_properties(scene, bodies, races)?;
+    let (mass, inertia_over_r2) = mass_properties(scene, bodies, races);
     let [carrier, ring, sun, planet] = races.radii.map(Some);
     let mean = |list: &[f64]| list.iter().sum::<f64>() / n as f64;
     let mut fed = scene.clone();
@@ -77,20 +76,13 @@ pub fn fed_from(
 
 /// Mass (kg) and I/r² (kg) of the meshed bodies; a carrier without a shape weighs what the scene
 /// says.
-fn mass_properties(
-    scene: &Scene,
-    bodies: &Bodies,
-    races: &Races,
-) -> Result<(PerBody, PerBody), ValidationError> {
-    let geometry = &bodies.geometry;
+fn mass_properties(scene: &Scene, bodies: &Bodies, races: &Races) -> (PerBody, PerBody) {
     let [r_carrier, r_ring, r_sun, r_planet] = races.radii.map(|r| r * r);
-    let carrier = match scene.geometry.as_ref().and_then(|g| g.carrier) {
-        Some(input) => {
-            let (a, width) = (geometry.center_distance, geometry.face_width);
-            let body = CarrierBody::new(&input, a, &races.psi, &bodies.material, width)?;
-            Some((body.mass, body.inertia / r_carrier))
-        }
-        None => scene.lumped.as_ref().and_then(|l| l.mass.carrier.zip(l.inertia_over_r2.carrier)),
+    let given =
+        || scene.lumped.as_ref().and_then(|l| l.mass.carrier.zip(l.inertia_over_r2.carrier));
+    let carrier = match &races.carrier {
+        Some(body) => Some((body.mass, body.inertia / r_carrier)),
+        None => given(),
     };
     let ring = bodies.ring.as_ref().map(|b| (b.mass, b.inertia / r_ring));
     let sun = bodies.sun.as_ref().map(|b| (b.mass, b.inertia / r_sun));
@@ -98,7 +90,7 @@ fn mass_properties(
     let all = [carrier, ring, sun, planet];
     let per_body =
         |[carrier, ring, sun, planet]: [Option<f64>; 4]| PerBody { carrier, ring, sun, planet };
-    Ok((per_body(all.map(|b| b.map(|(m, _)| m))), per_body(all.map(|b| b.map(|(_, i)| i)))))
+    (per_body(all.map(|b| b.map(|(m, _)| m))), per_body(all.map(|b| b.map(|(_, i)| i))))
 }
 
 /// Frequencies of a lumped scene, ascending, each with its multiplicity and the type that has the
