@@ -41,4 +41,10 @@ pub enum ValidationError {
     /// A lumped model.
     #[error(transparent)]
     Lumped(#[from] lumped::LumpedError),
+    /// A plan of a sweep.
+    #[error(transparent)]
+    Plan(#[from] crate::sweep::PlanError),
+    /// A point of a sweep that could not be kept or read.
+    #[error(transparent)]
+    Store(#[from] crate::sweep::StoreError),
 }

@@ -7,6 +7,7 @@ mod error;
 pub mod modal;
 mod reference;
 mod suites;
+pub mod sweep;
 mod verdict;
 
 pub use catalogue::{PublishedScene, scene};

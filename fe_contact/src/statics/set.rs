@@ -12,6 +12,7 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
@@ -64,7 +65,7 @@ struct BackFlank {
 #[derive(Debug, Clone)]
 pub struct SetTables {
     /// The tables.
-    pub list: Vec<MeshTable>,
+    pub list: Vec<Arc<MeshTable>>,
     place: HashMap<(MeshKind, i64), usize>,
     /// Settings they were made with.
     pub settings: CellSettings,
@@ -74,6 +75,11 @@ impl SetTables {
     /// Memory of the compliances, bytes.
     pub fn bytes(&self) -> usize {
         self.list.iter().map(|table| 8 * table.compliance.len()).sum()
+    }
+
+    /// Whether there is a table for a mesh at a phase (cycles).
+    pub(crate) fn holds(&self, kind: MeshKind, phase: f64) -> bool {
+        self.place.contains_key(&key(kind, phase))
     }
 
     /// Place in the list of a mesh at a phase (cycles) the tables were made for.
@@ -222,7 +228,7 @@ impl<'s> StaticSet<'s> {
             .par_iter()
             .map(|(kind, phase)| {
                 let (mesh, pair) = self.bodies.joined(*kind)?;
-                MeshTable::new(mesh, pair, *phase, &settings)
+                MeshTable::new(mesh, pair, *phase, &settings).map(Arc::new)
             })
             .collect();
         let place =
@@ -245,7 +251,7 @@ impl<'s> StaticSet<'s> {
         let sun = self.bodies.geometry.sun.as_ref();
         let one = |(kind, planet, offset): &(MeshKind, usize, f64)| {
             let phase = cycle(position + offset);
-            let table = &tables.list[tables.place_of(*kind, phase)];
+            let table = tables.list[tables.place_of(*kind, phase)].as_ref();
             let row = |p: &PairCells| self.races.approach(*kind, *planet, &p.row).into();
             let gap = |p: &PairCells| {
                 self.imperfections.gap(*kind, *planet, p, &self.races, sun_angle, sun)
@@ -311,9 +317,36 @@ impl<'s> StaticSet<'s> {
         Ok(())
     }
 
+    /// Gap offsets of a front mesh's pairs (sun meshes, then ring meshes) after `turned` mesh cycles,
+    /// m: tooth errors come round with the sun.
+    pub(crate) fn write_offsets(
+        &self,
+        mesh: usize,
+        table: &MeshTable,
+        turned: f64,
+        out: &mut [f64],
+    ) {
+        let (kind, planet, _) = self.offsets[mesh];
+        let sun_angle = self.start_angle + turned * pitch_angle(self.bodies);
+        let sun = self.bodies.geometry.sun.as_ref();
+        for (out, pair) in out.iter_mut().zip(&table.pairs) {
+            *out = self.imperfections.gap(kind, planet, pair, &self.races, sun_angle, sun);
+        }
+    }
+
+    /// Whether gap offsets change from one mesh cycle to the next.
+    pub(crate) fn has_tooth_errors(&self) -> bool {
+        !self.imperfections.pitch_errors.is_empty()
+    }
+
     /// Phase of a front mesh (sun meshes, then ring meshes) at a position, cycles in [0, 1).
     pub(crate) fn phase(&self, mesh: usize, position: f64) -> f64 {
         cycle(position + self.offsets[mesh].2)
+    }
+
+    /// Whether some tables hold the phases of all front meshes at a position.
+    pub(crate) fn is_covered(&self, position: f64, tables: &SetTables) -> bool {
+        self.offsets.iter().all(|(kind, _, offset)| tables.holds(*kind, cycle(position + offset)))
     }
 
     /// The back flanks of all meshes at a position.

@@ -33,7 +33,7 @@ pub(super) struct Bearings {
     /// (I/k + A) / (1 + 2τ/h).
     softened: DMatrix<f64>,
     ports: Vec<Port>,
-    state: Motion,
+    pub(super) state: Motion,
     history: DVector<f64>,
     free: DVector<f64>,
     forces: DVector<f64>,

@@ -1,5 +1,7 @@
 //! What a set asks of a vibrating body, whichever rung of the ladder it stands on.
 
+use dynamics::Motion;
+
 use super::modal_body::FixedRaceMode;
 
 /// Displacement, velocity and acceleration of a race: x, y (m) and u = r θ (m) each.
@@ -75,6 +77,9 @@ pub trait VibratingBody: std::fmt::Debug + Send {
 
     /// Puts the elastic state to rest under one force P for each port.
     fn rest_under(&mut self, ports: &[Port], forces: &[f64]);
+
+    /// Elastic state besides the race; empty where there are no unknowns.
+    fn elastic_mut(&mut self) -> &mut Motion;
 
     /// Modes that stand for the body, `None` where it has every degree of freedom.
     fn modes(&self) -> Option<&[FixedRaceMode]>;

@@ -186,6 +186,10 @@ impl VibratingBody for FullBody {
         self.shared.stiff.solve_one(&mut self.state.x);
     }
 
+    fn elastic_mut(&mut self) -> &mut Motion {
+        &mut self.state
+    }
+
     fn modes(&self) -> Option<&[FixedRaceMode]> {
         None
     }

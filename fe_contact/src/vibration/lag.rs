@@ -78,6 +78,11 @@ impl PairMemory {
         }
     }
 
+    /// All that is kept.
+    pub(super) fn lists(&mut self) -> [&mut [f64; WIDTH]; 3] {
+        [&mut self.filtered, &mut self.now, &mut self.before]
+    }
+
     /// Part of P̃ at the end of the step that is known at its start.
     pub(super) fn known(&self, rule: &LagRule, pair: i64) -> f64 {
         place(pair).map_or(0.0, |i| {

@@ -3,6 +3,7 @@
 mod bearings;
 mod body;
 mod build;
+mod checkpoint;
 mod damping;
 mod energy;
 mod frame;

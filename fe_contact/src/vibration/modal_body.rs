@@ -194,6 +194,10 @@ impl VibratingBody for ModalBody {
         }
     }
 
+    fn elastic_mut(&mut self) -> &mut Motion {
+        &mut self.state
+    }
+
     fn modes(&self) -> Option<&[FixedRaceMode]> {
         Some(&self.modes)
     }

@@ -1,5 +1,7 @@
 //! Frames of a set: built at the first visit of a position, and the ports of its teeth.
 
+use std::sync::Arc;
+
 use super::body::{Port, RaceMotion};
 use super::frame::{Frame, Ground};
 use super::gear::Gear;
@@ -52,7 +54,10 @@ impl VibratingSet<'_> {
     pub(super) fn take_frame(&mut self, with_backs: bool) -> Result<Frame, FeError> {
         let k = self.step_in_cycle;
         let list = if with_backs { &mut self.frames_with_backs } else { &mut self.frames };
-        if let Some(frame) = list[k].take() {
+        if let Some(mut frame) = list[k].take() {
+            if self.statics.has_tooth_errors() {
+                self.renew_offsets(&mut frame);
+            }
             return Ok(frame);
         }
         let position = self.position(k);
@@ -78,14 +83,30 @@ impl VibratingSet<'_> {
             inverse: &self.inverse,
             lag_end: self.lag.end,
         };
-        let frame = Frame::new(&ground, &placed, &places, front, turned)?;
+        let mut frame = Frame::new(&ground, &placed, &places, front, turned)?;
         let owned: Vec<crate::contact::MeshTable> =
             placed.drain(front..).map(|p| p.table.into_owned()).collect();
         for table in owned {
-            self.tables.list.push(table);
+            self.tables.list.push(Arc::new(table));
             self.maps.push(ContactMaps::default());
         }
+        if self.statics.has_tooth_errors() {
+            self.renew_offsets(&mut frame);
+        }
         Ok(frame)
+    }
+
+    /// Gap offsets with the teeth that are in mesh now.
+    fn renew_offsets(&self, frame: &mut Frame) {
+        let turned = match self.motive {
+            Motive::Standing { .. } => self.position(0),
+            Motive::Turning { .. } => self.turned(),
+        };
+        for (which, mesh) in frame.meshes.iter().enumerate().take(self.memory.len()) {
+            let table = &self.tables.list[mesh.table];
+            let own = &mut frame.offsets[mesh.first..mesh.first + mesh.count];
+            self.statics.write_offsets(which, table, turned, own);
+        }
     }
 
     pub(super) fn put_back(&mut self, frame: Frame, with_backs: bool) {

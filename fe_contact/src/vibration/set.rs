@@ -47,6 +47,18 @@ pub enum Motive {
     },
 }
 
+impl Motive {
+    /// Positions of the mesh cycle at which steps end, cycles.
+    pub fn positions(&self) -> Vec<f64> {
+        match *self {
+            Self::Standing { position, .. } => vec![position],
+            Self::Turning { steps_per_cycle: count, .. } => {
+                (0..count).map(|i| i as f64 / count as f64).collect()
+            }
+        }
+    }
+}
+
 /// A set in time.
 #[derive(Debug)]
 pub struct VibratingSet<'s> {
@@ -148,6 +160,57 @@ impl<'s> VibratingSet<'s> {
     ) -> Result<Self, FeError> {
         fit(scene, &motive)?;
         let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
+        let tables = statics.tables(force, &motive.positions())?;
+        Self::assemble(scene, statics, motive, tables)
+    }
+
+    /// Tables that sets of one scene, sense and number of steps can share at any speed, sized for
+    /// `force` (N) in each mesh.
+    ///
+    /// # Errors
+    /// As [`VibratingSet::new`].
+    pub fn tables(
+        bodies: &'s Bodies,
+        scene: &Scene,
+        sense: Facing,
+        motive: Motive,
+        force: f64,
+    ) -> Result<SetTables, FeError> {
+        let statics = StaticSet::new(scene, bodies, sense, Imperfections::default())?;
+        statics.tables(force, &motive.positions())
+    }
+
+    /// A set like [`VibratingSet::new`] on tables that were made before, which sets of any speed can share.
+    ///
+    /// # Errors
+    /// As [`VibratingSet::new`], and if the tables are not of this set's positions.
+    pub fn on_tables(
+        scene: &Scene,
+        bodies: &'s Bodies,
+        sense: Facing,
+        imperfections: Imperfections,
+        motive: Motive,
+        tables: SetTables,
+    ) -> Result<Self, FeError> {
+        fit(scene, &motive)?;
+        let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
+        if !motive.positions().iter().all(|p| statics.is_covered(*p, &tables)) {
+            return Err(FeError::Unfit {
+                key: "tables".into(),
+                value: format!("{} tables", tables.list.len()),
+                allowed: "tables of the same set and the same steps in a cycle".into(),
+                why: "phases of the mesh cycle are never interpolated".into(),
+            });
+        }
+        Self::assemble(scene, statics, motive, tables)
+    }
+
+    fn assemble(
+        scene: &Scene,
+        statics: StaticSet<'s>,
+        motive: Motive,
+        tables: SetTables,
+    ) -> Result<Self, FeError> {
         let (step, count, start) = match motive {
             Motive::Standing { position, step } => (step, 1, position),
             Motive::Turning { mesh_frequency, steps_per_cycle } => {
@@ -160,8 +223,6 @@ impl<'s> VibratingSet<'s> {
             allowed: "a positive length of time".into(),
             why: "speed and steps a cycle, or the step itself, give none".into(),
         })?;
-        let positions: Vec<f64> = (0..count).map(|i| start + i as f64 / count as f64).collect();
-        let tables = statics.tables(force, &positions)?;
         let maps = tables.list.iter().map(|_| ContactMaps::default()).collect();
         let damping = Proportional {
             alpha: scene.damping.mass_proportional_per_s,

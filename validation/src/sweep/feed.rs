@@ -1,0 +1,136 @@
+//! Models that sweeps can be run on: whatever gives a turning set at a mesh frequency.
+
+use std::sync::OnceLock;
+
+use fe_contact::FeError;
+use fe_contact::statics::{Bodies, Imperfections, SetTables};
+use fe_contact::vibration::{Motive, VibratingSet};
+use gearset::{Facing, Rung, Scene};
+
+use super::marching::{FeMarching, Marching};
+use crate::error::ValidationError;
+
+/// A model of one gear set under one torque.
+pub trait SweepModel: Sync {
+    /// Name of the rung or model, as tables print it.
+    fn name(&self) -> String;
+
+    /// Number of planets.
+    fn planets(&self) -> usize;
+
+    /// ψ₀: central members' radial direction is towards planet 0, rad.
+    fn first_planet_rad(&self) -> f64;
+
+    /// Steps in a mesh cycle.
+    fn steps_per_cycle(&self) -> usize;
+
+    /// The set turning at a mesh frequency (Hz). `size`: how often its tables were found too small
+    /// and are to be laid out for twice the load.
+    ///
+    /// # Errors
+    /// If the set cannot be built.
+    fn turning(
+        &self,
+        mesh_frequency: f64,
+        size: usize,
+    ) -> Result<Box<dyn Marching + '_>, ValidationError>;
+}
+
+/// How often tables may be laid out anew for twice the load.
+pub(super) const SIZES: usize = 5;
+
+/// Tables are made for this many times the even share of the load: resonance must fit.
+const HEADROOM: f64 = 2.0;
+
+/// The FE/contact model on the rung of its scene, tables shared by all speeds.
+#[derive(Debug)]
+pub struct FeModel<'s> {
+    scene: Scene,
+    bodies: &'s Bodies,
+    imperfections: Imperfections,
+    torque_nm: f64,
+    tables: [OnceLock<SetTables>; SIZES],
+}
+
+impl<'s> FeModel<'s> {
+    /// Under a torque on the sun (N m, counter-clockwise positive).
+    pub fn new(
+        scene: &Scene,
+        bodies: &'s Bodies,
+        imperfections: Imperfections,
+        torque_nm: f64,
+    ) -> Self {
+        let tables = [const { OnceLock::new() }; SIZES];
+        Self { scene: scene.clone(), bodies, imperfections, torque_nm, tables }
+    }
+
+    fn sense(&self) -> Facing {
+        match self.torque_nm < 0.0 {
+            true => Facing::Clockwise,
+            false => Facing::CounterClockwise,
+        }
+    }
+
+    /// Mesh force that tables of a size are made for, N.
+    fn force(&self, size: usize) -> Result<f64, ValidationError> {
+        let sun = self.bodies.geometry.sun.as_ref();
+        let radius = sun.ok_or(ValidationError::Incomplete("sun"))?.base_radius;
+        let share = self.torque_nm.abs() / radius / self.planets() as f64;
+        Ok(HEADROOM * share.max(1.0) * f64::powi(2.0, size as i32))
+    }
+}
+
+impl SweepModel for FeModel<'_> {
+    fn name(&self) -> String {
+        match self.scene.dynamics.rung {
+            Rung::QuasiStatic => "quasi-static".into(),
+            Rung::Modal(n) => format!("modal({n})"),
+            Rung::Full => "full".into(),
+        }
+    }
+
+    fn planets(&self) -> usize {
+        self.scene.planets.psi_rad.len()
+    }
+
+    fn first_planet_rad(&self) -> f64 {
+        self.scene.planets.psi_rad.first().copied().unwrap_or(0.0)
+    }
+
+    fn steps_per_cycle(&self) -> usize {
+        self.scene.dynamics.steps_per_cycle as usize
+    }
+
+    fn turning(
+        &self,
+        mesh_frequency: f64,
+        size: usize,
+    ) -> Result<Box<dyn Marching + '_>, ValidationError> {
+        let steps_per_cycle = self.steps_per_cycle();
+        let motive = Motive::Turning { mesh_frequency, steps_per_cycle };
+        let (sense, force) = (self.sense(), self.force(size)?);
+        let slot = &self.tables[size.min(SIZES - 1)];
+        let imperfections = || self.imperfections.clone();
+        let tables = match slot.get() {
+            Some(tables) => tables.clone(),
+            None => {
+                let made = VibratingSet::tables(self.bodies, &self.scene, sense, motive, force)?;
+                slot.get_or_init(|| made).clone()
+            }
+        };
+        let set = VibratingSet::on_tables(
+            &self.scene,
+            self.bodies,
+            sense,
+            imperfections(),
+            motive,
+            tables,
+        )?;
+        Ok(Box::new(FeMarching { set, torque_nm: self.torque_nm.abs() }))
+    }
+}
+
+/// Whether a fault is that the tables are too small for the load.
+pub(super) fn is_too_small(error: &ValidationError) -> bool {
+    matches!(error, ValidationError::Fe(FeError::GridOverflow { .. }))
+}

@@ -1,0 +1,69 @@
+//! What a sweep asks of a model in time, whichever it is.
+
+use fe_contact::vibration::VibratingSet;
+
+use crate::error::ValidationError;
+
+/// A set that turns at constant nominal speed under a constant torque.
+pub trait Marching {
+    /// Puts it to rest in the equilibrium of position 0.
+    ///
+    /// # Errors
+    /// If there is none.
+    fn rest(&mut self) -> Result<(), ValidationError>;
+
+    /// One time step.
+    ///
+    /// # Errors
+    /// If contact cannot be solved or the motion diverges.
+    fn step(&mut self) -> Result<(), ValidationError>;
+
+    /// Displacements of carrier, ring, sun (x, y, m; θ, rad) and of the planets (ζ, η, θ) in the
+    /// carrier frame, counter-clockwise.
+    fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>);
+
+    /// Force of each mesh: sun meshes, ring meshes, then back flanks if any touch, N.
+    fn mesh_forces(&self, out: &mut Vec<f64>);
+
+    /// All the next step starts from, after whole mesh cycles.
+    fn state(&mut self) -> Vec<f64>;
+
+    /// Goes on from a state.
+    ///
+    /// # Errors
+    /// If it is of another kind of set.
+    fn restore(&mut self, state: &[f64]) -> Result<(), ValidationError>;
+}
+
+/// An FE/contact set under the torque it is given.
+#[derive(Debug)]
+pub(super) struct FeMarching<'s> {
+    pub(super) set: VibratingSet<'s>,
+    pub(super) torque_nm: f64,
+}
+
+impl Marching for FeMarching<'_> {
+    fn rest(&mut self) -> Result<(), ValidationError> {
+        Ok(self.set.rest(self.torque_nm)?)
+    }
+
+    fn step(&mut self) -> Result<(), ValidationError> {
+        Ok(self.set.step()?)
+    }
+
+    fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+        self.set.displacements()
+    }
+
+    fn mesh_forces(&self, out: &mut Vec<f64>) {
+        self.set.mesh_forces(out);
+    }
+
+    fn state(&mut self) -> Vec<f64> {
+        self.set.state()
+    }
+
+    fn restore(&mut self, state: &[f64]) -> Result<(), ValidationError> {
+        Ok(self.set.restore(state)?)
+    }
+}

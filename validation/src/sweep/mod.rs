@@ -1,0 +1,17 @@
+//! Speed sweeps: steady states of a turning set by marching, their harmonics, as fixed plans.
+
+mod feed;
+mod marching;
+mod plan;
+mod point;
+mod record;
+mod run;
+mod steady;
+
+pub use feed::{FeModel, SweepModel};
+pub use marching::Marching;
+pub use plan::{Chain, Direction, Plan, PlanError, even_speeds};
+pub use point::{Coordinate, Line, Part, SweepPoint, TableRow};
+pub use record::Record;
+pub use run::{Kept, Memory, PointStore, StoreError, Sweep, run};
+pub use steady::{Steady, SteadySettings, steady};

@@ -1,0 +1,95 @@
+//! Sweeps: plans give the same numbers however they are run; tooth errors come round with the sun.
+
+use std::collections::HashMap;
+use std::sync::Mutex;
+
+use fe_contact::statics::{Bodies, Imperfections, PitchError};
+use gearset::{Kinematics, Scene};
+use validation::sweep::{
+    Chain, Coordinate, Direction, FeModel, Kept, Memory, Part, Plan, PointStore, SteadySettings,
+    StoreError, Sweep, SweepModel, run,
+};
+
+fn scene(steps: u32) -> Scene {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/oh58_4p.toml");
+    let mut scene = Scene::from_file(path.as_ref()).unwrap();
+    scene.fe_contact.flank_elements = 8;
+    scene.dynamics.steps_per_cycle = steps;
+    scene
+}
+
+fn hz_per_rpm(scene: &Scene) -> f64 {
+    let kinematics = Kinematics::from_scene(scene).unwrap().unwrap();
+    kinematics.mesh_frequency_hz / scene.operation.unwrap().speed_rpm
+}
+
+fn settings() -> SteadySettings {
+    SteadySettings { tolerance: 1e-6, most_cycles: 400, harmonics: 4, between_cycles: 4 }
+}
+
+/// Keeps points as text, and breaks off after so many.
+struct Breaking {
+    kept: Mutex<HashMap<(String, usize), String>>,
+    most: usize,
+}
+
+impl PointStore for Breaking {
+    fn load(&self, chain: &Chain, index: usize) -> Result<Option<Kept>, StoreError> {
+        let kept = self.kept.lock().unwrap();
+        Ok(kept.get(&(chain.name.clone(), index)).map(|text| serde_json::from_str(text).unwrap()))
+    }
+
+    fn save(&self, chain: &Chain, index: usize, point: &Kept) -> Result<(), StoreError> {
+        let mut kept = self.kept.lock().unwrap();
+        if kept.len() >= self.most {
+            return Err(StoreError { message: "broken off".into() });
+        }
+        kept.insert((chain.name.clone(), index), serde_json::to_string(point).unwrap());
+        Ok(())
+    }
+}
+
+#[test]
+fn broken_off_or_on_one_thread_the_numbers_are_the_same() {
+    let scene = scene(28);
+    let bodies = Bodies::new(&scene).unwrap();
+    let model = FeModel::new(&scene, &bodies, Imperfections::default(), 1130.0);
+    let mut plan = Plan::new(&[900.0, 1000.0, 1100.0], &[Direction::Up], settings()).unwrap();
+    plan.chains
+        .extend(Plan::new(&[1500.0, 1600.0], &[Direction::Down], settings()).unwrap().chains);
+    let of = |store: &dyn PointStore| run(&model, &plan, hz_per_rpm(&scene), store, &|_| ());
+    let whole = of(&Memory).unwrap();
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    assert_eq!(one.install(|| of(&Memory)).unwrap(), whole);
+    let mut store = Breaking { kept: Mutex::default(), most: 0 };
+    for most in [1, 3] {
+        store.most = most;
+        assert!(of(&store).is_err());
+    }
+    store.most = 5;
+    let resumed = of(&store).unwrap();
+    assert_eq!(serde_json::to_string(&resumed).unwrap(), serde_json::to_string(&whole).unwrap());
+}
+
+fn single(model: &dyn SweepModel, scene: &Scene, settings: SteadySettings) -> Sweep {
+    let plan = Plan::new(&[1600.0], &[Direction::Up], settings).unwrap();
+    run(model, &plan, hz_per_rpm(scene), &Memory, &|_| ()).unwrap()
+}
+
+/// With a tooth out of place nothing repeats before the sun's teeth do, and energy lies between mesh
+/// harmonics; without, none does.
+#[test]
+fn a_tooth_out_of_place_makes_sidebands() {
+    let scene = scene(28);
+    let bodies = Bodies::new(&scene).unwrap();
+    let perfect = FeModel::new(&scene, &bodies, Imperfections::default(), 1130.0);
+    let point = &single(&perfect, &scene, settings()).chains[0].1[0];
+    assert!(point.is_steady && point.between.unwrap() < 1e-11, "{:?}", point.between);
+    assert!(point.amplitude(Part::Sun, Coordinate::Rotation, 2) > 1e-5);
+    let errors = vec![PitchError { tooth: 5, amount: 10e-6 }];
+    let faulty = Imperfections { pitch_errors: errors, ..Imperfections::default() };
+    let model = FeModel::new(&scene, &bodies, faulty, 1130.0);
+    let settings = SteadySettings { most_cycles: 54, between_cycles: 27, ..settings() };
+    let point = &single(&model, &scene, settings).chains[0].1[0];
+    assert!(!point.is_steady && point.between.unwrap() > 1e-4, "{:?}", point.between);
+}
