@@ -24,6 +24,8 @@ pub enum Verb {
     Static(Static),
     /// Virtual modal test: pulses on the preloaded FE/contact set, modes from its free decay.
     Impulse(Impulse),
+    /// Steady states over speed: harmonics of every body and mesh; can be broken off and taken up again.
+    Sweep(Sweep),
     /// Finite-element meshes of a scene: quality, mass properties, flexibility, pictures.
     Mesh(MeshVerb),
     /// Write or explain a scene file.
@@ -179,6 +181,44 @@ pub struct Impulse {
 }
 
 #[derive(Debug, Args)]
+pub struct Sweep {
+    /// Scene file of a whole set; its `[dynamics]` says on which rung and in how many steps.
+    pub scene: PathBuf,
+    /// Speeds of the input member: first, last and step, rpm.
+    #[arg(long, value_name = "FROM:TO:STEP", default_value = "100:2500:25", value_parser = range,
+          allow_negative_numbers = true)]
+    pub speeds_rpm: [f64; 3],
+    /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out.
+    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
+    pub torque_nm: Option<f64>,
+    /// Also sweep downwards.
+    #[arg(long)]
+    pub both_ways: bool,
+    /// Then so many more speeds about each peak, 0 for none.
+    #[arg(long, value_name = "N", default_value_t = 0,
+          value_parser = clap::value_parser!(u32).range(0..=1000))]
+    pub refine: u32,
+    /// Highest harmonic of the mesh frequency: up to 5, up to 10 with at least 560 steps in a cycle.
+    #[arg(long, default_value_t = 5)]
+    pub harmonics: u32,
+    /// Largest change from cycle to cycle of a steady state, in parts of the vibration.
+    #[arg(long, default_value_t = 1e-9, value_parser = small)]
+    pub tolerance: f64,
+    /// Cycles after which a set that has not settled is recorded as it is.
+    #[arg(long, default_value_t = 2000, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    pub most_cycles: u32,
+    /// Cycles over which the energy between harmonics is measured, 0 for none.
+    #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(0..=10_000))]
+    pub between_cycles: u32,
+    /// Keep finished points here, then the table (CSV) and a sidecar (JSON); the same command goes on
+    /// from what it finds.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    pub format: TableFormat,
+}
+
+#[derive(Debug, Args)]
 pub struct MeshVerb {
     /// Scene file.
     pub scene: PathBuf,
@@ -237,6 +277,21 @@ fn elements(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(x) if (1.0..=100.0).contains(&x) => Ok(x),
         _ => Err("a number from 1 to 100".into()),
+    }
+}
+
+fn range(text: &str) -> Result<[f64; 3], String> {
+    let parts: Vec<Option<f64>> = text.split(':').map(|part| part.trim().parse().ok()).collect();
+    match parts[..] {
+        [Some(from), Some(to), Some(step)] => Ok([from, to, step]),
+        _ => Err("three numbers as FROM:TO:STEP, in rpm".into()),
+    }
+}
+
+fn small(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if f64::is_finite(x) && (1e-12..=0.1).contains(&x) => Ok(x),
+        _ => Err("a number from 1e-12 to 0.1".into()),
     }
 }
 

@@ -20,6 +20,9 @@ mod static_approach;
 mod static_pair;
 mod static_set;
 mod statics;
+mod sweep;
+mod sweep_output;
+mod sweep_store;
 mod validate;
 
 pub use schema::schemas;
@@ -40,6 +43,7 @@ pub(crate) fn dispatch(arguments: Arguments, out: &mut dyn Write) -> Result<bool
         Verb::Rules(arguments) => rules::run(&arguments, out).map(|()| true),
         Verb::Static(arguments) => statics::run(&arguments, out).map(|()| true),
         Verb::Impulse(arguments) => impulse::run(&arguments, out).map(|()| true),
+        Verb::Sweep(arguments) => sweep::run(&arguments, out).map(|()| true),
         Verb::Mesh(arguments) => mesh::run(&arguments, out).map(|()| true),
         Verb::Scene(verb) => scene::run(&verb, out).map(|()| true),
         Verb::Compare(arguments) => compare::run(&arguments, out),

@@ -11,6 +11,7 @@ use super::scene::SceneSummary;
 use super::static_approach::ApproachOutput;
 use super::static_pair::PairOutput;
 use super::static_set::SetOutput;
+use super::sweep_output::SweepOutput;
 
 /// `(file name, schema)` of each verb; the files in `schemas/` are regenerated with the snapshots.
 pub fn schemas() -> Vec<(&'static str, Schema)> {
@@ -26,6 +27,7 @@ pub fn schemas() -> Vec<(&'static str, Schema)> {
         ("static_pair", of::<PairOutput>()),
         ("static_set", of::<SetOutput>()),
         ("impulse", of::<ImpulseOutput>()),
+        ("sweep", of::<SweepOutput>()),
         ("mesh", of::<MeshOutput>()),
         ("compare", of::<Comparison>()),
     ]

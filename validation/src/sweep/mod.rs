@@ -2,6 +2,7 @@
 
 mod feed;
 mod marching;
+mod peaks;
 mod plan;
 mod point;
 mod record;
@@ -10,6 +11,7 @@ mod steady;
 
 pub use feed::{FeModel, SweepModel};
 pub use marching::Marching;
+pub use peaks::{Peak, Response, peaks};
 pub use plan::{Chain, Direction, Plan, PlanError, even_speeds};
 pub use point::{Coordinate, Line, Part, SweepPoint, TableRow};
 pub use record::Record;

@@ -1,0 +1,176 @@
+//! `sweep SCENE`: steady states over speed.
+
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+
+use fe_contact::statics::{Bodies, Imperfections};
+use gearset::{Kinematics, Scene, SceneKind};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use validation::ValidationError;
+use validation::sweep::{
+    Chain, Direction, FeModel, Memory, Part, Plan, PlanError, PointStore, Response, SteadySettings,
+    Sweep, SweepModel, even_speeds, peaks, run as run_plan,
+};
+
+use crate::arguments::{Sweep as SweepArguments, TableFormat};
+use crate::error::CommandError;
+use crate::output;
+
+use super::statics::{operating_torque, refused};
+use super::sweep_output::{SweepOutput, text, write_csv};
+use super::sweep_store::{Folder, Manifest, write_whole};
+use super::{fe_refused, read_scene, unfit};
+
+/// How far to either side of a peak the second manifest goes, in parts of its speed.
+const SPAN: f64 = 0.04;
+
+/// What stands out by this ratio is worth a second look.
+const PROMINENT: f64 = 1.25;
+
+pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(), CommandError> {
+    let path = &arguments.scene;
+    let scene = read_scene(path)?;
+    let task = Task::new(arguments, &scene)?;
+    let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
+    let model = FeModel::new(&scene, &bodies, Imperfections::default(), task.torque_nm);
+    let mut sweep = task.march(&model, &task.plan, "plan.json")?;
+    if arguments.refine > 0 {
+        let around = task.around_peaks(&sweep, arguments.refine as usize);
+        if !around.chains.is_empty() {
+            let more = task.march(&model, &around, "plan_peaks.json")?;
+            sweep.chains.extend(more.chains);
+        }
+    }
+    let result = SweepOutput::new(&scene, task.torque_nm, &task.plan.steady, &sweep);
+    if let Some(folder) = &arguments.out {
+        let failed = |path: &Path| {
+            let path = path.to_owned();
+            move |source| CommandError::File { what: "cannot write", path, source }
+        };
+        let mut table = Vec::new();
+        write_csv(&sweep, &scene.title, task.torque_nm, &mut table)?;
+        let path = folder.join("sweep.csv");
+        write_whole(&path, &table).map_err(failed(&path))?;
+        let path = folder.join("sweep.json");
+        let sidecar = serde_json::to_string_pretty(&result.sidecar(&task.text))?;
+        write_whole(&path, sidecar.as_bytes()).map_err(failed(&path))?;
+    }
+    match arguments.format {
+        TableFormat::Json => output::json(out, &result),
+        TableFormat::Csv => write_csv(&sweep, &scene.title, task.torque_nm, out),
+        TableFormat::Text => text(&result, out),
+    }
+}
+
+/// What is asked for.
+struct Task<'a> {
+    arguments: &'a SweepArguments,
+    /// The scene file.
+    text: String,
+    torque_nm: f64,
+    /// Mesh frequency of one rpm of the input member, Hz.
+    hz_per_rpm: f64,
+    plan: Plan,
+}
+
+impl<'a> Task<'a> {
+    fn new(arguments: &'a SweepArguments, scene: &Scene) -> Result<Self, CommandError> {
+        let path = &arguments.scene;
+        if scene.kind != SceneKind::Planetary {
+            return Err(unfit(path, "`kind` is \"gear_pair\": a sweep needs \"planetary\""));
+        }
+        if scene.geometry.is_none() {
+            return Err(unfit(path, "[geometry] is absent: teeth are needed to touch"));
+        }
+        let torque_nm = match arguments.torque_nm {
+            Some(t) if t.is_finite() && t != 0.0 => t,
+            Some(t) => {
+                let reason = format!("{t}: allowed is a finite torque other than 0 N·m");
+                return Err(refused("--torque-nm", reason));
+            }
+            None => operating_torque(path, scene)?,
+        };
+        let missing =
+            || unfit(path, "[operation] is absent: it says which member's speed is swept");
+        let mut at_one = scene.clone();
+        at_one.operation.as_mut().ok_or_else(missing)?.speed_rpm = 1.0;
+        let kinematics =
+            Kinematics::from_scene(&at_one).and_then(Result::ok).ok_or_else(missing)?;
+        let [from, to, step] = arguments.speeds_rpm;
+        let refuse = |argument| move |e: PlanError| refused(argument, e.to_string());
+        let speeds = even_speeds(from, to, step).map_err(refuse("--speeds-rpm"))?;
+        let steady = SteadySettings {
+            tolerance: arguments.tolerance,
+            most_cycles: arguments.most_cycles as usize,
+            harmonics: arguments.harmonics as usize,
+            between_cycles: arguments.between_cycles as usize,
+        };
+        let steps = scene.dynamics.steps_per_cycle as usize;
+        steady.check(steps).map_err(refuse("--harmonics"))?;
+        let directions: &[Direction] = match arguments.both_ways {
+            true => &[Direction::Up, Direction::Down],
+            false => &[Direction::Up],
+        };
+        let plan = Plan::new(&speeds, directions, steady).map_err(refuse("--speeds-rpm"))?;
+        let failed = |source| CommandError::File { what: "cannot read", path: path.into(), source };
+        let text = std::fs::read_to_string(path).map_err(failed)?;
+        Ok(Self { arguments, text, torque_nm, hz_per_rpm: kinematics.mesh_frequency_hz, plan })
+    }
+
+    /// Runs one manifest, keeping its points if there is a folder for them.
+    fn march(
+        &self,
+        model: &dyn SweepModel,
+        plan: &Plan,
+        manifest: &str,
+    ) -> Result<Sweep, CommandError> {
+        let bar = progress(plan.points() as u64);
+        let store: Box<dyn PointStore> = match &self.arguments.out {
+            Some(folder) => {
+                let text = self.text.clone();
+                let wanted = Manifest::new(text, model.name(), self.torque_nm, plan.clone());
+                Box::new(Folder::open(folder, manifest, &wanted)?)
+            }
+            None => Box::new(Memory),
+        };
+        let done = |_: &validation::sweep::SweepPoint| bar.inc(1);
+        let found = run_plan(model, plan, self.hz_per_rpm, store.as_ref(), &done);
+        bar.finish_and_clear();
+        found.map_err(|e| match e {
+            ValidationError::Fe(e) => unfit(&self.arguments.scene, e.to_string()),
+            other => other.into(),
+        })
+    }
+
+    /// A chain about every peak of the sun's and planet 0's motion, those of one place once.
+    fn around_peaks(&self, sweep: &Sweep, count: usize) -> Plan {
+        let points = sweep.points();
+        let mut centres: Vec<f64> = Vec::new();
+        for part in [Part::Sun, Part::Planet(0)] {
+            for response in [Response::Rotation(part), Response::Translation(part)] {
+                for harmonic in 1..=self.plan.steady.harmonics {
+                    let found = peaks(&points, response, harmonic, PROMINENT);
+                    centres.extend(found.iter().map(|p| p.speed_rpm));
+                }
+            }
+        }
+        centres.sort_by(f64::total_cmp);
+        centres.dedup_by(|b, a| *b < *a * (1.0 + 0.5 * SPAN));
+        let all = Plan::around(&centres, SPAN, count, self.plan.steady.clone());
+        let is_sound = |c: &Chain| c.speeds_rpm.iter().all(|s| s.is_finite() && *s > 0.0);
+        Plan { chains: all.chains.into_iter().filter(is_sound).collect(), ..all }
+    }
+}
+
+/// A bar on a terminal, nothing elsewhere.
+fn progress(points: u64) -> ProgressBar {
+    let target = match std::io::stderr().is_terminal() {
+        true => ProgressDrawTarget::stderr(),
+        false => ProgressDrawTarget::hidden(),
+    };
+    let bar = ProgressBar::with_draw_target(Some(points), target);
+    match ProgressStyle::with_template("{bar:32} {pos}/{len} speeds, {eta} to go") {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}

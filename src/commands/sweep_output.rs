@@ -1,0 +1,218 @@
+//! What `sweep` prints and writes.
+
+use std::io::Write;
+
+use gearset::Scene;
+use schemars::JsonSchema;
+use serde::Serialize;
+use validation::sweep::{Part, Response, SteadySettings, Sweep, SweepPoint};
+
+use crate::error::CommandError;
+use crate::output;
+
+/// A sweep as JSON.
+#[derive(Debug, Serialize, JsonSchema)]
+pub struct SweepOutput {
+    /// Scene.
+    scene: String,
+    /// Rung of the ladder.
+    rung: String,
+    /// Version of the program.
+    version: String,
+    /// Torque on the sun, N·m.
+    torque_nm: f64,
+    /// Steps in a mesh cycle.
+    steps_per_cycle: u32,
+    /// Largest change from cycle to cycle of a steady state, in parts of the vibration.
+    tolerance: f64,
+    /// Cycles after which a march is given up.
+    most_cycles: usize,
+    /// Highest harmonic.
+    harmonics: usize,
+    /// Cycles over which energy between harmonics is measured.
+    between_cycles: usize,
+    /// Points by chain.
+    chains: Vec<ChainOutput>,
+}
+
+/// One chain.
+#[derive(Debug, Serialize, JsonSchema)]
+struct ChainOutput {
+    /// Name.
+    name: String,
+    /// Points in the order they were computed in.
+    points: Vec<SweepPoint>,
+}
+
+/// What stands beside the table of a sweep.
+#[derive(Debug, Serialize)]
+pub(super) struct Sidecar<'a> {
+    #[serde(flatten)]
+    head: serde_json::Map<String, serde_json::Value>,
+    /// The scene file.
+    scene_file: &'a str,
+    columns: [(&'static str, &'static str); 14],
+    points: Vec<PointHead<'a>>,
+}
+
+/// A point without its lines.
+#[derive(Debug, Serialize)]
+struct PointHead<'a> {
+    chain: &'a str,
+    speed_rpm: f64,
+    mesh_frequency_hz: f64,
+    cycles: usize,
+    residual: f64,
+    is_steady: bool,
+    between_harmonics: Option<f64>,
+    back_contact: f64,
+    times_load_doubled: usize,
+}
+
+const COLUMNS: [(&str, &str); 14] = [
+    ("scene", "title of the scene"),
+    ("rung", "rung of the fidelity ladder"),
+    ("torque_nm", "torque on the sun, N m"),
+    ("speed_rpm", "speed of the input member, rpm"),
+    ("mesh_frequency_hz", "mesh frequency, Hz"),
+    ("chain", "chain of the plan: up, down, or about a peak"),
+    ("body", "carrier, ring, sun, planet_n, sun_mesh_n, ring_mesh_n"),
+    (
+        "coordinate",
+        "radial, tangential (m; central bodies: towards planet 0), rotation (rad), force (N), share and contact_loss (1)",
+    ),
+    ("harmonic", "harmonic of the mesh frequency; 0 is the mean"),
+    ("amplitude", "amplitude in the unit of the next column"),
+    ("unit", "unit"),
+    ("phase_rad", "phase of A cos(2 pi l f_m t + phase), t from position 0, rad"),
+    ("cycles", "mesh cycles marched"),
+    ("residual", "change of the last two cycles over the largest peak-to-peak vibration"),
+];
+
+impl SweepOutput {
+    pub(super) fn new(
+        scene: &Scene,
+        torque_nm: f64,
+        settings: &SteadySettings,
+        sweep: &Sweep,
+    ) -> Self {
+        let chain = |(name, points): &(String, Vec<SweepPoint>)| ChainOutput {
+            name: name.clone(),
+            points: points.clone(),
+        };
+        Self {
+            scene: scene.title.clone(),
+            rung: sweep.rung.clone(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            torque_nm,
+            steps_per_cycle: scene.dynamics.steps_per_cycle,
+            tolerance: settings.tolerance,
+            most_cycles: settings.most_cycles,
+            harmonics: settings.harmonics,
+            between_cycles: settings.between_cycles,
+            chains: sweep.chains.iter().map(chain).collect(),
+        }
+    }
+
+    /// Scene, settings, version and tolerances beside the table.
+    pub(super) fn sidecar<'a>(&'a self, scene_file: &'a str) -> Sidecar<'a> {
+        let mut head = serde_json::Map::new();
+        head.insert("scene".into(), self.scene.clone().into());
+        head.insert("rung".into(), self.rung.clone().into());
+        head.insert("version".into(), self.version.clone().into());
+        head.insert("torque_nm".into(), self.torque_nm.into());
+        head.insert("steps_per_cycle".into(), self.steps_per_cycle.into());
+        head.insert("tolerance".into(), self.tolerance.into());
+        head.insert("most_cycles".into(), self.most_cycles.into());
+        head.insert("harmonics".into(), self.harmonics.into());
+        head.insert("between_cycles".into(), self.between_cycles.into());
+        let points = self.chains.iter().flat_map(|chain| {
+            chain.points.iter().map(|p| PointHead {
+                chain: &chain.name,
+                speed_rpm: p.speed_rpm,
+                mesh_frequency_hz: p.mesh_frequency_hz,
+                cycles: p.cycles,
+                residual: p.residual,
+                is_steady: p.is_steady,
+                between_harmonics: p.between,
+                back_contact: p.back_contact,
+                times_load_doubled: p.size,
+            })
+        });
+        Sidecar { head, scene_file, columns: COLUMNS, points: points.collect() }
+    }
+}
+
+/// The tidy table.
+pub(super) fn write_csv(
+    sweep: &Sweep,
+    scene: &str,
+    torque_nm: f64,
+    out: &mut dyn Write,
+) -> Result<(), CommandError> {
+    let mut writer = csv::Writer::from_writer(out);
+    for row in sweep.rows(scene, torque_nm) {
+        writer.serialize(row).map_err(|e| CommandError::Output(std::io::Error::other(e)))?;
+    }
+    Ok(writer.flush()?)
+}
+
+/// A line a speed: the strongest harmonic of the sun's motion, and what it took.
+pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), CommandError> {
+    writeln!(out, "{}: {}, {} N·m on the sun\n", result.scene, result.rung, result.torque_nm)?;
+    let header = [
+        "chain",
+        "rpm",
+        "f_m Hz",
+        "rotation µrad",
+        "l",
+        "translation µm",
+        "l",
+        "no contact",
+        "cycles",
+        "residual",
+    ];
+    let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9]);
+    let mut unsteady = 0;
+    for chain in &result.chains {
+        for p in &chain.points {
+            let strongest = |response: Response| {
+                let of = |l: usize| (response.amplitude(p, l), l);
+                (1..=result.harmonics).map(of).fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
+            };
+            let rotation = strongest(Response::Rotation(Part::Sun));
+            let translation = strongest(Response::Translation(Part::Sun));
+            let lost = p
+                .lines
+                .iter()
+                .filter(|l| l.coordinate == validation::sweep::Coordinate::ContactLoss);
+            let lost = lost.fold(0.0f64, |a, l| a.max(l.amplitude));
+            unsteady += usize::from(!p.is_steady);
+            table.add_row([
+                chain.name.clone(),
+                format!("{:.1}", p.speed_rpm),
+                format!("{:.1}", p.mesh_frequency_hz),
+                format!("{:.3}", 1e6 * rotation.0),
+                rotation.1.to_string(),
+                format!("{:.4}", 1e6 * translation.0),
+                if translation.0 > 1e-12 { translation.1.to_string() } else { "–".into() },
+                output::share(lost),
+                p.cycles.to_string(),
+                format!("{:.0e}", p.residual),
+            ]);
+        }
+    }
+    writeln!(out, "{table}")?;
+    writeln!(
+        out,
+        "Sun's strongest harmonic l of the mesh frequency; no contact: largest part of a cycle in which a mesh carries nothing."
+    )?;
+    if unsteady > 0 {
+        writeln!(
+            out,
+            "{unsteady} of these do not repeat from cycle to cycle within {} cycles: see their residuals.",
+            result.most_cycles
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,127 @@
+//! Resonant peaks of a sweep: where the amplitude of one harmonic is largest.
+
+use super::point::{Coordinate, Part, SweepPoint};
+
+/// A quantity whose harmonics have peaks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Response {
+    /// Rotation of a body, rad.
+    Rotation(Part),
+    /// Translation of a body, √(|radial|² + |tangential|²), m.
+    Translation(Part),
+}
+
+impl Response {
+    /// Amplitude of one harmonic.
+    pub fn amplitude(self, point: &SweepPoint, harmonic: usize) -> f64 {
+        match self {
+            Self::Rotation(part) => point.amplitude(part, Coordinate::Rotation, harmonic),
+            Self::Translation(part) => {
+                let of = |c| point.amplitude(part, c, harmonic);
+                of(Coordinate::Radial).hypot(of(Coordinate::Tangential))
+            }
+        }
+    }
+}
+
+/// A maximum of one harmonic over speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peak {
+    /// Harmonic l.
+    pub harmonic: usize,
+    /// Speed of the input member, rpm.
+    pub speed_rpm: f64,
+    /// l f_m, Hz.
+    pub frequency_hz: f64,
+    /// Height there, m or rad.
+    pub amplitude: f64,
+    /// Height over the larger of the deepest points to either side, up to where the curve rises above
+    /// the peak: 1 is no peak.
+    pub prominence: f64,
+}
+
+/// Peaks of one harmonic of points in order of speed: interior maxima that stand out by `least`
+/// (ratio). Place and height are those of the parabola through three points in the logarithm of the
+/// amplitude.
+pub fn peaks(points: &[&SweepPoint], response: Response, harmonic: usize, least: f64) -> Vec<Peak> {
+    let a: Vec<f64> = points.iter().map(|p| response.amplitude(p, harmonic)).collect();
+    let mut found = Vec::new();
+    for i in 1..a.len().saturating_sub(1) {
+        if !(a[i] > a[i - 1] && a[i] >= a[i + 1]) {
+            continue;
+        }
+        let lowest = |side: &mut dyn Iterator<Item = &f64>| {
+            side.take_while(|x| **x <= a[i]).fold(a[i], |m, x| m.min(*x))
+        };
+        let left = lowest(&mut a[..i].iter().rev());
+        let right = lowest(&mut a[i + 1..].iter());
+        let prominence = a[i] / left.max(right);
+        if !(prominence >= least) {
+            continue;
+        }
+        let x = [0, 1, 2].map(|k| points[i + k - 1].speed_rpm);
+        let y = [0, 1, 2].map(|k| a[i + k - 1].max(f64::MIN_POSITIVE).ln());
+        let (speed_rpm, top) = vertex(x, y).unwrap_or((x[1], y[1]));
+        let hz_per_rpm = points[i].mesh_frequency_hz / points[i].speed_rpm;
+        found.push(Peak {
+            harmonic,
+            speed_rpm,
+            frequency_hz: harmonic as f64 * speed_rpm * hz_per_rpm,
+            amplitude: top.exp(),
+            prominence,
+        });
+    }
+    found
+}
+
+/// Top of the parabola through three points, if it has one between them.
+fn vertex(x: [f64; 3], y: [f64; 3]) -> Option<(f64, f64)> {
+    // Newton's form: y = y₀ + s (x − x₀) + c (x − x₀)(x − x₁)
+    let s = (y[1] - y[0]) / (x[1] - x[0]);
+    let c = ((y[2] - y[1]) / (x[2] - x[1]) - s) / (x[2] - x[0]);
+    let top = 0.5 * (x[0] + x[1]) - 0.5 * s / c;
+    let value = y[0] + s * (top - x[0]) + c * (top - x[0]) * (top - x[1]);
+    (c < 0.0 && top >= x[0] && top <= x[2]).then_some((top, value))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sweep::Line;
+
+    /// |H| of one degree of freedom at 778 Hz with 2 % damping, met by the first harmonic.
+    #[test]
+    fn a_resonance_is_found_and_nothing_else() {
+        let points: Vec<SweepPoint> = (0..60)
+            .map(|i| {
+                let f = 600.0 + 6.0 * f64::from(i);
+                let r = f / 778.0;
+                let amplitude = 1e-6 / ((1.0 - r * r).powi(2) + (0.04 * r).powi(2)).sqrt();
+                let line = Line {
+                    part: Part::Sun,
+                    coordinate: Coordinate::Radial,
+                    harmonic: 1,
+                    amplitude,
+                    phase_rad: 0.0,
+                };
+                SweepPoint {
+                    speed_rpm: 2.0 * f,
+                    mesh_frequency_hz: f,
+                    cycles: 1,
+                    residual: 0.0,
+                    is_steady: true,
+                    between: None,
+                    back_contact: 0.0,
+                    size: 0,
+                    lines: vec![line],
+                }
+            })
+            .collect();
+        let points: Vec<&SweepPoint> = points.iter().collect();
+        let found = peaks(&points, Response::Translation(Part::Sun), 1, 1.5);
+        assert_eq!(found.len(), 1);
+        assert!((found[0].frequency_hz / 777.4 - 1.0).abs() < 1e-3, "{:?}", found[0]);
+        assert!((found[0].amplitude / 25e-6 - 1.0).abs() < 0.01, "{:?}", found[0]);
+        assert!(peaks(&points, Response::Rotation(Part::Sun), 1, 1.5).is_empty());
+    }
+}
