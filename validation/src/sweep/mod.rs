@@ -1,6 +1,7 @@
 //! Speed sweeps: steady states of a turning set by marching, their harmonics, as fixed plans.
 
 mod feed;
+mod judge;
 mod marching;
 mod peaks;
 mod plan;
@@ -10,6 +11,7 @@ mod run;
 mod steady;
 
 pub use feed::{FeModel, SweepModel};
+pub use judge::{Assigned, Content, Natural, assigned, contents};
 pub use marching::Marching;
 pub use peaks::{Peak, Response, peaks};
 pub use plan::{Chain, Direction, Plan, PlanError, even_speeds};

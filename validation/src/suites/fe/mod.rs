@@ -14,6 +14,7 @@ mod rungs;
 mod sets;
 mod stepping;
 mod stiffness;
+mod sweeps;
 
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, PairCycle, SetCycle, StaticSet, pair_cycle};
@@ -100,7 +101,7 @@ pub(crate) fn checks(
     profile: Profile,
     concerns: &dyn Fn(&str) -> bool,
 ) -> Result<Vec<Check>, ValidationError> {
-    let suites: [(&[&str], Suite); 14] = [
+    let suites: [(&[&str], Suite); 16] = [
         (&["fe.hertz."], hertz::checks),
         (&["fe.convergence."], convergence::checks),
         (&["fe.resolved."], resolved::checks),
@@ -115,6 +116,8 @@ pub(crate) fn checks(
         (&["fe.stepping."], stepping::checks),
         (&["fe.rungs."], rungs::checks),
         (&["fe.fed."], fed::checks),
+        (sweeps::IDS, sweeps::checks),
+        (&["sweep.control."], sweeps::controls),
     ];
     if !suites.iter().any(|(prefixes, _)| prefixes.iter().any(|p| concerns(p))) {
         return Ok(Vec::new());

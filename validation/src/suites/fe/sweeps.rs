@@ -1,0 +1,318 @@
+//! Speed sweeps judged from their own data: what planet phasing forbids, where peaks stand, what lies
+//! between harmonics, and what is left as the speed goes to zero.
+
+use std::f64::consts::TAU;
+
+use dynamics::{Window, spectrum};
+use fe_contact::statics::{Bodies, Imperfections, PitchError};
+use gearset::{Kinematics, Scene, excitation_of_scene};
+
+use super::Lab;
+use crate::Profile;
+use crate::check::{Check, ReferenceKind, Subject};
+use crate::error::ValidationError;
+use crate::modal::{Preload, linear_modes, preloaded};
+use crate::sweep::{
+    Content, Coordinate, Direction, FeModel, Memory, Natural, Part, Plan, SteadySettings, Sweep,
+    SweepPoint, assigned, contents, run,
+};
+
+/// What ids of the sweeps start with.
+pub(crate) const IDS: &[&str] = &[
+    "sweep.unsteady.",
+    "sweep.forbidden.",
+    "sweep.allowed.",
+    "sweep.between.",
+    "sweep.peaks.",
+    "sweep.harmonics_of_",
+    "sweep.static_limit.",
+    "sweep.odd_grid.",
+];
+
+/// N·m on the sun.
+const TORQUE: f64 = 1130.0;
+
+/// Peaks that stand out by less are left alone.
+const PROMINENT: f64 = 1.3;
+
+/// Mesh frequency of one rpm of the input member, Hz.
+pub(crate) fn hz_per_rpm(scene: &Scene) -> Result<f64, ValidationError> {
+    let kinematics = Kinematics::from_scene(scene).and_then(Result::ok);
+    let operation = scene.operation.ok_or(ValidationError::Incomplete("operation"))?;
+    let kinematics = kinematics.ok_or(ValidationError::Incomplete("kinematics"))?;
+    Ok(kinematics.mesh_frequency_hz / operation.speed_rpm)
+}
+
+/// Speeds from first to last (rpm), each by the same part above the one before.
+pub(crate) fn speeds(first: f64, last: f64, ratio: f64) -> Vec<f64> {
+    let count = ((last / first).ln() / ratio.ln_1p()).floor() as i32;
+    (0..=count).map(|i| first * (1.0 + ratio).powi(i)).collect()
+}
+
+/// A sweep of the FE/contact model in memory.
+pub(crate) fn sweep_of(
+    scene: &Scene,
+    bodies: &Bodies,
+    imperfections: Imperfections,
+    torque_nm: f64,
+    speeds_rpm: &[f64],
+    steady: SteadySettings,
+) -> Result<Sweep, ValidationError> {
+    let model = FeModel::new(scene, bodies, imperfections, torque_nm);
+    let plan = Plan::new(speeds_rpm, &[Direction::Up], steady)?;
+    run(&model, &plan, hz_per_rpm(scene)?, &Memory, &|_| ())
+}
+
+/// Natural frequencies of the FE/contact set linearised at position 0.
+pub(crate) fn naturals(
+    scene: &Scene,
+    bodies: &Bodies,
+    torque_nm: f64,
+) -> Result<Vec<Natural>, ValidationError> {
+    let preload = Preload { torque_nm, position: 0.0, step_s: 5e-6 };
+    let set = preloaded(scene, bodies, &preload)?;
+    let modes = linear_modes(&set, &set.linearised()?)?;
+    let of = |m: &crate::modal::FeMode| Natural {
+        frequency_hz: m.frequency_hz,
+        mode_type: m.mode_type,
+    };
+    Ok(modes.iter().map(of).collect())
+}
+
+pub(crate) fn steady_settings() -> SteadySettings {
+    SteadySettings { tolerance: 1e-8, ..SteadySettings::default() }
+}
+
+/// Largest share of what is forbidden.
+fn forbidden(list: &[Content]) -> f64 {
+    list.iter().filter(|c| !c.is_allowed).fold(0.0f64, |a, c| a.max(c.share))
+}
+
+pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+    let mut checks = Vec::new();
+    let ratio = if lab.profile == Profile::Quick { 0.02 } else { 0.005 };
+    let grid = speeds(450.0, 2500.0, ratio);
+    checks.extend(set(lab, "four", &lab.four, &lab.bodies, &grid)?);
+    checks.extend(set(lab, "three", &lab.three, &lab.bodies, &grid)?);
+    checks.extend(slow(lab)?);
+    checks.extend(odd_grid(lab)?);
+    Ok(checks)
+}
+
+/// Everything that is judged of one set.
+fn set(
+    lab: &Lab<'_>,
+    name: &str,
+    scene: &Scene,
+    bodies: &Bodies,
+    grid: &[f64],
+) -> Result<Vec<Check>, ValidationError> {
+    let mut checks = Vec::new();
+    let none = Imperfections::default();
+    let found = sweep_of(scene, bodies, none, TORQUE, grid, steady_settings())?;
+    let points = found.points();
+    let strengths = excitation_of_scene(scene, 5).ok_or(ValidationError::Incomplete("teeth"))?;
+    let id = |what: &str| format!("sweep.{what}.{name}");
+    let unsteady = points.iter().filter(|p| !p.is_steady).count() as f64;
+    let title = format!("{name} planets: speeds at which cycles do not come to repeat");
+    checks.push(lab.at_most(&id("unsteady"), &title, "", unsteady)?);
+    let list = contents(&points, &strengths);
+    let forbidden = forbidden(&list);
+    let title = format!(
+        "{name} planets: largest motion of the sun in a harmonic that planet phasing forbids, over the largest of its kind, {} speeds",
+        points.len()
+    );
+    checks.push(lab.at_most(&id("forbidden"), &title, "", forbidden)?);
+    let title = format!(
+        "{name} planets: kinds of the sun's motion and harmonics that planet phasing allows and that are there (1e-3 of the largest)"
+    );
+    let expected = list.iter().filter(|c| c.is_allowed).count() as f64;
+    let present = list.iter().filter(|c| c.is_allowed && c.share > 1e-3).count() as f64;
+    let source = "phasor sums of the planets' mesh phases";
+    let kind = ReferenceKind::Analytic;
+    let own = id("allowed");
+    let subject = Subject { id: &own, title: &title, kind, source, unit: "" };
+    checks.push(Check::equal(subject, expected, present));
+    let between = points.iter().filter_map(|p| p.between).fold(0.0f64, f64::max);
+    let title = format!("{name} planets: vibration energy between mesh harmonics, over all of it");
+    checks.push(lab.at_most(&id("between"), &title, "", between)?);
+    let naturals = naturals(scene, bodies, TORQUE)?;
+    let list = assigned(&points, &strengths, &naturals, PROMINENT);
+    let worst = list.iter().fold(0.0f64, |a, p| a.max(p.off_percent().abs()));
+    let title = format!(
+        "{name} planets: {} peaks of the sun and planet 0, farthest from ω_n/l of a mode that the harmonic may excite",
+        list.len()
+    );
+    checks.push(lab.number(&id("peaks"), &title, kind, "resonance", "%", 0.0, worst)?);
+    // The two modes the paper follows, each where its own harmonics meet it.
+    let mut modes: Vec<Natural> = Vec::new();
+    for n in &naturals {
+        if modes.iter().all(|m| m.mode_type != n.mode_type) {
+            modes.push(*n);
+        }
+    }
+    for mode in modes {
+        let kind = format!("{:?}", mode.mode_type).to_lowercase();
+        let met = |l: usize| {
+            list.iter().any(|p| {
+                p.peak.harmonic == l
+                    && p.natural.mode_type == mode.mode_type
+                    && (p.natural.frequency_hz / mode.frequency_hz - 1.0).abs() < 0.02
+            })
+        };
+        let top = grid.last().copied().unwrap_or(0.0) * hz_per_rpm(scene)?;
+        let bottom = grid[0] * hz_per_rpm(scene)?;
+        let may = |l: &usize| {
+            let allowed = strengths[l - 1].allowed();
+            let is_excited = match mode.mode_type {
+                lumped::ModeType::Rotational => allowed.rotational,
+                lumped::ModeType::Translational => allowed.translational,
+                lumped::ModeType::Planet => allowed.planet,
+                lumped::ModeType::Mixed => true,
+            };
+            let mesh = mode.frequency_hz / *l as f64;
+            is_excited && mesh < 0.97 * top && mesh > 1.03 * bottom
+        };
+        let expected: Vec<f64> = (1..=5).filter(may).map(|l| l as f64).collect();
+        let actual: Vec<f64> = (1..=5).filter(|l| met(*l)).map(|l| l as f64).collect();
+        let own = id(&format!("harmonics_of_{kind}"));
+        let title = format!(
+            "{name} planets: harmonics that bring the lowest {kind} mode to resonance within the sweep"
+        );
+        let subject =
+            Subject { id: &own, title: &title, kind: ReferenceKind::Analytic, source, unit: "" };
+        checks.push(Check::equal(subject, expected, actual));
+    }
+    Ok(checks)
+}
+
+/// Harmonics 0…5 of the sun's motion (radial, tangential, rotation) at rest.
+fn static_harmonics(lab: &Lab<'_>) -> Result<[Vec<[f64; 2]>; 3], ValidationError> {
+    let cycle = lab.set(&lab.four, &lab.bodies, TORQUE, 140, Imperfections::default())?;
+    let one = |axis: usize| -> Result<Vec<[f64; 2]>, ValidationError> {
+        let record: Vec<f64> = cycle.states.iter().map(|s| s.central[2][axis]).collect();
+        let lines = spectrum(&record, 1.0, Window::Rectangular, 1)?.lines;
+        Ok(lines[..6].iter().map(|x| [x.re, x.im]).collect())
+    };
+    Ok([one(0)?, one(1)?, one(2)?])
+}
+
+/// As the speed goes to zero what is left is the static deflection.
+fn slow(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+    let settings = SteadySettings { between_cycles: 0, ..steady_settings() };
+    let none = Imperfections::default();
+    let found = sweep_of(&lab.four, &lab.bodies, none, TORQUE, &[20.0], settings)?;
+    let still = static_harmonics(lab)?;
+    let mut worst = 0.0f64;
+    for point in found.points() {
+        for (axis, coordinate) in Coordinate::DISPLACEMENTS.into_iter().enumerate() {
+            let largest = (1..=5).map(|l| still[axis][l][0].hypot(still[axis][l][1]));
+            let largest = largest.fold(0.0f64, f64::max);
+            for (l, [re, im]) in still[axis].iter().enumerate().skip(1) {
+                let size = re.hypot(*im);
+                let Some(line) = point.line(Part::Sun, coordinate, l) else { continue };
+                // What is forbidden is nothing on either side.
+                if size > 1e-6 * largest {
+                    let (a, p) = (line.amplitude, line.phase_rad);
+                    let off = (a * p.cos() - re).hypot(a * p.sin() - im);
+                    worst = worst.max(100.0 * off / size);
+                }
+            }
+        }
+    }
+    let title = "four planets at 20 rpm: harmonics 1 to 5 of the sun's motion against those at rest, largest difference";
+    let kind = ReferenceKind::Analytic;
+    let id = "sweep.static_limit.four";
+    Ok(vec![lab.number(id, title, kind, "inertia and damping vanish", "%", 0.0, worst)?])
+}
+
+/// With an odd number of steps half a cycle is no whole number of them, and what the rules forbid is
+/// there: an artefact, shown once.
+fn odd_grid(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+    let mut scene = lab.four.clone();
+    scene.dynamics.steps_per_cycle = 141;
+    let found = forbidden_share(&scene, &lab.bodies, Imperfections::default(), 1600.0)?;
+    let limit = lab.reference.tolerance("sweep.forbidden.four", 0.0)?.absolute;
+    let is_there = found > limit;
+    let title = format!(
+        "141 steps in a cycle leave the sun {found:.1e} in forbidden harmonics at 1600 rpm: more than sweep.forbidden.four allows"
+    );
+    Ok(vec![breaks("sweep.odd_grid.four", &title, is_there)])
+}
+
+/// What forbidden harmonics hold at one speed.
+fn forbidden_share(
+    scene: &Scene,
+    bodies: &Bodies,
+    imperfections: Imperfections,
+    speed_rpm: f64,
+) -> Result<f64, ValidationError> {
+    let settings = SteadySettings { between_cycles: 0, ..steady_settings() };
+    let found = sweep_of(scene, bodies, imperfections, TORQUE, &[speed_rpm], settings)?;
+    let strengths = excitation_of_scene(scene, 5).ok_or(ValidationError::Incomplete("teeth"))?;
+    Ok(forbidden(&contents(&found.points(), &strengths)))
+}
+
+fn breaks(id: &str, title: &str, is_broken: bool) -> Check {
+    let source = "a check that cannot fail is none";
+    let subject = Subject { id, title, kind: ReferenceKind::Analytic, source, unit: "" };
+    Check::equal(subject, "breaks", if is_broken { "breaks" } else { "stands" })
+}
+
+/// Negative controls: what must break when the set is spoilt.
+pub(crate) fn controls(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+    let mut checks = Vec::new();
+    let limit = lab.reference.tolerance("sweep.forbidden.four", 0.0)?.absolute;
+    let displaced =
+        Imperfections { displaced_planets: vec![(1, 0.0, 50e-6)], ..Imperfections::default() };
+    let found = forbidden_share(&lab.four, &lab.bodies, displaced, 1600.0)?;
+    let title = "one planet displaced by 50 µm along its path breaks sweep.forbidden.four";
+    checks.push(breaks("sweep.control.displaced_planet", title, found > limit));
+
+    let mut softer = lab.four.clone();
+    let bearing = 0.8 * softer.supports.planet_bearing;
+    softer.overrides.push(gearset::PlanetOverride {
+        planet: 1,
+        mass: None,
+        inertia_over_r2: None,
+        bearing: Some(bearing),
+        sun_mesh: None,
+        ring_mesh: None,
+    });
+    let found = forbidden_share(&softer, &lab.bodies, Imperfections::default(), 1600.0)?;
+    let title = "one planet bearing 20 % softer breaks sweep.forbidden.four";
+    checks.push(breaks("sweep.control.softer_bearing", title, found > limit));
+
+    let limit = lab.reference.tolerance("sweep.between.four", 0.0)?.absolute;
+    let pitch = Imperfections {
+        pitch_errors: vec![PitchError { tooth: 5, amount: 10e-6 }],
+        ..Imperfections::default()
+    };
+    // The sun's teeth come round after as many mesh cycles.
+    let teeth = lab.bodies.geometry.sun.as_ref().map_or(1, |sun| sun.teeth) as usize;
+    let settings =
+        SteadySettings { most_cycles: 4 * teeth, between_cycles: teeth, ..steady_settings() };
+    let found = sweep_of(&lab.four, &lab.bodies, pitch, TORQUE, &[1600.0], settings)?;
+    let between = found.points().iter().filter_map(|p| p.between).fold(0.0f64, f64::max);
+    let title = "one sun tooth 10 µm out of pitch makes sidebands: breaks sweep.between.four";
+    checks.push(breaks("sweep.control.pitch_error", title, between > limit));
+    Ok(checks)
+}
+
+/// How far the sun meshes' forces are from following one another as the planets' mesh phases say, in
+/// cycles of the harmonic: F_n(t) = F_0(t + φ_n/f_m) in sets of equally spaced planets.
+pub(crate) fn order_of_meshes(point: &SweepPoint, scene: &Scene) -> Option<f64> {
+    let teeth = f64::from(scene.teeth?.sun?);
+    let mut worst = 0.0f64;
+    for l in 1..=5 {
+        let first = point.line(Part::SunMesh(0), Coordinate::Force, l)?;
+        for (n, psi) in scene.planets.psi_rad.iter().enumerate().skip(1) {
+            let own = point.line(Part::SunMesh(n), Coordinate::Force, l)?;
+            // φ_n = −Z_s ψ_n/2π
+            let expected = -(l as f64) * teeth * psi / TAU;
+            let off = (own.phase_rad - first.phase_rad) / TAU - expected;
+            worst = worst.max((off - off.round()).abs());
+        }
+    }
+    Some(worst)
+}
