@@ -147,6 +147,7 @@ impl<'s> VibratingSet<'s> {
         force: f64,
     ) -> Result<Self, FeError> {
         fit(scene, &motive)?;
+        build::one_flexibility(scene, bodies)?;
         let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
         let (step, count, start) = match motive {
             Motive::Standing { position, step } => (step, 1, position),
