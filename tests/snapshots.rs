@@ -164,6 +164,7 @@ fn modes() {
         "lin_parker_1999_4p",
         "lin_parker_1999_3p",
         "five_planets",
+        "oh58_4p_second_system",
     ] {
         assert_json(&format!("modes_{name}"), &["modes", &scene(name)]);
     }
