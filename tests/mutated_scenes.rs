@@ -85,11 +85,19 @@ fn ten_thousand_mutated_scenes() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
     let name = path.to_str().unwrap();
-    let sources: Vec<String> = ["oh58_4p", "oh58_3p", "oh58_sun_planet_pair", "lin_parker_1999_4p"]
-        .iter()
-        .map(|s| Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{s}.toml")))
-        .map(|p| std::fs::read_to_string(p).unwrap())
-        .collect();
+    let sources: Vec<String> = [
+        "oh58_4p",
+        "oh58_3p",
+        "oh58_sun_planet_pair",
+        "lin_parker_1999_4p",
+        "five_planets",
+        "oh58_4p_published_stiffness",
+        "oh58_4p_second_system",
+    ]
+    .iter()
+    .map(|s| Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{s}.toml")))
+    .map(|p| std::fs::read_to_string(p).unwrap())
+    .collect();
     let mut random = Random(58);
     let (mut valid, mut invalid) = (0, 0);
     for i in 0..10_000 {

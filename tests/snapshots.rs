@@ -163,6 +163,8 @@ fn modes() {
         "coinciding_modes",
         "lin_parker_1999_4p",
         "lin_parker_1999_3p",
+        "five_planets",
+        "oh58_4p_second_system",
     ] {
         assert_json(&format!("modes_{name}"), &["modes", &scene(name)]);
     }
@@ -176,7 +178,7 @@ fn campbell() {
 
 #[test]
 fn rules() {
-    for name in ["oh58_4p", "oh58_3p"] {
+    for name in ["oh58_4p", "oh58_3p", "five_planets"] {
         assert_json(&format!("rules_{name}"), &["rules", &scene(name)]);
     }
 }
@@ -207,7 +209,9 @@ fn meshes() {
 
 #[test]
 fn scenes() {
-    for name in ["oh58_4p", "oh58_3p", "oh58_sun_planet_pair", "oh58_ring_planet_pair"] {
+    for name in
+        ["oh58_4p", "oh58_3p", "oh58_sun_planet_pair", "oh58_ring_planet_pair", "five_planets"]
+    {
         assert_json(&format!("scene_{name}"), &["scene", "check", &scene(name)]);
     }
 }

@@ -256,3 +256,46 @@ fn without_backlash_the_load_opens_the_back_flanks() {
         assert!(back < 0.2 * front, "{back} {front}");
     }
 }
+
+/// A factor on the flexibility scales what the finite elements give, between pairs too, and leaves the
+/// half-planes, which know their own pair alone; 1 changes no bit.
+#[test]
+fn a_factor_scales_the_fe_part_of_one_mesh_alone() {
+    let b = bodies();
+    let with = |factor: f64, kind: MeshKind| {
+        let mut settings = b.cells(FORCE);
+        settings.flexibility_factor.sun_planet = factor;
+        let (mesh, pair) = b.joined(kind).unwrap();
+        MeshTable::new(mesh, pair, 0.1, &settings).unwrap()
+    };
+    let [one, two, three] = [1.0, 2.0, 3.0].map(|f| with(f, MeshKind::SunPlanet));
+    let (mesh, pair) = b.joined(MeshKind::SunPlanet).unwrap();
+    let plain = MeshTable::new(mesh, pair, 0.1, &b.cells(FORCE)).unwrap();
+    assert_eq!(one.compliance, plain.compliance);
+    let fe = &two.compliance - &one.compliance;
+    let largest = one.compliance.amax();
+    assert!((&three.compliance - &one.compliance - 2.0 * &fe).amax() < 1e-14 * largest);
+    let half_planes = &one.compliance - &fe;
+    let pair_of = one.pair_of_cells();
+    assert!(one.pairs.len() > 1);
+    for (i, p) in pair_of.iter().enumerate() {
+        for (j, q) in pair_of.iter().enumerate() {
+            if p != q {
+                assert!(half_planes[(i, j)].abs() < 1e-14 * largest);
+            }
+        }
+    }
+    assert!(half_planes.amax() > 0.1 * largest && fe.amax() > 0.1 * largest);
+    let [ring, same] = [1.0, 2.0].map(|f| with(f, MeshKind::RingPlanet));
+    assert_eq!(ring.compliance, same.compliance);
+}
+
+#[test]
+fn a_factor_that_is_no_flexibility_is_refused() {
+    for factor in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let mut soft = scene("oh58_4p.toml");
+        soft.fe_contact.flexibility_factor.ring_planet = factor;
+        let refused = Bodies::new(&soft).unwrap_err().to_string();
+        assert!(refused.contains("fe_contact.flexibility_factor.ring_planet"), "{refused}");
+    }
+}

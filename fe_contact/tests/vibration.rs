@@ -297,3 +297,59 @@ fn a_mirrored_set_under_reversed_torque_moves_as_the_mirror() {
     assert!((one[0] - other[0]).abs() < 1e-9 * size && (one[1] + other[1]).abs() < 1e-9 * size);
     assert!((one[2] + other[2]).abs() < 1e-9 * one[2].abs());
 }
+
+/// Factors on the meshes' flexibility: rest, linearisation and damping see one and the same mesh.
+#[test]
+fn a_set_with_softer_meshes_is_one_set_at_rest_and_in_motion() {
+    let mut soft = scene("oh58_3p", Rung::QuasiStatic);
+    let factors = &mut soft.fe_contact.flexibility_factor;
+    (factors.sun_planet, factors.ring_planet) = (1.9, 2.6);
+    let mut bodies = Bodies::new(&soft).unwrap();
+    let mut set = set(&soft, &bodies, standing(5e-6));
+    set.rest(TORQUE).unwrap();
+    let start = set.motion().x.clone();
+    let size = start.iter().fold(0.0f64, |a, x| a.max(x.abs()));
+    for _ in 0..12 {
+        set.step().unwrap();
+    }
+    for (x, y) in set.motion().x.iter().zip(&start) {
+        assert!((x - y).abs() < 1e-9 * size, "{x} {y}");
+    }
+    // βK holds the softer flexibility: damping stays that of the set as a whole, half-planes apart.
+    let (alpha, beta) = (142.9, 2.21e-6);
+    for mode in set.linearised().unwrap().damped().unwrap().iter().take(8) {
+        let omega = std::f64::consts::TAU * mode.frequency_hz;
+        let share = mode.damping_ratio / (0.5 * (alpha / omega + beta * omega));
+        assert!(share > 0.97 && share < 1.001, "{}: {share}", mode.frequency_hz);
+    }
+    drop(set);
+    bodies.settings.input.flexibility_factor.sun_planet = 1.0;
+    for rung in [Rung::Modal(2), Rung::Full] {
+        soft.dynamics.rung = rung;
+        let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
+        let made = VibratingSet::new(&soft, &bodies, sense, none, standing(5e-6), 8000.0);
+        let refused = made.unwrap_err().to_string();
+        assert!(refused.contains("fe_contact.flexibility_factor.ring_planet"), "{refused}");
+    }
+}
+
+/// What is fixed to the planets' races moves with them and changes no equilibrium.
+#[test]
+fn added_mass_rides_on_the_planets_races() {
+    let plain = scene("oh58_3p", Rung::QuasiStatic);
+    let mut heavy = plain.clone();
+    heavy.supports.planet_added.mass_kg = 0.25;
+    heavy.supports.planet_added.inertia_kg_m2 = 2e-3;
+    let bodies = Bodies::new(&plain).unwrap();
+    let mut sets = [&plain, &heavy].map(|s| set(s, &bodies, standing(5e-6)));
+    for set in &mut sets {
+        set.rest(TORQUE).unwrap();
+    }
+    let [light, laden] = sets;
+    assert_eq!(light.motion().x, laden.motion().x);
+    let radius = bodies.geometry.planet.base_radius;
+    let more: Vec<f64> = laden.masses().iter().zip(light.masses()).map(|(a, b)| a - b).collect();
+    let turning = 2e-3 / (radius * radius);
+    let count = |value: f64| more.iter().filter(|m| (*m - value).abs() < 1e-12).count();
+    assert_eq!((count(0.25), count(turning), count(0.0)), (6, 3, more.len() - 9));
+}

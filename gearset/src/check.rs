@@ -5,11 +5,12 @@ use crate::gear::Gear;
 use crate::geometry::Geometry;
 use crate::mesh::{Mesh, MeshKind, MeshMember};
 use crate::reader::Document;
-use crate::scene::Scene;
+use crate::scene::{Rung, Scene};
 
 /// Judges the whole scene; faults go to the document.
 pub(crate) fn whole(document: &Document<'_>, scene: &Scene) {
     distinct_positions(document, scene);
+    factors_need_quasi_static(document, scene);
     match Geometry::from_scene(scene) {
         Some(Ok(geometry)) => tooth_geometry(document, scene, &geometry),
         Some(Err(no_mesh)) => {
@@ -205,6 +206,21 @@ fn one_mesh(document: &Document<'_>, geometry: &Geometry, mesh: &Mesh) {
         let why = format!("the {} mesh has backlash {}: it jams", mesh.kind.name(), mm(backlash));
         let key = "geometry.thickness.profile_shift";
         document.fault(key, "shifts that leave backlash 0 or above", why);
+    }
+}
+
+/// Bodies with elastic states of their own serve several meshes at once.
+fn factors_need_quasi_static(document: &Document<'_>, scene: &Scene) {
+    let factor = scene.fe_contact.flexibility_factor;
+    if scene.dynamics.rung == Rung::QuasiStatic {
+        return;
+    }
+    for (name, value) in [("sun_planet", factor.sun_planet), ("ring_planet", factor.ring_planet)] {
+        if value != 1.0 {
+            let key = format!("fe_contact.flexibility_factor.{name}");
+            let why = "a planet that vibrates within itself cannot be softer for one mesh alone";
+            document.fault(&key, "1, or dynamics.rung = \"quasi_static\"", why);
+        }
     }
 }
 

@@ -320,10 +320,16 @@ fn supports(root: &Section<'_, '_>, is_pair: bool) -> Option<Supports> {
         None => free,
     };
     let (carrier, ring, sun) = (central("carrier"), central("ring"), central("sun"));
+    let mut planet_added = AddedMass::default();
     let planet_bearing = match root.section("planet") {
         Some(s) => {
             let why = "stiffness between planet and carrier, equal in both directions";
             let k = s.required("bearing_n_per_m", Bound::Positive, why);
+            let added = |key, why| s.number(key, Bound::NonNegative, why).unwrap_or(0.0);
+            planet_added = AddedMass {
+                mass_kg: added("added_mass_kg", "mass fixed to each planet's race"),
+                inertia_kg_m2: added("added_inertia_kg_m2", "its polar inertia"),
+            };
             s.finish();
             if is_pair {
                 root.fault("planet", "nothing here", "races of a gear pair are rigid");
@@ -339,7 +345,7 @@ fn supports(root: &Section<'_, '_>, is_pair: bool) -> Option<Supports> {
             None
         }
     };
-    Some(Supports { carrier, ring, sun, planet_bearing: planet_bearing? })
+    Some(Supports { carrier, ring, sun, planet_bearing: planet_bearing?, planet_added })
 }
 
 fn support(s: Section<'_, '_>) -> Support {

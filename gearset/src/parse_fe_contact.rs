@@ -1,7 +1,7 @@
 //! The `[fe_contact]` table.
 
 use crate::reader::{Bound, Section};
-use crate::scene::{ElementFamily, FeContactInput, PlaneState};
+use crate::scene::{ElementFamily, FeContactInput, PerMesh, PlaneState};
 
 pub(crate) fn fe_contact(s: Section<'_, '_>) -> FeContactInput {
     let default = FeContactInput::default();
@@ -18,6 +18,13 @@ pub(crate) fn fe_contact(s: Section<'_, '_>) -> FeContactInput {
     let why = "depth below the flank at which half-plane and FE are matched";
     let matching_depth = s.number("matching_depth_mm", Bound::Positive, why).map(|d| d * 1e-3);
     let points = s.integer("matching_points", (1, 2), "1: the paper's eq. (1); 2: extrapolated");
+    let flexibility_factor = s.section("flexibility_factor").map(|f| {
+        let why = "factor on the FE part of a mesh's flexibility";
+        let value = |key| f.number(key, Bound::Positive, why).unwrap_or(1.0);
+        let found = PerMesh { sun_planet: value("sun_planet"), ring_planet: value("ring_planet") };
+        f.finish();
+        found
+    });
     s.finish();
     FeContactInput {
         plane: plane.unwrap_or(default.plane),
@@ -26,5 +33,6 @@ pub(crate) fn fe_contact(s: Section<'_, '_>) -> FeContactInput {
         contact_cells: cells.map_or(default.contact_cells, |n| n as u32),
         matching_depth,
         matching_points: points.map_or(default.matching_points, |n| n as u32),
+        flexibility_factor: flexibility_factor.unwrap_or(default.flexibility_factor),
     }
 }

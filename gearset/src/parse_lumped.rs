@@ -106,6 +106,10 @@ pub(crate) fn lumped(
             }
         }
         torsional_needs_radius(&s, supports, &radius);
+        if supports.planet_added.inertia_kg_m2 > 0.0 && radius.planet.is_none() {
+            let why = "added_inertia_kg_m2 of the planet needs r";
+            fault_in(&s, "radius_mm", "planet", "a radius above 0", why);
+        }
     }
     s.finish();
     Some(LumpedInput {

@@ -115,6 +115,8 @@ pub struct FeContactInput {
     pub matching_depth: Option<f64>,
     /// Matching points below each cell: 1 as in the paper, 2 to extrapolate to the surface.
     pub matching_points: u32,
+    /// Factors on the FE part of each mesh's flexibility, the half-plane part left as it is.
+    pub flexibility_factor: PerMesh,
 }
 
 impl Default for FeContactInput {
@@ -126,6 +128,7 @@ impl Default for FeContactInput {
             contact_cells: 40,
             matching_depth: None,
             matching_points: 2,
+            flexibility_factor: PerMesh { sun_planet: 1.0, ring_planet: 1.0 },
         }
     }
 }
@@ -330,6 +333,17 @@ pub struct Supports {
     pub sun: Support,
     /// Stiffness between each planet and the carrier, N/m.
     pub planet_bearing: f64,
+    /// What is fixed to each planet's rigid race.
+    pub planet_added: AddedMass,
+}
+
+/// A rigid piece fixed to a race, centred on it; none by default.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct AddedMass {
+    /// Mass, kg.
+    pub mass_kg: f64,
+    /// Polar inertia about its centre, kg m².
+    pub inertia_kg_m2: f64,
 }
 
 /// One value for each body kind; `None` where the scene says nothing.
@@ -352,6 +366,16 @@ pub struct PerMesh {
     pub sun_planet: f64,
     /// Ring–planet.
     pub ring_planet: f64,
+}
+
+impl PerMesh {
+    /// The value of one kind of mesh.
+    pub fn of(&self, kind: MeshKind) -> f64 {
+        match kind {
+            MeshKind::SunPlanet => self.sun_planet,
+            MeshKind::RingPlanet => self.ring_planet,
+        }
+    }
 }
 
 /// Parameters of the Lin–Parker model.

@@ -141,6 +141,35 @@ fn each_kind_of_fault_names_its_key_and_says_why() {
             "fe_contact.matching_depth_mm",
             "above 0",
         ),
+        (
+            &[(
+                "# flexibility_factor = { sun_planet = 1.0",
+                "flexibility_factor = { sun_planet = 0.0",
+            )],
+            "fe_contact.flexibility_factor.sun_planet",
+            "above 0",
+        ),
+        (
+            &[
+                (
+                    "# flexibility_factor = { sun_planet = 1.0",
+                    "flexibility_factor = { sun_planet = 2",
+                ),
+                ("[operation]", "[dynamics]\nrung = \"full\"\n[operation]"),
+            ],
+            "fe_contact.flexibility_factor.sun_planet",
+            "quasi_static",
+        ),
+        (
+            &[("# added_mass_kg = 0.0", "added_mass_kg = -0.1")],
+            "planet.added_mass_kg",
+            "0 or above",
+        ),
+        (
+            &[("# added_inertia_kg_m2 = 0.0", "added_inertia_kg_m2 = nan")],
+            "planet.added_inertia_kg_m2",
+            "0 or above",
+        ),
         (&[("planet_base_diameter_mm = 91.26", "")], "geometry.base_pitch_mm", "exactly one of"),
         (&[("mass_kg = { sun = 0.40, ", "mass_kg = { ")], "lumped.mass_kg.sun", "can move"),
         (&[("planet = 1.27e-3, ", "")], "lumped.inertia_kg_m2.planet", "can rotate"),
@@ -175,7 +204,12 @@ fn parameter_only_sets_are_valid_and_say_what_they_lack() {
     let scene = Scene::from_toml(text).unwrap();
     assert!(scene.limits().iter().any(|l| l.contains("[geometry]")));
     assert!(scene.limits().iter().any(|l| l.contains("[teeth]")));
-    // The angles are then needed.
+    // What is fixed to the planets turns with them: their radius is then needed.
+    let keys = faulty_keys(
+        &text.replace("_per_m = 1e8\n[ring]", "_per_m = 1e8\nadded_inertia_kg_m2 = 1\n[ring]"),
+    );
+    assert_eq!(keys, ["lumped.radius_mm.planet"]);
+    // Without geometry the angles are needed.
     let keys = faulty_keys(&text.replace("pressure_angle_deg", "# pressure_angle_deg"));
     assert_eq!(keys, ["lumped.pressure_angle_deg"]);
 }

@@ -16,8 +16,11 @@ pub enum LumpedError {
         /// Body.
         body: &'static str,
     },
-    /// A torsional stiffness per angle without the radius that turns it into one per u = r·θ.
-    #[error("`lumped.radius_mm.{body}` is absent: the torsional stiffness per angle needs it")]
+    /// A torsional stiffness or an added inertia per angle without the radius that turns it into one
+    /// per u = r·θ.
+    #[error(
+        "`lumped.radius_mm.{body}` is absent: the torsional stiffness or added inertia needs it"
+    )]
     NoRadius {
         /// Body.
         body: &'static str,

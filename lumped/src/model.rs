@@ -42,6 +42,14 @@ impl LumpedModel {
                 (Some(Motion::Held), _) => false,
             }
         });
+        // Fixed to every planet, whatever its own mass.
+        let piece = supports.planet_added;
+        let added = |axis: Axis| match (axis, lumped.radius.planet) {
+            (Axis::First | Axis::Second, _) => Ok(piece.mass_kg),
+            _ if piece.inertia_kg_m2 == 0.0 => Ok(0.0),
+            (Axis::Rotation, Some(r)) => Ok(piece.inertia_kg_m2 / (r * r)),
+            (Axis::Rotation, None) => Err(LumpedError::NoRadius { body: "planet" }),
+        };
         let inertia = |&(body, axis): &(Body, Axis)| {
             let special = match body {
                 Body::Planet(n) => special(n),
@@ -57,9 +65,11 @@ impl LumpedModel {
             };
             let name = body.kind_name();
             let key = format!("lumped.{table}.{name}");
-            own.or(common).ok_or(LumpedError::NoInertia { key, body: name })
+            let bare = own.or(common).ok_or(LumpedError::NoInertia { key, body: name })?;
+            Ok(bare + if matches!(body, Body::Planet(_)) { added(axis)? } else { 0.0 })
         };
-        let mass = coordinates.free().iter().map(inertia).collect::<Result<Vec<_>, _>>()?;
+        let mass =
+            coordinates.free().iter().map(inertia).collect::<Result<Vec<f64>, LumpedError>>()?;
         let rows = Rows { coordinates: &coordinates };
         let mut springs = Vec::with_capacity(3 * count + 6);
         for body in [Body::Carrier, Body::Ring, Body::Sun] {

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use gearset::{Motion, PlanetPositions, Scene, Torsional};
-use lumped::{Axis, Body, LumpedModel};
+use gearset::{AddedMass, Motion, PlanetPositions, Scene, Torsional};
+use lumped::{Axis, Body, LumpedError, LumpedModel};
 
 /// The Lin & Parker set.
 fn lin_parker() -> Scene {
@@ -103,6 +103,27 @@ fn mesh_deflections_are_what_the_material_points_do() {
     let on_planet = turn([r_p * b.cos(), r_p * b.sin()], psi);
     let approach = dot(planet(on_planet), push) - dot(central(Body::Ring, r_r, on_ring), push);
     assert!((spring(1) - approach).abs() < 1e-18, "{} {approach}", spring(1));
+}
+
+#[test]
+fn what_is_fixed_to_the_planets_adds_to_their_mass_and_to_nothing_else() {
+    let mut scene = lin_parker();
+    let bare = LumpedModel::from_scene(&scene).unwrap();
+    scene.supports.planet_added = AddedMass { mass_kg: 0.2, inertia_kg_m2: 3e-3 };
+    scene.lumped.as_mut().unwrap().radius.planet = None;
+    let refused = LumpedModel::from_scene(&scene).unwrap_err();
+    assert_eq!(refused, LumpedError::NoRadius { body: "planet" });
+    scene.lumped.as_mut().unwrap().radius.planet = Some(0.05);
+    let model = LumpedModel::from_scene(&scene).unwrap();
+    for (i, (body, axis)) in model.coordinates.free().iter().enumerate() {
+        let more = match (body, axis) {
+            (Body::Planet(_), Axis::Rotation) => 3e-3 / (0.05 * 0.05),
+            (Body::Planet(_), _) => 0.2,
+            _ => 0.0,
+        };
+        assert_eq!(model.mass[i], bare.mass[i] + more);
+    }
+    assert_eq!(model.stiffness(), bare.stiffness());
 }
 
 #[test]

@@ -11,6 +11,14 @@ pub enum PublishedScene {
     Oh58BestThickness,
     /// OH-58, three planets, consistent geometry.
     Oh58ThreePlanets,
+    /// Three planets, meshes as soft on average as the printed lumped ones.
+    Oh58ThreePlanetsPublishedStiffness,
+    /// Four planets, the same.
+    Oh58FourPlanetsPublishedStiffness,
+    /// Four planets, softer bearings, inertia added to the planets: the paper's section 4.2.
+    Oh58SecondSystem,
+    /// Five equally spaced planets.
+    FivePlanets,
     /// OH-58 lumped model as published: 24.6° twice, equal spacing, four planets.
     Oh58FourPlanetsAsPublished,
     /// The same with three planets.
@@ -35,6 +43,14 @@ pub fn scene(which: PublishedScene) -> Result<Scene, SceneError> {
         PublishedScene::Oh58FourPlanets => file!("oh58_4p.toml"),
         PublishedScene::Oh58BestThickness => file!("oh58_4p_best_thickness.toml"),
         PublishedScene::Oh58ThreePlanets => file!("oh58_3p.toml"),
+        PublishedScene::Oh58ThreePlanetsPublishedStiffness => {
+            file!("oh58_3p_published_stiffness.toml")
+        }
+        PublishedScene::Oh58FourPlanetsPublishedStiffness => {
+            file!("oh58_4p_published_stiffness.toml")
+        }
+        PublishedScene::Oh58SecondSystem => file!("oh58_4p_second_system.toml"),
+        PublishedScene::FivePlanets => file!("five_planets.toml"),
         PublishedScene::Oh58FourPlanetsAsPublished => file!("oh58_4p_as_published.toml"),
         PublishedScene::Oh58ThreePlanetsAsPublished => file!("oh58_3p_as_published.toml"),
         PublishedScene::LinParkerThreePlanets => file!("lin_parker_1999_3p.toml"),

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use gearset::{Mesh, MeshMember};
+use gearset::{Mesh, MeshMember, PerMesh};
 
 use super::half_plane::HalfPlane;
 use super::hertz::Hertz;
@@ -21,6 +21,8 @@ pub struct CellSettings {
     pub force: f64,
     /// Pairs whose corner gap is below this take part, m.
     pub window: f64,
+    /// Factors on the FE part of the meshes' compliance; the half-plane part is the flanks' own.
+    pub flexibility_factor: PerMesh,
 }
 
 /// Matching of half-plane and FE below each cell.
@@ -116,11 +118,14 @@ impl MeshTable {
     ) -> Result<Self, FeError> {
         let [driver, _] = bodies;
         let face_width = driver.face_width;
-        let frames = candidates(mesh, phase, settings.window);
+        let factor = settings.flexibility_factor.of(mesh.kind);
+        // The window is made for a mesh six times softer than usual; the factor may use up half.
+        let window = settings.window * (factor / 3.0).max(1.0);
+        let frames = candidates(mesh, phase, window);
         let next_gap = candidates(mesh, phase, f64::INFINITY)
             .iter()
             .map(|pair| pair.gap)
-            .filter(|gap| *gap > settings.window)
+            .filter(|gap| *gap > window)
             .fold(f64::INFINITY, f64::min);
         let (mut pairs, mut gaps) = (Vec::new(), Vec::new());
         for frame in &frames {
@@ -163,7 +168,7 @@ impl MeshTable {
         let largest = compliance.amax();
         let skew = (&compliance - compliance.transpose()).amax();
         let asymmetry = if largest > 0.0 { 0.5 * skew / largest } else { 0.0 };
-        compliance = 0.5 * (&compliance + compliance.transpose());
+        compliance = (0.5 * factor) * (&compliance + compliance.transpose());
         let half = bodies.map(|body| HalfPlane::new(&body.material));
         for cells in &pairs {
             add_half_planes(&mut compliance, &half, cells, &settings.matching, face_width);

@@ -93,6 +93,7 @@ impl Bodies {
         };
         let geometry = Geometry::from_scene(scene).and_then(Result::ok).ok_or(missing)?;
         let input = scene.fe_contact;
+        fit(&input)?;
         let material = Elastic::new(&scene.material, input.plane);
         let make = |name: &'static str, gear: &Gear| -> Result<GearBody, FeError> {
             let mesh = GearMesh::new(name, gear, input.element, input.flank_elements as usize)?;
@@ -144,6 +145,11 @@ impl Bodies {
         Some([self.body(kind, MeshMember::Driver)?, self.body(kind, MeshMember::Driven)?])
     }
 
+    /// Factor on the FE part of a mesh's flexibility.
+    pub fn flexibility_factor(&self, kind: MeshKind) -> f64 {
+        self.settings.input.flexibility_factor.of(kind)
+    }
+
     /// Cells for meshes that carry up to `force` (N).
     ///
     /// The window for tip contact is the deflection of a mesh six times softer than a pair of steel
@@ -156,8 +162,28 @@ impl Bodies {
             matching: self.settings.matching,
             force,
             window: force / stiffness,
+            flexibility_factor: self.settings.input.flexibility_factor,
         }
     }
+}
+
+/// Key of the factors on the FE part of the meshes' flexibility.
+pub(crate) const FLEXIBILITY_FACTOR: &str = "fe_contact.flexibility_factor";
+
+/// Refuses factors that are no flexibility: scenes can be built in memory, past the reader's checks.
+fn fit(input: &FeContactInput) -> Result<(), FeError> {
+    for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
+        let factor = input.flexibility_factor.of(kind);
+        if !(factor > 0.0 && factor.is_finite()) {
+            return Err(FeError::Unfit {
+                key: format!("{FLEXIBILITY_FACTOR}.{}", kind.name()),
+                value: format!("{factor}"),
+                allowed: "a finite number above 0".into(),
+                why: "teeth give way under load, and not without end".into(),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// A mesh the scene does not have.

@@ -10,8 +10,8 @@ mod set;
 mod state;
 
 pub use approach::{MeshAtApproach, PairAtApproach, at_approach};
-pub(crate) use bodies::missing_mesh;
 pub use bodies::{Bodies, FeSettings};
+pub(crate) use bodies::{FLEXIBILITY_FACTOR, missing_mesh};
 pub use imperfection::{Imperfections, PitchError};
 pub use pair::{PairAtPhase, PairCycle, ToothPairLoad, at_phase, pair_cycle, press};
 pub(crate) use placed::Placed;

@@ -61,6 +61,14 @@ pub struct SetCycle {
 }
 
 impl SetCycle {
+    /// Mean over positions and planets of a mesh's force over its rigid approach, F/δ, N/m.
+    pub fn mean_secant_stiffness(&self, kind: MeshKind) -> f64 {
+        let meshes = self.states.iter().flat_map(|s| &s.meshes).filter(|m| m.kind == kind);
+        let (sum, count) =
+            meshes.fold((0.0, 0u32), |(sum, n), m| (sum + m.force / m.approach, n + 1));
+        sum / f64::from(count.max(1))
+    }
+
     /// Root mean square about the mean of the sun's rotation (rad) and of its translation (m): the
     /// square root of the mean of |(x, y) − mean|².
     pub fn sun_rms(&self) -> (f64, f64) {

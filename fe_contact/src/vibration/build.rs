@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use dynamics::AverageAcceleration;
-use gearset::{Motion as Support, Rung, Scene};
+use gearset::{MeshKind, Motion as Support, Rung, Scene};
 use nalgebra::DMatrix;
 
 use super::body::{Port, VibratingBody};
@@ -14,7 +14,9 @@ use super::modal_body::{FixedRaceMode, ModalBody, fixed_race_modes};
 use super::teeth::tooth_points;
 use crate::body::{BodyMatrices, GearBody, number_unknowns};
 use crate::error::FeError;
-use crate::statics::{CARRIER, PLANETS, RING, Races, SUN, SetTables, StaticSet};
+use crate::statics::{
+    Bodies, CARRIER, FLEXIBILITY_FACTOR, PLANETS, RING, Races, SUN, SetTables, StaticSet,
+};
 
 /// What all bodies of a set share.
 #[derive(Debug, Clone, Copy)]
@@ -22,6 +24,27 @@ pub(super) struct Settings {
     pub(super) rung: Rung,
     pub(super) damping: Proportional,
     pub(super) rule: AverageAcceleration,
+}
+
+/// Refuses factors on the meshes' flexibility where bodies have elastic states of their own, which
+/// serve several meshes at once.
+pub(super) fn one_flexibility(scene: &Scene, bodies: &Bodies) -> Result<(), FeError> {
+    if scene.dynamics.rung == Rung::QuasiStatic {
+        return Ok(());
+    }
+    for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
+        let factor = bodies.flexibility_factor(kind);
+        if factor != 1.0 {
+            return Err(FeError::Unfit {
+                key: format!("{FLEXIBILITY_FACTOR}.{}", kind.name()),
+                value: format!("{factor}"),
+                allowed: "1, or `dynamics.rung` = \"quasi_static\"".into(),
+                why: "a planet that vibrates within itself cannot be softer for one mesh alone"
+                    .into(),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Ring, sun and planets, their teeth where the position `start` (cycles) has them.
@@ -113,7 +136,7 @@ pub(super) fn carrier(
 }
 
 /// Mass, mass and polar inertia over r² of a body of the set's order, kg: of its mesh; a carrier
-/// without geometry weighs what the lumped parameters say.
+/// without geometry weighs what the lumped parameters say, and planets carry what is fixed to them.
 pub(super) fn body_mass(
     statics: &StaticSet<'_>,
     scene: &Scene,
@@ -146,7 +169,12 @@ pub(super) fn body_mass(
             let sun = bodies.sun.as_ref().ok_or_else(|| missing("geometry.sun"))?;
             Ok(of_gear(sun, races.radii[2]))
         }
-        _ => Ok(of_gear(&bodies.planet, races.radii[3])),
+        _ => {
+            let added = scene.supports.planet_added;
+            let [mass, _, turning] = of_gear(&bodies.planet, races.radii[3]);
+            let mass = mass + added.mass_kg;
+            Ok([mass, mass, turning + added.inertia_kg_m2 / races.radii[3].powi(2)])
+        }
     }
 }
 

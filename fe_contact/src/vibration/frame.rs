@@ -22,6 +22,8 @@ pub(super) struct FrameMesh {
     pub(super) pairs: Vec<i64>,
     /// Map last found to hold.
     pub(super) map: usize,
+    /// Factor on the FE part of its flexibility.
+    pub(super) flexibility_factor: f64,
 }
 
 /// Forces of all pairs for given free approaches b, as long as certain maps hold: P = V b + v.
@@ -124,6 +126,7 @@ impl Frame {
                 count: mesh.rows.len(),
                 pairs: mesh.table.pairs.iter().map(|p| p.index).collect(),
                 map: 0,
+                flexibility_factor: ground.bodies.flexibility_factor(mesh.kind),
             });
         }
         frame.rows.copy_from(&frame.rigid);
@@ -190,11 +193,14 @@ impl Frame {
                 if same {
                     let ((on, tooth_on), (of, tooth_of)) = (&own[j], &own[i]);
                     let offset = tooth_of - tooth_on;
-                    self.lagging[(*a, *b)] += gear.body.surface_flexibility(
+                    let flexibility = gear.body.surface_flexibility(
                         (&on.load, on.direction),
                         offset,
                         (&of.load, of.direction),
                     );
+                    // As in the cells' compliance, which holds the same.
+                    let factor = self.meshes[self.mesh_of(*a)].flexibility_factor;
+                    self.lagging[(*a, *b)] += factor * flexibility;
                 }
             }
         }

@@ -159,6 +159,7 @@ impl<'s> VibratingSet<'s> {
         force: f64,
     ) -> Result<Self, FeError> {
         fit(scene, &motive)?;
+        build::one_flexibility(scene, bodies)?;
         let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
         let tables = statics.tables(force, &motive.positions())?;
         Self::assemble(scene, statics, motive, tables)
