@@ -8,8 +8,8 @@ use gearset::{Kinematics, Scene, SceneKind};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use validation::ValidationError;
 use validation::sweep::{
-    Chain, Direction, FeModel, Memory, Part, Plan, PlanError, PointStore, Response, SteadySettings,
-    Sweep, SweepModel, even_speeds, peaks, run as run_plan,
+    Direction, FeModel, Memory, Plan, PlanError, PointStore, SteadySettings, Sweep, SweepModel,
+    even_speeds, run as run_plan,
 };
 
 use crate::arguments::{Sweep as SweepArguments, TableFormat};
@@ -35,7 +35,8 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
     let model = FeModel::new(&scene, &bodies, Imperfections::default(), task.torque_nm);
     let mut sweep = task.march(&model, &task.plan, "plan.json")?;
     if arguments.refine > 0 {
-        let around = task.around_peaks(&sweep, arguments.refine as usize);
+        let steady = task.plan.steady.clone();
+        let around = sweep.around_peaks(PROMINENT, SPAN, arguments.refine as usize, steady);
         if !around.chains.is_empty() {
             let more = task.march(&model, &around, "plan_peaks.json")?;
             sweep.chains.extend(more.chains);
@@ -140,25 +141,6 @@ impl<'a> Task<'a> {
             ValidationError::Fe(e) => unfit(&self.arguments.scene, e.to_string()),
             other => other.into(),
         })
-    }
-
-    /// A chain about every peak of the sun's and planet 0's motion, those of one place once.
-    fn around_peaks(&self, sweep: &Sweep, count: usize) -> Plan {
-        let points = sweep.points();
-        let mut centres: Vec<f64> = Vec::new();
-        for part in [Part::Sun, Part::Planet(0)] {
-            for response in [Response::Rotation(part), Response::Translation(part)] {
-                for harmonic in 1..=self.plan.steady.harmonics {
-                    let found = peaks(&points, response, harmonic, PROMINENT);
-                    centres.extend(found.iter().map(|p| p.speed_rpm));
-                }
-            }
-        }
-        centres.sort_by(f64::total_cmp);
-        centres.dedup_by(|b, a| *b < *a * (1.0 + 0.5 * SPAN));
-        let all = Plan::around(&centres, SPAN, count, self.plan.steady.clone());
-        let is_sound = |c: &Chain| c.speeds_rpm.iter().all(|s| s.is_finite() && *s > 0.0);
-        Plan { chains: all.chains.into_iter().filter(is_sound).collect(), ..all }
     }
 }
 

@@ -8,6 +8,7 @@ pub mod modal;
 mod reference;
 mod suites;
 pub mod sweep;
+pub mod torque;
 mod verdict;
 
 pub use catalogue::{PublishedScene, scene};

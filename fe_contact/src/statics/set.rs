@@ -29,7 +29,7 @@ use crate::contact::{CellSettings, MeshAnswer, MeshTable, PairCells, PairFrame};
 use crate::error::FeError;
 
 /// A set ready for static loads.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct StaticSet<'s> {
     pub(crate) bodies: &'s Bodies,
     pub(crate) races: Races,

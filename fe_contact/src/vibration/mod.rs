@@ -24,4 +24,4 @@ pub use energy::{Energies, StepStart, StepWork};
 pub use full_body::{FullBody, SharedFactors};
 pub use linear::{DampedMode, LinearSet};
 pub use modal_body::{FixedRaceMode, ModalBody, fixed_race_modes};
-pub use set::{Counts, Motive, VibratingSet};
+pub use set::{Counts, Motive, Prepared, VibratingSet};

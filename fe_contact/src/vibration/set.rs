@@ -108,6 +108,13 @@ pub struct VibratingSet<'s> {
     pub counts: Counts,
 }
 
+/// What sets of one scene share at any speed: tables of contact and the races' matrices.
+#[derive(Debug, Clone)]
+pub struct Prepared<'s> {
+    statics: StaticSet<'s>,
+    tables: SetTables,
+}
+
 /// What a run took.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counts {
@@ -165,41 +172,37 @@ impl<'s> VibratingSet<'s> {
         Self::assemble(scene, statics, motive, tables)
     }
 
-    /// Tables that sets of one scene, sense and number of steps can share at any speed, sized for
-    /// `force` (N) in each mesh.
+    /// What sets of one scene, sense and number of steps share at any speed; tables sized for `force`
+    /// (N) in each mesh.
     ///
     /// # Errors
     /// As [`VibratingSet::new`].
-    pub fn tables(
-        bodies: &'s Bodies,
-        scene: &Scene,
-        sense: Facing,
-        motive: Motive,
-        force: f64,
-    ) -> Result<SetTables, FeError> {
-        let statics = StaticSet::new(scene, bodies, sense, Imperfections::default())?;
-        statics.tables(force, &motive.positions())
-    }
-
-    /// A set like [`VibratingSet::new`] on tables that were made before, which sets of any speed can share.
-    ///
-    /// # Errors
-    /// As [`VibratingSet::new`], and if the tables are not of this set's positions.
-    pub fn on_tables(
+    pub fn prepare(
         scene: &Scene,
         bodies: &'s Bodies,
         sense: Facing,
         imperfections: Imperfections,
         motive: Motive,
-        tables: SetTables,
-    ) -> Result<Self, FeError> {
+        force: f64,
+    ) -> Result<Prepared<'s>, FeError> {
         fit(scene, &motive)?;
         let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
+        let tables = statics.tables(force, &motive.positions())?;
+        Ok(Prepared { statics, tables })
+    }
+
+    /// A set like [`VibratingSet::new`] on what was prepared for the same scene.
+    ///
+    /// # Errors
+    /// As [`VibratingSet::new`], and if other steps in the cycle were prepared for.
+    pub fn on(scene: &Scene, prepared: &Prepared<'s>, motive: Motive) -> Result<Self, FeError> {
+        fit(scene, &motive)?;
+        let Prepared { statics, tables } = prepared.clone();
         if !motive.positions().iter().all(|p| statics.is_covered(*p, &tables)) {
             return Err(FeError::Unfit {
                 key: "tables".into(),
                 value: format!("{} tables", tables.list.len()),
-                allowed: "tables of the same set and the same steps in a cycle".into(),
+                allowed: "tables of the same steps in a cycle".into(),
                 why: "phases of the mesh cycle are never interpolated".into(),
             });
         }
@@ -298,7 +301,7 @@ impl<'s> VibratingSet<'s> {
             counts: Counts::default(),
             statics,
         };
-        set.prepare()?;
+        set.factorise()?;
         set.work.load = DVector::zeros(n);
         set.work.free = DVector::zeros(n);
         set.work.x = DVector::zeros(n);
@@ -319,7 +322,7 @@ impl<'s> VibratingSet<'s> {
     }
 
     /// A of the races and its inverse.
-    fn prepare(&mut self) -> Result<(), FeError> {
+    fn factorise(&mut self) -> Result<(), FeError> {
         let races = &self.statics.races;
         let n = races.count;
         let mut a = self.bearings.prepare(&self.rule, races, self.carrier.as_ref())?;

@@ -3,8 +3,8 @@
 use std::sync::OnceLock;
 
 use fe_contact::FeError;
-use fe_contact::statics::{Bodies, Imperfections, SetTables};
-use fe_contact::vibration::{Motive, VibratingSet};
+use fe_contact::statics::{Bodies, Imperfections};
+use fe_contact::vibration::{Motive, Prepared, VibratingSet};
 use gearset::{Facing, Rung, Scene};
 
 use super::marching::{FeMarching, Marching};
@@ -49,7 +49,7 @@ pub struct FeModel<'s> {
     bodies: &'s Bodies,
     imperfections: Imperfections,
     torque_nm: f64,
-    tables: [OnceLock<SetTables>; SIZES],
+    prepared: [OnceLock<Prepared<'s>>; SIZES],
 }
 
 impl<'s> FeModel<'s> {
@@ -60,8 +60,8 @@ impl<'s> FeModel<'s> {
         imperfections: Imperfections,
         torque_nm: f64,
     ) -> Self {
-        let tables = [const { OnceLock::new() }; SIZES];
-        Self { scene: scene.clone(), bodies, imperfections, torque_nm, tables }
+        let prepared = [const { OnceLock::new() }; SIZES];
+        Self { scene: scene.clone(), bodies, imperfections, torque_nm, prepared }
     }
 
     fn sense(&self) -> Facing {
@@ -109,23 +109,17 @@ impl SweepModel for FeModel<'_> {
         let steps_per_cycle = self.steps_per_cycle();
         let motive = Motive::Turning { mesh_frequency, steps_per_cycle };
         let (sense, force) = (self.sense(), self.force(size)?);
-        let slot = &self.tables[size.min(SIZES - 1)];
-        let imperfections = || self.imperfections.clone();
-        let tables = match slot.get() {
-            Some(tables) => tables.clone(),
+        let slot = &self.prepared[size.min(SIZES - 1)];
+        let prepared = match slot.get() {
+            Some(prepared) => prepared,
             None => {
-                let made = VibratingSet::tables(self.bodies, &self.scene, sense, motive, force)?;
-                slot.get_or_init(|| made).clone()
+                let own = self.imperfections.clone();
+                let made =
+                    VibratingSet::prepare(&self.scene, self.bodies, sense, own, motive, force)?;
+                slot.get_or_init(|| made)
             }
         };
-        let set = VibratingSet::on_tables(
-            &self.scene,
-            self.bodies,
-            sense,
-            imperfections(),
-            motive,
-            tables,
-        )?;
+        let set = VibratingSet::on(&self.scene, prepared, motive)?;
         Ok(Box::new(FeMarching { set, torque_nm: self.torque_nm.abs() }))
     }
 }

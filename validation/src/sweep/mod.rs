@@ -3,6 +3,7 @@
 mod feed;
 mod judge;
 mod marching;
+mod naturals;
 mod peaks;
 mod plan;
 mod point;
@@ -13,6 +14,7 @@ mod steady;
 pub use feed::{FeModel, SweepModel};
 pub use judge::{Assigned, Content, Natural, assigned, contents};
 pub use marching::Marching;
+pub use naturals::naturals;
 pub use peaks::{Peak, Response, peaks};
 pub use plan::{Chain, Direction, Plan, PlanError, even_speeds};
 pub use point::{Coordinate, Line, Part, SweepPoint, TableRow};

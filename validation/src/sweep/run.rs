@@ -7,8 +7,9 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::feed::{SIZES, SweepModel, is_too_small};
+use super::peaks::{Response, peaks};
 use super::plan::{Chain, Plan};
-use super::point::{SweepPoint, TableRow};
+use super::point::{Part, SweepPoint, TableRow};
 use super::steady::{SteadySettings, steady};
 use crate::error::ValidationError;
 
@@ -73,6 +74,30 @@ impl Sweep {
         let mut all: Vec<&SweepPoint> = self.chains.iter().flat_map(|(_, list)| list).collect();
         all.sort_by(|a, b| a.speed_rpm.total_cmp(&b.speed_rpm));
         all
+    }
+
+    /// Chains of `count` speeds about every peak of the sun and of planet 0 that stands out by `least`,
+    /// `span` (parts of the speed) to either side; peaks nearer than that share one.
+    pub fn around_peaks(
+        &self,
+        least: f64,
+        span: f64,
+        count: usize,
+        steady: SteadySettings,
+    ) -> Plan {
+        let points = self.points();
+        let mut centres: Vec<f64> = Vec::new();
+        for part in [Part::Sun, Part::Planet(0)] {
+            for response in [Response::Rotation(part), Response::Translation(part)] {
+                for harmonic in 1..=steady.harmonics {
+                    let found = peaks(&points, response, harmonic, least);
+                    centres.extend(found.iter().map(|p| p.speed_rpm));
+                }
+            }
+        }
+        centres.sort_by(f64::total_cmp);
+        centres.dedup_by(|b, a| *b < *a * (1.0 + span));
+        Plan::around(&centres, span, count, steady)
     }
 
     /// The tidy table.

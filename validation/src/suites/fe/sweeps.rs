@@ -9,12 +9,12 @@ use gearset::{Kinematics, Scene, excitation_of_scene};
 
 use super::Lab;
 use crate::Profile;
+use crate::catalogue::PublishedScene;
 use crate::check::{Check, ReferenceKind, Subject};
 use crate::error::ValidationError;
-use crate::modal::{Preload, linear_modes, preloaded};
 use crate::sweep::{
     Content, Coordinate, Direction, FeModel, Memory, Natural, Part, Plan, SteadySettings, Sweep,
-    SweepPoint, assigned, contents, run,
+    SweepPoint, assigned, contents, naturals, run,
 };
 
 /// What ids of the sweeps start with.
@@ -27,6 +27,7 @@ pub(crate) const IDS: &[&str] = &[
     "sweep.harmonics_of_",
     "sweep.static_limit.",
     "sweep.odd_grid.",
+    "sweep.order.",
 ];
 
 /// N·m on the sun.
@@ -34,6 +35,9 @@ const TORQUE: f64 = 1130.0;
 
 /// Peaks that stand out by less are left alone.
 const PROMINENT: f64 = 1.3;
+
+/// The second manifest goes so far to either side of a peak, in parts of its speed.
+const SPAN: f64 = 0.015;
 
 /// Mesh frequency of one rpm of the input member, Hz.
 pub(crate) fn hz_per_rpm(scene: &Scene) -> Result<f64, ValidationError> {
@@ -63,22 +67,6 @@ pub(crate) fn sweep_of(
     run(&model, &plan, hz_per_rpm(scene)?, &Memory, &|_| ())
 }
 
-/// Natural frequencies of the FE/contact set linearised at position 0.
-pub(crate) fn naturals(
-    scene: &Scene,
-    bodies: &Bodies,
-    torque_nm: f64,
-) -> Result<Vec<Natural>, ValidationError> {
-    let preload = Preload { torque_nm, position: 0.0, step_s: 5e-6 };
-    let set = preloaded(scene, bodies, &preload)?;
-    let modes = linear_modes(&set, &set.linearised()?)?;
-    let of = |m: &crate::modal::FeMode| Natural {
-        frequency_hz: m.frequency_hz,
-        mode_type: m.mode_type,
-    };
-    Ok(modes.iter().map(of).collect())
-}
-
 pub(crate) fn steady_settings() -> SteadySettings {
     SteadySettings { tolerance: 1e-8, ..SteadySettings::default() }
 }
@@ -96,7 +84,36 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     checks.extend(set(lab, "three", &lab.three, &lab.bodies, &grid)?);
     checks.extend(slow(lab)?);
     checks.extend(odd_grid(lab)?);
+    checks.extend(five(lab)?);
     Ok(checks)
+}
+
+/// Five planets: harmonics that move planets only, translations only, rotations only.
+fn five(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+    let mut scene = crate::catalogue::scene(PublishedScene::FivePlanets)?;
+    // A multiple of the five mesh phases.
+    scene.dynamics.steps_per_cycle = 140;
+    let torque = five_torque(&scene)?;
+    let bodies = Bodies::new(&scene)?;
+    let ratio = if lab.profile == Profile::Quick { 0.08 } else { 0.02 };
+    let grid = speeds(450.0, 2500.0, ratio);
+    let settings = steady_settings();
+    let found = sweep_of(&scene, &bodies, Imperfections::default(), torque, &grid, settings)?;
+    let points = found.points();
+    let strengths = excitation_of_scene(&scene, 5).ok_or(ValidationError::Incomplete("teeth"))?;
+    let mut checks = judged(lab, "five", &points, &strengths)?;
+    let off = points.iter().filter_map(|p| order_of_meshes(p, &scene)).fold(0.0f64, f64::max);
+    let title = "five planets: mesh forces of the sun against the order that the planets' phases say, harmonics 1 to 5, in cycles";
+    checks.push(lab.at_most("sweep.order.five", title, "", off)?);
+    Ok(checks)
+}
+
+/// Torque on the sun at the operating point, N m.
+fn five_torque(scene: &Scene) -> Result<f64, ValidationError> {
+    let operation = scene.operation.ok_or(ValidationError::Incomplete("operation"))?;
+    let kinematics = Kinematics::from_scene(scene).and_then(Result::ok);
+    let kinematics = kinematics.ok_or(ValidationError::Incomplete("kinematics"))?;
+    Ok(kinematics.torques_nm(operation.torque_nm).sun)
 }
 
 /// Everything that is judged of one set.
@@ -108,34 +125,17 @@ fn set(
     grid: &[f64],
 ) -> Result<Vec<Check>, ValidationError> {
     let mut checks = Vec::new();
-    let none = Imperfections::default();
-    let found = sweep_of(scene, bodies, none, TORQUE, grid, steady_settings())?;
+    let model = FeModel::new(scene, bodies, Imperfections::default(), TORQUE);
+    let hz = hz_per_rpm(scene)?;
+    let plan = Plan::new(grid, &[Direction::Up], steady_settings())?;
+    let mut found = run(&model, &plan, hz, &Memory, &|_| ())?;
+    let around = found.around_peaks(PROMINENT, SPAN, 5, steady_settings());
+    found.chains.extend(run(&model, &around, hz, &Memory, &|_| ())?.chains);
     let points = found.points();
     let strengths = excitation_of_scene(scene, 5).ok_or(ValidationError::Incomplete("teeth"))?;
+    checks.extend(judged(lab, name, &points, &strengths)?);
     let id = |what: &str| format!("sweep.{what}.{name}");
-    let unsteady = points.iter().filter(|p| !p.is_steady).count() as f64;
-    let title = format!("{name} planets: speeds at which cycles do not come to repeat");
-    checks.push(lab.at_most(&id("unsteady"), &title, "", unsteady)?);
-    let list = contents(&points, &strengths);
-    let forbidden = forbidden(&list);
-    let title = format!(
-        "{name} planets: largest motion of the sun in a harmonic that planet phasing forbids, over the largest of its kind, {} speeds",
-        points.len()
-    );
-    checks.push(lab.at_most(&id("forbidden"), &title, "", forbidden)?);
-    let title = format!(
-        "{name} planets: kinds of the sun's motion and harmonics that planet phasing allows and that are there (1e-3 of the largest)"
-    );
-    let expected = list.iter().filter(|c| c.is_allowed).count() as f64;
-    let present = list.iter().filter(|c| c.is_allowed && c.share > 1e-3).count() as f64;
-    let source = "phasor sums of the planets' mesh phases";
-    let kind = ReferenceKind::Analytic;
-    let own = id("allowed");
-    let subject = Subject { id: &own, title: &title, kind, source, unit: "" };
-    checks.push(Check::equal(subject, expected, present));
-    let between = points.iter().filter_map(|p| p.between).fold(0.0f64, f64::max);
-    let title = format!("{name} planets: vibration energy between mesh harmonics, over all of it");
-    checks.push(lab.at_most(&id("between"), &title, "", between)?);
+    let (kind, source) = (ReferenceKind::Analytic, "phasor sums of the planets' mesh phases");
     let naturals = naturals(scene, bodies, TORQUE)?;
     let list = assigned(&points, &strengths, &naturals, PROMINENT);
     let worst = list.iter().fold(0.0f64, |a, p| a.max(p.off_percent().abs()));
@@ -183,6 +183,41 @@ fn set(
             Subject { id: &own, title: &title, kind: ReferenceKind::Analytic, source, unit: "" };
         checks.push(Check::equal(subject, expected, actual));
     }
+    Ok(checks)
+}
+
+/// What holds for any set of equal planets.
+fn judged(
+    lab: &Lab<'_>,
+    name: &str,
+    points: &[&SweepPoint],
+    strengths: &[gearset::ExcitationStrengths],
+) -> Result<Vec<Check>, ValidationError> {
+    let mut checks = Vec::new();
+    let id = |what: &str| format!("sweep.{what}.{name}");
+    let unsteady = points.iter().filter(|p| !p.is_steady).count() as f64;
+    let title = format!("{name} planets: speeds at which cycles do not come to repeat");
+    checks.push(lab.at_most(&id("unsteady"), &title, "", unsteady)?);
+    let list = contents(points, strengths);
+    let forbidden = forbidden(&list);
+    let title = format!(
+        "{name} planets: largest motion of the sun in a harmonic that planet phasing forbids, over the largest of its kind, {} speeds",
+        points.len()
+    );
+    checks.push(lab.at_most(&id("forbidden"), &title, "", forbidden)?);
+    let title = format!(
+        "{name} planets: kinds of the sun's motion and harmonics that planet phasing allows and that are there (1e-3 of the largest)"
+    );
+    let expected = list.iter().filter(|c| c.is_allowed).count() as f64;
+    let present = list.iter().filter(|c| c.is_allowed && c.share > 1e-3).count() as f64;
+    let source = "phasor sums of the planets' mesh phases";
+    let kind = ReferenceKind::Analytic;
+    let own = id("allowed");
+    let subject = Subject { id: &own, title: &title, kind, source, unit: "" };
+    checks.push(Check::equal(subject, expected, present));
+    let between = points.iter().filter_map(|p| p.between).fold(0.0f64, f64::max);
+    let title = format!("{name} planets: vibration energy between mesh harmonics, over all of it");
+    checks.push(lab.at_most(&id("between"), &title, "", between)?);
     Ok(checks)
 }
 
@@ -282,6 +317,22 @@ pub(crate) fn controls(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     let found = forbidden_share(&softer, &lab.bodies, Imperfections::default(), 1600.0)?;
     let title = "one planet bearing 20 % softer breaks sweep.forbidden.four";
     checks.push(breaks("sweep.control.softer_bearing", title, found > limit));
+
+    // The planets counted the other way round: their phases run backwards.
+    let five = crate::catalogue::scene(PublishedScene::FivePlanets)?;
+    let mut reversed = five.clone();
+    reversed.planets.psi_rad.iter_mut().for_each(|psi| *psi = -*psi);
+    if let Some(steps) = &mut reversed.planets.steps {
+        steps.iter_mut().for_each(|s| *s = -*s);
+    }
+    let bodies = Bodies::new(&five)?;
+    let settings = SteadySettings { between_cycles: 0, ..steady_settings() };
+    let (torque, none) = (five_torque(&five)?, Imperfections::default());
+    let found = sweep_of(&reversed, &bodies, none, torque, &[1000.0], settings)?;
+    let limit = lab.reference.tolerance("sweep.order.five", 0.0)?.absolute;
+    let is_off = found.points().iter().filter_map(|p| order_of_meshes(p, &five)).any(|o| o > limit);
+    let title = "five planets with their phases reversed break sweep.order.five";
+    checks.push(breaks("sweep.control.phases_reversed", title, is_off));
 
     let limit = lab.reference.tolerance("sweep.between.four", 0.0)?.absolute;
     let pitch = Imperfections {

@@ -1,0 +1,127 @@
+//! Peaks of a series at several torques.
+
+use dynamics::{Window, spectrum};
+use fe_contact::complementarity::ActiveSet;
+use fe_contact::statics::{Bodies, Imperfections, StaticSet};
+use gearset::{Facing, Kinematics, Scene};
+
+use super::series::Series;
+use crate::error::ValidationError;
+use crate::sweep::{
+    FeModel, Memory, Part, Plan, Response, SteadySettings, Sweep, SweepModel, SweepPoint, run,
+};
+
+/// How far about the natural frequency a peak is looked for, in parts of it, at so many speeds; and
+/// how far about the highest of those.
+const SEARCH: (f64, usize) = (0.06, 7);
+const CLOSER: (f64, usize) = (0.015, 5);
+
+/// Heights of one series' peaks over torque.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Followed {
+    /// Which resonance.
+    pub series: Series,
+    /// Speed of the sun's peak at each torque, rpm.
+    pub speeds_rpm: Vec<f64>,
+    /// Height in the sun at each torque, m or rad.
+    pub sun: Vec<f64>,
+    /// Height in planet 0.
+    pub planet: Vec<f64>,
+}
+
+impl Followed {
+    /// Heights over that at the first torque.
+    pub fn growth(heights: &[f64]) -> Vec<f64> {
+        heights.iter().map(|h| h / heights[0]).collect()
+    }
+}
+
+/// Largest amplitude over some points; between them the parabola through three logarithms.
+fn top(points: &[&SweepPoint], response: Response, harmonic: usize) -> (f64, f64) {
+    let peaks = crate::sweep::peaks(points, response, harmonic, 1.0);
+    let highest = peaks.iter().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude));
+    let largest = points
+        .iter()
+        .map(|p| (p.speed_rpm, response.amplitude(p, harmonic)))
+        .fold((0.0, 0.0), |a: (f64, f64), b| if b.1 > a.1 { b } else { a });
+    highest.map_or(largest, |p| {
+        if p.amplitude > largest.1 { (p.speed_rpm, p.amplitude) } else { largest }
+    })
+}
+
+/// Follows some series over torques (N m on the sun).
+///
+/// # Errors
+/// If a point fails.
+pub fn follow(
+    scene: &Scene,
+    bodies: &Bodies,
+    torques_nm: &[f64],
+    series: &[Series],
+) -> Result<Vec<Followed>, ValidationError> {
+    let kinematics = Kinematics::from_scene(scene).and_then(Result::ok);
+    let operation = scene.operation.ok_or(ValidationError::Incomplete("operation"))?;
+    let kinematics = kinematics.ok_or(ValidationError::Incomplete("kinematics"))?;
+    let hz_per_rpm = kinematics.mesh_frequency_hz / operation.speed_rpm;
+    let steady = SteadySettings { tolerance: 1e-6, between_cycles: 0, ..SteadySettings::default() };
+    let start = |s: &Series| s.frequency_hz / s.harmonic as f64 / hz_per_rpm;
+    let mut followed: Vec<Followed> = series
+        .iter()
+        .map(|s| Followed { series: *s, speeds_rpm: vec![], sun: vec![], planet: vec![] })
+        .collect();
+    for torque in torques_nm {
+        let model = FeModel::new(scene, bodies, Imperfections::default(), *torque);
+        let model: &dyn SweepModel = &model;
+        let centres: Vec<f64> = series.iter().map(start).collect();
+        let search = Plan::around(&centres, SEARCH.0, SEARCH.1, steady.clone());
+        let wide = run(model, &search, hz_per_rpm, &Memory, &|_| ())?;
+        // Sun and planet may peak at speeds of their own.
+        let mut closer = Vec::new();
+        for ((_, points), s) in wide.chains.iter().zip(series) {
+            let points: Vec<&SweepPoint> = points.iter().collect();
+            for part in [Part::Sun, Part::Planet(0)] {
+                closer.push(top(&points, s.response(part), s.harmonic).0);
+            }
+        }
+        let closer = Plan::around(&closer, CLOSER.0, CLOSER.1, steady.clone());
+        let near = run(model, &closer, hz_per_rpm, &Memory, &|_| ())?;
+        for (k, own) in followed.iter_mut().enumerate() {
+            let of = |part: Part, which: usize| {
+                let chains = vec![wide.chains[k].clone(), near.chains[2 * k + which].clone()];
+                let all = Sweep { rung: String::new(), chains };
+                top(&all.points(), own.series.response(part), own.series.harmonic)
+            };
+            let (sun, planet) = (of(Part::Sun, 0), of(Part::Planet(0), 1));
+            own.speeds_rpm.push(sun.0);
+            own.sun.push(sun.1);
+            own.planet.push(planet.1);
+        }
+    }
+    Ok(followed)
+}
+
+/// Growth over torque of the static deflection's harmonics: for each torque the amplitudes of
+/// harmonics 1…5 of the sun's rotation (rad) and translation (m).
+///
+/// # Errors
+/// If a set has no equilibrium.
+pub fn static_growth(
+    scene: &Scene,
+    bodies: &Bodies,
+    torques_nm: &[f64],
+) -> Result<Vec<[[f64; 6]; 2]>, ValidationError> {
+    let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
+    let set = StaticSet::new(scene, bodies, sense, none)?;
+    let mut list = Vec::new();
+    for torque in torques_nm {
+        let cycle = set.cycle(*torque, 140, &ActiveSet)?;
+        let of = |axis: usize| -> Result<[f64; 6], ValidationError> {
+            let record: Vec<f64> = cycle.states.iter().map(|s| s.central[2][axis]).collect();
+            let lines = spectrum(&record, 1.0, Window::Rectangular, 1)?.lines;
+            Ok(std::array::from_fn(|l| lines[l].re.hypot(lines[l].im)))
+        };
+        let (x, y) = (of(0)?, of(1)?);
+        list.push([of(2)?, std::array::from_fn(|l| x[l].hypot(y[l]))]);
+    }
+    Ok(list)
+}
