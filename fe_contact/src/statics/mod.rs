@@ -2,6 +2,7 @@
 
 mod approach;
 mod bodies;
+mod equilibrium;
 mod imperfection;
 mod pair;
 mod placed;
