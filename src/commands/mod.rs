@@ -25,6 +25,22 @@ mod sweep_output;
 mod sweep_store;
 mod validate;
 
+// Pictures that the verb `sweep` calls for.
+#[allow(dead_code)]
+mod axes;
+#[allow(dead_code)]
+mod canvas;
+#[allow(dead_code)]
+mod cost_chart;
+#[allow(dead_code)]
+mod harmonic_column;
+#[allow(dead_code)]
+mod sweep_figures;
+#[allow(dead_code)]
+mod torque_figures;
+#[allow(dead_code)]
+mod waterfall;
+
 pub use schema::schemas;
 
 use std::io::Write;
