@@ -214,6 +214,9 @@ pub struct Sweep {
     /// from what it finds.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Also draw figures into this folder (SVG): waterfalls, harmonics over frequency and apart.
+    #[arg(long, value_name = "DIR")]
+    pub figures: Option<PathBuf>,
     #[arg(long, value_enum, default_value_t = TableFormat::Text)]
     pub format: TableFormat,
 }

@@ -26,19 +26,14 @@ mod sweep_store;
 mod validate;
 
 // Pictures that the verb `sweep` calls for.
-#[allow(dead_code)]
 mod axes;
-#[allow(dead_code)]
 mod canvas;
 #[allow(dead_code)]
 mod cost_chart;
-#[allow(dead_code)]
 mod harmonic_column;
-#[allow(dead_code)]
 mod sweep_figures;
 #[allow(dead_code)]
 mod torque_figures;
-#[allow(dead_code)]
 mod waterfall;
 
 pub use schema::schemas;

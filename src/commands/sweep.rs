@@ -4,12 +4,12 @@ use std::io::{IsTerminal, Write};
 use std::path::Path;
 
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Kinematics, Scene, SceneKind};
+use gearset::{Kinematics, Rung, Scene, SceneKind};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use validation::ValidationError;
 use validation::sweep::{
     Direction, FeModel, Memory, Plan, PlanError, PointStore, SteadySettings, Sweep, SweepModel,
-    even_speeds, run as run_plan,
+    even_speeds, naturals, run as run_plan,
 };
 
 use crate::arguments::{Sweep as SweepArguments, TableFormat};
@@ -17,6 +17,7 @@ use crate::error::CommandError;
 use crate::output;
 
 use super::statics::{operating_torque, refused};
+use super::sweep_figures::{self, Context};
 use super::sweep_output::{SweepOutput, text, write_csv};
 use super::sweep_store::{Folder, Manifest, write_whole};
 use super::{fe_refused, read_scene, unfit};
@@ -42,6 +43,16 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
             sweep.chains.extend(more.chains);
         }
     }
+    if let Some(folder) = &arguments.figures {
+        let found = match scene.dynamics.rung {
+            // No small linearisation: the quasi-static one stands in for lines in a picture.
+            Rung::Full => naturals(&quasi_static(&scene), &bodies, task.torque_nm)?,
+            _ => naturals(&scene, &bodies, task.torque_nm)?,
+        };
+        let natural: Vec<_> = found.iter().map(|n| (n.frequency_hz, n.mode_type)).collect();
+        let context = Context { scene: &scene, torque_nm: task.torque_nm, natural: &natural };
+        sweep_figures::draw(&sweep, &context, folder)?;
+    }
     let result = SweepOutput::new(&scene, task.torque_nm, &task.plan.steady, &sweep);
     if let Some(folder) = &arguments.out {
         let failed = |path: &Path| {
@@ -61,6 +72,12 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
         TableFormat::Csv => write_csv(&sweep, &scene.title, task.torque_nm, out),
         TableFormat::Text => text(&result, out),
     }
+}
+
+fn quasi_static(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    scene.dynamics.rung = Rung::QuasiStatic;
+    scene
 }
 
 /// What is asked for.

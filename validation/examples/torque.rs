@@ -5,7 +5,7 @@
 
 use fe_contact::statics::Bodies;
 use gearset::Scene;
-use validation::sweep::naturals;
+use validation::sweep::{Part, naturals};
 use validation::torque::{Followed, follow, judge, lowest_series, static_growth};
 
 const TORQUES: [f64; 4] = [565.0, 1130.0, 1695.0, 2260.0];
@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = Scene::from_file(path.as_ref())?;
     let bodies = Bodies::new(&scene)?;
     let series = lowest_series(&naturals(&scene, &bodies, 1130.0)?).ok_or("no such modes")?;
-    let followed = follow(&scene, &bodies, &TORQUES, &series)?;
+    let followed = follow(&scene, &bodies, &TORQUES, &series, &[Part::Sun, Part::Planet(0)], 1e-6)?;
     let still = static_growth(&scene, &bodies, &TORQUES)?;
     for f in &followed {
         let shown = |list: &[f64]| {

@@ -49,7 +49,8 @@ fn top(points: &[&SweepPoint], response: Response, harmonic: usize) -> (f64, f64
     })
 }
 
-/// Follows some series over torques (N m on the sun).
+/// Follows some series over torques (N m on the sun); after a search about the natural frequency the
+/// peaks of the parts in `closer` are looked at more closely.
 ///
 /// # Errors
 /// If a point fails.
@@ -58,12 +59,14 @@ pub fn follow(
     bodies: &Bodies,
     torques_nm: &[f64],
     series: &[Series],
+    closer: &[Part],
+    tolerance: f64,
 ) -> Result<Vec<Followed>, ValidationError> {
     let kinematics = Kinematics::from_scene(scene).and_then(Result::ok);
     let operation = scene.operation.ok_or(ValidationError::Incomplete("operation"))?;
     let kinematics = kinematics.ok_or(ValidationError::Incomplete("kinematics"))?;
     let hz_per_rpm = kinematics.mesh_frequency_hz / operation.speed_rpm;
-    let steady = SteadySettings { tolerance: 1e-6, between_cycles: 0, ..SteadySettings::default() };
+    let steady = SteadySettings { tolerance, between_cycles: 0, ..SteadySettings::default() };
     let start = |s: &Series| s.frequency_hz / s.harmonic as f64 / hz_per_rpm;
     let mut followed: Vec<Followed> = series
         .iter()
@@ -76,22 +79,24 @@ pub fn follow(
         let search = Plan::around(&centres, SEARCH.0, SEARCH.1, steady.clone());
         let wide = run(model, &search, hz_per_rpm, &Memory, &|_| ())?;
         // Sun and planet may peak at speeds of their own.
-        let mut closer = Vec::new();
+        let mut centres = Vec::new();
         for ((_, points), s) in wide.chains.iter().zip(series) {
             let points: Vec<&SweepPoint> = points.iter().collect();
-            for part in [Part::Sun, Part::Planet(0)] {
-                closer.push(top(&points, s.response(part), s.harmonic).0);
+            for part in closer {
+                centres.push(top(&points, s.response(*part), s.harmonic).0);
             }
         }
-        let closer = Plan::around(&closer, CLOSER.0, CLOSER.1, steady.clone());
-        let near = run(model, &closer, hz_per_rpm, &Memory, &|_| ())?;
+        let again = Plan::around(&centres, CLOSER.0, CLOSER.1, steady.clone());
+        let near = run(model, &again, hz_per_rpm, &Memory, &|_| ())?;
         for (k, own) in followed.iter_mut().enumerate() {
-            let of = |part: Part, which: usize| {
-                let chains = vec![wide.chains[k].clone(), near.chains[2 * k + which].clone()];
+            let of = |part: Part| {
+                let mut chains = vec![wide.chains[k].clone()];
+                let count = closer.len();
+                chains.extend_from_slice(&near.chains[count * k..count * (k + 1)]);
                 let all = Sweep { rung: String::new(), chains };
                 top(&all.points(), own.series.response(part), own.series.harmonic)
             };
-            let (sun, planet) = (of(Part::Sun, 0), of(Part::Planet(0), 1));
+            let (sun, planet) = (of(Part::Sun), of(Part::Planet(0)));
             own.speeds_rpm.push(sun.0);
             own.sun.push(sun.1);
             own.planet.push(planet.1);
