@@ -4,8 +4,10 @@ use std::collections::HashMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::gear::Facing;
 use crate::mesh::MeshKind;
 use crate::mesh_curve::MeshCurve;
+use crate::phasing::Phasing;
 
 /// Phases nearer than this part of a cycle are the same phase, rounded differently.
 const PHASE_RESOLUTION: f64 = 1e12;
@@ -40,6 +42,20 @@ pub struct MeshStart {
     pub front: f64,
     /// Phase of the back flanks, which runs back, cycles; `None` leaves them out.
     pub back: Option<f64>,
+}
+
+impl MeshStart {
+    /// Front flanks of all meshes, sun meshes first, where planet 0's sun mesh starts its cycle; seen
+    /// with the torque counter-clockwise.
+    pub fn of_set(phasing: &Phasing<'_>) -> Vec<Self> {
+        let phases = phasing.phases(0.0, Facing::CounterClockwise);
+        let first = phases.sun_planet.first().copied().unwrap_or(0.0);
+        let list = |kind, phases: Vec<f64>| {
+            phases.into_iter().map(move |phase| Self { kind, front: phase - first, back: None })
+        };
+        let sun = list(MeshKind::SunPlanet, phases.sun_planet);
+        sun.chain(list(MeshKind::RingPlanet, phases.ring_planet)).collect()
+    }
 }
 
 /// Which curves the meshes of a set need at even positions of a mesh cycle, equal phases sharing one.
