@@ -1,6 +1,7 @@
 //! Numerics that know no gears: eigenproblems of vibrating systems and their subspaces, time steps,
 //! spectra of records, and the modes identified from them.
 
+mod coupled;
 mod error;
 mod gyroscopic;
 pub mod identify;
@@ -11,6 +12,7 @@ mod state_space;
 mod subspace;
 mod symmetric;
 
+pub use coupled::{Coupled, CoupledError, CoupledState, Coupling, CouplingLaw, LinearPart};
 pub use error::{EigenError, SpectrumError};
 pub use faer::c64;
 pub use gyroscopic::{GyroscopicMode, gyroscopic_modes};

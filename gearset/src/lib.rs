@@ -1,5 +1,5 @@
 //! What every model of a planetary gear set shares: the scene file, involute geometry, assembly,
-//! kinematics, mesh phases and excitation rules.
+//! kinematics, mesh phases, tables of mesh forces and excitation rules.
 
 pub mod assembly;
 mod check;
@@ -9,6 +9,9 @@ mod geometry;
 pub mod involute;
 mod kinematics;
 mod mesh;
+mod mesh_curve;
+mod mesh_law;
+mod pair_springs;
 mod parse;
 mod parse_dynamics;
 mod parse_fe_contact;
@@ -25,6 +28,9 @@ pub use gear::{Facing, Flank, Gear, ToothSide};
 pub use geometry::{Geometry, ProfileShiftSums};
 pub use kinematics::*;
 pub use mesh::{Mesh, MeshKind, MeshMember, NoMesh};
+pub use mesh_curve::{CurveError, CurvePoint, MeshCurve};
+pub use mesh_law::{CurveKey, FlankSide, LawError, LawPlan, MeshLaw, MeshStart};
+pub use pair_springs::PairSprings;
 pub use phasing::{GearAngles, MeshPhases, Phasing};
 pub use rules::*;
 pub use scene::*;

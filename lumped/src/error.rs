@@ -41,6 +41,34 @@ pub enum LumpedError {
         /// Number of planets.
         count: usize,
     },
+    /// A motion in angles without the radius that turns u = r·θ into one.
+    #[error("`lumped.radius_mm.{body}` is absent: torque and rotation in time need it")]
+    NoRotation {
+        /// Body.
+        body: &'static str,
+    },
+    /// A damping that is negative or not finite.
+    #[error("`damping.{key}` is {value}: it must be finite and not negative")]
+    Damping {
+        /// Key.
+        key: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A mesh law for another set.
+    #[error("a mesh law of {got} meshes does not go with {wanted}")]
+    Law {
+        /// Meshes of the law.
+        got: usize,
+        /// Meshes of the set.
+        wanted: usize,
+    },
+    /// A mesh frequency that gives no time step.
+    #[error("mesh frequency {0} Hz: it must be positive and finite")]
+    Frequency(f64),
+    /// The steps in time failed.
+    #[error(transparent)]
+    Coupled(#[from] dynamics::CoupledError),
     /// The eigenproblem failed.
     #[error(transparent)]
     Eigen(#[from] dynamics::EigenError),

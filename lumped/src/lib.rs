@@ -1,5 +1,6 @@
 //! The Lin–Parker lumped-parameter model of a planetary gear set: rigid bodies, springs at meshes
-//! and bearings, natural modes and what they depend on.
+//! and bearings, natural modes and what they depend on; and the same set in time, its mesh springs
+//! replaced by tables of mesh force.
 //!
 //! Source of the equations: Lin & Parker (1999), J. Vib. Acoust. 121, 316–321. Coordinates and
 //! signs are fixed in [`springs`](Spring) and pinned by hand matrices in the tests.
@@ -13,6 +14,7 @@ mod model;
 mod modes;
 mod sensitivity;
 mod springs;
+mod time_varying;
 
 pub use coordinates::{Axis, Body, Coordinates};
 pub use energy::{EnergyShare, kinetic_energy, strain_energy};
@@ -23,3 +25,4 @@ pub use model::LumpedModel;
 pub use modes::{ModeGroup, NaturalModes, Participation};
 pub use sensitivity::{Parameter, Sensitivity, sensitivities};
 pub use springs::{Spring, SpringId};
+pub use time_varying::TimeVarying;

@@ -93,6 +93,17 @@ impl Rows<'_> {
         ])
     }
 
+    /// How far the back flanks of a sun mesh approach each other: the mesh seen in the mirror along the
+    /// line of centres, where y, u and η turn round.
+    pub(crate) fn sun_back(&self, n: usize, psi: f64, alpha: f64) -> Vec<(usize, f64)> {
+        turned(self.sun_mesh(n, psi, -alpha))
+    }
+
+    /// The same of a ring mesh.
+    pub(crate) fn ring_back(&self, n: usize, psi: f64, alpha: f64) -> Vec<(usize, f64)> {
+        turned(self.ring_mesh(n, psi, -alpha))
+    }
+
     /// Radial and tangential deflection of planet n's bearing.
     pub(crate) fn planet_bearing(&self, n: usize, psi: f64) -> Vec<Vec<(usize, f64)>> {
         let (sin, cos) = psi.sin_cos();
@@ -123,4 +134,8 @@ impl Rows<'_> {
     pub(crate) fn torsion(&self, body: Body) -> Vec<Vec<(usize, f64)>> {
         vec![self.row(&[(body, Axis::Rotation, 1.0)])]
     }
+}
+
+fn turned(row: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
+    row.into_iter().map(|(i, b)| (i, -b)).collect()
 }

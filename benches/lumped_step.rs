@@ -1,0 +1,202 @@
+//! Time of one step of the lumped time-varying model: OH-58 with four planets, 17 coordinates, eight
+//! meshes whose forces are looked up in tables, 140 steps a mesh cycle.
+//!
+//! Purpose: the promise that parameter studies cost about a microsecond a step;
+//! `benches/lumped_step_vs_numba.py` runs this binary in turns with the same steps compiled by Numba. A
+//! plain binary rather than a criterion bench, so that the two can be interleaved.
+//!
+//! ```text
+//! lumped_step                  medians of a few batches, for reading
+//! lumped_step --batch COUNT    nanoseconds for one step, averaged over COUNT steps, one number
+//! lumped_step --dump FOLDER    the problem as CSV, and its solution after 20 mesh cycles
+//! ```
+//!
+//! Noise: 5 % on a quiet machine. Time: some seconds.
+
+use std::error::Error;
+use std::hint::black_box;
+use std::path::Path;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use gearset::{
+    Facing, Geometry, LawPlan, MeshCurve, MeshLaw, MeshStart, PairSprings, Phasing, Scene,
+};
+use lumped::{Axis, Body, LumpedModel, SpringId, TimeVarying};
+
+/// Batches and their size when nothing is asked for.
+const BATCHES: usize = 9;
+const BATCH: u32 = 100_000;
+
+const STEPS: usize = 140;
+const DUMPED_CYCLES: usize = 20;
+const FREQUENCY_HZ: f64 = 565.714;
+const TORQUE_NM: f64 = 1413.0;
+
+/// One pair's stiffness, contact ratio, and tip gaps as a set like this has them.
+const TEETH: PairSprings =
+    PairSprings { stiffness: 2.2e8, contact_ratio: 1.62, gap_at_tenth: 4e-6 };
+
+/// Deflection that the tables hold (m), and their steps.
+const REACH: f64 = 60e-6;
+const NODES: usize = 64;
+
+/// How far the back flanks stand off, m.
+const BACKLASH: f64 = 90e-6;
+
+type Outcome<T> = Result<T, Box<dyn Error>>;
+
+fn main() -> ExitCode {
+    // `cargo bench` adds `--bench`.
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match run(&arguments) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("lumped_step: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(arguments: &[&str]) -> Outcome<()> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/oh58_4p.toml");
+    let scene = Scene::from_file(&path)?;
+    match arguments {
+        [] => summary(&scene),
+        ["--batch", count] => {
+            println!("{:.2}", nanoseconds(&scene, false, count.parse::<u32>()?.max(1))?.0);
+            Ok(())
+        }
+        ["--dump", folder] => dump(&scene, Path::new(folder)),
+        _ => Err("usage: lumped_step [--batch COUNT | --dump FOLDER]".into()),
+    }
+}
+
+fn law(scene: &Scene, backs: bool) -> Outcome<MeshLaw> {
+    let geometry = Geometry::from_scene(scene).ok_or("no geometry")?.map_err(|e| e.to_string())?;
+    let phasing = Phasing::new(&geometry, &scene.planets).ok_or("no whole set")?;
+    let mut starts = MeshStart::of_set(&phasing);
+    for start in &mut starts {
+        start.back = backs.then_some(-start.front);
+    }
+    let plan = LawPlan::new(&starts, STEPS)?;
+    let curve = |key: &gearset::CurveKey| -> Outcome<MeshCurve> {
+        let curve = TEETH.curve(key.phase, REACH, NODES)?;
+        Ok(if key.side == gearset::FlankSide::Back { curve.moved(BACKLASH) } else { curve })
+    };
+    let curves = plan.curves.iter().map(curve).collect::<Outcome<Vec<_>>>()?;
+    Ok(plan.law(curves)?)
+}
+
+fn set(scene: &Scene, backs: bool) -> Outcome<TimeVarying> {
+    let law = law(scene, backs)?;
+    let mut set = TimeVarying::new(scene, Facing::CounterClockwise, law, FREQUENCY_HZ)?;
+    set.rest(TORQUE_NM)?;
+    Ok(set)
+}
+
+/// Mean time of one step over a batch, ns, the first cycles left out; mean iterations of a step.
+fn nanoseconds(scene: &Scene, backs: bool, count: u32) -> Outcome<(f64, f64)> {
+    let mut set = set(scene, backs)?;
+    for _ in 0..DUMPED_CYCLES * STEPS {
+        set.step()?;
+    }
+    let start = Instant::now();
+    for _ in 0..count {
+        black_box(&mut set).step()?;
+    }
+    Ok((start.elapsed().as_nanos() as f64 / f64::from(count), set.counts().0))
+}
+
+fn summary(scene: &Scene) -> Outcome<()> {
+    for backs in [false, true] {
+        let runs = (0..BATCHES).map(|_| nanoseconds(scene, backs, BATCH));
+        let runs = runs.collect::<Outcome<Vec<_>>>()?;
+        let iterations = runs[0].1;
+        let mut times: Vec<f64> = runs.into_iter().map(|run| run.0).collect();
+        times.sort_by(f64::total_cmp);
+        let [low, median, high] = [BATCHES / 4, BATCHES / 2, 3 * BATCHES / 4].map(|i| times[i]);
+        let with = if backs { "with back flanks in reach" } else { "front flanks" };
+        println!(
+            "{with}: {median:.0} ns a step [{low:.0}, {high:.0}], {iterations:.2} iterations each"
+        );
+    }
+    Ok(())
+}
+
+/// Writes the problem and its solution, every digit: M's diagonal, C, K, the meshes' rows, f, the state
+/// at rest, curves (start, step, then nodes as force and tangent), the curve of each step and mesh; the
+/// displacements, velocities and mesh forces in the end.
+fn dump(scene: &Scene, folder: &Path) -> Outcome<()> {
+    let model = LumpedModel::from_scene(scene)?;
+    let law = law(scene, false)?;
+    let n = model.coordinates.count();
+    let mut k = vec![0.0; n * n];
+    let mut rows = vec![0.0; law.meshes() * n];
+    for spring in &model.springs {
+        let mesh = match spring.id {
+            SpringId::SunMesh(planet) => Some(planet),
+            SpringId::RingMesh(planet) => Some(law.meshes() / 2 + planet),
+            _ => None,
+        };
+        for row in &spring.rows {
+            for &(i, bi) in row {
+                match mesh {
+                    Some(mesh) => rows[mesh * n + i] += bi,
+                    None => {
+                        row.iter().for_each(|&(j, b)| k[i * n + j] += spring.stiffness * bi * b)
+                    }
+                }
+            }
+        }
+    }
+    let d = scene.damping;
+    let c = |i: usize, j: usize| {
+        let own = if i == j { d.mass_proportional_per_s * model.mass[i] } else { 0.0 };
+        own + d.bearing_s * k[i * n + j]
+    };
+    let mut f = vec![0.0; n];
+    let radius = scene.lumped.as_ref().and_then(|l| l.radius.sun).ok_or("no radius of the sun")?;
+    let sun = model.coordinates.of(Body::Sun, Axis::Rotation).ok_or("the sun does not turn")?;
+    f[sun] = TORQUE_NM / radius;
+    let mut set = set(scene, false)?;
+    let rest = set.motion();
+    for _ in 0..DUMPED_CYCLES * STEPS {
+        set.step()?;
+    }
+    let (end, mut forces) = (set.motion(), Vec::new());
+    set.mesh_forces(&mut forces);
+    let nodes: Vec<Vec<f64>> = law
+        .curves()
+        .iter()
+        .map(|curve| {
+            let head = [curve.start_m(), curve.step_m()];
+            head.into_iter().chain(curve.nodes().flat_map(|(f, t)| [f, t])).collect()
+        })
+        .collect();
+    let place = |step: usize, mesh: usize| {
+        let curve = law.front(mesh, step);
+        law.curves().iter().position(|c| std::ptr::eq(c, curve)).unwrap_or(usize::MAX) as f64
+    };
+    let write = |name: &str, text: String| std::fs::write(folder.join(name), text);
+    write("mass.csv", csv(n, 1, |i, _| model.mass[i]))?;
+    write("damping.csv", csv(n, n, c))?;
+    write("stiffness.csv", csv(n, n, |i, j| k[i * n + j]))?;
+    write("rows.csv", csv(law.meshes(), n, |i, j| rows[i * n + j]))?;
+    write("load.csv", csv(n, 1, |i, _| f[i]))?;
+    write("rest.csv", csv(n, 1, |i, _| rest.x[i]))?;
+    write("curves.csv", csv(nodes.len(), nodes[0].len(), |i, j| nodes[i][j]))?;
+    write("places.csv", csv(STEPS, law.meshes(), place))?;
+    write("end.csv", csv(n, 2, |i, j| if j == 0 { end.x[i] } else { end.v[i] }))?;
+    write("forces.csv", csv(law.meshes(), 1, |i, _| forces[i]))?;
+    let lag = d.stiffness_proportional_s;
+    let numbers = [1.0 / (FREQUENCY_HZ * STEPS as f64), lag, (DUMPED_CYCLES * STEPS) as f64];
+    write("numbers.csv", csv(3, 1, |i, _| numbers[i]))?;
+    Ok(())
+}
+
+fn csv(rows: usize, columns: usize, entry: impl Fn(usize, usize) -> f64) -> String {
+    let line = |i| (0..columns).map(|j| format!("{:e}", entry(i, j))).collect::<Vec<_>>().join(",");
+    (0..rows).map(|i| line(i) + "\n").collect()
+}

@@ -1,0 +1,379 @@
+#!/usr/bin/env python3
+"""One step of the lumped time-varying model, ours against the same step compiled by Numba.
+
+Purpose: the promise that a step of the lumped set with tabulated mesh forces (OH-58, four planets, 17
+coordinates, eight meshes, 140 steps a mesh cycle) costs about a microsecond. Both march the very same
+problem from the same equilibrium, Newmark's average acceleration with the meshes' forces solved for
+inside every step.
+
+Two rivals, both @njit without fastmath, arrays preallocated, everything constant prepared beforehand:
+
+- "same algorithm": ours, written out in NumPy and Numba: modal coordinates, condensed to the eight
+  deflections, Newton with a kept Jacobian, forces guessed from the last two steps.
+- "dense": what one would write first: constant inverse of the 17 by 17 step matrix, condensed to the
+  deflections as well, Newton with numpy.linalg.solve at every iteration, from the last deflections.
+
+Method: timed alternately, each over a batch long against the clock's step, the order swapped from round to
+round, so that a busy or throttled machine touches all; what is reported is the ratio within each round
+(median, quartiles). Before any timing displacements, velocities and mesh forces after 20 mesh cycles are
+compared, and a disagreement ends the run.
+
+Noise: ratios of quartiles within 10 % of the median are usual on a quiet machine. Time: a minute after the
+build, most of it Numba's compilation.
+
+Needs numpy and numba, and installs nothing:  pip install numpy numba
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+for variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
+    os.environ.setdefault(variable, "1")  # read when numpy is imported
+
+try:
+    import numba
+    import numpy
+    from numba import njit
+except ImportError as missing:
+    sys.exit(f"{missing}: this script needs numpy and numba (pip install numpy numba)")
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+
+# Differences over the largest entry after 2800 steps.
+AGREEMENT = 1e-9
+
+# The step ends with one linear correction below this residual over the largest free deflection; the
+# Jacobian is kept while an iteration leaves less than KEPT of the residual.
+NEARLY = 1e-11
+KEPT = 0.02
+
+
+def build():
+    """Builds the harness with the bench profile and returns its path."""
+    command = ["cargo", "bench", "--no-run", "--bench", "lumped_step"]
+    command += ["--message-format", "json-render-diagnostics"]
+    done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        sys.exit("cargo could not build the bench lumped_step")
+    messages = (json.loads(line) for line in done.stdout.splitlines() if line.startswith("{"))
+    for message in messages:
+        if message.get("executable") and message["target"]["name"] == "lumped_step":
+            return message["executable"]
+    sys.exit("cargo built no executable for the bench lumped_step")
+
+
+def problem(harness):
+    """What the harness marches, by name."""
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([harness, "--dump", folder], cwd=ROOT, check=True)
+        files = pathlib.Path(folder).glob("*.csv")
+        return {file.stem: numpy.loadtxt(file, delimiter=",", ndmin=1) for file in files}
+
+
+@njit(inline="always")
+def mesh_force(curves, inverse_step, curve, deflection):
+    """Force and tangent: piecewise cubic on even steps, nil before contact, straight on at the end."""
+    t = (deflection - curves[curve, 0]) * inverse_step[curve]
+    if t <= 0.0:
+        return 0.0, 0.0
+    last = (curves.shape[1] - 2) // 2 - 1
+    i = int(t)
+    if i >= last:
+        force, rise = curves[curve, 2 + 2 * last], curves[curve, 3 + 2 * last]
+        return force + rise * (t - last), rise * inverse_step[curve]
+    s = t - i
+    f0, m0 = curves[curve, 2 + 2 * i], curves[curve, 3 + 2 * i]
+    f1, m1 = curves[curve, 4 + 2 * i], curves[curve, 5 + 2 * i]
+    rise = f1 - f0
+    d = m0 + m1 - 2.0 * rise
+    c = rise - m0 - d
+    force = f0 + s * (m0 + s * (c + s * d))
+    return force, (m0 + s * (2.0 * c + 3.0 * s * d)) * inverse_step[curve]
+
+
+@njit
+def march_modal(
+    count, step, x, v, a, f, c, inverse, rows, answers, y, lag, h, curves, inverse_step, places, now, before,
+    work,
+):
+    """Ours: modes, condensation, kept Jacobian. Arrays are changed in place."""
+    n, m = rows.shape
+    inertia, rate = 4.0 / (h * h), 2.0 / h
+    gain = 1.0 + lag * rate
+    acceleration, velocity, free = work[0], work[1], work[2]
+    b, shift, delta, p, d, r = work[3], work[4], work[5], work[6], work[7], work[8]
+    g = work[9:9 + m]
+    for _ in range(count):
+        step = step + 1
+        if step == places.shape[0]:
+            step = 0
+        for i in range(n):
+            acceleration[i] = inertia * x[i] + 2.0 * rate * v[i] + a[i]
+            velocity[i] = rate * x[i] + v[i]
+            free[i] = inverse[i] * (f[i] + acceleration[i] + c[i] * velocity[i])
+        for k in range(m):
+            b[k] = 0.0
+            shift[k] = 0.0
+        for i in range(n):
+            for k in range(m):
+                b[k] += rows[i, k] * free[i]
+                shift[k] -= rows[i, k] * velocity[i]
+        scale = 1e-13
+        for k in range(m):
+            shift[k] *= lag
+            scale = max(scale, abs(b[k]))
+            delta[k] = b[k]
+        for l in range(m):
+            guess = 2.0 * now[l] - before[l]
+            for k in range(m):
+                delta[k] -= y[l, k] * guess
+        last, fresh = numpy.inf, False
+        for iteration in range(60):
+            for k in range(m):
+                force, tangent = mesh_force(
+                    curves, inverse_step, places[step, k], gain * delta[k] + shift[k]
+                )
+                p[k] = force
+                d[k] = gain * tangent
+            for k in range(m):
+                r[k] = delta[k] - b[k]
+            for l in range(m):
+                for k in range(m):
+                    r[k] += y[l, k] * p[l]
+            worst = 0.0
+            for k in range(m):
+                worst = max(worst, abs(r[k]))
+            if worst == 0.0:
+                break
+            if not (fresh and worst < KEPT * last):
+                # Columns of I + Y D as rows; Gauss-Jordan leaves columns of the inverse.
+                for j in range(m):
+                    for k in range(m):
+                        g[j, k] = d[j] * y[j, k]
+                    g[j, j] += 1.0
+                for k in range(m):
+                    pivot = 1.0 / g[k, k]
+                    g[k, k] = 1.0
+                    for j in range(m):
+                        g[k, j] *= pivot
+                    for i in range(m):
+                        if i != k:
+                            factor = g[i, k]
+                            g[i, k] = 0.0
+                            for j in range(m):
+                                g[i, j] -= factor * g[k, j]
+                fresh = True
+            last = worst
+            ends = worst <= NEARLY * scale
+            part = -1.0 if iteration < 13 or ends else -0.5
+            if ends:
+                for l in range(m):
+                    for k in range(m):
+                        p[k] += d[k] * g[l, k] * (part * r[l])
+                break
+            for l in range(m):
+                for k in range(m):
+                    delta[k] += g[l, k] * (part * r[l])
+        else:
+            return -1
+        for l in range(m):
+            for i in range(n):
+                free[i] -= answers[l, i] * p[l]
+        for i in range(n):
+            x[i] = free[i]
+            v[i] = rate * free[i] - velocity[i]
+            a[i] = inertia * free[i] - acceleration[i]
+        for k in range(m):
+            before[k] = now[k]
+            now[k] = p[k]
+    return step
+
+
+@njit
+def march_dense(
+    count, step, x, v, a, f, mass, c, inverse, rows, answers, y, lag, h, curves, inverse_step, places,
+    delta, p,
+):
+    """What one would write first: dense matrices, numpy.linalg.solve. Arrays are changed in place."""
+    m = rows.shape[0]
+    inertia, rate = 4.0 / (h * h), 2.0 / h
+    gain = 1.0 + lag * rate
+    one, d = numpy.eye(m), numpy.empty(m)
+    for _ in range(count):
+        step = (step + 1) % places.shape[0]
+        acceleration = inertia * x + 2.0 * rate * v + a
+        velocity = rate * x + v
+        free = inverse @ (f + mass * acceleration + c @ velocity)
+        b = rows @ free
+        shift = -lag * (rows @ velocity)
+        scale = max(1e-13, numpy.max(numpy.abs(b)))
+        for iteration in range(60):
+            for k in range(m):
+                p[k], d[k] = mesh_force(curves, inverse_step, places[step, k], gain * delta[k] + shift[k])
+                d[k] *= gain
+            r = delta - b + y @ p
+            change = numpy.linalg.solve(one + y * d, r)
+            delta -= change
+            if numpy.max(numpy.abs(r)) <= NEARLY * scale:
+                p -= d * change
+                break
+        else:
+            return -1
+        new = free - answers @ p
+        v[:] = rate * new - velocity
+        a[:] = inertia * new - acceleration
+        x[:] = new
+    return step
+
+
+class Modal:
+    """Ours in NumPy and Numba, at rest."""
+
+    def __init__(self, data):
+        mass, rows = data["mass"], data["rows"]
+        self.h, self.lag, _ = data["numbers"]
+        root = numpy.sqrt(mass)
+        values, vectors = numpy.linalg.eigh(data["stiffness"] / numpy.outer(root, root))
+        self.shapes = vectors / root[:, None]
+        c = numpy.diag(self.shapes.T @ data["damping"] @ self.shapes).copy()
+        inverse = 1.0 / (4.0 / self.h**2 + 2.0 / self.h * c + values)
+        modal = numpy.ascontiguousarray((rows @ self.shapes).T)
+        answers = numpy.ascontiguousarray((modal * inverse[:, None]).T)
+        y = numpy.ascontiguousarray((answers @ modal).T)
+        x = self.shapes.T @ (mass * data["rest"])
+        n, m = modal.shape
+        now = rest_forces(data)
+        self.state = [x, numpy.zeros(n), numpy.zeros(n)]
+        self.linear = [self.shapes.T @ data["load"], c, inverse, modal, answers, y, self.lag, self.h]
+        self.law = law(data)
+        self.forces = [now, now.copy()]
+        self.work = numpy.zeros((9 + m, max(n, m)))
+        self.step = 0
+
+    def march(self, count):
+        self.step = march_modal(
+            count, self.step, *self.state, *self.linear, *self.law, *self.forces, self.work
+        )
+
+    def answer(self):
+        return self.shapes @ self.state[0], self.shapes @ self.state[1], self.forces[0]
+
+
+class Dense:
+    """The first thing one would write, at rest."""
+
+    def __init__(self, data):
+        mass, rows = data["mass"], data["rows"]
+        self.h, self.lag, _ = data["numbers"]
+        a = numpy.diag(4.0 / self.h**2 * mass) + 2.0 / self.h * data["damping"] + data["stiffness"]
+        inverse = numpy.linalg.inv(a)
+        answers = inverse @ rows.T
+        n = len(mass)
+        self.state = [data["rest"].copy(), numpy.zeros(n), numpy.zeros(n)]
+        y = numpy.ascontiguousarray(rows @ answers)
+        self.linear = [data["load"], mass, data["damping"], inverse, rows, answers, y, self.lag, self.h]
+        self.law = law(data)
+        self.delta, self.p = rows @ data["rest"], rest_forces(data)
+        self.step = 0
+
+    def march(self, count):
+        self.step = march_dense(
+            count, self.step, *self.state, *self.linear, *self.law, self.delta, self.p
+        )
+
+    def answer(self):
+        return self.state[0], self.state[1], self.p
+
+
+def law(data):
+    """Curves with the nodes' tangents over one step, steps' inverses, curve of each step and mesh."""
+    curves = data["curves"].copy()
+    curves[:, 3::2] *= curves[:, 1:2]
+    return [curves, 1.0 / curves[:, 1], data["places"].astype(numpy.int64)]
+
+
+def rest_forces(data):
+    """Mesh forces at rest."""
+    curves, inverse_step, places = law(data)
+    deflections = data["rows"] @ data["rest"]
+    each = [mesh_force(curves, inverse_step, places[0, k], d)[0] for k, d in enumerate(deflections)]
+    return numpy.array(each)
+
+
+def compare(rival, data):
+    """Largest difference of displacements, velocities and forces after the dumped steps, relative."""
+    rival.march(int(data["numbers"][2]))
+    if rival.step < 0:
+        sys.exit("a rival's step did not converge")
+    ours = [data["end"][:, 0], data["end"][:, 1], data["forces"]]
+    relative = [
+        numpy.max(numpy.abs(theirs - own)) / numpy.max(numpy.abs(own))
+        for theirs, own in zip(rival.answer(), ours)
+    ]
+    return max(relative)
+
+
+def time_ours(harness, batch):
+    """Nanoseconds for one step, as the harness measures a batch of them."""
+    command = [harness, "--batch", str(batch)]
+    done = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True)
+    return float(done.stdout)
+
+
+def time_rival(rival, batch):
+    """Nanoseconds for one step, over a batch of them."""
+    start = time.perf_counter_ns()
+    rival.march(batch)
+    return (time.perf_counter_ns() - start) / batch
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Our lumped step against Numba's.")
+    parser.add_argument("--rounds", type=int, default=40, help="rounds, at least 20 (default 40)")
+    parser.add_argument("--batch", type=int, default=50_000, help="steps a round (default 50000)")
+    arguments = parser.parse_args()
+    if arguments.rounds < 20 or arguments.batch < 1:
+        parser.error("at least 20 rounds of at least one step")
+
+    harness = build()
+    data = problem(harness)
+    rivals = {"same algorithm": Modal(data), "dense": Dense(data)}
+    n, m = len(data["mass"]), len(data["rows"])
+    print(f"{n} coordinates, {m} meshes, numba {numba.__version__}, numpy {numpy.__version__}")
+    for name, rival in rivals.items():
+        difference = compare(rival, data)
+        print(f"{name}: worst relative difference {difference:.1e} (allowed {AGREEMENT:.0e})")
+        if not difference <= AGREEMENT:
+            print("the two do not march the same problem", file=sys.stderr)
+            return 1
+
+    runs = {"ours": lambda: time_ours(harness, arguments.batch)}
+    for name, rival in rivals.items():
+        runs[name] = lambda rival=rival: time_rival(rival, arguments.batch)
+    for run in runs.values():
+        run()  # warm up
+    times = {name: [] for name in runs}
+    for number in range(arguments.rounds):
+        names = list(runs) if number % 2 == 0 else list(runs)[::-1]
+        for name in names:
+            times[name].append(runs[name]())
+
+    print(f"{arguments.rounds} rounds of {arguments.batch} steps; median [quartiles]")
+    for name, series in times.items():
+        low, median, high = numpy.percentile(series, [25, 50, 75])
+        print(f"  {name}: {median:.0f} ns [{low:.0f}, {high:.0f}]")
+    for name in rivals:
+        ratios = numpy.array(times[name]) / numpy.array(times["ours"])
+        low, median, high = numpy.percentile(ratios, [25, 50, 75])
+        print(f"ratio {name} / ours: {median:.2f} [{low:.2f}, {high:.2f}]")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,77 @@
+//! A group of couplings with the rest of the system condensed out.
+
+use super::law::Coupling;
+use super::linear::{LANES, Modes};
+
+/// Sizes that the solver is made for.
+pub(super) const WIDTHS: [usize; 9] = [4, 6, 8, 10, 12, 16, 24, 32, 48];
+
+/// Couplings as one step sees them, padded with silent ones to a width of the solver.
+#[derive(Debug, Clone)]
+pub(super) struct Condensed {
+    /// Couplings.
+    pub(super) count: usize,
+    /// The same, padded.
+    pub(super) width: usize,
+    /// R Φ: by mode, then coupling.
+    pub(super) rows: Vec<f64>,
+    /// A⁻¹ Φᵀ Rᵀ: by coupling, then padded mode.
+    pub(super) answers: Vec<f64>,
+    /// Y, by column.
+    pub(super) receptance: Vec<f64>,
+    /// o, m.
+    pub(super) offsets: Vec<f64>,
+    /// τ, s.
+    pub(super) lags: Vec<f64>,
+    /// Whether any lag is there.
+    pub(super) has_lag: bool,
+}
+
+/// Width for so many couplings.
+pub(super) fn width(count: usize) -> Option<usize> {
+    WIDTHS.into_iter().find(|w| *w >= count)
+}
+
+impl Condensed {
+    /// `None` if there are too many couplings.
+    pub(super) fn new(modes: &Modes, couplings: &[&Coupling]) -> Option<Self> {
+        let (count, n) = (couplings.len(), modes.count);
+        let (width, padded) = (width(count)?, n.next_multiple_of(LANES));
+        let mut rows = vec![0.0; n * width];
+        for (k, coupling) in couplings.iter().enumerate() {
+            for j in 0..n {
+                let of = |i: usize| coupling.row[i] * modes.shapes[(i, j)];
+                rows[j * width + k] = (0..n).map(of).sum();
+            }
+        }
+        let mut answers = vec![0.0; width * padded];
+        let mut receptance = vec![0.0; width * width];
+        for k in 0..count {
+            let row: Vec<f64> = (0..n).map(|j| rows[j * width + k]).collect();
+            let own = &mut answers[k * padded..(k + 1) * padded];
+            match &modes.own_damping {
+                Some(_) => (0..n).for_each(|j| own[j] = modes.own_inverse[j] * row[j]),
+                None => modes.solve_full(&row, own),
+            }
+            for l in 0..count {
+                receptance[k * width + l] = (0..n).map(|j| rows[j * width + l] * own[j]).sum();
+            }
+        }
+        let fill = |of: fn(&Coupling) -> f64| -> Vec<f64> {
+            let given = couplings.iter().map(|c| of(c));
+            given.chain(std::iter::repeat_n(0.0, width - count)).collect()
+        };
+        let lags = fill(|c| c.lag);
+        let has_lag = lags.iter().any(|lag| *lag != 0.0);
+        let offsets = fill(|c| c.offset);
+        Some(Self { count, width, rows, answers, receptance, offsets, lags, has_lag })
+    }
+
+    /// Deflections at modal displacements, m.
+    pub(super) fn deflections(&self, modal: &[f64], out: &mut [f64]) {
+        for (k, out) in out.iter_mut().enumerate().take(self.count) {
+            let along = self.rows.iter().skip(k).step_by(self.width).zip(modal);
+            *out = along.map(|(r, q)| r * q).sum::<f64>() - self.offsets[k];
+        }
+    }
+}

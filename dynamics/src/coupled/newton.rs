@@ -1,0 +1,207 @@
+//! Newton's method for δ = b − Y P(δ), of fixed width.
+
+use super::condensed::Condensed;
+use super::law::CouplingLaw;
+
+/// Iterations before a step is given up.
+const MOST_ITERATIONS: usize = 60;
+
+/// Residual over the largest free deflection below which one more linear correction ends it.
+const NEARLY: f64 = 1e-11;
+
+/// Deflections below which residuals are rounding, m.
+const NOTHING: f64 = 1e-13;
+
+/// A Jacobian is kept while each iteration leaves less than this of the residual.
+const KEPT: f64 = 0.02;
+
+/// From here on steps are halved: sets of touching couplings may alternate.
+const ALTERNATING: usize = 14;
+
+/// What a step starts the solver with.
+pub(super) struct Start<'a> {
+    pub(super) step_in_cycle: usize,
+    /// 2/h, 1/s.
+    pub(super) rate: f64,
+    /// Free displacements and v* of the modes.
+    pub(super) free: &'a [f64],
+    pub(super) velocity_history: &'a [f64],
+}
+
+/// A residual that would not go away: iterations, coupling, residual (m).
+pub(super) type Left = (usize, usize, f64);
+
+/// Solves, from forces guessed in `forces`, which takes the answer; iterations it took.
+#[inline]
+pub(super) fn solve<const W: usize, L: CouplingLaw>(
+    group: &Condensed,
+    law: &L,
+    start: &Start<'_>,
+    forces: &mut [f64],
+) -> Result<usize, Left> {
+    let (rows, _) = group.rows.as_chunks::<W>();
+    let (y, _) = group.receptance.as_chunks::<W>();
+    let (y, own): (&[[f64; W]; W], &mut [f64; W]) =
+        match (y.first_chunk::<W>(), forces.first_chunk_mut::<W>()) {
+            (Some(y), Some(own)) => (y, own),
+            _ => return Err((0, 0, f64::NAN)),
+        };
+    let mut b = [0.0; W];
+    for (row, q) in rows.iter().zip(start.free) {
+        add(&mut b, row, *q);
+    }
+    // z = δ + τ δ̇ = gain δ + shift,  δ̇ = (2/h)(δ + o) − r·v*
+    let (mut gain, mut shift) = ([1.0; W], [0.0; W]);
+    if group.has_lag {
+        let mut w = [0.0; W];
+        for (row, v) in rows.iter().zip(start.velocity_history) {
+            add(&mut w, row, *v);
+        }
+        for k in 0..W {
+            let lag = group.lags[k];
+            gain[k] = 1.0 + lag * start.rate;
+            shift[k] = lag * (start.rate * group.offsets[k] - w[k]);
+        }
+    }
+    let mut scale = NOTHING;
+    for (b, offset) in b.iter_mut().zip(&group.offsets) {
+        *b -= offset;
+        scale = b.abs().max(scale);
+    }
+    let mut delta = less(&b, y, own);
+    let mut inverse = [[0.0; W]; W];
+    let (mut last, mut is_fresh) = (f64::INFINITY, false);
+    for iteration in 1..=MOST_ITERATIONS {
+        let (mut p, mut d) = ([0.0; W], [0.0; W]);
+        for k in 0..group.count {
+            let (force, tangent) =
+                law.answer(k, start.step_in_cycle, gain[k] * delta[k] + shift[k]);
+            (p[k], d[k]) = (force, gain[k] * tangent);
+        }
+        // r = δ − (b − Y P)
+        let wanted = less(&b, y, &p);
+        let mut r = [0.0; W];
+        let mut worst = 0.0f64;
+        for k in 0..W {
+            r[k] = delta[k] - wanted[k];
+            worst = worst.max(r[k].abs());
+        }
+        // max() passes over what is no number.
+        if !r.iter().sum::<f64>().is_finite() {
+            return Err((iteration, place_of_worst(&r), f64::NAN));
+        }
+        if worst == 0.0 {
+            *own = p;
+            return Ok(iteration);
+        }
+        // The Jacobian is kept while it serves.
+        if !(is_fresh && worst < KEPT * last) {
+            inverse = inverted(y, &d);
+            is_fresh = true;
+        }
+        last = worst;
+        let ends = worst <= NEARLY * scale;
+        let part = if iteration < ALTERNATING || ends { -1.0 } else { -0.5 };
+        let change = times(&inverse, &r, part);
+        for k in 0..W {
+            delta[k] += change[k];
+        }
+        if ends {
+            // One linear correction, which turns no press into a pull.
+            for k in 0..W {
+                let least = if p[k] >= 0.0 { 0.0 } else { f64::NEG_INFINITY };
+                p[k] = (p[k] + d[k] * change[k]).max(least);
+            }
+            *own = p;
+            return Ok(iteration);
+        }
+    }
+    Err((MOST_ITERATIONS, 0, last))
+}
+
+fn place_of_worst(r: &[f64]) -> usize {
+    r.iter().position(|r| !r.is_finite()).unwrap_or(0)
+}
+
+/// Adds a multiple of a row.
+#[inline]
+pub(super) fn add<const W: usize>(out: &mut [f64; W], row: &[f64; W], factor: f64) {
+    for (out, x) in out.iter_mut().zip(row) {
+        *out += x * factor;
+    }
+}
+
+/// b − Y p, Y by column.
+#[inline]
+fn less<const W: usize>(b: &[f64; W], y: &[[f64; W]; W], p: &[f64; W]) -> [f64; W] {
+    let mut out = *b;
+    for (column, p) in y.iter().zip(p) {
+        add(&mut out, column, -p);
+    }
+    out
+}
+
+/// part · N r, N by column.
+#[inline]
+fn times<const W: usize>(n: &[[f64; W]; W], r: &[f64; W], part: f64) -> [f64; W] {
+    let mut out = [0.0; W];
+    for (column, r) in n.iter().zip(r) {
+        add(&mut out, column, part * r);
+    }
+    out
+}
+
+/// (I + Y D)⁻¹ by column: Gauss–Jordan without pivoting. Y is positive semidefinite up to the small
+/// skew part of unsymmetric damping, D ≥ 0, so all leading minors are at least about 1.
+#[inline]
+fn inverted<const W: usize>(y: &[[f64; W]; W], d: &[f64; W]) -> [[f64; W]; W] {
+    // Columns of I + Y D are rows of its transpose, and inverse and transpose change places.
+    let mut g = [[0.0; W]; W];
+    for j in 0..W {
+        for k in 0..W {
+            g[j][k] = d[j] * y[j][k];
+        }
+        g[j][j] += 1.0;
+    }
+    for k in 0..W {
+        let pivot = 1.0 / g[k][k];
+        g[k][k] = 1.0;
+        for x in &mut g[k] {
+            *x *= pivot;
+        }
+        let row = g[k];
+        for (i, other) in g.iter_mut().enumerate() {
+            if i != k {
+                let factor = other[k];
+                other[k] = 0.0;
+                for (x, r) in other.iter_mut().zip(row) {
+                    *x -= factor * r;
+                }
+            }
+        }
+    }
+    g
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inverse_times_matrix_is_one() {
+        let y: [[f64; 4]; 4] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| if i == j { 2.0 } else { 0.3 / (1.0 + (i + j) as f64) })
+        });
+        let d = [1.5, 0.0, 7.0, 0.2];
+        let n = inverted(&y, &d);
+        for j in 0..4 {
+            // Column j of I + Y D.
+            let column: [f64; 4] =
+                std::array::from_fn(|i| f64::from(u8::from(i == j)) + y[j][i] * d[j]);
+            let found = times(&n, &column, 1.0);
+            for (i, x) in found.into_iter().enumerate() {
+                assert!((x - f64::from(u8::from(i == j))).abs() < 1e-14);
+            }
+        }
+    }
+}

@@ -1,0 +1,477 @@
+//! A coupled system in time.
+
+use super::condensed::{Condensed, WIDTHS};
+use super::error::CoupledError;
+use super::law::{Coupling, CouplingLaw};
+use super::linear::{LANES, LinearPart, Modes};
+use super::newton::{self, Left, Start};
+use crate::newmark::{AverageAcceleration, Motion};
+
+/// Displacements above this (m) are no vibration.
+const BOUND: f64 = 1e-2;
+
+/// A linear system with couplings, stepped by Newmark's average acceleration.
+///
+/// Couplings come in two groups: those that usually act, and those that rarely do (back flanks, stops),
+/// which cost a look at their deflections until they touch. The law counts them through.
+#[derive(Debug, Clone)]
+pub struct Coupled<L> {
+    pub(super) law: L,
+    pub(super) rule: AverageAcceleration,
+    pub(super) modes: Modes,
+    /// Least mass, kg.
+    least_mass: f64,
+    /// Those that usually act.
+    pub(super) usual: Condensed,
+    /// The others, and all of them, if there are others.
+    rare: Option<(Condensed, Condensed)>,
+    /// Deflections up to which the rare ones are silent, m.
+    silent: Vec<f64>,
+    pub(super) steps_per_cycle: usize,
+    /// External forces on the modes, padded.
+    pub(super) external: Vec<f64>,
+    pub(super) state: CoupledState,
+    work: Work,
+    /// Iterations of all steps so far.
+    pub iterations: u64,
+    /// Steps in which rare couplings took part.
+    pub with_rare: u64,
+}
+
+/// All that decides how a coupled system goes on, bit by bit; of use to the system it came from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CoupledState {
+    /// Step in the cycle.
+    pub step_in_cycle: usize,
+    /// Steps since the start.
+    pub steps: u64,
+    /// Displacements, velocities and accelerations of the modes, padded with nils.
+    pub modal: Motion,
+    /// Forces of all couplings at the last two steps, the later first, N.
+    pub forces: [Vec<f64>; 2],
+}
+
+#[derive(Debug, Clone)]
+struct Work {
+    acceleration_history: Vec<f64>,
+    velocity_history: Vec<f64>,
+    load: Vec<f64>,
+    free: Vec<f64>,
+    /// Forces, padded.
+    forces: Vec<f64>,
+    next: Vec<f64>,
+}
+
+impl<L: CouplingLaw> Coupled<L> {
+    /// A system at rest at the origin, at step 0 of a cycle.
+    ///
+    /// # Errors
+    /// If sizes do not go together, a number is none, or the linear part has no modes.
+    pub fn new(
+        linear: &LinearPart,
+        usual: &[Coupling],
+        rare: &[Coupling],
+        law: L,
+        rule: AverageAcceleration,
+        steps_per_cycle: usize,
+    ) -> Result<Self, CoupledError> {
+        let n = linear.mass.len();
+        let count = usual.len() + rare.len();
+        for (coupling, c) in usual.iter().chain(rare).enumerate() {
+            if c.row.len() != n {
+                let (what, got) = ("a coupling's row", c.row.len());
+                return Err(CoupledError::Size { what, got, wanted: n });
+            }
+            if let Some(value) = c.row.iter().copied().find(|r| !r.is_finite()) {
+                return Err(CoupledError::Coupling { what: "an entry", coupling, value });
+            }
+            if !c.offset.is_finite() {
+                let value = c.offset;
+                return Err(CoupledError::Coupling { what: "the offset", coupling, value });
+            }
+            if !(c.lag >= 0.0 && c.lag.is_finite()) {
+                let value = c.lag;
+                return Err(CoupledError::Coupling { what: "the lag", coupling, value });
+            }
+        }
+        if steps_per_cycle == 0 {
+            return Err(CoupledError::NoSteps);
+        }
+        let modes = Modes::new(linear, &rule)?;
+        let most = WIDTHS[WIDTHS.len() - 1];
+        let group = |list: &[&Coupling]| {
+            Condensed::new(&modes, list).ok_or(CoupledError::TooMany { got: count, most })
+        };
+        let [first, second]: [Vec<&Coupling>; 2] = [usual.iter().collect(), rare.iter().collect()];
+        let all: Vec<&Coupling> = usual.iter().chain(rare).collect();
+        let all = group(&all)?;
+        let padded = n.next_multiple_of(LANES);
+        let nil = vec![0.0; padded];
+        let silent = (usual.len()..count).map(|k| law.silent_up_to(k)).collect();
+        Ok(Self {
+            usual: group(&first)?,
+            work: Work {
+                acceleration_history: nil.clone(),
+                velocity_history: nil.clone(),
+                load: nil.clone(),
+                free: nil.clone(),
+                forces: vec![0.0; all.width.max(WIDTHS[0])],
+                next: nil.clone(),
+            },
+            rare: if rare.is_empty() { None } else { Some((group(&second)?, all)) },
+            silent,
+            law,
+            rule,
+            least_mass: linear.mass.iter().copied().fold(f64::INFINITY, f64::min),
+            modes,
+            steps_per_cycle,
+            external: nil.clone(),
+            state: CoupledState {
+                step_in_cycle: 0,
+                steps: 0,
+                modal: Motion::at_rest(padded),
+                forces: [vec![0.0; count], vec![0.0; count]],
+            },
+            iterations: 0,
+            with_rare: 0,
+        })
+    }
+
+    /// Sets the external forces on the coordinates (N) from now on.
+    ///
+    /// # Errors
+    /// If there is not one for each coordinate.
+    pub fn set_external(&mut self, force: &[f64]) -> Result<(), CoupledError> {
+        self.fits("the external force", force)?;
+        self.modes.project(force, &mut self.external);
+        Ok(())
+    }
+
+    /// One step.
+    ///
+    /// # Errors
+    /// If the couplings' equations are not solved, or a displacement passes 10 mm.
+    pub fn step(&mut self) -> Result<(), CoupledError> {
+        self.predict();
+        let after = self.state.step_in_cycle + 1;
+        let step_in_cycle = if after == self.steps_per_cycle { 0 } else { after };
+        self.guess(self.usual.count);
+        let (law, group) = (&self.law, &self.usual);
+        let done = solve(group, law, step_in_cycle, &self.rule, &mut self.work);
+        self.iterations += done.map_err(|left| self.not_converged(left))? as u64;
+        self.apply(false);
+        let mut taking_part = self.usual.count;
+        if let Some((_, all)) = self.rare.as_ref().filter(|(rare, _)| self.rare_touch(rare)) {
+            taking_part = all.count;
+            self.guess(taking_part);
+            if let Some((_, all)) = &self.rare {
+                let done = solve(all, &self.law, step_in_cycle, &self.rule, &mut self.work);
+                self.iterations += done.map_err(|left| self.not_converged(left))? as u64;
+            }
+            self.apply(true);
+            self.with_rare += 1;
+        }
+        self.finish(taking_part);
+        self.state.step_in_cycle = step_in_cycle;
+        self.state.steps += 1;
+        self.check()
+    }
+
+    /// Histories and the free displacements.
+    #[inline]
+    fn predict(&mut self) {
+        let n = self.external.len();
+        let Motion { x, v, a } = &self.state.modal;
+        let (x, v, a) = (&x[..n], &v[..n], &a[..n]);
+        let work = &mut self.work;
+        let acceleration = &mut work.acceleration_history[..n];
+        let velocity = &mut work.velocity_history[..n];
+        let (inertia, rate) = (self.rule.inertia(), self.rule.damping());
+        for i in 0..n {
+            // a* = (4/h²) x + (4/h) ẋ + ẍ,  v* = (2/h) x + ẋ
+            acceleration[i] = inertia * x[i] + 2.0 * rate * v[i] + a[i];
+            velocity[i] = rate * x[i] + v[i];
+        }
+        match &self.modes.own_damping {
+            Some(damping) => {
+                let (c, inverse) = (&damping[..n], &self.modes.own_inverse[..n]);
+                let (external, free) = (&self.external[..n], &mut work.free[..n]);
+                for i in 0..n {
+                    // A x = f + a* + c v*
+                    free[i] = inverse[i] * (external[i] + acceleration[i] + c[i] * velocity[i]);
+                }
+            }
+            None => {
+                for (load, (f, a)) in
+                    work.load.iter_mut().zip(self.external.iter().zip(acceleration))
+                {
+                    *load = f + *a;
+                }
+                self.modes.add_damping(velocity, &mut work.load);
+                self.modes.solve_full(&work.load, &mut work.free);
+            }
+        }
+    }
+
+    /// Forces as they would go on.
+    #[inline]
+    fn guess(&mut self, count: usize) {
+        let [now, before] = &self.state.forces;
+        let guessed = &mut self.work.forces;
+        for (out, (now, before)) in guessed.iter_mut().zip(now.iter().zip(before)).take(count) {
+            *out = 2.0 * now - before;
+        }
+        guessed[count..].fill(0.0);
+    }
+
+    /// x = free − A⁻¹ Rᵀ P of the usual ones, or of all.
+    #[inline]
+    fn apply(&mut self, with_rare: bool) {
+        let group = match &self.rare {
+            Some((_, all)) if with_rare => all,
+            _ => &self.usual,
+        };
+        let work = &mut self.work;
+        let (free, _) = work.free.as_chunks::<LANES>();
+        let (next, _) = work.next.as_chunks_mut::<LANES>();
+        let stride = free.len();
+        let (answers, _) = group.answers.as_chunks::<LANES>();
+        let forces = &work.forces[..group.count];
+        for (chunk, next) in next.iter_mut().enumerate() {
+            let mut sum = free[chunk];
+            for (answer, force) in answers[chunk..].iter().step_by(stride).zip(forces) {
+                for lane in 0..LANES {
+                    sum[lane] -= answer[lane] * force;
+                }
+            }
+            *next = sum;
+        }
+    }
+
+    /// Whether rare couplings touch at the displacements found.
+    #[inline]
+    fn rare_touch(&self, rare: &Condensed) -> bool {
+        match rare.width {
+            4 => self.touch::<4>(rare),
+            6 => self.touch::<6>(rare),
+            8 => self.touch::<8>(rare),
+            10 => self.touch::<10>(rare),
+            12 => self.touch::<12>(rare),
+            16 => self.touch::<16>(rare),
+            24 => self.touch::<24>(rare),
+            32 => self.touch::<32>(rare),
+            _ => self.touch::<48>(rare),
+        }
+    }
+
+    #[inline]
+    fn touch<const W: usize>(&self, rare: &Condensed) -> bool {
+        let (rows, _) = rare.rows.as_chunks::<W>();
+        let (mut along, mut rate) = ([0.0; W], [0.0; W]);
+        let histories = self.work.next.iter().zip(&self.work.velocity_history);
+        for (row, (q, history)) in rows.iter().zip(histories) {
+            let v = self.rule.damping() * q - history;
+            newton::add(&mut along, row, *q);
+            newton::add(&mut rate, row, v);
+        }
+        let reach = |k: usize| along[k] - rare.offsets[k] + rare.lags[k] * rate[k];
+        self.silent.iter().enumerate().any(|(k, silent)| reach(k) > *silent)
+    }
+
+    #[inline]
+    fn finish(&mut self, taking_part: usize) {
+        let n = self.external.len();
+        let Motion { x, v, a } = &mut self.state.modal;
+        let (x, v, a) = (&mut x[..n], &mut v[..n], &mut a[..n]);
+        let work = &self.work;
+        let (next, acceleration) = (&work.next[..n], &work.acceleration_history[..n]);
+        let velocity = &work.velocity_history[..n];
+        let (inertia, rate) = (self.rule.inertia(), self.rule.damping());
+        for i in 0..n {
+            x[i] = next[i];
+            v[i] = rate * next[i] - velocity[i];
+            a[i] = inertia * next[i] - acceleration[i];
+        }
+        let [now, before] = &mut self.state.forces;
+        std::mem::swap(now, before);
+        now[..taking_part].copy_from_slice(&work.forces[..taking_part]);
+        now[taking_part..].fill(0.0);
+    }
+
+    /// Refuses motion beyond all bounds: Σ m x² = Σ q² bounds every coordinate.
+    #[inline]
+    fn check(&self) -> Result<(), CoupledError> {
+        let size: f64 = self.state.modal.x.iter().map(|q| q * q).sum();
+        if size <= self.least_mass * BOUND * BOUND {
+            return Ok(());
+        }
+        let time_s = self.time();
+        for coordinate in 0..self.modes.count {
+            let value = self.displacement(coordinate);
+            if value.is_nan() || value.abs() > BOUND {
+                return Err(CoupledError::Diverged { time_s, coordinate, value });
+            }
+        }
+        Ok(())
+    }
+
+    #[cold]
+    fn not_converged(&self, (iterations, coupling, residual_m): Left) -> CoupledError {
+        let time_s = self.time() + self.rule.step();
+        CoupledError::NotConverged { time_s, iterations, coupling, residual_m }
+    }
+
+    pub(super) fn fits(&self, what: &'static str, list: &[f64]) -> Result<(), CoupledError> {
+        match list.len() == self.modes.count {
+            true => Ok(()),
+            false => Err(CoupledError::Size { what, got: list.len(), wanted: self.modes.count }),
+        }
+    }
+
+    /// All couplings in one group.
+    pub(super) fn all(&self) -> &Condensed {
+        self.rare.as_ref().map_or(&self.usual, |(_, all)| all)
+    }
+
+    /// Time since the start, s.
+    pub fn time(&self) -> f64 {
+        self.state.steps as f64 * self.rule.step()
+    }
+
+    /// Number of coordinates.
+    pub fn count(&self) -> usize {
+        self.modes.count
+    }
+
+    /// The law.
+    pub fn law(&self) -> &L {
+        &self.law
+    }
+
+    /// Coordinate i, m.
+    pub fn displacement(&self, i: usize) -> f64 {
+        self.modes.coordinate(i, &self.state.modal.x)
+    }
+
+    /// Displacements, velocities and accelerations of all coordinates.
+    pub fn motion(&self) -> Motion {
+        let modal = &self.state.modal;
+        let all = |q: &[f64]| (0..self.modes.count).map(|i| self.modes.coordinate(i, q)).collect();
+        Motion { x: all(&modal.x), v: all(&modal.v), a: all(&modal.a) }
+    }
+
+    /// Puts the system into motion at a step of the cycle, accelerations by balance of forces.
+    ///
+    /// # Errors
+    /// If there is not one number for each coordinate.
+    pub fn set_motion(
+        &mut self,
+        step_in_cycle: usize,
+        x: &[f64],
+        v: &[f64],
+    ) -> Result<(), CoupledError> {
+        self.fits("the displacement", x)?;
+        self.fits("the velocity", v)?;
+        self.state.step_in_cycle = step_in_cycle % self.steps_per_cycle;
+        self.modes.modal(x, &mut self.state.modal.x);
+        self.modes.modal(v, &mut self.state.modal.v);
+        self.balance();
+        Ok(())
+    }
+
+    /// Forces and accelerations that go with displacements and velocities.
+    pub(super) fn balance(&mut self) {
+        let all = self.rare.as_ref().map_or(&self.usual, |(_, all)| all);
+        let Motion { x, v, a } = &mut self.state.modal;
+        let step = self.state.step_in_cycle;
+        let (n, count) = (self.modes.count, all.count);
+        let mut reach = vec![0.0; count];
+        all.deflections(x, &mut reach);
+        for (k, reach) in reach.iter_mut().enumerate() {
+            let rate: f64 = (0..n).map(|j| all.rows[j * all.width + k] * v[j]).sum();
+            *reach += all.lags[k] * rate;
+        }
+        let forces: Vec<f64> =
+            reach.iter().enumerate().map(|(k, z)| self.law.answer(k, step, *z).0).collect();
+        // q̈ = f − Λ q − ΦᵀCΦ q̇ − Rᵀ P
+        let mut damped = vec![0.0; n];
+        self.modes.add_damping(v, &mut damped);
+        for (j, a) in a.iter_mut().enumerate().take(n) {
+            let own = &all.rows[j * all.width..];
+            let pressed: f64 = own.iter().zip(&forces).map(|(r, p)| r * p).sum();
+            *a = self.external[j] - self.modes.lambda[j] * x[j] - damped[j] - pressed;
+        }
+        self.state.forces = [forces.clone(), forces];
+    }
+
+    /// Everything that decides how it goes on.
+    pub fn state(&self) -> &CoupledState {
+        &self.state
+    }
+
+    /// Goes on from a state of this system, exactly.
+    ///
+    /// # Errors
+    /// If the state is of another system.
+    pub fn set_state(&mut self, state: &CoupledState) -> Result<(), CoupledError> {
+        let padded = self.external.len();
+        let Motion { x, v, a } = &state.modal;
+        for (what, got, wanted) in [
+            ("the state", x.len(), padded),
+            ("the state", v.len(), padded),
+            ("the state", a.len(), padded),
+            ("the state's forces", state.forces[0].len(), self.all().count),
+            ("the state's forces", state.forces[1].len(), self.all().count),
+        ] {
+            if got != wanted {
+                return Err(CoupledError::Size { what, got, wanted });
+            }
+        }
+        self.state.clone_from(state);
+        self.state.step_in_cycle %= self.steps_per_cycle;
+        Ok(())
+    }
+
+    /// Forces of the couplings at the end of the last step, N.
+    pub fn forces(&self) -> &[f64] {
+        &self.state.forces[0]
+    }
+
+    /// Deflections of the couplings at the end of the last step, m.
+    pub fn deflections(&self) -> Vec<f64> {
+        let mut out = vec![0.0; self.all().count];
+        self.all().deflections(&self.state.modal.x, &mut out);
+        out
+    }
+
+    /// Kinetic energy and strain energy of the linear part, J; couplings keep their own.
+    pub fn energies(&self) -> [f64; 2] {
+        let Motion { x, v, .. } = &self.state.modal;
+        let strain = x.iter().zip(&self.modes.lambda).map(|(q, l)| 0.5 * l * q * q).sum();
+        [v.iter().map(|v| 0.5 * v * v).sum(), strain]
+    }
+}
+
+/// Solves a group of couplings at its width.
+#[inline]
+fn solve<L: CouplingLaw>(
+    group: &Condensed,
+    law: &L,
+    step_in_cycle: usize,
+    rule: &AverageAcceleration,
+    work: &mut Work,
+) -> Result<usize, Left> {
+    let Work { free, velocity_history, forces, .. } = work;
+    let start = Start { step_in_cycle, rate: rule.damping(), free, velocity_history };
+    match group.width {
+        4 => newton::solve::<4, L>(group, law, &start, forces),
+        6 => newton::solve::<6, L>(group, law, &start, forces),
+        8 => newton::solve::<8, L>(group, law, &start, forces),
+        10 => newton::solve::<10, L>(group, law, &start, forces),
+        12 => newton::solve::<12, L>(group, law, &start, forces),
+        16 => newton::solve::<16, L>(group, law, &start, forces),
+        24 => newton::solve::<24, L>(group, law, &start, forces),
+        32 => newton::solve::<32, L>(group, law, &start, forces),
+        _ => newton::solve::<48, L>(group, law, &start, forces),
+    }
+}

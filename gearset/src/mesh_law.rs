@@ -1,0 +1,338 @@
+//! The forces of all meshes of a set over deflection, phase and flank, as tables.
+
+use std::collections::HashMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::gear::Facing;
+use crate::mesh::MeshKind;
+use crate::mesh_curve::MeshCurve;
+use crate::phasing::Phasing;
+
+/// Phases nearer than this part of a cycle are the same phase, rounded differently.
+const PHASE_RESOLUTION: f64 = 1e12;
+
+/// Which flanks of a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FlankSide {
+    /// Those that the torque presses.
+    Front,
+    /// Those behind them, a backlash away.
+    Back,
+}
+
+/// One curve that a law needs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurveKey {
+    /// Mesh.
+    pub kind: MeshKind,
+    /// Flank.
+    pub side: FlankSide,
+    /// Phase in [0, 1), cycles; of a back flank, that of the mirrored mesh.
+    pub phase: f64,
+}
+
+/// Where one mesh stands in its cycle at position 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshStart {
+    /// Mesh.
+    pub kind: MeshKind,
+    /// Phase of the front flanks, which runs on with the position, cycles.
+    pub front: f64,
+    /// Phase of the back flanks, which runs back, cycles; `None` leaves them out.
+    pub back: Option<f64>,
+}
+
+impl MeshStart {
+    /// Front flanks of all meshes, sun meshes first, where planet 0's sun mesh starts its cycle; seen
+    /// with the torque counter-clockwise.
+    pub fn of_set(phasing: &Phasing<'_>) -> Vec<Self> {
+        let phases = phasing.phases(0.0, Facing::CounterClockwise);
+        let first = phases.sun_planet.first().copied().unwrap_or(0.0);
+        let list = |kind, phases: Vec<f64>| {
+            phases.into_iter().map(move |phase| Self { kind, front: phase - first, back: None })
+        };
+        let sun = list(MeshKind::SunPlanet, phases.sun_planet);
+        sun.chain(list(MeshKind::RingPlanet, phases.ring_planet)).collect()
+    }
+}
+
+/// Which curves the meshes of a set need at even positions of a mesh cycle, equal phases sharing one.
+///
+/// Every (mesh, step) has the curve of its exact phase: nothing is interpolated in phase.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LawPlan {
+    /// Distinct curves, in order of first use.
+    pub curves: Vec<CurveKey>,
+    meshes: usize,
+    /// By step, then mesh.
+    front: Vec<u32>,
+    back: Vec<u32>,
+}
+
+/// Why curves make no law.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum LawError {
+    /// Nothing to tabulate.
+    #[error("a mesh law of {meshes} meshes and {steps} steps: each must be at least 1")]
+    Empty {
+        /// Meshes.
+        meshes: usize,
+        /// Steps a cycle.
+        steps: usize,
+    },
+    /// Back flanks of some meshes only.
+    #[error("a mesh law holds the back flanks of all meshes or of none")]
+    SomeBacks,
+    /// Not one curve for each key.
+    #[error("{got} curves for a mesh law that needs {wanted}")]
+    Curves {
+        /// Curves given.
+        got: usize,
+        /// Curves asked for.
+        wanted: usize,
+    },
+    /// A share that is none.
+    #[error("damping share {value} of mesh {mesh} is not in [0, 1]")]
+    Share {
+        /// Mesh.
+        mesh: usize,
+        /// Value given.
+        value: f64,
+    },
+    /// A table of a file that points nowhere.
+    #[error("the tables of a mesh law do not fit each other")]
+    Places,
+}
+
+impl LawPlan {
+    /// Plan for meshes (sun meshes by planet, then ring meshes) at `steps` even positions.
+    ///
+    /// # Errors
+    /// Without meshes or steps, or if only some meshes have back flanks.
+    pub fn new(meshes: &[MeshStart], steps: usize) -> Result<Self, LawError> {
+        if meshes.is_empty() || steps == 0 {
+            return Err(LawError::Empty { meshes: meshes.len(), steps });
+        }
+        let with_backs = meshes.iter().filter(|m| m.back.is_some()).count();
+        if with_backs != 0 && with_backs != meshes.len() {
+            return Err(LawError::SomeBacks);
+        }
+        let mut plan =
+            Self { curves: Vec::new(), meshes: meshes.len(), front: Vec::new(), back: Vec::new() };
+        let mut known = HashMap::new();
+        for step in 0..steps {
+            let position = step as f64 / steps as f64;
+            for mesh in meshes {
+                let mut place = |side, phase: f64| {
+                    let phase = cycle(phase);
+                    let key = (mesh.kind, side, (phase * PHASE_RESOLUTION).round() as i64);
+                    *known.entry(key).or_insert_with(|| {
+                        plan.curves.push(CurveKey { kind: mesh.kind, side, phase });
+                        plan.curves.len() as u32 - 1
+                    })
+                };
+                plan.front.push(place(FlankSide::Front, mesh.front + position));
+                if let Some(back) = mesh.back {
+                    plan.back.push(place(FlankSide::Back, back - position));
+                }
+            }
+        }
+        Ok(plan)
+    }
+
+    /// The law, from one curve for each key.
+    ///
+    /// # Errors
+    /// If there are more or fewer curves than keys.
+    pub fn law(self, curves: Vec<MeshCurve>) -> Result<MeshLaw, LawError> {
+        if curves.len() != self.curves.len() {
+            return Err(LawError::Curves { got: curves.len(), wanted: self.curves.len() });
+        }
+        let Self { meshes, front, back, .. } = self;
+        Ok(MeshLaw { meshes, curves, front, back, damping_share: vec![1.0; meshes] })
+    }
+}
+
+/// Phase in [0, 1), what rounds to 1 being 0.
+fn cycle(phase: f64) -> f64 {
+    let reduced = phase - phase.floor();
+    if reduced * PHASE_RESOLUTION >= PHASE_RESOLUTION - 0.5 { 0.0 } else { reduced }
+}
+
+/// Mesh forces of a set over (deflection, step of the mesh cycle, flank). Meshes count as everywhere:
+/// sun meshes by planet, then ring meshes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Tables")]
+pub struct MeshLaw {
+    meshes: usize,
+    curves: Vec<MeshCurve>,
+    /// Curve of each mesh, by step, then mesh.
+    front: Vec<u32>,
+    /// The same of the back flanks; empty if they are left out.
+    back: Vec<u32>,
+    /// Share of each mesh's flexibility that is damped.
+    damping_share: Vec<f64>,
+}
+
+/// A law as files hold it.
+#[derive(Deserialize)]
+struct Tables {
+    meshes: usize,
+    curves: Vec<MeshCurve>,
+    front: Vec<u32>,
+    back: Vec<u32>,
+    damping_share: Vec<f64>,
+}
+
+impl TryFrom<Tables> for MeshLaw {
+    type Error = LawError;
+
+    fn try_from(tables: Tables) -> Result<Self, LawError> {
+        let Tables { meshes, curves, front, back, damping_share } = tables;
+        let is_place = |place: &u32| (*place as usize) < curves.len();
+        let steps = if meshes == 0 { 0 } else { front.len() / meshes };
+        let fits = steps > 0
+            && front.len() == steps * meshes
+            && (back.is_empty() || back.len() == front.len())
+            && front.iter().chain(&back).all(is_place)
+            && damping_share.len() == meshes;
+        if !fits {
+            return Err(LawError::Places);
+        }
+        let law = Self { meshes, curves, front, back, damping_share: vec![1.0; meshes] };
+        law.with_damping_share(&damping_share)
+    }
+}
+
+impl MeshLaw {
+    /// The same law with the share of each mesh's flexibility that stiffness-proportional damping
+    /// acts on; 1 unless said otherwise.
+    ///
+    /// # Errors
+    /// If a share is outside [0, 1], or there is not one for each mesh.
+    pub fn with_damping_share(mut self, share: &[f64]) -> Result<Self, LawError> {
+        if share.len() != self.meshes {
+            return Err(LawError::Places);
+        }
+        if let Some(mesh) = share.iter().position(|s| !(0.0..=1.0).contains(s)) {
+            return Err(LawError::Share { mesh, value: share[mesh] });
+        }
+        self.damping_share = share.to_vec();
+        Ok(self)
+    }
+
+    /// Number of meshes, twice that of planets.
+    pub fn meshes(&self) -> usize {
+        self.meshes
+    }
+
+    /// Steps of a mesh cycle.
+    pub fn steps(&self) -> usize {
+        self.front.len() / self.meshes
+    }
+
+    /// Whether the back flanks are there.
+    pub fn has_backs(&self) -> bool {
+        !self.back.is_empty()
+    }
+
+    /// Share of a mesh's flexibility that stiffness-proportional damping acts on.
+    pub fn damping_share(&self, mesh: usize) -> f64 {
+        self.damping_share[mesh]
+    }
+
+    /// Distinct curves.
+    pub fn curves(&self) -> &[MeshCurve] {
+        &self.curves
+    }
+
+    /// Curve of a mesh's front flanks at a step of the cycle.
+    #[inline]
+    pub fn front(&self, mesh: usize, step_in_cycle: usize) -> &MeshCurve {
+        &self.curves[self.front[step_in_cycle * self.meshes + mesh] as usize]
+    }
+
+    /// Curve of a mesh's back flanks, over how far they approach each other; `None` if left out.
+    #[inline]
+    pub fn back(&self, mesh: usize, step_in_cycle: usize) -> Option<&MeshCurve> {
+        let place = self.back.get(step_in_cycle * self.meshes + mesh)?;
+        self.curves.get(*place as usize)
+    }
+
+    /// Least deflection of first contact of a mesh's flanks over the cycle, m; `None` without them.
+    pub fn first_contact_m(&self, mesh: usize, side: FlankSide) -> Option<f64> {
+        let starts = (0..self.steps()).map(|step| match side {
+            FlankSide::Front => Some(self.front(mesh, step).start_m()),
+            FlankSide::Back => self.back(mesh, step).map(MeshCurve::start_m),
+        });
+        starts.flatten().reduce(f64::min)
+    }
+
+    /// Memory of the tables, bytes.
+    pub fn bytes(&self) -> usize {
+        let nodes: usize = self.curves.iter().map(|c| c.nodes().len()).sum();
+        16 * nodes + 4 * (self.front.len() + self.back.len())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn starts(backs: bool) -> Vec<MeshStart> {
+        let one = |kind| {
+            move |n: u32| MeshStart {
+                kind,
+                // Seventh parts of a cycle: shared on a grid they divide, exact on any other.
+                front: f64::from(n) * 3.0 / 7.0,
+                back: backs.then_some(-f64::from(n) * 3.0 / 7.0),
+            }
+        };
+        let sun = (0..3).map(one(MeshKind::SunPlanet));
+        sun.chain((0..3).map(one(MeshKind::RingPlanet))).collect()
+    }
+
+    fn law(plan: LawPlan) -> MeshLaw {
+        let curve = |key: &CurveKey| MeshCurve::new(key.phase, 1.0, &[0.0, 1.0], &[1.0, 1.0]);
+        let curves = plan.curves.iter().map(|key| curve(key).unwrap()).collect();
+        plan.law(curves).unwrap()
+    }
+
+    #[test]
+    fn every_mesh_and_step_has_the_curve_of_its_exact_phase() {
+        for (steps, shared) in [(140, true), (141, false)] {
+            let plan = LawPlan::new(&starts(true), steps).unwrap();
+            let distinct = 4 * steps * if shared { 1 } else { 3 };
+            assert_eq!(plan.curves.len(), distinct);
+            let law = law(plan);
+            for (mesh, start) in starts(true).iter().enumerate() {
+                for step in 0..steps {
+                    let position = step as f64 / steps as f64;
+                    let apart =
+                        |found: f64, exact: f64| (found - exact + 0.5).rem_euclid(1.0) - 0.5;
+                    let front = law.front(mesh, step).start_m();
+                    assert!(apart(front, start.front + position).abs() < 1e-12);
+                    let back = law.back(mesh, step).unwrap().start_m();
+                    assert!(apart(back, start.back.unwrap() - position).abs() < 1e-12);
+                }
+            }
+            assert_eq!((law.steps(), law.meshes()), (steps, 6));
+        }
+    }
+
+    #[test]
+    fn what_makes_no_law_is_refused() {
+        assert!(LawPlan::new(&[], 10).is_err());
+        assert!(LawPlan::new(&starts(false), 0).is_err());
+        let mut some = starts(true);
+        some[2].back = None;
+        assert_eq!(LawPlan::new(&some, 4), Err(LawError::SomeBacks));
+        assert!(LawPlan::new(&starts(false), 4).unwrap().law(Vec::new()).is_err());
+        let law = law(LawPlan::new(&starts(false), 4).unwrap());
+        assert!(!law.has_backs() && law.back(0, 0).is_none());
+        assert!(law.clone().with_damping_share(&[1.0; 5]).is_err());
+        assert!(law.with_damping_share(&[1.0, 0.5, 0.0, 1.5, 1.0, 1.0]).is_err());
+    }
+}

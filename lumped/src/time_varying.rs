@@ -1,0 +1,278 @@
+//! The lumped set in time: mesh springs replaced by tables of mesh force over deflection and phase.
+//!
+//! ```text
+//! M q̈ + (α M + β_b K_s) q̇ + K_s q + Σ b P = f,   P = F(phase, δ + s β δ̇),   δ = bᵀ q
+//! ```
+//!
+//! with K_s of supports and bearings, rows b of the meshes as in the eigen model, and F from whatever
+//! made the law. Stepped by Newmark's average acceleration, as many steps a mesh cycle as the law has.
+//!
+//! Everything is seen so that the torque on the sun is counter-clockwise: for the other sense the set is
+//! mirrored, and displacements are mirrored back.
+
+use faer::Mat;
+
+use dynamics::{
+    AverageAcceleration, Coupled, CoupledState, Coupling, CouplingLaw, LinearPart, Motion,
+};
+use gearset::{Facing, FlankSide, MeshCurve, MeshLaw, Scene};
+
+use crate::coordinates::{Axis, Body, Coordinates};
+use crate::error::LumpedError;
+use crate::model::LumpedModel;
+use crate::springs::{Rows, SpringId};
+
+/// Front flanks, then back flanks, as couplings.
+#[derive(Debug, Clone)]
+struct Tables(MeshLaw);
+
+impl Tables {
+    #[inline]
+    fn curve(&self, coupling: usize, step_in_cycle: usize) -> Option<&MeshCurve> {
+        match coupling.checked_sub(self.0.meshes()) {
+            None => Some(self.0.front(coupling, step_in_cycle)),
+            Some(mesh) => self.0.back(mesh, step_in_cycle),
+        }
+    }
+}
+
+impl CouplingLaw for Tables {
+    #[inline]
+    fn answer(&self, coupling: usize, step_in_cycle: usize, deflection: f64) -> (f64, f64) {
+        self.curve(coupling, step_in_cycle).map_or((0.0, 0.0), |curve| curve.force(deflection))
+    }
+
+    fn silent_up_to(&self, coupling: usize) -> f64 {
+        let (mesh, side) = match coupling.checked_sub(self.0.meshes()) {
+            None => (coupling, FlankSide::Front),
+            Some(mesh) => (mesh, FlankSide::Back),
+        };
+        self.0.first_contact_m(mesh, side).unwrap_or(f64::INFINITY)
+    }
+}
+
+/// A lumped set whose meshes follow a law, in time.
+#[derive(Debug, Clone)]
+pub struct TimeVarying {
+    coordinates: Coordinates,
+    system: Coupled<Tables>,
+    /// r in u = r θ by the body order, one for all planets, m.
+    radii: [f64; 4],
+    sign: f64,
+    planets: usize,
+}
+
+impl TimeVarying {
+    /// A set at rest without load at step 0 of a mesh cycle, under a torque on the sun of the given
+    /// sense; as many steps a cycle as the law has.
+    ///
+    /// # Errors
+    /// If the scene lacks lumped parameters or radii, the law is for another set, or a number is unfit.
+    pub fn new(
+        scene: &Scene,
+        sense: Facing,
+        law: MeshLaw,
+        mesh_frequency_hz: f64,
+    ) -> Result<Self, LumpedError> {
+        let sign = sense.sign();
+        let mut seen = scene.clone();
+        for psi in &mut seen.planets.psi_rad {
+            *psi *= sign;
+        }
+        let model = LumpedModel::from_scene(&seen)?;
+        let lumped = scene.lumped.as_ref().ok_or(LumpedError::NoParameters)?;
+        let planets = model.psi.len();
+        if law.meshes() != 2 * planets {
+            return Err(LumpedError::Law { got: law.meshes(), wanted: 2 * planets });
+        }
+        if !(mesh_frequency_hz > 0.0 && mesh_frequency_hz.is_finite()) {
+            return Err(LumpedError::Frequency(mesh_frequency_hz));
+        }
+        let d = &scene.damping;
+        for (key, value) in [
+            ("mass_proportional_per_s", d.mass_proportional_per_s),
+            ("stiffness_proportional_s", d.stiffness_proportional_s),
+            ("bearing_s", d.bearing_s),
+        ] {
+            if !(value >= 0.0 && value.is_finite()) {
+                return Err(LumpedError::Damping { key, value });
+            }
+        }
+        let radius = |body: Body, given: Option<f64>| match given {
+            Some(r) => Ok(r),
+            // What does not turn needs none.
+            None if model.coordinates.of(body, Axis::Rotation).is_none() => Ok(1.0),
+            None => Err(LumpedError::NoRotation { body: body.kind_name() }),
+        };
+        let radii = [
+            radius(Body::Carrier, lumped.radius.carrier)?,
+            radius(Body::Ring, lumped.radius.ring)?,
+            radius(Body::Sun, lumped.radius.sun)?,
+            radius(Body::Planet(0), lumped.radius.planet)?,
+        ];
+        let n = model.coordinates.count();
+        let mut stiffness = Mat::zeros(n, n);
+        let is_mesh = |id| matches!(id, SpringId::SunMesh(_) | SpringId::RingMesh(_));
+        for spring in model.springs.iter().filter(|s| !is_mesh(s.id)) {
+            for row in &spring.rows {
+                for &(i, bi) in row {
+                    for &(j, bj) in row {
+                        stiffness[(i, j)] += spring.stiffness * bi * bj;
+                    }
+                }
+            }
+        }
+        // C = α M + β_b K_s
+        let damping = Mat::from_fn(n, n, |i, j| {
+            let own = if i == j { d.mass_proportional_per_s * model.mass[i] } else { 0.0 };
+            own + d.bearing_s * stiffness[(i, j)]
+        });
+        let [front, back] = couplings(&model, lumped, d.stiffness_proportional_s, &law);
+        let steps = law.steps();
+        let rule = AverageAcceleration::new(1.0 / (mesh_frequency_hz * steps as f64))
+            .map_err(|_| LumpedError::Frequency(mesh_frequency_hz))?;
+        let part = LinearPart { mass: model.mass.clone(), damping, stiffness };
+        let system = Coupled::new(&part, &front, &back, Tables(law), rule, steps)?;
+        Ok(Self { coordinates: model.coordinates, system, radii, sign, planets })
+    }
+
+    /// Puts the set to rest under a torque on the sun (N m, magnitude) at its current step.
+    ///
+    /// # Errors
+    /// If there is no equilibrium.
+    pub fn rest(&mut self, torque_nm: f64) -> Result<(), LumpedError> {
+        let mut force = vec![0.0; self.system.count()];
+        if let Some(i) = self.coordinates.of(Body::Sun, Axis::Rotation) {
+            // f_u = T / r
+            force[i] = torque_nm / self.radii[2];
+        }
+        self.system.set_external(&force)?;
+        Ok(self.system.rest()?)
+    }
+
+    /// One step.
+    ///
+    /// # Errors
+    /// If the step is not solved or the motion diverges.
+    pub fn step(&mut self) -> Result<(), LumpedError> {
+        Ok(self.system.step()?)
+    }
+
+    /// Displacements of carrier, ring, sun (x, y, m; θ, rad; carrier frame) and of the planets
+    /// (ζ, η, θ), counter-clockwise.
+    pub fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+        let of = |body: Body, radius: f64| {
+            let value =
+                |axis| self.coordinates.of(body, axis).map_or(0.0, |i| self.system.displacement(i));
+            let [first, second, u] = Axis::ALL.map(value);
+            // Mirrored back: y and θ change sign.
+            [first, self.sign * second, self.sign * u / radius]
+        };
+        let [carrier, ring, sun, planet] = self.radii;
+        let central = [of(Body::Carrier, carrier), of(Body::Ring, ring), of(Body::Sun, sun)];
+        (central, (0..self.planets).map(|n| of(Body::Planet(n), planet)).collect())
+    }
+
+    /// Force of each mesh: sun meshes, ring meshes, then their back flanks if the law has them, N.
+    pub fn mesh_forces(&self, out: &mut Vec<f64>) {
+        out.clear();
+        out.extend_from_slice(self.system.forces());
+    }
+
+    /// Deflections in the same order, m; of back flanks, how far they approach each other.
+    pub fn mesh_deflections(&self) -> Vec<f64> {
+        self.system.deflections()
+    }
+
+    /// Whether the law's tables hold all deflections of the present step; beyond they go straight on.
+    pub fn is_within_tables(&self) -> bool {
+        let (tables, step) = (self.system.law(), self.step_in_cycle());
+        let deflections = self.system.deflections();
+        let mut each = deflections.iter().enumerate();
+        each.all(|(k, d)| tables.curve(k, step).is_none_or(|curve| curve.reaches(*d)))
+    }
+
+    /// Step in the mesh cycle.
+    pub fn step_in_cycle(&self) -> usize {
+        self.system.state().step_in_cycle
+    }
+
+    /// Time since the start, s.
+    pub fn time(&self) -> f64 {
+        self.system.time()
+    }
+
+    /// Everything that decides how the set goes on, exactly.
+    pub fn state(&self) -> &CoupledState {
+        self.system.state()
+    }
+
+    /// Goes on from a state of this set, bit by bit as it did before.
+    ///
+    /// # Errors
+    /// If the state is of another set.
+    pub fn set_state(&mut self, state: &CoupledState) -> Result<(), LumpedError> {
+        Ok(self.system.set_state(state)?)
+    }
+
+    /// Displacements, velocities and accelerations of the free coordinates (u = r θ; seen with the
+    /// torque counter-clockwise), m and s.
+    pub fn motion(&self) -> Motion {
+        self.system.motion()
+    }
+
+    /// Puts the set into motion at a step of the cycle, on the same coordinates.
+    ///
+    /// # Errors
+    /// If there is not one number for each coordinate.
+    pub fn set_motion(
+        &mut self,
+        step_in_cycle: usize,
+        x: &[f64],
+        v: &[f64],
+    ) -> Result<(), LumpedError> {
+        Ok(self.system.set_motion(step_in_cycle, x, v)?)
+    }
+
+    /// Free coordinates.
+    pub fn coordinates(&self) -> &Coordinates {
+        &self.coordinates
+    }
+
+    /// Mean iterations of a step so far, and steps in which back flanks took part.
+    pub fn counts(&self) -> (f64, u64) {
+        let steps = self.system.state().steps.max(1) as f64;
+        (self.system.iterations as f64 / steps, self.system.with_rare)
+    }
+}
+
+/// Front and back flanks of all meshes as couplings, the lag of each its damped share of β.
+fn couplings(
+    model: &LumpedModel,
+    lumped: &gearset::LumpedInput,
+    beta: f64,
+    law: &MeshLaw,
+) -> [Vec<Coupling>; 2] {
+    let rows = Rows { coordinates: &model.coordinates };
+    let angle = &lumped.pressure_angle;
+    let planets = model.psi.len();
+    let coupling = |mesh: usize, entries: Vec<(usize, f64)>| {
+        let mut row = vec![0.0; model.coordinates.count()];
+        entries.into_iter().for_each(|(i, b)| row[i] += b);
+        Coupling { row, offset: 0.0, lag: beta * law.damping_share(mesh) }
+    };
+    let mut front = Vec::with_capacity(2 * planets);
+    let mut back = Vec::with_capacity(2 * planets);
+    for (n, &psi) in model.psi.iter().enumerate() {
+        front.push(coupling(n, rows.sun_mesh(n, psi, angle.sun_planet)));
+        back.push(coupling(n, rows.sun_back(n, psi, angle.sun_planet)));
+    }
+    for (n, &psi) in model.psi.iter().enumerate() {
+        front.push(coupling(planets + n, rows.ring_mesh(n, psi, angle.ring_planet)));
+        back.push(coupling(planets + n, rows.ring_back(n, psi, angle.ring_planet)));
+    }
+    if !law.has_backs() {
+        back.clear();
+    }
+    [front, back]
+}

@@ -1,0 +1,256 @@
+//! The lumped set in time against its own eigen model, its static solution, and itself.
+
+use std::f64::consts::TAU;
+use std::path::Path;
+
+use faer::prelude::Solve;
+
+use gearset::{
+    CurveKey, Facing, FlankSide, Geometry, LawPlan, MeshCurve, MeshLaw, MeshStart, PairSprings,
+    Phasing, Scene,
+};
+use lumped::{Axis, Body, LumpedModel, NaturalModes, TimeVarying};
+
+/// A scene file of the repository.
+fn scene(name: &str) -> Scene {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
+    Scene::from_file(&path).unwrap()
+}
+
+const TORQUE: f64 = 1413.0;
+const FREQUENCY: f64 = 565.714;
+
+fn starts(scene: &Scene) -> Vec<MeshStart> {
+    let geometry = Geometry::from_scene(scene).unwrap().unwrap();
+    MeshStart::of_set(&Phasing::new(&geometry, &scene.planets).unwrap())
+}
+
+fn law(scene: &Scene, steps: usize, curve: impl Fn(f64) -> MeshCurve) -> MeshLaw {
+    let plan = LawPlan::new(&starts(scene), steps).unwrap();
+    let curves = plan.curves.iter().map(|key| curve(key.phase)).collect();
+    plan.law(curves).unwrap()
+}
+
+/// Springs of the scene's own constant stiffness, which pull as well.
+fn constant(scene: &Scene, steps: usize) -> MeshLaw {
+    let k = scene.lumped.as_ref().unwrap().mesh.sun_planet;
+    law(scene, steps, |_| MeshCurve::new(0.0, 1e-3, &[0.0, k * 1e-3], &[k, k]).unwrap())
+}
+
+fn teeth(gap: f64) -> PairSprings {
+    PairSprings { stiffness: 2.2e8, contact_ratio: 1.62, gap_at_tenth: gap }
+}
+
+fn changing(scene: &Scene, steps: usize) -> MeshLaw {
+    law(scene, steps, |phase| teeth(4e-6).curve(phase, 120e-6, 240).unwrap())
+}
+
+#[test]
+fn static_deflection_is_the_stiffness_matrix_solved() {
+    let scene = scene("oh58_4p.toml");
+    let model = LumpedModel::from_scene(&scene).unwrap();
+    let mut set =
+        TimeVarying::new(&scene, Facing::CounterClockwise, constant(&scene, 140), FREQUENCY)
+            .unwrap();
+    set.rest(TORQUE).unwrap();
+    let n = model.coordinates.count();
+    let mut f = faer::Mat::<f64>::zeros(n, 1);
+    let sun = model.coordinates.of(Body::Sun, Axis::Rotation).unwrap();
+    f[(sun, 0)] = TORQUE / scene.lumped.as_ref().unwrap().radius.sun.unwrap();
+    let exact = model.stiffness().partial_piv_lu().solve(&f);
+    let motion = set.motion();
+    let largest = motion.x.iter().fold(0.0f64, |a, x| a.max(x.abs()));
+    for i in 0..n {
+        assert!((motion.x[i] - exact[(i, 0)]).abs() < 1e-10 * largest, "{i}");
+    }
+    // Constant stiffness leaves it at rest.
+    (0..300).for_each(|_| set.step().unwrap());
+    for (x, start) in set.motion().x.iter().zip(&motion.x) {
+        assert!((x - start).abs() < 1e-10 * largest);
+    }
+    let mut forces = Vec::new();
+    set.mesh_forces(&mut forces);
+    assert_eq!(forces.len(), 8);
+    let share = TORQUE / scene.lumped.as_ref().unwrap().radius.sun.unwrap();
+    assert!((forces[..4].iter().sum::<f64>() / share - 1.0).abs() < 1e-9);
+}
+
+/// Thrown into one mode about the preloaded state, without damping: it swings in that mode alone, at
+/// the frequency Newmark's rule turns the mode's into.
+#[test]
+fn natural_modes_are_those_of_the_eigen_model() {
+    let mut scene = scene("oh58_4p.toml");
+    scene.damping.mass_proportional_per_s = 0.0;
+    scene.damping.stiffness_proportional_s = 0.0;
+    scene.damping.bearing_s = 0.0;
+    let model = LumpedModel::from_scene(&scene).unwrap();
+    let modes = NaturalModes::of(&model).unwrap();
+    let mut set =
+        TimeVarying::new(&scene, Facing::CounterClockwise, constant(&scene, 140), FREQUENCY)
+            .unwrap();
+    set.rest(TORQUE).unwrap();
+    let (rest, h) = (set.motion().x, 1.0 / (FREQUENCY * 140.0));
+    for group in &modes.groups {
+        for j in 0..group.multiplicity {
+            let shape: Vec<f64> = (0..rest.len()).map(|i| 1e-7 * group.vectors[(i, j)]).collect();
+            let x: Vec<f64> = rest.iter().zip(&shape).map(|(r, s)| r + s).collect();
+            set.set_motion(0, &x, &vec![0.0; x.len()]).unwrap();
+            let omega = TAU * group.frequency_hz;
+            let turned = 2.0 / h * (0.5 * omega * h).atan();
+            let steps = 400;
+            (0..steps).for_each(|_| set.step().unwrap());
+            let swing = (turned * h * f64::from(steps)).cos();
+            for (i, x) in set.motion().x.iter().enumerate() {
+                let exact = rest[i] + swing * shape[i];
+                let size = shape.iter().fold(0.0f64, |a, s| a.max(s.abs()));
+                assert!((x - exact).abs() < 1e-5 * size, "{} Hz", group.frequency_hz);
+            }
+        }
+    }
+}
+
+/// Light load at a resonance throws the teeth apart; the marching stays sound, forces never pull, and
+/// what was lost on one step is back on another.
+#[test]
+fn loss_of_contact_at_high_excitation_stays_sound() {
+    let mut scene = scene("oh58_4p.toml");
+    scene.damping.mass_proportional_per_s = 30.0;
+    scene.damping.stiffness_proportional_s = 3e-7;
+    let plan_law = |backs: bool| {
+        let mut starts = starts(&scene);
+        for start in &mut starts {
+            start.back = backs.then_some(0.37 - start.front);
+        }
+        let plan = LawPlan::new(&starts, 140).unwrap();
+        let curve = |key: &CurveKey| {
+            let own = teeth(0.5e-6).curve(key.phase, 60e-6, 240).unwrap();
+            match key.side {
+                FlankSide::Front => own,
+                FlankSide::Back => own.moved(8e-6),
+            }
+        };
+        let curves = plan.curves.iter().map(curve).collect();
+        plan.law(curves).unwrap()
+    };
+    let mut seen = [false; 2];
+    for frequency in [900.0, 1300.0, 1700.0, 2100.0, 2600.0] {
+        let sense = Facing::CounterClockwise;
+        let mut set = TimeVarying::new(&scene, sense, plan_law(true), frequency).unwrap();
+        set.rest(30.0).unwrap();
+        let x: Vec<f64> = set.motion().x.iter().map(|x| 8.0 * x).collect();
+        set.set_motion(0, &x, &vec![0.0; x.len()]).unwrap();
+        let mut forces = Vec::new();
+        let (mut lost, mut loaded) = (0, 0);
+        for _ in 0..140 * 40 {
+            set.step().unwrap();
+            set.mesh_forces(&mut forces);
+            assert_eq!(forces.len(), 16);
+            assert!(forces.iter().all(|f| *f >= 0.0));
+            lost += forces[..8].iter().filter(|f| **f == 0.0).count();
+            loaded += forces[..8].iter().filter(|f| **f > 0.0).count();
+        }
+        assert!(loaded > 0);
+        seen[0] |= lost > 0;
+        seen[1] |= set.counts().1 > 0;
+    }
+    assert_eq!(seen, [true, true], "contact lost, back flanks met");
+}
+
+/// A clockwise torque on the mirrored set gives the mirrored motion.
+#[test]
+fn mirrored_sets_move_mirrored() {
+    let scene = scene("oh58_3p.toml");
+    let law = changing(&scene, 140);
+    let run = |scene: &Scene, sense| {
+        let mut set = TimeVarying::new(scene, sense, law.clone(), FREQUENCY).unwrap();
+        set.rest(TORQUE).unwrap();
+        (0..500).for_each(|_| set.step().unwrap());
+        set.displacements()
+    };
+    let (a, b) = (run(&scene, Facing::CounterClockwise), {
+        let mut mirrored = scene.clone();
+        mirrored.planets.psi_rad.iter_mut().for_each(|psi| *psi = -*psi);
+        run(&mirrored, Facing::Clockwise)
+    });
+    let all = |(central, planets): &([[f64; 3]; 3], Vec<[f64; 3]>)| -> Vec<[f64; 3]> {
+        central.iter().chain(planets).copied().collect()
+    };
+    for (a, b) in all(&a).iter().zip(all(&b)) {
+        assert!((a[0] - b[0]).abs() < 1e-15);
+        assert!((a[1] + b[1]).abs() < 1e-15 && (a[2] + b[2]).abs() < 1e-13);
+    }
+}
+
+/// Three equal planets a third of a cycle apart, on a grid that divides it: in steady motion planet n
+/// repeats planet 0's forces a third of a cycle later, to rounding; on a grid that does not, it cannot.
+#[test]
+fn planets_follow_their_exact_phases() {
+    let mut scene = scene("oh58_3p.toml");
+    scene.damping.mass_proportional_per_s = 2000.0;
+    let mut starts = starts(&scene);
+    for (i, start) in starts.iter_mut().enumerate() {
+        start.front += (i % 3) as f64 / 3.0;
+    }
+    let apart = |steps: usize| {
+        let plan = LawPlan::new(&starts, steps).unwrap();
+        let curve = |key: &CurveKey| teeth(4e-6).curve(key.phase, 120e-6, 240).unwrap();
+        let curves = plan.curves.iter().map(curve).collect();
+        let law = plan.law(curves).unwrap();
+        let mut set = TimeVarying::new(&scene, Facing::CounterClockwise, law, FREQUENCY).unwrap();
+        set.rest(TORQUE).unwrap();
+        (0..60 * steps).for_each(|_| set.step().unwrap());
+        let mut rows = Vec::new();
+        for _ in 0..steps {
+            set.step().unwrap();
+            let mut forces = Vec::new();
+            set.mesh_forces(&mut forces);
+            rows.push(forces);
+        }
+        assert!(set.is_within_tables());
+        let mut worst = 0.0f64;
+        for (i, row) in rows.iter().enumerate() {
+            for n in 1..3 {
+                let ahead = &rows[(i + (n * steps) / 3) % steps];
+                for mesh in [0, 3] {
+                    worst = worst.max((row[mesh + n] / ahead[mesh] - 1.0).abs());
+                }
+            }
+        }
+        worst
+    };
+    let (divided, not) = (apart(141), apart(140));
+    assert!(divided < 1e-9, "{divided:e}");
+    assert!(not > 1e-4, "{not:e}");
+}
+
+#[test]
+fn states_resume_bit_by_bit() {
+    let scene = scene("oh58_4p.toml");
+    let mut set =
+        TimeVarying::new(&scene, Facing::CounterClockwise, changing(&scene, 140), FREQUENCY)
+            .unwrap();
+    set.rest(TORQUE).unwrap();
+    (0..77).for_each(|_| set.step().unwrap());
+    let state = set.state().clone();
+    (0..200).for_each(|_| set.step().unwrap());
+    let end = set.motion();
+    set.set_state(&state).unwrap();
+    (0..200).for_each(|_| set.step().unwrap());
+    assert_eq!(end, set.motion());
+}
+
+#[test]
+fn what_does_not_fit_is_refused() {
+    let scene = scene("oh58_4p.toml");
+    let other = self::scene("oh58_3p.toml");
+    let new = |scene: &Scene, law: MeshLaw, f| {
+        TimeVarying::new(scene, Facing::CounterClockwise, law, f)
+            .map(|_| ())
+            .map_err(|e| e.to_string())
+    };
+    assert!(new(&scene, constant(&other, 20), FREQUENCY).unwrap_err().contains("6 meshes"));
+    assert!(new(&scene, constant(&scene, 20), -1.0).unwrap_err().contains("mesh frequency"));
+    let mut bad = scene.clone();
+    bad.damping.bearing_s = -1.0;
+    assert!(new(&bad, constant(&scene, 20), FREQUENCY).unwrap_err().contains("damping.bearing_s"));
+}
