@@ -89,6 +89,25 @@ pub fn contents(points: &[&SweepPoint], strengths: &[ExcitationStrengths]) -> Ve
     list
 }
 
+/// Peaks of the sun's and planet 0's motion in harmonics 1…`harmonics` that stand out by `least`;
+/// rounding has peaks too, so those below 1e-6 of the largest motion of any body do not count.
+pub(super) fn prominent(
+    points: &[&SweepPoint],
+    harmonics: usize,
+    least: f64,
+) -> Vec<(Response, Vec<Peak>)> {
+    let mut list = Vec::new();
+    for is_rotation in [true, false] {
+        let scale = scale(points, is_rotation, harmonics);
+        for part in [Part::Sun, Part::Planet(0)] {
+            let response = response(is_rotation, part);
+            let all = (1..=harmonics).flat_map(|l| peaks(points, response, l, least));
+            list.push((response, all.filter(|p| p.amplitude > 1e-6 * scale).collect()));
+        }
+    }
+    list
+}
+
 /// Peaks of the sun and of planet 0 that stand out by `least`, each with the mode its harmonic meets.
 ///
 /// A resonance of one harmonic turns the meshes' stiffness over with the motion it makes and so
@@ -101,38 +120,26 @@ pub fn assigned(
     least: f64,
 ) -> Vec<Assigned> {
     let mut list: Vec<Assigned> = Vec::new();
-    for part in [Part::Sun, Part::Planet(0)] {
-        for is_rotation in [true, false] {
-            let response = response(is_rotation, part);
-            let scale = scale(points, is_rotation, strengths.len());
-            let mut own: Vec<Peak> = Vec::new();
-            for l in 1..=strengths.len() {
-                let found = peaks(points, response, l, least);
-                // Rounding has peaks of its own.
-                own.extend(found.into_iter().filter(|p| p.amplitude > 1e-6 * scale));
-            }
-            let is_strongest = |peak: &Peak| {
-                own.iter().all(|other| {
-                    other.amplitude <= peak.amplitude
-                        || (other.speed_rpm / peak.speed_rpm - 1.0).abs() > 0.03
-                })
+    for (response, own) in prominent(points, strengths.len(), least) {
+        let is_strongest = |peak: &Peak| {
+            own.iter().all(|other| {
+                other.amplitude <= peak.amplitude
+                    || (other.speed_rpm / peak.speed_rpm - 1.0).abs() > 0.03
+            })
+        };
+        for peak in own.iter().filter(|p| is_strongest(p)) {
+            let allowed = strengths[peak.harmonic - 1].allowed();
+            let is_met = |n: &&Natural| match n.mode_type {
+                ModeType::Rotational => allowed.rotational,
+                ModeType::Translational => allowed.translational,
+                ModeType::Planet => allowed.planet,
+                ModeType::Mixed => true,
             };
-            for peak in own.iter().filter(|p| is_strongest(p)) {
-                let allowed = strengths[peak.harmonic - 1].allowed();
-                let is_met = |n: &&Natural| match n.mode_type {
-                    ModeType::Rotational => allowed.rotational,
-                    ModeType::Translational => allowed.translational,
-                    ModeType::Planet => allowed.planet,
-                    ModeType::Mixed => true,
-                };
-                let distance = |n: &Natural| (n.frequency_hz / peak.frequency_hz).ln().abs();
-                let nearest = naturals
-                    .iter()
-                    .filter(is_met)
-                    .min_by(|a, b| distance(a).total_cmp(&distance(b)));
-                if let Some(natural) = nearest {
-                    list.push(Assigned { response, peak: *peak, natural: *natural });
-                }
+            let distance = |n: &Natural| (n.frequency_hz / peak.frequency_hz).ln().abs();
+            let nearest =
+                naturals.iter().filter(is_met).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+            if let Some(natural) = nearest {
+                list.push(Assigned { response, peak: *peak, natural: *natural });
             }
         }
     }

@@ -40,6 +40,9 @@ pub struct Peak {
     pub prominence: f64,
 }
 
+/// A parabola's top may stand so far above the highest point, in the logarithm of the amplitude.
+const HIGHEST: f64 = 0.25;
+
 /// Peaks of one harmonic of points in order of speed: interior maxima that stand out by `least`
 /// (ratio). Place and height are those of the parabola through three points in the logarithm of the
 /// amplitude.
@@ -61,7 +64,11 @@ pub fn peaks(points: &[&SweepPoint], response: Response, harmonic: usize, least:
         }
         let x = [0, 1, 2].map(|k| points[i + k - 1].speed_rpm);
         let y = [0, 1, 2].map(|k| a[i + k - 1].max(f64::MIN_POSITIVE).ln());
-        let (speed_rpm, top) = vertex(x, y).unwrap_or((x[1], y[1]));
+        let (speed_rpm, top) = match vertex(x, y) {
+            // Points that stand close by chance make steep parabolas.
+            Some((speed, top)) if top - y[1] < HIGHEST => (speed, top),
+            _ => (x[1], y[1]),
+        };
         let hz_per_rpm = points[i].mesh_frequency_hz / points[i].speed_rpm;
         found.push(Peak {
             harmonic,

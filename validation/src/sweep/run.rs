@@ -7,9 +7,9 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::feed::{SIZES, SweepModel, is_too_small};
-use super::peaks::{Response, peaks};
+use super::judge::prominent;
 use super::plan::{Chain, Plan};
-use super::point::{Part, SweepPoint, TableRow};
+use super::point::{SweepPoint, TableRow};
 use super::steady::{SteadySettings, steady};
 use crate::error::ValidationError;
 
@@ -85,16 +85,9 @@ impl Sweep {
         count: usize,
         steady: SteadySettings,
     ) -> Plan {
-        let points = self.points();
-        let mut centres: Vec<f64> = Vec::new();
-        for part in [Part::Sun, Part::Planet(0)] {
-            for response in [Response::Rotation(part), Response::Translation(part)] {
-                for harmonic in 1..=steady.harmonics {
-                    let found = peaks(&points, response, harmonic, least);
-                    centres.extend(found.iter().map(|p| p.speed_rpm));
-                }
-            }
-        }
+        let found = prominent(&self.points(), steady.harmonics, least);
+        let mut centres: Vec<f64> =
+            found.iter().flat_map(|(_, list)| list.iter().map(|p| p.speed_rpm)).collect();
         centres.sort_by(f64::total_cmp);
         centres.dedup_by(|b, a| *b < *a * (1.0 + span));
         Plan::around(&centres, span, count, steady)

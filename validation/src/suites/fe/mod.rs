@@ -15,6 +15,7 @@ mod sets;
 mod stepping;
 mod stiffness;
 mod sweeps;
+mod torque;
 
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, PairCycle, SetCycle, StaticSet, pair_cycle};
@@ -101,7 +102,7 @@ pub(crate) fn checks(
     profile: Profile,
     concerns: &dyn Fn(&str) -> bool,
 ) -> Result<Vec<Check>, ValidationError> {
-    let suites: [(&[&str], Suite); 16] = [
+    let suites: [(&[&str], Suite); 17] = [
         (&["fe.hertz."], hertz::checks),
         (&["fe.convergence."], convergence::checks),
         (&["fe.resolved."], resolved::checks),
@@ -118,6 +119,7 @@ pub(crate) fn checks(
         (&["fe.fed."], fed::checks),
         (sweeps::IDS, sweeps::checks),
         (&["sweep.control."], sweeps::controls),
+        (&["torque."], torque::checks),
     ];
     if !suites.iter().any(|(prefixes, _)| prefixes.iter().any(|p| concerns(p))) {
         return Ok(Vec::new());
