@@ -168,6 +168,7 @@ fn one(
 ) -> Result<Kept, ValidationError> {
     let mesh_frequency = speed_rpm * hz_per_rpm;
     let mut size = 0;
+    let mut outgrown = None;
     loop {
         let attempt = || {
             let mut set = model.turning(mesh_frequency, size)?;
@@ -182,8 +183,13 @@ fn one(
             Ok(Kept { point, state: set.state() })
         };
         match attempt() {
-            Err(error) if is_too_small(&error) && size + 1 < SIZES => size += 1,
-            result => return result,
+            Err(error) if is_too_small(&error) && size + 1 < SIZES => {
+                size += 1;
+                outgrown = Some(error);
+            }
+            // Larger tables may be impossible; what asked for them is the reason.
+            Err(error) => return Err(outgrown.unwrap_or(error)),
+            Ok(kept) => return Ok(kept),
         }
     }
 }
