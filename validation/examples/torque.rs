@@ -1,39 +1,51 @@
-//! Follows the resonances of section 4.2 over torque on one scene: heights over those at 565 N·m, what
-//! holds of the statements, and the growth of the static harmonics beside them.
+//! Follows the resonances of section 4.2 over torque on its three scenes, as TOML for
+//! `reference/torque_peaks.toml`: heights over those at 565 N·m in the sun and in planet 0, and the
+//! growth of the static deflection's harmonics that drive them. About five minutes on two cores.
 //!
-//! `cargo run --release -p validation --example torque -- scenes/oh58_4p.toml`
+//! `cargo run --release -p validation --example torque > reference/torque_peaks.toml`
 
 use fe_contact::statics::Bodies;
-use gearset::Scene;
 use validation::sweep::{Part, naturals};
-use validation::torque::{Followed, follow, judge, lowest_series, static_growth};
+use validation::torque::{Followed, follow, lowest_series, static_growth};
+use validation::{PublishedScene, scene};
 
 const TORQUES: [f64; 4] = [565.0, 1130.0, 1695.0, 2260.0];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let path = std::env::args().nth(1).ok_or("a scene file is needed")?;
-    let scene = Scene::from_file(path.as_ref())?;
-    let bodies = Bodies::new(&scene)?;
-    let series = lowest_series(&naturals(&scene, &bodies, 1130.0)?).ok_or("no such modes")?;
-    let followed = follow(&scene, &bodies, &TORQUES, &series, &[Part::Sun, Part::Planet(0)], 1e-6)?;
-    let still = static_growth(&scene, &bodies, &TORQUES)?;
-    for f in &followed {
-        let shown = |list: &[f64]| {
-            list.iter().map(|x| format!("{x:8.3}")).collect::<Vec<String>>().join(" ")
-        };
-        let speeds: Vec<String> = f.speeds_rpm.iter().map(|s| format!("{s:.0}")).collect();
-        println!("{} at {} rpm, {:.3e} at 565", f.series.name(), speeds.join(", "), f.sun[0]);
-        println!("    sun    {}", shown(&Followed::growth(&f.sun)));
-        println!("    planet {}", shown(&Followed::growth(&f.planet)));
-        let kind = usize::from(f.series.mode_type != lumped::ModeType::Rotational);
-        let l = f.series.harmonic;
-        let static_growth: Vec<f64> =
-            still.iter().map(|h| h[kind][l] / still[0][kind][l]).collect();
-        println!("    static {}", shown(&static_growth));
-    }
-    for (part, is_sun) in [("sun", true), ("planet", false)] {
-        for s in judge(&followed, is_sun) {
-            println!("{part}: {} of {}: {}", s.holding, s.asked, s.words);
+    let command = "cargo run --release -p validation --example torque";
+    println!("# Resonant peaks over torque, four planets: heights over those at the first torque.");
+    println!("source = \"own computation: quasi-static rung, 140 steps a cycle\"");
+    println!("command = \"{command}\"");
+    println!("torques_nm = {TORQUES:?}");
+    let systems = [
+        ("default scene", PublishedScene::Oh58FourPlanets),
+        ("meshes as soft as published", PublishedScene::Oh58FourPlanetsPublishedStiffness),
+        ("second system", PublishedScene::Oh58SecondSystem),
+    ];
+    let list = |values: &[f64]| {
+        let shown: Vec<String> = values.iter().map(|x| format!("{x:.4}")).collect();
+        format!("[{}]", shown.join(", "))
+    };
+    for (system, which) in systems {
+        let scene = scene(which)?;
+        let bodies = Bodies::new(&scene)?;
+        let series = lowest_series(&naturals(&scene, &bodies, 1130.0)?).ok_or("no such modes")?;
+        let both = [Part::Sun, Part::Planet(0)];
+        let followed = follow(&scene, &bodies, &TORQUES, &series, &both, 1e-6)?;
+        let still = static_growth(&scene, &bodies, &TORQUES)?;
+        for f in &followed {
+            let kind = usize::from(f.series.mode_type != lumped::ModeType::Rotational);
+            let l = f.series.harmonic;
+            let at_rest: Vec<f64> = still.iter().map(|h| h[kind][l] / still[0][kind][l]).collect();
+            println!("\n[[peak]]");
+            println!("system = \"{system}\"");
+            println!("mode = \"{}\"", f.series.mode());
+            println!("harmonic = {l}");
+            println!("frequency_hz = {:.1}", f.series.frequency_hz);
+            println!("speeds_rpm = {}", list(&f.speeds_rpm));
+            println!("sun = {}", list(&Followed::growth(&f.sun)));
+            println!("planet = {}", list(&Followed::growth(&f.planet)));
+            println!("static = {}", list(&at_rest));
         }
     }
     Ok(())

@@ -32,6 +32,8 @@ pub struct Reference {
     pub calculix: Calculix,
     /// Impulse tests with every degree of freedom.
     pub full_impulse: FullImpulse,
+    /// Resonant peaks over torque.
+    pub torque_peaks: TorquePeaks,
     /// Listed misses.
     pub misses: Vec<Miss>,
     tolerances: Vec<ToleranceEntry>,
@@ -170,6 +172,34 @@ pub struct FullImpulseSet {
     pub damping_ratios: Vec<f64>,
 }
 
+/// `torque_peaks.toml`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)] // the keys say it all, units included
+pub struct TorquePeaks {
+    pub source: String,
+    pub command: String,
+    pub torques_nm: Vec<f64>,
+    pub peak: Vec<TorquePeak>,
+}
+
+/// One resonance: heights over those at the first torque.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)] // the keys say it all, units included
+pub struct TorquePeak {
+    pub system: String,
+    pub mode: String,
+    pub harmonic: u32,
+    pub frequency_hz: f64,
+    pub speeds_rpm: Vec<f64>,
+    pub sun: Vec<f64>,
+    pub planet: Vec<f64>,
+    /// The harmonic of the sun's static deflection that drives it.
+    #[serde(rename = "static")]
+    pub at_rest: Vec<f64>,
+}
+
 /// `calculix_2_20.toml`; what the checks use of it.
 #[derive(Debug, Deserialize)]
 pub struct Calculix {
@@ -263,6 +293,7 @@ impl Reference {
             parker: file!("parker_2000.toml"),
             calculix: file!("calculix_2_20.toml"),
             full_impulse: file!("full_impulse.toml"),
+            torque_peaks: file!("torque_peaks.toml"),
             misses: misses.miss,
             tolerances: tolerances.tolerance,
         })

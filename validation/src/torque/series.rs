@@ -26,15 +26,14 @@ impl Series {
         }
     }
 
-    /// As tables print it.
-    pub fn name(&self) -> String {
-        let kind = match (self.mode_type, self.is_lowest) {
+    /// The mode as tables print it.
+    pub fn mode(&self) -> &'static str {
+        match (self.mode_type, self.is_lowest) {
             (ModeType::Rotational, true) => "lowest rotational",
             (ModeType::Translational, true) => "lowest translational",
             (ModeType::Translational, false) => "third translational",
             _ => "other",
-        };
-        format!("{kind}, l = {}", self.harmonic)
+        }
     }
 }
 
