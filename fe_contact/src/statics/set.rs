@@ -16,7 +16,7 @@ use std::collections::HashMap;
 use nalgebra::{Cholesky, DMatrix, DVector};
 use rayon::prelude::*;
 
-use gearset::{Facing, MeshKind, Phasing, PlanetPositions, Scene};
+use gearset::{Facing, MeshKind, MeshStart, Phasing, PlanetPositions, Scene};
 
 use super::bodies::{Bodies, missing_mesh};
 use super::imperfection::Imperfections;
@@ -316,6 +316,17 @@ impl<'s> StaticSet<'s> {
         cycle(position + self.offsets[mesh].2)
     }
 
+    /// Where all meshes stand in their cycles at position 0: sun meshes, then ring meshes.
+    pub(crate) fn law_starts(&self, has_backs: bool) -> Vec<MeshStart> {
+        let each = self.offsets.iter().zip(&self.backs);
+        let one = |((kind, _, front), back): (&(MeshKind, usize, f64), &BackFlank)| MeshStart {
+            kind: *kind,
+            front: *front,
+            back: has_backs.then_some(back.offset),
+        };
+        each.map(one).collect()
+    }
+
     /// The back flanks of all meshes at a position.
     pub(crate) fn place_backs(
         &self,
@@ -493,7 +504,7 @@ fn pitch_angle(bodies: &Bodies) -> f64 {
 }
 
 /// A pair's row seen in the mirror along the line of centres: y and θ turn round.
-fn mirrored(row: &[f64; 6]) -> [f64; 6] {
+pub(crate) fn mirrored(row: &[f64; 6]) -> [f64; 6] {
     [row[0], -row[1], -row[2], row[3], -row[4], -row[5]]
 }
 

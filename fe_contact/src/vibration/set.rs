@@ -11,7 +11,7 @@
 //! complementarity conditions hold.
 
 use dynamics::{AverageAcceleration, Motion};
-use gearset::{Facing, Kinematics, Scene};
+use gearset::{Facing, Kinematics, Rung, Scene};
 use nalgebra::{DMatrix, DVector};
 
 use super::bearings::Bearings;
@@ -147,6 +147,9 @@ impl<'s> VibratingSet<'s> {
         force: f64,
     ) -> Result<Self, FeError> {
         fit(scene, &motive)?;
+        if scene.dynamics.rung == Rung::MeshLaw {
+            return Err(FeError::NoContact);
+        }
         let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
         let (step, count, start) = match motive {
             Motive::Standing { position, step } => (step, 1, position),
@@ -383,7 +386,7 @@ impl<'s> VibratingSet<'s> {
 
 /// Refuses damping that is no number, and steps that leave nothing of a cycle: scenes can be built in
 /// memory, past the reader's checks.
-fn fit(scene: &Scene, motive: &Motive) -> Result<(), FeError> {
+pub(super) fn fit(scene: &Scene, motive: &Motive) -> Result<(), FeError> {
     let refuse = |key: &str, value: f64, allowed: &str, why: &str| {
         let (key, value) = (key.to_owned(), format!("{value}"));
         Err(FeError::Unfit { key, value, allowed: allowed.into(), why: why.into() })
@@ -416,7 +419,7 @@ fn fit(scene: &Scene, motive: &Motive) -> Result<(), FeError> {
 
 /// Speed of the carrier (rad/s) at a mesh frequency (Hz), seen so that the sun turns counter-clockwise
 /// against it, as positions in the mesh cycle count in either sense of torque.
-fn carrier_speed(scene: &Scene, mesh_frequency: f64) -> f64 {
+pub(super) fn carrier_speed(scene: &Scene, mesh_frequency: f64) -> f64 {
     match Kinematics::from_scene(scene) {
         Some(Ok(k)) if k.mesh_frequency_hz > 0.0 => {
             let speeds = k.speeds_rad_per_s;
