@@ -197,3 +197,47 @@ fn contact_is_not_solved_on_this_rung() {
     let law = mesh_law(&scene, &bodies, sense, 28, &unfit);
     assert!(matches!(law, Err(FeError::Unfit { .. })));
 }
+
+#[test]
+fn debug_static() {
+    use fe_contact::complementarity::ActiveSet;
+    use fe_contact::statics::StaticSet;
+    let scene = scene("oh58_4p");
+    let bodies = Bodies::new(&scene).unwrap();
+    let sense = Facing::CounterClockwise;
+    let law = mesh_law(&scene, &bodies, sense, STEPS, &LawSettings::at(TORQUE)).unwrap();
+    let mut fast = MeshLawSet::new(&scene, &bodies, sense, FREQUENCY, law.clone()).unwrap();
+    let st = StaticSet::new(&scene, &bodies, sense, Imperfections::default()).unwrap();
+    let cycle = st.cycle(TORQUE, 28, &ActiveSet).unwrap();
+    let n = fast.motion().x.len();
+    for i in 0..28 {
+        fast.set_motion(i * 5, &vec![0.0; n], &vec![0.0; n]).unwrap();
+        fast.rest(TORQUE).unwrap();
+        let s = &cycle.states[i];
+        let mut row = Vec::new();
+        fast.mesh_forces(&mut row);
+        let f: Vec<String> = s
+            .meshes
+            .iter()
+            .zip(&row)
+            .enumerate()
+            .map(|(k, (m, f))| {
+                format!(
+                    "{:.0}/{:.0} d{:.2}/{:.2} k{:.2}/{:.2}",
+                    f,
+                    m.force,
+                    law.front(k, i * 5).force(m.approach).0 / m.force,
+                    m.approach * 1e6,
+                    law.front(k, i * 5).force(m.approach).1 / 1e8,
+                    m.tangent / 1e8
+                )
+            })
+            .collect();
+        println!(
+            "{i} {:.6e} {:.6e} {}",
+            fast.displacements().0[2][2],
+            s.central[2][2],
+            f.join(" ")
+        );
+    }
+}

@@ -6,9 +6,9 @@ use rayon::prelude::*;
 
 use super::share::damped_share;
 use crate::complementarity::ActiveSet;
-use crate::contact::{CellSettings, MeshTable, PairCells, PairFrame};
+use crate::contact::{CellSettings, MeshAnswer, MeshTable, PairCells, PairFrame};
 use crate::error::FeError;
-use crate::statics::{Bodies, Imperfections, SUN, StaticSet, missing_mesh};
+use crate::statics::{Bodies, Imperfections, PLANETS, RING, SUN, StaticSet, missing_mesh};
 
 /// What a law is made for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,26 +71,32 @@ pub fn mesh_law(
     let planets = statics.races.planets();
     let mean_force = torque / statics.races.radii[SUN] / planets as f64;
     let plan = LawPlan::new(&statics.law_starts(settings.has_backs), steps)?;
+    let row = |kind| -> Result<[f64; 6], FeError> {
+        let frame = PairFrame::new(bodies.joined(kind)?.0, 0.3, 0);
+        Ok(frame.ok_or_else(|| missing_mesh(kind))?.approach_row())
+    };
     let job = Job {
         rest: mean_rest(&statics, torque, mean_force)?,
         cells: bodies.cells(reach * mean_force),
         nominal: mean_force,
         largest: reach * mean_force,
         nodes: settings.nodes.max(1),
+        on_path: [row(MeshKind::SunPlanet)?, row(MeshKind::RingPlanet)?],
         statics: &statics,
     };
-    let made: Vec<(MeshCurve, Option<f64>)> =
+    let made: Vec<Made> =
         plan.curves.par_iter().map(|key| job.make(key)).collect::<Result<_, _>>()?;
     // Every mesh of a kind goes through the same cycle.
     let mean = |kind: MeshKind| {
         let own = plan.curves.iter().zip(&made).filter(|(key, _)| key.kind == kind);
-        let shares: Vec<f64> = own.filter_map(|(_, (_, share))| *share).collect();
+        let shares: Vec<f64> = own.filter_map(|(_, made)| made.share).collect();
         shares.iter().sum::<f64>() / shares.len().max(1) as f64
     };
     let (sun, ring) = (mean(MeshKind::SunPlanet), mean(MeshKind::RingPlanet));
     let shares: Vec<f64> = (0..2 * planets).map(|m| if m < planets { sun } else { ring }).collect();
-    let law = plan.law(made.into_iter().map(|(curve, _)| curve).collect())?;
-    Ok(law.with_damping_share(&shares)?)
+    let sides = made.iter().map(|made| made.side_load).collect();
+    let law = plan.law(made.into_iter().map(|made| made.curve).collect())?;
+    Ok(law.with_damping_share(&shares)?.with_side_loads(sides)?)
 }
 
 /// Displacements at rest under a torque, mean over the mesh cycle.
@@ -121,6 +127,14 @@ pub(super) struct Approaches {
     extra: Vec<f64>,
 }
 
+/// One curve; of front flanks, the damped share of the flexibility and the load beside the line of
+/// action under the mean force.
+struct Made {
+    curve: MeshCurve,
+    share: Option<f64>,
+    side_load: [f64; 6],
+}
+
 /// What all curves of a law are made with.
 struct Job<'j, 's> {
     statics: &'j StaticSet<'s>,
@@ -130,27 +144,32 @@ struct Job<'j, 's> {
     nominal: f64,
     largest: f64,
     nodes: usize,
+    /// Approach rows on the path, sun mesh and ring mesh.
+    on_path: [[f64; 6]; 2],
 }
 
 impl Job<'_, '_> {
-    /// One curve, and of front flanks the damped share of the flexibility.
-    fn make(&self, key: &CurveKey) -> Result<(MeshCurve, Option<f64>), FeError> {
+    fn make(&self, key: &CurveKey) -> Result<Made, FeError> {
         let bodies = self.statics.bodies;
         let (mesh, pair) = bodies.joined(key.kind)?;
         let table = MeshTable::new(mesh, pair, key.phase, &self.cells)?;
-        let on_path = PairFrame::new(mesh, 0.3, 0).ok_or_else(|| missing_mesh(key.kind))?;
-        let mut along = Approaches::of_arms(&table, &on_path.approach_row());
+        let on_path = self.on_path(key.kind);
+        let mut along = Approaches::of_arms(&table, &on_path);
         match key.side {
             FlankSide::Front => {
-                self.displace(key.kind, &table, &on_path.approach_row(), &mut along);
+                self.displace(key.kind, &table, &on_path, &mut along);
                 let curve = curve(&table, &along, self.largest, self.nodes)?;
-                let share = damped_share(self.statics, key, &table, &along, self.nominal)?;
-                Ok((curve, Some(share)))
+                let deflection = deflection_for(&table, &along, self.nominal)?;
+                let found = at(&table, &along, deflection, &mut None)?;
+                let share = Some(damped_share(self.statics, key, &table, &along, &found)?);
+                let side_load = self.side_load(key.kind, &table, &along, &found);
+                Ok(Made { curve, share, side_load })
             }
             FlankSide::Back => {
                 let backlash = bodies.geometry.normal_backlash(key.kind).unwrap_or(0.0);
                 let curve = curve(&table, &along, self.largest, BACK_NODES)?;
-                Ok((curve.moved(backlash), None))
+                let (curve, side_load) = (curve.moved(backlash), [0.0; 6]);
+                Ok(Made { curve, share: None, side_load })
             }
         }
     }
@@ -177,6 +196,40 @@ impl Job<'_, '_> {
     }
 }
 
+impl Job<'_, '_> {
+    /// −Σ P (b − a b₀) over the pairs of a mesh, b₀ the row on the path: on the central gear's (radial,
+    /// tangential, u), then the planet's (ζ, η, u), N.
+    fn side_load(
+        &self,
+        kind: MeshKind,
+        table: &MeshTable,
+        along: &Approaches,
+        found: &Found,
+    ) -> [f64; 6] {
+        let mut sum = [0.0; 6];
+        let pairs = table.pairs.iter().zip(&along.arms).zip(&found.pair_forces);
+        for ((pair, arm), force) in pairs {
+            for ((sum, b), on_path) in sum.iter_mut().zip(pair.row).zip(self.on_path(kind)) {
+                *sum -= force * (b - arm * on_path);
+            }
+        }
+        let radii = &self.statics.races.radii;
+        let [first, second] = [[sum[0], sum[1], sum[2]], [sum[3], sum[4], sum[5]]];
+        let (central, planet, radius) = match kind {
+            MeshKind::SunPlanet => (first, second, radii[SUN]),
+            MeshKind::RingPlanet => (second, first, radii[RING]),
+        };
+        let [x, y, turn] = central;
+        let [zeta, eta, spin] = planet;
+        [x, y, turn / radius, zeta, eta, spin / radii[PLANETS]]
+    }
+
+    /// Approach row of pairs on the path.
+    fn on_path(&self, kind: MeshKind) -> [f64; 6] {
+        self.on_path[usize::from(kind == MeshKind::RingPlanet)]
+    }
+}
+
 impl Approaches {
     /// 1 on the path; at a corner, whose normal and arms differ, the mean of what turning either gear
     /// gives.
@@ -191,26 +244,38 @@ impl Approaches {
     }
 }
 
-/// Force (N) and tangent (N/m) at a deflection, F = Σ a P so that it is a potential's slope, with the
-/// cells in contact.
+/// A mesh at a deflection.
+pub(super) struct Found {
+    /// F = Σ a P, the slope of a potential, N.
+    pub(super) force: f64,
+    /// dF/dδ, N/m.
+    pub(super) stiffness: f64,
+    /// P, N.
+    pub(super) pair_forces: Vec<f64>,
+    /// Tangent between the pairs, N/m.
+    pub(super) tangent: DMatrix<f64>,
+}
+
+/// A mesh at a deflection; `warm` takes the cells in contact.
 pub(super) fn at(
     table: &MeshTable,
     along: &Approaches,
     deflection: f64,
     warm: &mut Option<Vec<bool>>,
-) -> Result<(f64, f64, Vec<f64>, DMatrix<f64>), FeError> {
+) -> Result<Found, FeError> {
     let (approaches, arms) = (along.at(deflection), &along.arms);
     let none = vec![0.0; arms.len()];
     let answer = table.answer(&approaches, &none, &ActiveSet, warm.as_deref())?;
     let force = answer.pair_forces.iter().zip(arms).map(|(p, a)| p * a).sum();
-    let mut tangent = 0.0;
+    let mut stiffness = 0.0;
     for (k, a) in arms.iter().enumerate() {
         for (l, b) in arms.iter().enumerate() {
-            tangent += a * answer.tangent[(k, l)] * b;
+            stiffness += a * answer.tangent[(k, l)] * b;
         }
     }
-    *warm = Some(answer.active);
-    Ok((force, tangent, answer.pair_forces, answer.tangent))
+    *warm = Some(answer.active.clone());
+    let MeshAnswer { pair_forces, tangent, .. } = answer;
+    Ok(Found { force, stiffness, pair_forces, tangent })
 }
 
 /// Deflection at which a mesh carries a force at least, and at most some percent more, m.
@@ -224,12 +289,12 @@ pub(super) fn deflection_for(
     // About one pair of steel teeth.
     let mut delta = start + force / (2.0e9 * table.face_width * 10.0);
     for _ in 0..60 {
-        let (found, tangent, ..) = at(table, along, delta, &mut warm)?;
-        if found >= force && found <= 1.02 * force {
+        let found = at(table, along, delta, &mut warm)?;
+        if found.force >= force && found.force <= 1.02 * force {
             return Ok(delta);
         }
-        let reach = delta - start;
-        let change = if tangent > 0.0 { (1.005 * force - found) / tangent } else { reach };
+        let (reach, k) = (delta - start, found.stiffness);
+        let change = if k > 0.0 { (1.005 * force - found.force) / k } else { reach };
         delta += change.clamp(-0.5 * reach, 2.0 * reach);
     }
     Err(FeError::NoEquilibrium(format!(
@@ -268,12 +333,11 @@ fn curve(
     let (mut forces, mut tangents) = (vec![0.0; steps + 1], vec![0.0; steps + 1]);
     let mut warm = None;
     for i in (1..=steps).rev() {
-        let (force, tangent, ..) = at(table, along, start + i as f64 * step, &mut warm)?;
-        (forces[i], tangents[i]) = (force, tangent);
+        let found = at(table, along, start + i as f64 * step, &mut warm)?;
+        (forces[i], tangents[i]) = (found.force, found.stiffness);
     }
     // Just after first contact one cell carries.
-    let (_, tangent, ..) = at(table, along, start + 1e-6 * step, &mut None)?;
-    tangents[0] = tangent;
+    tangents[0] = at(table, along, start + 1e-6 * step, &mut None)?.stiffness;
     MeshCurve::new(start, step, &forces, &tangents)
         .map_err(|cause| FeError::Curve { phase: table.phase, cause })
 }

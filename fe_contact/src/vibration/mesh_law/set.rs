@@ -12,7 +12,7 @@ use super::law::Tables;
 use crate::contact::PairFrame;
 use crate::error::FeError;
 use crate::statics::{
-    Bodies, CARRIER, Imperfections, PLANETS, Races, StaticSet, mirrored, missing_mesh,
+    Bodies, CARRIER, Imperfections, PLANETS, RING, Races, SUN, StaticSet, mirrored, missing_mesh,
 };
 
 /// A set in time with tabulated mesh forces.
@@ -96,8 +96,12 @@ impl<'s> MeshLawSet<'s> {
             why: "speed and steps a cycle give no step".into(),
         })?;
         let part = LinearPart { mass: mass.clone(), damping, stiffness };
+        let side_loads = side_loads(races, &law);
         let system = Coupled::new(&part, &front, &back, Tables(law), rule, steps);
-        let system = system.map_err(|cause| failed(&statics, cause))?;
+        let mut system = system.map_err(|cause| failed(&statics, cause))?;
+        for (step, load) in side_loads.iter().enumerate() {
+            system.add_in_cycle(step, load).map_err(|cause| failed(&statics, cause))?;
+        }
         Ok(Self { statics, system, mass })
     }
 
@@ -199,6 +203,31 @@ impl<'s> MeshLawSet<'s> {
         let steps = self.state().steps.max(1) as f64;
         (self.system.iterations as f64 / steps, self.system.with_rare)
     }
+}
+
+/// Loads beside the lines of action on the races' coordinates, by step, N.
+fn side_loads(races: &Races, law: &MeshLaw) -> Vec<Vec<f64>> {
+    let planets = races.planets();
+    let of_step = |step: usize| {
+        let mut load = vec![0.0; races.count];
+        for mesh in 0..2 * planets {
+            let (central, planet) =
+                if mesh < planets { (SUN, mesh) } else { (RING, mesh - planets) };
+            let (sin, cos) = races.psi[planet].sin_cos();
+            let [x, y, u, zeta, eta, spin] = law.side_load(mesh, step);
+            // The mesh frame stands ψ on from the carrier frame.
+            let turned = [cos * x - sin * y, sin * x + cos * y, u];
+            for (body, own) in [(central, turned), (PLANETS + planet, [zeta, eta, spin])] {
+                for (axis, f) in own.into_iter().enumerate() {
+                    if let Some(i) = races.of(body, axis) {
+                        load[i] += f;
+                    }
+                }
+            }
+        }
+        load
+    };
+    (0..law.steps()).map(of_step).collect()
 }
 
 /// In the words of a set.

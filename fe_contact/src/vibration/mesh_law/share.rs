@@ -6,7 +6,7 @@ use gearset::CurveKey;
 use nalgebra::DMatrix;
 
 use super::super::teeth::tooth_points;
-use super::build::{Approaches, at, deflection_for};
+use super::build::{Approaches, Found};
 use crate::contact::MeshTable;
 use crate::error::FeError;
 use crate::statics::{PLANETS, Placed, RING, SUN, StaticSet};
@@ -24,10 +24,9 @@ pub(super) fn damped_share(
     key: &CurveKey,
     table: &MeshTable,
     along: &Approaches,
-    force: f64,
+    found: &Found,
 ) -> Result<f64, FeError> {
-    let deflection = deflection_for(table, along, force)?;
-    let (_, total, _, tangent) = at(table, along, deflection, &mut None)?;
+    let (total, tangent) = (found.stiffness, &found.tangent);
     let arms = &along.arms;
     let count = arms.len();
     let p: Vec<f64> =
