@@ -196,7 +196,7 @@ impl TryFrom<Tables> for MeshLaw {
     fn try_from(tables: Tables) -> Result<Self, LawError> {
         let Tables { meshes, curves, front, back, damping_share, side_loads } = tables;
         let is_place = |place: &u32| (*place as usize) < curves.len();
-        let steps = if meshes == 0 { 0 } else { front.len() / meshes };
+        let steps = front.len().checked_div(meshes).unwrap_or(0);
         let fits = steps > 0
             && front.len() == steps * meshes
             && (back.is_empty() || back.len() == front.len())

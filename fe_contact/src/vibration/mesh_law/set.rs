@@ -134,7 +134,7 @@ impl<'s> MeshLawSet<'s> {
     /// Displacements of carrier, ring, sun (x, y, m; θ, rad; carrier frame) and of the planets
     /// (ζ, η, θ), counter-clockwise.
     pub fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
-        self.statics.displacements(&DVector::from_vec(self.system.motion().x))
+        self.statics.displacements(&DVector::from_vec(self.system.displacements()))
     }
 
     /// Force of each mesh: sun meshes, ring meshes, then their back flanks if the law has them, N.
