@@ -180,6 +180,14 @@ pub struct Impulse {
     pub format: TableFormat,
 }
 
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Model {
+    /// FE/contact, on the rung of the scene.
+    FeContact,
+    /// Lumped, its mesh forces tabulated over deflection and phase by FE/contact.
+    Lumped,
+}
+
 #[derive(Debug, Args)]
 pub struct Sweep {
     /// Scene file of a whole set; its `[dynamics]` says on which rung and in how many steps.
@@ -191,6 +199,9 @@ pub struct Sweep {
     /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out.
     #[arg(long, value_name = "NM", allow_negative_numbers = true)]
     pub torque_nm: Option<f64>,
+    /// Which model turns.
+    #[arg(long, value_enum, default_value_t = Model::FeContact)]
+    pub model: Model,
     /// Also sweep downwards.
     #[arg(long)]
     pub both_ways: bool,

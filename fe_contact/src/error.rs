@@ -118,6 +118,25 @@ pub enum FeError {
         /// Why.
         cause: ComplementarityError,
     },
+    /// A table of mesh force came out unfit.
+    #[error("mesh law at mesh phase {phase:.4}: {cause}")]
+    Curve {
+        /// Mesh phase, cycles.
+        phase: f64,
+        /// Why.
+        cause: gearset::CurveError,
+    },
+    /// Tables of mesh force do not go together.
+    #[error(transparent)]
+    Law(#[from] gearset::LawError),
+    /// A set with tabulated mesh forces does not move on.
+    #[error(transparent)]
+    Coupled(#[from] dynamics::CoupledError),
+    /// The scene asks for tabulated mesh forces where contact is to be solved.
+    #[error(
+        "`dynamics.rung` = \"mesh_law\" looks mesh forces up in tables and solves no contact: this needs \"quasi_static\", \"modal\" or \"full\""
+    )]
+    NoContact,
     /// Nothing holds a motion that the load drives.
     #[error("no equilibrium: {0}")]
     NoEquilibrium(String),

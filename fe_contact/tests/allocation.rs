@@ -1,7 +1,7 @@
 //! The time step allocates nothing once its maps are known.
 
 use fe_contact::statics::{Bodies, Imperfections};
-use fe_contact::vibration::{Motive, VibratingSet};
+use fe_contact::vibration::{LawSettings, MeshLawSet, Motive, VibratingSet, mesh_law};
 use gearset::{Facing, Rung, Scene};
 
 #[test]
@@ -28,4 +28,19 @@ fn a_warm_step_allocates_nothing() {
         });
         assert_eq!(warm.count_total, 0, "{rung:?}");
     }
+}
+
+#[test]
+fn a_step_on_tabulated_forces_never_allocates() {
+    let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
+    let mut scene = Scene::from_file(path.as_ref()).unwrap();
+    scene.fe_contact.flank_elements = 8;
+    let bodies = Bodies::new(&scene).unwrap();
+    let sense = Facing::CounterClockwise;
+    let settings = LawSettings { nodes: 16, ..LawSettings::at(1130.0) };
+    let law = mesh_law(&scene, &bodies, sense, 28, &settings).unwrap();
+    let mut set = MeshLawSet::new(&scene, &bodies, sense, 500.0, law).unwrap();
+    set.rest(1130.0).unwrap();
+    let made = allocation_counter::measure(|| (0..280).for_each(|_| set.step().unwrap()));
+    assert_eq!(made.count_total, 0);
 }

@@ -151,7 +151,8 @@ impl LawPlan {
             return Err(LawError::Curves { got: curves.len(), wanted: self.curves.len() });
         }
         let Self { meshes, front, back, .. } = self;
-        Ok(MeshLaw { meshes, curves, front, back, damping_share: vec![1.0; meshes] })
+        let (damping_share, side_loads) = (vec![1.0; meshes], Vec::new());
+        Ok(MeshLaw { meshes, curves, front, back, damping_share, side_loads })
     }
 }
 
@@ -174,6 +175,8 @@ pub struct MeshLaw {
     back: Vec<u32>,
     /// Share of each mesh's flexibility that is damped.
     damping_share: Vec<f64>,
+    /// By curve; empty if there are none.
+    side_loads: Vec<[f64; 6]>,
 }
 
 /// A law as files hold it.
@@ -184,15 +187,16 @@ struct Tables {
     front: Vec<u32>,
     back: Vec<u32>,
     damping_share: Vec<f64>,
+    side_loads: Vec<[f64; 6]>,
 }
 
 impl TryFrom<Tables> for MeshLaw {
     type Error = LawError;
 
     fn try_from(tables: Tables) -> Result<Self, LawError> {
-        let Tables { meshes, curves, front, back, damping_share } = tables;
+        let Tables { meshes, curves, front, back, damping_share, side_loads } = tables;
         let is_place = |place: &u32| (*place as usize) < curves.len();
-        let steps = if meshes == 0 { 0 } else { front.len() / meshes };
+        let steps = front.len().checked_div(meshes).unwrap_or(0);
         let fits = steps > 0
             && front.len() == steps * meshes
             && (back.is_empty() || back.len() == front.len())
@@ -201,8 +205,11 @@ impl TryFrom<Tables> for MeshLaw {
         if !fits {
             return Err(LawError::Places);
         }
-        let law = Self { meshes, curves, front, back, damping_share: vec![1.0; meshes] };
-        law.with_damping_share(&damping_share)
+        let given = vec![1.0; meshes];
+        let law =
+            Self { meshes, curves, front, back, damping_share: given, side_loads: Vec::new() };
+        let law = law.with_damping_share(&damping_share)?;
+        if side_loads.is_empty() { Ok(law) } else { law.with_side_loads(side_loads) }
     }
 }
 
@@ -221,6 +228,29 @@ impl MeshLaw {
         }
         self.damping_share = share.to_vec();
         Ok(self)
+    }
+
+    /// The same law with loads beside the line of action, one for each curve: on the central gear's
+    /// (radial, tangential, u = r θ) towards the planet, then on the planet's (ζ, η, u), N.
+    ///
+    /// Pairs that touch with a corner press along other normals than those on the path. What that
+    /// amounts to under the mean load, as a function of phase alone, is a load of its own.
+    ///
+    /// # Errors
+    /// If there is not one finite load for each curve.
+    pub fn with_side_loads(mut self, loads: Vec<[f64; 6]>) -> Result<Self, LawError> {
+        let is_sound = loads.iter().flatten().all(|f| f.is_finite());
+        if loads.len() != self.curves.len() || !is_sound {
+            return Err(LawError::Places);
+        }
+        self.side_loads = loads;
+        Ok(self)
+    }
+
+    /// Load beside the line of action of a mesh's front flanks at a step; nil unless it was given.
+    pub fn side_load(&self, mesh: usize, step_in_cycle: usize) -> [f64; 6] {
+        let place = self.front[step_in_cycle * self.meshes + mesh] as usize;
+        self.side_loads.get(place).copied().unwrap_or_default()
     }
 
     /// Number of meshes, twice that of planets.

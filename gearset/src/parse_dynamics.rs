@@ -6,6 +6,7 @@ use crate::scene::{DynamicsInput, Rung};
 /// Rungs by name; the number of modes has a key of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Name {
+    MeshLaw,
     QuasiStatic,
     Modal,
     Full,
@@ -13,7 +14,12 @@ enum Name {
 
 pub(crate) fn dynamics(s: Section<'_, '_>) -> DynamicsInput {
     let default = DynamicsInput::default();
-    let names = [("quasi_static", Name::QuasiStatic), ("modal", Name::Modal), ("full", Name::Full)];
+    let names = [
+        ("mesh_law", Name::MeshLaw),
+        ("quasi_static", Name::QuasiStatic),
+        ("modal", Name::Modal),
+        ("full", Name::Full),
+    ];
     let name = s.choice("rung", &names, "what stands behind the teeth");
     let modes = s.integer("modes", (1, 400), "modes of each body with its race held");
     if modes.is_some() && name != Some(Name::Modal) {
@@ -28,6 +34,7 @@ pub(crate) fn dynamics(s: Section<'_, '_>) -> DynamicsInput {
     let gyroscopic = s.choice("gyroscopic", &switch, "terms of the turning carrier frame");
     s.finish();
     let rung = match (name, modes) {
+        (Some(Name::MeshLaw), _) => Rung::MeshLaw,
         (Some(Name::Full), _) => Rung::Full,
         (Some(Name::Modal), Some(n)) => Rung::Modal(n as u32),
         _ => Rung::QuasiStatic,

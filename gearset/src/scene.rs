@@ -53,6 +53,8 @@ pub struct Scene {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Rung {
+    /// As quasi-static, each mesh's force looked up in a table over deflection and phase.
+    MeshLaw,
     /// Rigid inertia, FE flexibility without inertia of its own.
     QuasiStatic,
     /// Besides, so many modes of each body with its race held.

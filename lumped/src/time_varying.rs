@@ -5,7 +5,8 @@
 //! ```
 //!
 //! with K_s of supports and bearings, rows b of the meshes as in the eigen model, and F from whatever
-//! made the law. Stepped by Newmark's average acceleration, as many steps a mesh cycle as the law has.
+//! made the law; f holds the torque and, if the law has them, the loads of corners beside the line of
+//! action. Stepped by Newmark's average acceleration, as many steps a mesh cycle as the law has.
 //!
 //! Everything is seen so that the torque on the sun is counter-clockwise: for the other sense the set is
 //! mirrored, and displacements are mirrored back.
@@ -132,7 +133,11 @@ impl TimeVarying {
         let rule = AverageAcceleration::new(1.0 / (mesh_frequency_hz * steps as f64))
             .map_err(|_| LumpedError::Frequency(mesh_frequency_hz))?;
         let part = LinearPart { mass: model.mass.clone(), damping, stiffness };
-        let system = Coupled::new(&part, &front, &back, Tables(law), rule, steps)?;
+        let side_loads = side_loads(&model, &law);
+        let mut system = Coupled::new(&part, &front, &back, Tables(law), rule, steps)?;
+        for (step, load) in side_loads.iter().enumerate() {
+            system.add_in_cycle(step, load)?;
+        }
         Ok(Self { coordinates: model.coordinates, system, radii, sign, planets })
     }
 
@@ -244,6 +249,30 @@ impl TimeVarying {
         let steps = self.system.state().steps.max(1) as f64;
         (self.system.iterations as f64 / steps, self.system.with_rare)
     }
+}
+
+/// The law's loads beside the lines of action on the free coordinates, by step, N.
+fn side_loads(model: &LumpedModel, law: &MeshLaw) -> Vec<Vec<f64>> {
+    let planets = model.psi.len();
+    let of_step = |step: usize| {
+        let mut load = vec![0.0; model.coordinates.count()];
+        for mesh in 0..2 * planets {
+            let n = mesh % planets;
+            let central = if mesh < planets { Body::Sun } else { Body::Ring };
+            let (sin, cos) = model.psi[n].sin_cos();
+            let [radial, tangential, u, zeta, eta, spin] = law.side_load(mesh, step);
+            let [x, y] = [cos * radial - sin * tangential, sin * radial + cos * tangential];
+            for (body, own) in [(central, [x, y, u]), (Body::Planet(n), [zeta, eta, spin])] {
+                for (axis, f) in Axis::ALL.into_iter().zip(own) {
+                    if let Some(i) = model.coordinates.of(body, axis) {
+                        load[i] += f;
+                    }
+                }
+            }
+        }
+        load
+    };
+    (0..law.steps()).map(of_step).collect()
 }
 
 /// Front and back flanks of all meshes as couplings, the lag of each its damped share of β.

@@ -64,6 +64,11 @@ fn settings(arguments: &Impulse, scene: &Scene) -> Result<ImpulseSettings, Comma
     if scene.geometry.is_none() {
         return Err(unfit(path, "[geometry] is absent: teeth are needed to touch"));
     }
+    if scene.dynamics.rung == Rung::MeshLaw {
+        let reason = "`dynamics.rung` = \"mesh_law\" solves no contact, which a modal test stands on: \
+                      take \"quasi_static\", \"modal\" or \"full\"";
+        return Err(unfit(path, reason));
+    }
     let torque_nm = match arguments.torque_nm {
         Some(torque) => torque,
         None => operating_torque(path, scene)?,

@@ -144,6 +144,7 @@ impl ImpulseOutput {
         let settings = &test.settings;
         let Preload { torque_nm, position, step_s } = settings.preload;
         let (rung, body_modes) = match found.scene.dynamics.rung {
+            Rung::MeshLaw => ("mesh_law", None),
             Rung::QuasiStatic => ("quasi_static", None),
             Rung::Modal(n) => ("modal", Some(n)),
             Rung::Full => ("full", None),

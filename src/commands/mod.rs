@@ -28,11 +28,8 @@ mod validate;
 // Pictures that the verb `sweep` calls for.
 mod axes;
 mod canvas;
-#[allow(dead_code)]
-mod cost_chart;
 mod harmonic_column;
 mod sweep_figures;
-#[allow(dead_code)]
 mod torque_figures;
 mod waterfall;
 

@@ -8,11 +8,11 @@ use gearset::{Kinematics, Rung, Scene, SceneKind};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use validation::ValidationError;
 use validation::sweep::{
-    Direction, FeModel, Memory, Plan, PlanError, PointStore, SteadySettings, Sweep, SweepModel,
-    even_speeds, naturals, run as run_plan,
+    Direction, FeModel, LawModel, Memory, Plan, PlanError, PointStore, SteadySettings, Sweep,
+    SweepModel, even_speeds, naturals, run as run_plan,
 };
 
-use crate::arguments::{Sweep as SweepArguments, TableFormat};
+use crate::arguments::{Model, Sweep as SweepArguments, TableFormat};
 use crate::error::CommandError;
 use crate::output;
 
@@ -33,20 +33,29 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
     let scene = read_scene(path)?;
     let task = Task::new(arguments, &scene)?;
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
-    let model = FeModel::new(&scene, &bodies, Imperfections::default(), task.torque_nm);
-    let mut sweep = task.march(&model, &task.plan, "plan.json")?;
+    let model: Box<dyn SweepModel> = match (arguments.model, scene.dynamics.rung) {
+        (Model::FeContact, Rung::MeshLaw) => {
+            Box::new(LawModel::new(&scene, &bodies, task.torque_nm)?)
+        }
+        (Model::FeContact, _) => {
+            Box::new(FeModel::new(&scene, &bodies, Imperfections::default(), task.torque_nm))
+        }
+        (Model::Lumped, _) => Box::new(LawModel::new(&scene, &bodies, task.torque_nm)?.lumped()),
+    };
+    let model = model.as_ref();
+    let mut sweep = task.march(model, &task.plan, "plan.json")?;
     if arguments.refine > 0 {
         let steady = task.plan.steady.clone();
         let around = sweep.around_peaks(PROMINENT, SPAN, arguments.refine as usize, steady);
         if !around.chains.is_empty() {
-            let more = task.march(&model, &around, "plan_peaks.json")?;
+            let more = task.march(model, &around, "plan_peaks.json")?;
             sweep.chains.extend(more.chains);
         }
     }
     if let Some(folder) = &arguments.figures {
         let found = match scene.dynamics.rung {
             // No small linearisation: the quasi-static one stands in for lines in a picture.
-            Rung::Full => naturals(&quasi_static(&scene), &bodies, task.torque_nm)?,
+            Rung::Full | Rung::MeshLaw => naturals(&quasi_static(&scene), &bodies, task.torque_nm)?,
             _ => naturals(&scene, &bodies, task.torque_nm)?,
         };
         let natural: Vec<_> = found.iter().map(|n| (n.frequency_hz, n.mode_type)).collect();

@@ -24,6 +24,7 @@ mod law;
 mod linear;
 mod newton;
 mod rest;
+mod state;
 mod system;
 
 pub use error::CoupledError;

@@ -26,8 +26,8 @@ impl<L: CouplingLaw> Coupled<L> {
         let rows = DMatrix::from_fn(n, all.count, |j, k| all.rows[j * all.width + k]);
         let offsets = DVector::from_column_slice(&all.offsets[..all.count]);
         let lambda = DVector::from_column_slice(&self.modes.lambda[..n]);
-        let load = DVector::from_column_slice(&self.external[..n]);
         let step = self.state.step_in_cycle;
+        let load = DVector::from_column_slice(&self.external(step)[..n]);
         // Stiffness lent to couplings out of contact where nothing else holds the system.
         let widest = rows.column_iter().map(|r| r.norm_squared()).fold(0.0, f64::max);
         let lent = if widest > 0.0 { lambda.amax() / widest } else { 0.0 };

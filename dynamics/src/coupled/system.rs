@@ -24,12 +24,14 @@ pub struct Coupled<L> {
     /// Those that usually act.
     pub(super) usual: Condensed,
     /// The others, and all of them, if there are others.
-    rare: Option<(Condensed, Condensed)>,
+    pub(super) rare: Option<(Condensed, Condensed)>,
     /// Deflections up to which the rare ones are silent, m.
     silent: Vec<f64>,
     pub(super) steps_per_cycle: usize,
-    /// External forces on the modes, padded.
-    pub(super) external: Vec<f64>,
+    /// External forces on the modes, padded: the steady ones, and those at each step of the cycle with
+    /// the steady ones, one after the other.
+    pub(super) steady: Vec<f64>,
+    pub(super) cycle: Vec<f64>,
     pub(super) state: CoupledState,
     work: Work,
     /// Iterations of all steps so far.
@@ -125,7 +127,8 @@ impl<L: CouplingLaw> Coupled<L> {
             least_mass: linear.mass.iter().copied().fold(f64::INFINITY, f64::min),
             modes,
             steps_per_cycle,
-            external: nil.clone(),
+            cycle: nil.repeat(steps_per_cycle),
+            steady: nil.clone(),
             state: CoupledState {
                 step_in_cycle: 0,
                 steps: 0,
@@ -143,8 +146,42 @@ impl<L: CouplingLaw> Coupled<L> {
     /// If there is not one for each coordinate.
     pub fn set_external(&mut self, force: &[f64]) -> Result<(), CoupledError> {
         self.fits("the external force", force)?;
-        self.modes.project(force, &mut self.external);
+        let mut modal = vec![0.0; self.steady.len()];
+        self.modes.project(force, &mut modal);
+        for own in self.cycle.chunks_exact_mut(self.steady.len()) {
+            for (own, (new, old)) in own.iter_mut().zip(modal.iter().zip(&self.steady)) {
+                *own += new - old;
+            }
+        }
+        self.steady = modal;
         Ok(())
+    }
+
+    /// Adds forces on the coordinates (N) that return at a step of every cycle.
+    ///
+    /// # Errors
+    /// If there is not one for each coordinate.
+    pub fn add_in_cycle(
+        &mut self,
+        step_in_cycle: usize,
+        force: &[f64],
+    ) -> Result<(), CoupledError> {
+        self.fits("the external force", force)?;
+        let padded = self.steady.len();
+        let mut modal = vec![0.0; padded];
+        self.modes.project(force, &mut modal);
+        let own = self.cycle.chunks_exact_mut(padded).nth(step_in_cycle % self.steps_per_cycle);
+        for (own, new) in own.into_iter().flatten().zip(modal) {
+            *own += new;
+        }
+        Ok(())
+    }
+
+    /// External forces on the modes at a step, padded.
+    #[inline]
+    pub(super) fn external(&self, step_in_cycle: usize) -> &[f64] {
+        let padded = self.steady.len();
+        &self.cycle[step_in_cycle * padded..(step_in_cycle + 1) * padded]
     }
 
     /// One step.
@@ -152,9 +189,9 @@ impl<L: CouplingLaw> Coupled<L> {
     /// # Errors
     /// If the couplings' equations are not solved, or a displacement passes 10 mm.
     pub fn step(&mut self) -> Result<(), CoupledError> {
-        self.predict();
         let after = self.state.step_in_cycle + 1;
         let step_in_cycle = if after == self.steps_per_cycle { 0 } else { after };
+        self.predict(step_in_cycle);
         self.guess(self.usual.count);
         let (law, group) = (&self.law, &self.usual);
         let done = solve(group, law, step_in_cycle, &self.rule, &mut self.work);
@@ -179,8 +216,9 @@ impl<L: CouplingLaw> Coupled<L> {
 
     /// Histories and the free displacements.
     #[inline]
-    fn predict(&mut self) {
-        let n = self.external.len();
+    fn predict(&mut self, step_in_cycle: usize) {
+        let n = self.steady.len();
+        let external = &self.cycle[step_in_cycle * n..(step_in_cycle + 1) * n];
         let Motion { x, v, a } = &self.state.modal;
         let (x, v, a) = (&x[..n], &v[..n], &a[..n]);
         let work = &mut self.work;
@@ -195,16 +233,14 @@ impl<L: CouplingLaw> Coupled<L> {
         match &self.modes.own_damping {
             Some(damping) => {
                 let (c, inverse) = (&damping[..n], &self.modes.own_inverse[..n]);
-                let (external, free) = (&self.external[..n], &mut work.free[..n]);
+                let free = &mut work.free[..n];
                 for i in 0..n {
                     // A x = f + a* + c v*
                     free[i] = inverse[i] * (external[i] + acceleration[i] + c[i] * velocity[i]);
                 }
             }
             None => {
-                for (load, (f, a)) in
-                    work.load.iter_mut().zip(self.external.iter().zip(acceleration))
-                {
+                for (load, (f, a)) in work.load.iter_mut().zip(external.iter().zip(acceleration)) {
                     *load = f + *a;
                 }
                 self.modes.add_damping(velocity, &mut work.load);
@@ -280,7 +316,7 @@ impl<L: CouplingLaw> Coupled<L> {
 
     #[inline]
     fn finish(&mut self, taking_part: usize) {
-        let n = self.external.len();
+        let n = self.steady.len();
         let Motion { x, v, a } = &mut self.state.modal;
         let (x, v, a) = (&mut x[..n], &mut v[..n], &mut a[..n]);
         let work = &self.work;
@@ -336,119 +372,6 @@ impl<L: CouplingLaw> Coupled<L> {
     /// Time since the start, s.
     pub fn time(&self) -> f64 {
         self.state.steps as f64 * self.rule.step()
-    }
-
-    /// Number of coordinates.
-    pub fn count(&self) -> usize {
-        self.modes.count
-    }
-
-    /// The law.
-    pub fn law(&self) -> &L {
-        &self.law
-    }
-
-    /// Coordinate i, m.
-    pub fn displacement(&self, i: usize) -> f64 {
-        self.modes.coordinate(i, &self.state.modal.x)
-    }
-
-    /// Displacements, velocities and accelerations of all coordinates.
-    pub fn motion(&self) -> Motion {
-        let modal = &self.state.modal;
-        let all = |q: &[f64]| (0..self.modes.count).map(|i| self.modes.coordinate(i, q)).collect();
-        Motion { x: all(&modal.x), v: all(&modal.v), a: all(&modal.a) }
-    }
-
-    /// Puts the system into motion at a step of the cycle, accelerations by balance of forces.
-    ///
-    /// # Errors
-    /// If there is not one number for each coordinate.
-    pub fn set_motion(
-        &mut self,
-        step_in_cycle: usize,
-        x: &[f64],
-        v: &[f64],
-    ) -> Result<(), CoupledError> {
-        self.fits("the displacement", x)?;
-        self.fits("the velocity", v)?;
-        self.state.step_in_cycle = step_in_cycle % self.steps_per_cycle;
-        self.modes.modal(x, &mut self.state.modal.x);
-        self.modes.modal(v, &mut self.state.modal.v);
-        self.balance();
-        Ok(())
-    }
-
-    /// Forces and accelerations that go with displacements and velocities.
-    pub(super) fn balance(&mut self) {
-        let all = self.rare.as_ref().map_or(&self.usual, |(_, all)| all);
-        let Motion { x, v, a } = &mut self.state.modal;
-        let step = self.state.step_in_cycle;
-        let (n, count) = (self.modes.count, all.count);
-        let mut reach = vec![0.0; count];
-        all.deflections(x, &mut reach);
-        for (k, reach) in reach.iter_mut().enumerate() {
-            let rate: f64 = (0..n).map(|j| all.rows[j * all.width + k] * v[j]).sum();
-            *reach += all.lags[k] * rate;
-        }
-        let forces: Vec<f64> =
-            reach.iter().enumerate().map(|(k, z)| self.law.answer(k, step, *z).0).collect();
-        // q̈ = f − Λ q − ΦᵀCΦ q̇ − Rᵀ P
-        let mut damped = vec![0.0; n];
-        self.modes.add_damping(v, &mut damped);
-        for (j, a) in a.iter_mut().enumerate().take(n) {
-            let own = &all.rows[j * all.width..];
-            let pressed: f64 = own.iter().zip(&forces).map(|(r, p)| r * p).sum();
-            *a = self.external[j] - self.modes.lambda[j] * x[j] - damped[j] - pressed;
-        }
-        self.state.forces = [forces.clone(), forces];
-    }
-
-    /// Everything that decides how it goes on.
-    pub fn state(&self) -> &CoupledState {
-        &self.state
-    }
-
-    /// Goes on from a state of this system, exactly.
-    ///
-    /// # Errors
-    /// If the state is of another system.
-    pub fn set_state(&mut self, state: &CoupledState) -> Result<(), CoupledError> {
-        let padded = self.external.len();
-        let Motion { x, v, a } = &state.modal;
-        for (what, got, wanted) in [
-            ("the state", x.len(), padded),
-            ("the state", v.len(), padded),
-            ("the state", a.len(), padded),
-            ("the state's forces", state.forces[0].len(), self.all().count),
-            ("the state's forces", state.forces[1].len(), self.all().count),
-        ] {
-            if got != wanted {
-                return Err(CoupledError::Size { what, got, wanted });
-            }
-        }
-        self.state.clone_from(state);
-        self.state.step_in_cycle %= self.steps_per_cycle;
-        Ok(())
-    }
-
-    /// Forces of the couplings at the end of the last step, N.
-    pub fn forces(&self) -> &[f64] {
-        &self.state.forces[0]
-    }
-
-    /// Deflections of the couplings at the end of the last step, m.
-    pub fn deflections(&self) -> Vec<f64> {
-        let mut out = vec![0.0; self.all().count];
-        self.all().deflections(&self.state.modal.x, &mut out);
-        out
-    }
-
-    /// Kinetic energy and strain energy of the linear part, J; couplings keep their own.
-    pub fn energies(&self) -> [f64; 2] {
-        let Motion { x, v, .. } = &self.state.modal;
-        let strain = x.iter().zip(&self.modes.lambda).map(|(q, l)| 0.5 * l * q * q).sum();
-        [v.iter().map(|v| 0.5 * v * v).sum(), strain]
     }
 }
 

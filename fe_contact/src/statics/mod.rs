@@ -18,5 +18,6 @@ pub use pair::{PairAtPhase, PairCycle, ToothPairLoad, at_phase, pair_cycle, pres
 pub(crate) use placed::Placed;
 pub(crate) use races::planet_bearing;
 pub use races::{CARRIER, PLANETS, RING, Races, SUN};
+pub(crate) use set::mirrored;
 pub use set::{SetTables, StaticSet};
 pub use state::{MeshState, SetCycle, SetState};

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use nalgebra::DVector;
 use rayon::prelude::*;
 
-use gearset::{Facing, MeshKind, Phasing, PlanetPositions, Scene};
+use gearset::{Facing, MeshKind, MeshStart, Phasing, PlanetPositions, Scene};
 
 use super::bodies::{Bodies, missing_mesh};
 use super::equilibrium::Equilibrium;
@@ -287,6 +287,17 @@ impl<'s> StaticSet<'s> {
         self.offsets.iter().all(|(kind, _, offset)| tables.holds(*kind, cycle(position + offset)))
     }
 
+    /// Where all meshes stand in their cycles at position 0: sun meshes, then ring meshes.
+    pub(crate) fn law_starts(&self, has_backs: bool) -> Vec<MeshStart> {
+        let each = self.offsets.iter().zip(&self.backs);
+        let one = |((kind, _, front), back): (&(MeshKind, usize, f64), &BackFlank)| MeshStart {
+            kind: *kind,
+            front: *front,
+            back: has_backs.then_some(back.offset),
+        };
+        each.map(one).collect()
+    }
+
     /// The back flanks of all meshes at a position.
     pub(crate) fn place_backs(
         &self,
@@ -360,6 +371,6 @@ fn pitch_angle(bodies: &Bodies) -> f64 {
 }
 
 /// A pair's row seen in the mirror along the line of centres: y and θ turn round.
-fn mirrored(row: &[f64; 6]) -> [f64; 6] {
+pub(crate) fn mirrored(row: &[f64; 6]) -> [f64; 6] {
     [row[0], -row[1], -row[2], row[3], -row[4], -row[5]]
 }

@@ -99,6 +99,7 @@ fn flexible<'a>(
             let shared = SharedFactors::new(Arc::new(matrices()?), name, radius, damping, rule)?;
             Ok(Box::new(move || Box::new(FullBody::new(mass, shared.clone()))))
         }
+        Rung::MeshLaw => Err(FeError::NoContact),
         Rung::QuasiStatic | Rung::Modal(_) => {
             let modes: Arc<[FixedRaceMode]> = match rung {
                 Rung::Modal(n) => fixed_race_modes(&matrices()?, n as usize, radius, name)?.into(),

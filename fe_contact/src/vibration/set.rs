@@ -11,7 +11,7 @@
 //! complementarity conditions hold.
 
 use dynamics::{AverageAcceleration, Motion};
-use gearset::{Facing, Kinematics, Scene};
+use gearset::{Facing, Kinematics, Rung, Scene};
 use nalgebra::{DMatrix, DVector};
 
 use super::bearings::Bearings;
@@ -165,8 +165,8 @@ impl<'s> VibratingSet<'s> {
         motive: Motive,
         force: f64,
     ) -> Result<Self, FeError> {
+        solves_contact(scene)?;
         fit(scene, &motive)?;
-        build::one_flexibility(scene, bodies)?;
         let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
         let tables = statics.tables(force, &motive.positions())?;
         Self::assemble(scene, statics, motive, tables)
@@ -185,6 +185,7 @@ impl<'s> VibratingSet<'s> {
         motive: Motive,
         force: f64,
     ) -> Result<Prepared<'s>, FeError> {
+        solves_contact(scene)?;
         fit(scene, &motive)?;
         let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
         let tables = statics.tables(force, &motive.positions())?;
@@ -196,6 +197,7 @@ impl<'s> VibratingSet<'s> {
     /// # Errors
     /// As [`VibratingSet::new`], and if other steps in the cycle were prepared for.
     pub fn on(scene: &Scene, prepared: &Prepared<'s>, motive: Motive) -> Result<Self, FeError> {
+        solves_contact(scene)?;
         fit(scene, &motive)?;
         let Prepared { statics, tables } = prepared.clone();
         if !motive.positions().iter().all(|p| statics.is_covered(*p, &tables)) {
@@ -215,6 +217,7 @@ impl<'s> VibratingSet<'s> {
         motive: Motive,
         tables: SetTables,
     ) -> Result<Self, FeError> {
+        build::one_flexibility(scene, statics.bodies)?;
         let (step, count, start) = match motive {
             Motive::Standing { position, step } => (step, 1, position),
             Motive::Turning { mesh_frequency, steps_per_cycle } => {
@@ -446,9 +449,17 @@ impl<'s> VibratingSet<'s> {
     }
 }
 
+/// Refuses the rung whose meshes follow a law.
+fn solves_contact(scene: &Scene) -> Result<(), FeError> {
+    match scene.dynamics.rung {
+        Rung::MeshLaw => Err(FeError::NoContact),
+        _ => Ok(()),
+    }
+}
+
 /// Refuses damping that is no number, and steps that leave nothing of a cycle: scenes can be built in
 /// memory, past the reader's checks.
-fn fit(scene: &Scene, motive: &Motive) -> Result<(), FeError> {
+pub(super) fn fit(scene: &Scene, motive: &Motive) -> Result<(), FeError> {
     let refuse = |key: &str, value: f64, allowed: &str, why: &str| {
         let (key, value) = (key.to_owned(), format!("{value}"));
         Err(FeError::Unfit { key, value, allowed: allowed.into(), why: why.into() })
@@ -481,7 +492,7 @@ fn fit(scene: &Scene, motive: &Motive) -> Result<(), FeError> {
 
 /// Speed of the carrier (rad/s) at a mesh frequency (Hz), seen so that the sun turns counter-clockwise
 /// against it, as positions in the mesh cycle count in either sense of torque.
-fn carrier_speed(scene: &Scene, mesh_frequency: f64) -> f64 {
+pub(super) fn carrier_speed(scene: &Scene, mesh_frequency: f64) -> f64 {
     match Kinematics::from_scene(scene) {
         Some(Ok(k)) if k.mesh_frequency_hz > 0.0 => {
             let speeds = k.speeds_rad_per_s;

@@ -86,6 +86,7 @@ impl SweepModel for FeModel<'_> {
             Rung::QuasiStatic => "quasi-static".into(),
             Rung::Modal(n) => format!("modal({n})"),
             Rung::Full => "full".into(),
+            Rung::MeshLaw => "mesh-law".into(),
         }
     }
 

@@ -2,6 +2,7 @@
 
 mod feed;
 mod judge;
+mod law_feed;
 mod marching;
 mod naturals;
 mod peaks;
@@ -13,6 +14,7 @@ mod steady;
 
 pub use feed::{FeModel, SweepModel};
 pub use judge::{Assigned, Content, Natural, assigned, contents};
+pub use law_feed::LawModel;
 pub use marching::Marching;
 pub use naturals::naturals;
 pub use peaks::{Peak, Response, peaks};

@@ -1,0 +1,243 @@
+//! A set in time whose mesh forces follow a law: the quasi-static rung's races, masses, bearings and
+//! carrier, and table look-up instead of contact.
+
+use dynamics::{AverageAcceleration, Coupled, CoupledState, Coupling, LinearPart, Motion};
+use faer::Mat;
+use gearset::{Facing, MeshKind, MeshLaw, Scene};
+use nalgebra::DVector;
+
+use super::super::build::{body_mass, gyroscopic_terms};
+use super::super::set::{Motive, carrier_speed, fit};
+use super::law::Tables;
+use crate::contact::PairFrame;
+use crate::error::FeError;
+use crate::statics::{
+    Bodies, CARRIER, Imperfections, PLANETS, RING, Races, SUN, StaticSet, mirrored, missing_mesh,
+};
+
+/// A set in time with tabulated mesh forces.
+#[derive(Debug)]
+pub struct MeshLawSet<'s> {
+    statics: StaticSet<'s>,
+    system: Coupled<Tables>,
+    mass: Vec<f64>,
+}
+
+impl<'s> MeshLawSet<'s> {
+    /// A set at rest without load at step 0 of a mesh cycle under a torque on the sun of the given sense,
+    /// turning; as many steps a cycle as the law has.
+    ///
+    /// # Errors
+    /// If the scene lacks what the set needs, or the law is for another one.
+    pub fn new(
+        scene: &Scene,
+        bodies: &'s Bodies,
+        sense: Facing,
+        mesh_frequency: f64,
+        law: MeshLaw,
+    ) -> Result<Self, FeError> {
+        let steps = law.steps();
+        fit(scene, &Motive::Turning { mesh_frequency, steps_per_cycle: steps })?;
+        let statics = StaticSet::new(scene, bodies, sense, Imperfections::default())?;
+        let races = &statics.races;
+        let planets = races.planets();
+        if law.meshes() != 2 * planets {
+            return Err(FeError::Unfit {
+                key: "planets.count".into(),
+                value: format!("{planets}"),
+                allowed: format!("{} planets", law.meshes() / 2),
+                why: "the mesh law was made for them".into(),
+            });
+        }
+        let n = races.count;
+        let mut mass = vec![0.0; n];
+        for body in CARRIER..PLANETS + planets {
+            for (axis, m) in body_mass(&statics, scene, body)?.into_iter().enumerate() {
+                if let Some(i) = races.of(body, axis) {
+                    mass[i] = m;
+                }
+            }
+        }
+        let d = &scene.damping;
+        // C = αM + τ K: dashpots at supports and bearings, through the carrier's flexibility.
+        let mut damping = Mat::from_fn(n, n, |i, j| {
+            let own = if i == j { d.mass_proportional_per_s * mass[i] } else { 0.0 };
+            own + d.bearing_s * races.stiffness[(i, j)]
+        });
+        let mut stiffness = Mat::from_fn(n, n, |i, j| races.stiffness[(i, j)]);
+        if scene.dynamics.gyroscopic {
+            let [g, k] = gyroscopic_terms(races, &mass, carrier_speed(scene, mesh_frequency));
+            damping += Mat::from_fn(n, n, |i, j| g[(i, j)]);
+            stiffness += Mat::from_fn(n, n, |i, j| k[(i, j)]);
+        }
+        let (mut front, mut back) = (Vec::new(), Vec::new());
+        for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
+            let (mesh, _) = bodies.joined(kind)?;
+            let frame = PairFrame::new(mesh, 0.3, 0).ok_or_else(|| missing_mesh(kind))?;
+            for planet in 0..planets {
+                let row = frame.approach_row();
+                let lag = d.stiffness_proportional_s * law.damping_share(front.len());
+                let coupling = |row: &[f64; 6]| {
+                    let row = races.approach(kind, planet, row);
+                    Coupling { row, offset: 0.0, lag }
+                };
+                front.push(coupling(&row));
+                back.push(coupling(&mirrored(&row)));
+            }
+        }
+        if !law.has_backs() {
+            back.clear();
+        }
+        let step = 1.0 / (mesh_frequency * steps as f64);
+        let rule = AverageAcceleration::new(step).map_err(|e| FeError::Unfit {
+            key: "operation.speed_rpm".into(),
+            value: format!("{} s a step", e.0),
+            allowed: "a speed above 0".into(),
+            why: "speed and steps a cycle give no step".into(),
+        })?;
+        let part = LinearPart { mass: mass.clone(), damping, stiffness };
+        let side_loads = side_loads(races, &law);
+        let system = Coupled::new(&part, &front, &back, Tables(law), rule, steps);
+        let mut system = system.map_err(|cause| failed(&statics, cause))?;
+        for (step, load) in side_loads.iter().enumerate() {
+            system.add_in_cycle(step, load).map_err(|cause| failed(&statics, cause))?;
+        }
+        Ok(Self { statics, system, mass })
+    }
+
+    /// Puts the set to rest under a torque on the sun (N m, magnitude) at its current step.
+    ///
+    /// # Errors
+    /// If there is no equilibrium.
+    pub fn rest(&mut self, torque_nm: f64) -> Result<(), FeError> {
+        self.set_external(self.statics.load(torque_nm).as_slice())?;
+        self.system.rest().map_err(|cause| failed(&self.statics, cause))
+    }
+
+    /// Sets the external forces on the races' coordinates (N) from now on.
+    ///
+    /// # Errors
+    /// If there is not one for each coordinate.
+    pub fn set_external(&mut self, force: &[f64]) -> Result<(), FeError> {
+        self.system.set_external(force).map_err(|cause| failed(&self.statics, cause))
+    }
+
+    /// One step.
+    ///
+    /// # Errors
+    /// If the step is not solved or the motion diverges.
+    #[inline]
+    pub fn step(&mut self) -> Result<(), FeError> {
+        self.system.step().map_err(|cause| failed(&self.statics, cause))
+    }
+
+    /// Displacements of carrier, ring, sun (x, y, m; θ, rad; carrier frame) and of the planets
+    /// (ζ, η, θ), counter-clockwise.
+    pub fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+        self.statics.displacements(&DVector::from_vec(self.system.displacements()))
+    }
+
+    /// Force of each mesh: sun meshes, ring meshes, then their back flanks if the law has them, N.
+    pub fn mesh_forces(&self, out: &mut Vec<f64>) {
+        out.clear();
+        out.extend_from_slice(self.system.forces());
+    }
+
+    /// Whether the law's tables hold all deflections of the present step; beyond they go straight on.
+    pub fn is_within_tables(&self) -> bool {
+        let (tables, step) = (self.system.law(), self.state().step_in_cycle);
+        let deflections = self.system.deflections();
+        let mut each = deflections.iter().enumerate();
+        each.all(|(k, d)| tables.curve(k, step).is_none_or(|curve| curve.reaches(*d)))
+    }
+
+    /// Displacements, velocities and accelerations of the races' free coordinates, m and s.
+    pub fn motion(&self) -> Motion {
+        self.system.motion()
+    }
+
+    /// Puts the set into motion at a step of the cycle, on the same coordinates.
+    ///
+    /// # Errors
+    /// If there is not one number for each coordinate.
+    pub fn set_motion(
+        &mut self,
+        step_in_cycle: usize,
+        x: &[f64],
+        v: &[f64],
+    ) -> Result<(), FeError> {
+        let set = self.system.set_motion(step_in_cycle, x, v);
+        set.map_err(|cause| failed(&self.statics, cause))
+    }
+
+    /// Everything that decides how the set goes on, exactly.
+    pub fn state(&self) -> &CoupledState {
+        self.system.state()
+    }
+
+    /// Goes on from a state of this set, bit by bit as it did before.
+    ///
+    /// # Errors
+    /// If the state is of another set.
+    pub fn set_state(&mut self, state: &CoupledState) -> Result<(), FeError> {
+        self.system.set_state(state).map_err(|cause| failed(&self.statics, cause))
+    }
+
+    /// Time since the start, s.
+    pub fn time(&self) -> f64 {
+        self.system.time()
+    }
+
+    /// The races' coordinates.
+    pub fn races(&self) -> &Races {
+        &self.statics.races
+    }
+
+    /// Masses of the races' coordinates, kg.
+    pub fn masses(&self) -> &[f64] {
+        &self.mass
+    }
+
+    /// Mean iterations of a step so far, and steps in which back flanks took part.
+    pub fn counts(&self) -> (f64, u64) {
+        let steps = self.state().steps.max(1) as f64;
+        (self.system.iterations as f64 / steps, self.system.with_rare)
+    }
+}
+
+/// Loads beside the lines of action on the races' coordinates, by step, N.
+fn side_loads(races: &Races, law: &MeshLaw) -> Vec<Vec<f64>> {
+    let planets = races.planets();
+    let of_step = |step: usize| {
+        let mut load = vec![0.0; races.count];
+        for mesh in 0..2 * planets {
+            let (central, planet) =
+                if mesh < planets { (SUN, mesh) } else { (RING, mesh - planets) };
+            let (sin, cos) = races.psi[planet].sin_cos();
+            let [x, y, u, zeta, eta, spin] = law.side_load(mesh, step);
+            // The mesh frame stands ψ on from the carrier frame.
+            let turned = [cos * x - sin * y, sin * x + cos * y, u];
+            for (body, own) in [(central, turned), (PLANETS + planet, [zeta, eta, spin])] {
+                for (axis, f) in own.into_iter().enumerate() {
+                    if let Some(i) = races.of(body, axis) {
+                        load[i] += f;
+                    }
+                }
+            }
+        }
+        load
+    };
+    (0..law.steps()).map(of_step).collect()
+}
+
+/// In the words of a set.
+#[cold]
+fn failed(statics: &StaticSet<'_>, cause: dynamics::CoupledError) -> FeError {
+    match cause {
+        dynamics::CoupledError::Diverged { time_s, coordinate, value } => {
+            let (body, quantity) = statics.races.name_of(coordinate);
+            FeError::Diverged { time_s, body, quantity, value }
+        }
+        other => FeError::Coupled(other),
+    }
+}
