@@ -112,20 +112,6 @@ impl Canvas {
         })));
     }
 
-    /// A filled rectangle from a corner.
-    pub(super) fn rectangle(&mut self, corner: Pixel, size: [f64; 2], fill: &'static str) {
-        self.scene.add(Primitive::Rect {
-            x: corner[0],
-            y: corner[1],
-            width: size[0],
-            height: size[1],
-            fill: Color::from(fill),
-            stroke: None,
-            stroke_width: None,
-            opacity: None,
-        });
-    }
-
     /// A filled circle.
     pub(super) fn disc(&mut self, centre: Pixel, radius: f64, fill: &'static str) {
         self.circle(centre, radius, fill, None);

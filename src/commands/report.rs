@@ -10,6 +10,7 @@ use crate::error::CommandError;
 
 use super::chart::campbell_svg;
 use super::rungs_chart::rungs_svg;
+use super::torque_figures::kept_peaks;
 use super::validate::{cells, status_word};
 
 /// Writes the folder, creating it if need be.
@@ -38,6 +39,13 @@ pub(crate) fn write(verdict: &Verdict, folder: &Path) -> Result<(), CommandError
     }
     if let Some(svg) = rungs_svg(verdict) {
         save("rungs.svg", svg)?;
+    }
+    let kept = Reference::load().map_err(ValidationError::from)?.torque_peaks;
+    let mut systems: Vec<&str> = kept.peak.iter().map(|p| p.system.as_str()).collect();
+    systems.dedup();
+    for system in systems {
+        let name = format!("torque_{}.svg", system.replace(' ', "_"));
+        save(&name, kept_peaks(&kept, system))?;
     }
     Ok(())
 }

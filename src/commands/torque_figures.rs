@@ -1,23 +1,54 @@
-//! Resonant peaks over torque, and where in a plane of two parameters statements about them hold.
+//! Resonant peaks over torque, as Figs 13 and 14 of Parker, Agashe & Vijayakar (2000).
+
+use validation::{TorquePeak, TorquePeaks};
 
 use super::axes::{Axes, Scale, spread};
 use super::canvas::{Anchor, Canvas, Pen, Type};
 use super::figure::colour;
 
+/// The kept peaks of one system (`reference/torque_peaks.toml`): sun and planet 0, and the harmonics of
+/// the static deflection that drive them.
+pub(super) fn kept_peaks(kept: &TorquePeaks, system: &str) -> String {
+    let panel = |title: &str, of: fn(&TorquePeak) -> &[f64]| PeakPanel {
+        title: title.into(),
+        series: kept
+            .peak
+            .iter()
+            .filter(|p| p.system == system)
+            .map(|p| PeakSeries {
+                name: format!("{}, l = {}", p.mode, p.harmonic),
+                is_dashed: p.mode.contains("translational"),
+                points: kept.torques_nm.iter().copied().zip(of(p).iter().copied()).collect(),
+            })
+            .collect(),
+    };
+    let panels = [
+        panel("sun", |p| &p.sun),
+        panel("planet 0", |p| &p.planet),
+        panel("sun at rest: the same harmonic", |p| &p.at_rest),
+    ];
+    let title = format!("OH-58, four planets, {system}: growth with torque");
+    torque_peaks(
+        &title,
+        "quasi-static rung; peaks over those at 565 N·m; dotted: in proportion",
+        &panels,
+    )
+}
+
 /// A peak's amplitude under several torques.
-pub(super) struct PeakSeries {
+struct PeakSeries {
     /// Mode, harmonic, body: `rotational 1144 Hz, l = 2, sun rotation`.
-    pub(super) name: String,
+    name: String,
     /// Drawn dashed.
-    pub(super) is_dashed: bool,
+    is_dashed: bool,
     /// Torque (N m), amplitude in any unit.
-    pub(super) points: Vec<(f64, f64)>,
+    points: Vec<(f64, f64)>,
 }
 
 /// Series of one body (Fig. 13 the sun, Fig. 14 a planet).
-pub(super) struct PeakPanel {
-    pub(super) title: String,
-    pub(super) series: Vec<PeakSeries>,
+struct PeakPanel {
+    title: String,
+    series: Vec<PeakSeries>,
 }
 
 /// Size of a panel's frame and room for names at its right, px.
@@ -30,7 +61,7 @@ const FOOT: f64 = 56.0;
 const PROPORTIONAL: Pen = Pen::new("#9aa0a6", 1.2).dashed("2 3");
 
 /// SVG of peaks over torque, each over its own at its lowest torque.
-pub(super) fn torque_peaks(title: &str, caption: &str, panels: &[PeakPanel]) -> String {
+fn torque_peaks(title: &str, caption: &str, panels: &[PeakPanel]) -> String {
     let cell = LEFT + PEAKS[0] + NAMES;
     let mut canvas = Canvas::new([cell * panels.len().max(1) as f64, HEAD + PEAKS[1] + FOOT]);
     canvas.head(title, caption);
@@ -99,126 +130,9 @@ fn peaks(canvas: &mut Canvas, panel: &PeakPanel, corner: [f64; 2]) {
     canvas.text([axes.right() + 42.0, y], grey, "in proportion to torque");
 }
 
-/// Where one statement holds.
-pub(super) struct MapPanel {
-    /// The statement.
-    pub(super) title: String,
-    /// Factors on the mesh compliance, growing.
-    pub(super) xs: Vec<f64>,
-    /// γ in mesh cycles, growing.
-    pub(super) ys: Vec<f64>,
-    /// By y, then x; `None`: not known.
-    pub(super) cells: Vec<Vec<Option<bool>>>,
-    /// A place (x, y) with its name.
-    pub(super) marker: Option<(f64, f64, String)>,
-}
-
-const HOLDS: &str = "#56b4e9";
-const FAILS: &str = "#e69f00";
-const UNKNOWN: &str = "#eceeef";
-
-/// Largest side of a map's frame, px; panels beside each other.
-const MAP: f64 = 300.0;
-const COLUMNS: usize = 3;
-
-/// SVG of maps, a panel for each statement.
-pub(super) fn torque_map(title: &str, caption: &str, panels: &[MapPanel]) -> String {
-    let columns = COLUMNS.min(panels.len().max(1));
-    let rows = panels.len().div_ceil(columns).max(1);
-    let cell = [LEFT + MAP + 24.0, 40.0 + MAP + FOOT];
-    let width = (cell[0] * columns as f64).max(560.0);
-    let mut canvas = Canvas::new([width, 84.0 + cell[1] * rows as f64]);
-    canvas.head(title, caption);
-    let mut x = 0.5 * width - 165.0;
-    for (fill, name) in [(HOLDS, "holds"), (FAILS, "fails"), (UNKNOWN, "not known")] {
-        canvas.rectangle([x, 60.0], [16.0, 12.0], fill);
-        canvas.text([x + 22.0, 70.0], Type::new(12, Anchor::Start), name);
-        x += 110.0;
-    }
-    for (i, panel) in panels.iter().enumerate() {
-        let (column, row) = ((i % columns) as f64, (i / columns) as f64);
-        map(&mut canvas, panel, [cell[0] * column + LEFT, 124.0 + cell[1] * row]);
-    }
-    canvas.svg()
-}
-
-fn map(canvas: &mut Canvas, panel: &MapPanel, [left, top]: [f64; 2]) {
-    let (nx, ny) = (panel.xs.len().max(1) as f64, panel.ys.len().max(1) as f64);
-    let size = [MAP / nx, MAP / ny];
-    let kind = Type::new(13, Anchor::Middle);
-    canvas.text([left + 0.5 * MAP, top - 10.0], kind, panel.title.clone());
-    for (iy, row) in panel.cells.iter().enumerate().take(panel.ys.len()) {
-        for (ix, cell) in row.iter().enumerate().take(panel.xs.len()) {
-            let corner = [left + size[0] * ix as f64, top + MAP - size[1] * (iy as f64 + 1.0)];
-            let fill = match cell {
-                Some(true) => HOLDS,
-                Some(false) => FAILS,
-                None => UNKNOWN,
-            };
-            let inner = [corner[0] + 0.5, corner[1] + 0.5];
-            canvas.rectangle(inner, [size[0] - 1.0, size[1] - 1.0], fill);
-        }
-    }
-    let every = |count: usize, room: f64, label: f64| {
-        (count as f64 * label / room).ceil().max(1.0) as usize
-    };
-    let xs = panel.xs.iter().enumerate().step_by(every(panel.xs.len(), MAP, 34.0));
-    for (i, value) in xs {
-        let x = left + size[0] * (i as f64 + 0.5);
-        canvas.text([x, top + MAP + 16.0], Type::new(11, Anchor::Middle), short(*value));
-    }
-    let ys = panel.ys.iter().enumerate().step_by(every(panel.ys.len(), MAP, 15.0));
-    for (i, value) in ys {
-        let y = top + MAP - size[1] * (i as f64 + 0.5) + 4.0;
-        canvas.text([left - 6.0, y], Type::new(11, Anchor::End), short(*value));
-    }
-    let label = Type::new(13, Anchor::Middle);
-    canvas.text([left + 0.5 * MAP, top + MAP + 36.0], label, "factor on mesh compliance");
-    canvas.text([left - 52.0, top + 0.5 * MAP], label.turned(-90.0), "γ, cycles");
-    let Some((x, y, name)) = &panel.marker else { return };
-    let (Some(x), Some(y)) = (place(&panel.xs, *x), place(&panel.ys, *y)) else { return };
-    let at = [left + size[0] * x, top + MAP - size[1] * y];
-    canvas.ring(at, 6.0, Pen::new("#000000", 2.0));
-    let is_right = at[0] > left + 0.6 * MAP;
-    let (shift, anchor) = if is_right { (-10.0, Anchor::End) } else { (10.0, Anchor::Start) };
-    canvas.text([at[0] + shift, at[1] + 4.0], Type::new(12, anchor).bold(), name.clone());
-}
-
-/// Without zeros at its end.
-fn short(value: f64) -> String {
-    let text = format!("{value:.3}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
-}
-
-/// Place of a value among growing ones, in cells from the edge of the first; `None` outside.
-fn place(values: &[f64], value: f64) -> Option<f64> {
-    let edge = |i: usize, j: usize| Some((*values.get(i)? - *values.get(j)?).abs());
-    let half = |i: usize, j: usize| 0.5 * edge(i, j).unwrap_or(f64::INFINITY);
-    let last = values.len().checked_sub(1)?;
-    if value < values[0] - half(1, 0) || value > values[last] + half(last, last.wrapping_sub(1)) {
-        return None;
-    }
-    let after = values.iter().position(|v| *v >= value).unwrap_or(last).max(1).min(last);
-    let before = after.saturating_sub(1);
-    let step = values[after] - values[before];
-    let share = if step > 0.0 { (value - values[before]) / step } else { 0.0 };
-    Some(before as f64 + share + 0.5)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn markers_fall_into_their_cells() {
-        let values = [1.0, 2.0, 4.0];
-        let found: Vec<Option<f64>> =
-            [1.0, 2.0, 3.0, 4.0, 0.4, 5.5].iter().map(|v| place(&values, *v)).collect();
-        assert_eq!(found, [Some(0.5), Some(1.5), Some(2.0), Some(2.5), None, None]);
-        assert_eq!(place(&[3.0], 3.0), Some(0.5));
-        assert_eq!(place(&[], 3.0), None);
-        assert_eq!([short(0.25), short(1.0), short(0.1239)], ["0.25", "1", "0.124"]);
-    }
 
     #[test]
     fn peaks_count_from_the_lowest_torque() {

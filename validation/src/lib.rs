@@ -15,7 +15,9 @@ pub use catalogue::{PublishedScene, scene};
 pub use check::{Check, ReferenceKind, Status, Subject, Tolerance, Value};
 pub use compare::{Comparison, ListedMode, Match, ModelMode, compare};
 pub use error::ValidationError;
-pub use reference::{Frequencies, Miss, ModeTable, Reference, ReferenceError};
+pub use reference::{
+    Frequencies, Miss, ModeTable, Reference, ReferenceError, TorquePeak, TorquePeaks,
+};
 pub use suites::explained::{Step, steps};
 pub use suites::tables::Table;
 pub use verdict::Verdict;

@@ -59,7 +59,7 @@ pub fn peaks(points: &[&SweepPoint], response: Response, harmonic: usize, least:
         let left = lowest(&mut a[..i].iter().rev());
         let right = lowest(&mut a[i + 1..].iter());
         let prominence = a[i] / left.max(right);
-        if !(prominence >= least) {
+        if prominence < least || prominence.is_nan() {
             continue;
         }
         let x = [0, 1, 2].map(|k| points[i + k - 1].speed_rpm);

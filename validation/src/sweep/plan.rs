@@ -118,7 +118,7 @@ pub fn even_speeds(from: f64, to: f64, step: f64) -> Result<Vec<f64>, PlanError>
 }
 
 impl Plan {
-    /// Chains of [`CHAIN`] speeds each, in one direction.
+    /// Chains of twelve speeds each, in one direction.
     ///
     /// # Errors
     /// [`PlanError`] for no speed, or one that is none.
