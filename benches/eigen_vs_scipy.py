@@ -19,16 +19,9 @@ Needs numpy and scipy, and installs nothing:  pip install numpy scipy
 """
 
 import argparse
-import json
-import os
-import pathlib
-import subprocess
 import sys
-import tempfile
-import time
 
-for variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ.setdefault(variable, "1")  # read when numpy is imported
+from beside import build, in_turns, print_times, problem, time_call, time_ours, wanted
 
 try:
     import numpy
@@ -37,64 +30,18 @@ try:
 except ImportError as missing:
     sys.exit(f"{missing}: this script needs numpy and scipy (pip install numpy scipy)")
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-
 # |Δω²| / ω²_max: backward stable solvers differ by a few n·ε; 1e-12 leaves a hundredfold margin.
 AGREEMENT = 1e-12
 
 
-def build():
-    """Builds the harness with the bench profile and returns its path."""
-    command = ["cargo", "bench", "--no-run", "--bench", "eigen_analysis"]
-    command += ["--message-format", "json-render-diagnostics"]
-    done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)
-    if done.returncode != 0:
-        sys.exit("cargo could not build the bench eigen_analysis")
-    messages = (json.loads(line) for line in done.stdout.splitlines() if line.startswith("{"))
-    for message in messages:
-        if message.get("executable") and message["target"]["name"] == "eigen_analysis":
-            return message["executable"]
-    sys.exit("cargo built no executable for the bench eigen_analysis")
-
-
-def matrices(harness):
-    """K, M and the ω² that ours finds for them."""
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([harness, "--dump", folder], cwd=ROOT, check=True)
-        read = lambda name: numpy.loadtxt(pathlib.Path(folder) / name, delimiter=",")
-        return read("stiffness.csv"), read("mass.csv"), read("omega_squared.csv")
-
-
-def time_ours(harness, batch):
-    """Nanoseconds for one analysis, as the harness measures a batch of them."""
-    command = [harness, "--batch", str(batch)]
-    done = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True)
-    return float(done.stdout)
-
-
-def time_scipy(solve, batch):
-    """Nanoseconds for one call, over a batch of them."""
-    start = time.perf_counter_ns()
-    for _ in range(batch):
-        solve()
-    return (time.perf_counter_ns() - start) / batch
-
-
-def quartiles(values):
-    return numpy.percentile(values, [25, 50, 75])
-
-
 def main():
     parser = argparse.ArgumentParser(description="Our eigen analysis against scipy.linalg.eigh.")
-    parser.add_argument("--rounds", type=int, default=40, help="rounds, at least 20 (default 40)")
-    parser.add_argument("--batch", type=int, default=2000, help="solves a round (default 2000)")
-    arguments = parser.parse_args()
-    if arguments.rounds < 20 or arguments.batch < 1:
-        parser.error("at least 20 rounds of at least one solve")
+    arguments = wanted(parser, 2000, "solves")
 
-    harness = build()
-    k, m, ours = matrices(harness)
-    values, vectors = eigh(k, m)
+    harness = build("eigen_analysis")
+    data = problem(harness)
+    k, m, ours = data["stiffness"], data["mass"], data["omega_squared"]
+    values, _ = eigh(k, m)
     difference = numpy.max(numpy.abs(values - numpy.sort(ours))) / values[-1]
     print(f"{k.shape[0]} degrees of freedom, scipy {scipy.__version__}, numpy {numpy.__version__}")
     print(f"worst |Δω²|/ω²_max: {difference:.1e} (allowed {AGREEMENT:.0e})")
@@ -111,23 +58,11 @@ def main():
     }
     runs = {"ours": lambda: time_ours(harness, arguments.batch)}
     for name, solve in rivals.items():
-        runs[name] = lambda solve=solve: time_scipy(solve, arguments.batch)
-    for run in runs.values():
-        run()  # warm up
-    times = {name: [] for name in runs}
-    for number in range(arguments.rounds):
-        names = list(runs) if number % 2 == 0 else list(runs)[::-1]
-        for name in names:
-            times[name].append(runs[name]())
-
+        batch = lambda solve=solve: [solve() for _ in range(arguments.batch)]
+        runs[name] = lambda batch=batch: time_call(batch, arguments.batch)
+    times = in_turns(runs, arguments.rounds)
     print(f"{arguments.rounds} rounds of {arguments.batch} solves; median [quartiles]")
-    for name, series in times.items():
-        low, median, high = quartiles(series) / 1e3
-        print(f"  {name}: {median:.2f} µs [{low:.2f}, {high:.2f}]")
-    for name in rivals:
-        ratios = numpy.array(times[name]) / numpy.array(times["ours"])
-        low, median, high = quartiles(ratios)
-        print(f"ratio {name} / ours: {median:.2f} [{low:.2f}, {high:.2f}]")
+    print_times(times)
     return 0
 
 

@@ -3,29 +3,25 @@
 //!
 //! Purpose: the promise that parameter studies cost about a microsecond a step;
 //! `benches/lumped_step_vs_numba.py` runs this binary in turns with the same steps compiled by Numba. A
-//! plain binary rather than a criterion bench, so that the two can be interleaved.
-//!
-//! ```text
-//! lumped_step                  medians of a few batches, for reading
-//! lumped_step --batch COUNT    nanoseconds for one step, averaged over COUNT steps, one number
-//! lumped_step --dump FOLDER    the problem as CSV, and its solution after 20 mesh cycles
-//! ```
+//! plain binary rather than a criterion bench, so that the two can be interleaved; what it takes stands in
+//! `beside/mod.rs`.
 //!
 //! Noise: 5 % on a quiet machine. Time: some seconds.
 
-use std::error::Error;
+mod beside;
+
 use std::hint::black_box;
 use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
+use beside::{Beside, Outcome, csv, quartiles};
 use gearset::{
     Facing, Geometry, LawPlan, MeshCurve, MeshLaw, MeshStart, PairSprings, Phasing, Scene,
 };
 use lumped::{Axis, Body, LumpedModel, SpringId, TimeVarying};
 
-/// Batches and their size when nothing is asked for.
-const BATCHES: usize = 9;
+/// Size of a summary's batches.
 const BATCH: u32 = 100_000;
 
 const STEPS: usize = 140;
@@ -44,33 +40,14 @@ const NODES: usize = 64;
 /// How far the back flanks stand off, m.
 const BACKLASH: f64 = 90e-6;
 
-type Outcome<T> = Result<T, Box<dyn Error>>;
-
 fn main() -> ExitCode {
-    // `cargo bench` adds `--bench`.
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
-    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    match run(&arguments) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("lumped_step: {error}");
-            ExitCode::from(2)
-        }
-    }
+    let nanoseconds = |count| Ok(marched(false, count)?.0);
+    Beside { name: "lumped_step", summary, nanoseconds, dump }.main()
 }
 
-fn run(arguments: &[&str]) -> Outcome<()> {
+fn scene() -> Outcome<Scene> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/oh58_4p.toml");
-    let scene = Scene::from_file(&path)?;
-    match arguments {
-        [] => summary(&scene),
-        ["--batch", count] => {
-            println!("{:.2}", nanoseconds(&scene, false, count.parse::<u32>()?.max(1))?.0);
-            Ok(())
-        }
-        ["--dump", folder] => dump(&scene, Path::new(folder)),
-        _ => Err("usage: lumped_step [--batch COUNT | --dump FOLDER]".into()),
-    }
+    Ok(Scene::from_file(&path)?)
 }
 
 fn law(scene: &Scene, backs: bool) -> Outcome<MeshLaw> {
@@ -97,8 +74,8 @@ fn set(scene: &Scene, backs: bool) -> Outcome<TimeVarying> {
 }
 
 /// Mean time of one step over a batch, ns, the first cycles left out; mean iterations of a step.
-fn nanoseconds(scene: &Scene, backs: bool, count: u32) -> Outcome<(f64, f64)> {
-    let mut set = set(scene, backs)?;
+fn marched(backs: bool, count: u32) -> Outcome<(f64, f64)> {
+    let mut set = set(&scene()?, backs)?;
     for _ in 0..DUMPED_CYCLES * STEPS {
         set.step()?;
     }
@@ -109,14 +86,14 @@ fn nanoseconds(scene: &Scene, backs: bool, count: u32) -> Outcome<(f64, f64)> {
     Ok((start.elapsed().as_nanos() as f64 / f64::from(count), set.counts().0))
 }
 
-fn summary(scene: &Scene) -> Outcome<()> {
+fn summary() -> Outcome<()> {
     for backs in [false, true] {
-        let runs = (0..BATCHES).map(|_| nanoseconds(scene, backs, BATCH));
-        let runs = runs.collect::<Outcome<Vec<_>>>()?;
-        let iterations = runs[0].1;
-        let mut times: Vec<f64> = runs.into_iter().map(|run| run.0).collect();
-        times.sort_by(f64::total_cmp);
-        let [low, median, high] = [BATCHES / 4, BATCHES / 2, 3 * BATCHES / 4].map(|i| times[i]);
+        let mut iterations = 0.0;
+        let [low, median, high] = quartiles(|| {
+            let (time, counted) = marched(backs, BATCH)?;
+            iterations = counted;
+            Ok(time)
+        })?;
         let with = if backs { "with back flanks in reach" } else { "front flanks" };
         println!(
             "{with}: {median:.0} ns a step [{low:.0}, {high:.0}], {iterations:.2} iterations each"
@@ -128,7 +105,8 @@ fn summary(scene: &Scene) -> Outcome<()> {
 /// Writes the problem and its solution, every digit: M's diagonal, C, K, the meshes' rows, f, the state
 /// at rest, curves (start, step, then nodes as force and tangent), the curve of each step and mesh; the
 /// displacements, velocities and mesh forces in the end.
-fn dump(scene: &Scene, folder: &Path) -> Outcome<()> {
+fn dump(folder: &Path) -> Outcome<()> {
+    let scene = &scene()?;
     let model = LumpedModel::from_scene(scene)?;
     let law = law(scene, false)?;
     let n = model.coordinates.count();
@@ -194,9 +172,4 @@ fn dump(scene: &Scene, folder: &Path) -> Outcome<()> {
     let numbers = [1.0 / (FREQUENCY_HZ * STEPS as f64), lag, (DUMPED_CYCLES * STEPS) as f64];
     write("numbers.csv", csv(3, 1, |i, _| numbers[i]))?;
     Ok(())
-}
-
-fn csv(rows: usize, columns: usize, entry: impl Fn(usize, usize) -> f64) -> String {
-    let line = |i| (0..columns).map(|j| format!("{:e}", entry(i, j))).collect::<Vec<_>>().join(",");
-    (0..rows).map(|i| line(i) + "\n").collect()
 }

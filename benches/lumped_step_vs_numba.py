@@ -25,16 +25,9 @@ Needs numpy and numba, and installs nothing:  pip install numpy numba
 """
 
 import argparse
-import json
-import os
-import pathlib
-import subprocess
 import sys
-import tempfile
-import time
 
-for variable in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
-    os.environ.setdefault(variable, "1")  # read when numpy is imported
+from beside import build, in_turns, print_times, problem, time_call, time_ours, wanted
 
 try:
     import numba
@@ -43,8 +36,6 @@ try:
 except ImportError as missing:
     sys.exit(f"{missing}: this script needs numpy and numba (pip install numpy numba)")
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-
 # Differences over the largest entry after 2800 steps.
 AGREEMENT = 1e-9
 
@@ -52,28 +43,6 @@ AGREEMENT = 1e-9
 # Jacobian is kept while an iteration leaves less than KEPT of the residual.
 NEARLY = 1e-11
 KEPT = 0.02
-
-
-def build():
-    """Builds the harness with the bench profile and returns its path."""
-    command = ["cargo", "bench", "--no-run", "--bench", "lumped_step"]
-    command += ["--message-format", "json-render-diagnostics"]
-    done = subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, text=True)
-    if done.returncode != 0:
-        sys.exit("cargo could not build the bench lumped_step")
-    messages = (json.loads(line) for line in done.stdout.splitlines() if line.startswith("{"))
-    for message in messages:
-        if message.get("executable") and message["target"]["name"] == "lumped_step":
-            return message["executable"]
-    sys.exit("cargo built no executable for the bench lumped_step")
-
-
-def problem(harness):
-    """What the harness marches, by name."""
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([harness, "--dump", folder], cwd=ROOT, check=True)
-        files = pathlib.Path(folder).glob("*.csv")
-        return {file.stem: numpy.loadtxt(file, delimiter=",", ndmin=1) for file in files}
 
 
 @njit(inline="always")
@@ -319,29 +288,11 @@ def compare(rival, data):
     return max(relative)
 
 
-def time_ours(harness, batch):
-    """Nanoseconds for one step, as the harness measures a batch of them."""
-    command = [harness, "--batch", str(batch)]
-    done = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True)
-    return float(done.stdout)
-
-
-def time_rival(rival, batch):
-    """Nanoseconds for one step, over a batch of them."""
-    start = time.perf_counter_ns()
-    rival.march(batch)
-    return (time.perf_counter_ns() - start) / batch
-
-
 def main():
     parser = argparse.ArgumentParser(description="Our lumped step against Numba's.")
-    parser.add_argument("--rounds", type=int, default=40, help="rounds, at least 20 (default 40)")
-    parser.add_argument("--batch", type=int, default=50_000, help="steps a round (default 50000)")
-    arguments = parser.parse_args()
-    if arguments.rounds < 20 or arguments.batch < 1:
-        parser.error("at least 20 rounds of at least one step")
+    arguments = wanted(parser, 50_000, "steps")
 
-    harness = build()
+    harness = build("lumped_step")
     data = problem(harness)
     rivals = {"same algorithm": Modal(data), "dense": Dense(data)}
     n, m = len(data["mass"]), len(data["rows"])
@@ -355,23 +306,11 @@ def main():
 
     runs = {"ours": lambda: time_ours(harness, arguments.batch)}
     for name, rival in rivals.items():
-        runs[name] = lambda rival=rival: time_rival(rival, arguments.batch)
-    for run in runs.values():
-        run()  # warm up
-    times = {name: [] for name in runs}
-    for number in range(arguments.rounds):
-        names = list(runs) if number % 2 == 0 else list(runs)[::-1]
-        for name in names:
-            times[name].append(runs[name]())
-
+        march = lambda rival=rival: rival.march(arguments.batch)
+        runs[name] = lambda march=march: time_call(march, arguments.batch)
+    times = in_turns(runs, arguments.rounds)
     print(f"{arguments.rounds} rounds of {arguments.batch} steps; median [quartiles]")
-    for name, series in times.items():
-        low, median, high = numpy.percentile(series, [25, 50, 75])
-        print(f"  {name}: {median:.0f} ns [{low:.0f}, {high:.0f}]")
-    for name in rivals:
-        ratios = numpy.array(times[name]) / numpy.array(times["ours"])
-        low, median, high = numpy.percentile(ratios, [25, 50, 75])
-        print(f"ratio {name} / ours: {median:.2f} [{low:.2f}, {high:.2f}]")
+    print_times(times)
     return 0
 
 
