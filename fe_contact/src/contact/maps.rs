@@ -11,7 +11,7 @@
 
 use nalgebra::{Cholesky, DMatrix};
 
-use super::table::MeshTable;
+use super::table::{CellSettings, MeshTable};
 use crate::complementarity::{ComplementaritySolver, Problem};
 use crate::error::FeError;
 
@@ -21,6 +21,12 @@ const MOST_MAPS: usize = 64;
 /// Cells' forces and gaps may be this much below zero, in parts of the load and of the window that
 /// the table is made for: at the border between two sets either may be taken.
 const SLACK: f64 = 1e-11;
+
+/// Cells that are looked at side by side.
+const LANES: usize = 4;
+
+/// Most pairs of a mesh whose approaches are remembered; with more, cells are always looked at.
+const REMEMBERED: usize = 4;
 
 /// Affine law of one set of touching cells.
 #[derive(Debug, Clone)]
@@ -35,34 +41,71 @@ pub struct ContactMap {
     energy: f64,
     /// Cells that touch.
     active: Vec<bool>,
-    /// For every cell what must not be negative: its value at δ = 0, then its k derivatives.
-    cells: Vec<f64>,
+    /// For every cell by how much δ may change before it leaves the set, in the norm of the largest
+    /// change of a pair, m: at δ = 0, then its k derivatives; slack included, in lanes of cells.
+    room: Vec<[f64; LANES]>,
+    /// What the slack makes of it at least, m.
+    least_room: f64,
     /// Pair whose patch reaches the end of its grid.
     pub overflows: Option<usize>,
 }
 
+/// Which map was found to hold, at which approaches, and how far from them it does: whoever asks
+/// again keeps one of these.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Held {
+    place: Option<usize>,
+    id: u64,
+    /// The first k, m.
+    at: [f64; REMEMBERED],
+    /// Largest change of any of them, m.
+    within: f64,
+}
+
+impl Held {
+    /// Place of the map; `None` before one was found.
+    pub fn place(&self) -> Option<usize> {
+        self.place
+    }
+
+    /// Its id.
+    pub fn id(&self) -> u64 {
+        self.id
+    }
+}
+
 /// The maps of one mesh at one phase.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct ContactMaps {
     maps: Vec<ContactMap>,
     next: u64,
     /// Which gives way next when there are too many.
     oldest: usize,
+    /// Load (N) and window (m) of the tables: what slack is a part of.
+    scale: (f64, f64),
     /// Contact problems solved.
     pub solved: usize,
 }
 
 impl ContactMap {
-    /// Whether it holds at approaches δ (less gap offsets).
-    fn holds(&self, delta: &[f64], force_slack: f64, gap_slack: f64) -> bool {
-        let width = delta.len() + 1;
-        self.cells.chunks_exact(width).zip(&self.active).all(|(cell, active)| {
-            let mut value = cell[0];
-            for (c, d) in cell[1..].iter().zip(delta) {
-                value += c * d;
+    /// Smallest room of any cell; `None` if one has none.
+    fn room_at(&self, delta: &[f64]) -> Option<f64> {
+        let mut least = [f64::INFINITY; LANES];
+        for cells in self.room.chunks_exact(delta.len() + 1) {
+            let mut value = cells[0];
+            for (derivative, d) in cells[1..].iter().zip(delta) {
+                for (value, c) in value.iter_mut().zip(derivative) {
+                    *value += c * d;
+                }
             }
-            value >= if *active { -force_slack } else { -gap_slack }
-        })
+            if !value.iter().all(|v| *v >= 0.0) {
+                return None;
+            }
+            for (least, value) in least.iter_mut().zip(value) {
+                *least = if value < *least { value } else { *least };
+            }
+        }
+        Some(least.into_iter().fold(f64::INFINITY, f64::min))
     }
 
     /// ½ pᵀ C p at approaches δ, J.
@@ -77,7 +120,13 @@ impl ContactMap {
         sum
     }
 
-    fn new(table: &MeshTable, owner: &[usize], active: Vec<bool>, id: u64) -> Option<Self> {
+    fn new(
+        table: &MeshTable,
+        owner: &[usize],
+        active: Vec<bool>,
+        id: u64,
+        scale: (f64, f64),
+    ) -> Option<Self> {
         let k = table.pairs.len();
         let n = table.gaps.len();
         let set: Vec<usize> = (0..n).filter(|i| active[*i]).collect();
@@ -132,11 +181,39 @@ impl ContactMap {
             let ends = [own[0], own[own.len() - 1]];
             (0..2).any(|i| ends[i] && !pair.ends_at_tip[i])
         });
-        Some(Self { id, stiffness, forces, energy, active, cells, overflows })
+        let (room, least_room) = rooms(&cells, &active, k, scale);
+        Some(Self { id, stiffness, forces, energy, active, room, least_room, overflows })
     }
 }
 
+/// What must not be negative of every cell (at δ = 0, then its k derivatives) as room for changes of δ,
+/// in lanes, and the least of what slack adds.
+fn rooms(cells: &[f64], active: &[bool], k: usize, scale: (f64, f64)) -> (Vec<[f64; LANES]>, f64) {
+    let mut room = vec![[0.0; LANES]; active.len().div_ceil(LANES) * (k + 1)];
+    // Cells that are none have all room.
+    room.iter_mut().step_by(k + 1).for_each(|value| *value = [f64::INFINITY; LANES]);
+    let mut least = f64::INFINITY;
+    for (i, (cell, active)) in cells.chunks_exact(k + 1).zip(active).enumerate() {
+        let slack = SLACK * if *active { scale.0 } else { scale.1 };
+        let steepness: f64 = cell[1..].iter().map(|c| c.abs()).sum();
+        let per = if steepness > 0.0 { 1.0 / steepness } else { 1.0 };
+        let own = &mut room[i / LANES * (k + 1)..];
+        own[0][i % LANES] = (cell[0] + slack) * per;
+        for (own, c) in own[1..].iter_mut().zip(&cell[1..]) {
+            own[i % LANES] = c * per;
+        }
+        least = least.min(slack * per);
+    }
+    (room, least)
+}
+
 impl ContactMaps {
+    /// None yet, for tables of such cells.
+    pub fn new(settings: &CellSettings) -> Self {
+        let scale = (settings.force, settings.window);
+        Self { maps: Vec::new(), next: 0, oldest: 0, scale, solved: 0 }
+    }
+
     /// A map by its place.
     pub fn map(&self, place: usize) -> &ContactMap {
         &self.maps[place]
@@ -144,7 +221,10 @@ impl ContactMaps {
 
     /// Memory of the maps, bytes.
     pub fn bytes(&self) -> usize {
-        self.maps.iter().map(|m| 8 * (m.cells.len() + m.stiffness.len()) + m.active.len()).sum()
+        self.maps
+            .iter()
+            .map(|m| 8 * (LANES * m.room.len() + m.stiffness.len()) + m.active.len())
+            .sum()
     }
 
     /// Number of maps.
@@ -152,14 +232,29 @@ impl ContactMaps {
         self.maps.len()
     }
 
-    /// Whether the map at `place` holds at approaches δ (less gap offsets).
-    pub fn holds(&self, place: usize, table: &MeshTable, delta: &[f64], scale: (f64, f64)) -> bool {
-        debug_assert_eq!(delta.len(), table.pairs.len());
-        self.maps.get(place).is_some_and(|m| m.holds(delta, SLACK * scale.0, SLACK * scale.1))
+    /// Whether the map that held still does at approaches δ (less gap offsets), one for each pair.
+    #[inline]
+    pub fn holds(&self, held: &mut Held, delta: &[f64]) -> bool {
+        let Some(place) = held.place else { return false };
+        // Another map may have taken the place. No number is within anything.
+        let is_near = self.maps.get(place).is_some_and(|m| m.id == held.id)
+            && delta.len() <= REMEMBERED
+            && delta.iter().zip(&held.at).all(|(d, at)| (d - at).abs() <= held.within);
+        is_near || self.holds_cell_by_cell(place, held, delta)
     }
 
-    /// Place of a map that holds at approaches δ (less gap offsets): the one at `hint` first, then
-    /// the others, then a new one. `scale`: load and window of the table, N and m.
+    fn holds_cell_by_cell(&self, place: usize, held: &mut Held, delta: &[f64]) -> bool {
+        let Some(map) = self.maps.get(place) else { return false };
+        let Some(room) = map.room_at(delta) else { return false };
+        (held.place, held.id) = (Some(place), map.id);
+        held.at.iter_mut().zip(delta).for_each(|(at, d)| *at = *d);
+        // Half the slack is far above rounding: looked at cell by cell, the map would hold as well.
+        held.within = room - 0.5 * map.least_room;
+        true
+    }
+
+    /// Puts a map that holds at approaches δ (less gap offsets) into `held`: the one that did first, then
+    /// the others, then a new one, which may turn out not to.
     ///
     /// # Errors
     /// If the contact solver fails.
@@ -167,15 +262,15 @@ impl ContactMaps {
         &mut self,
         table: &MeshTable,
         delta: &[f64],
-        scale: (f64, f64),
-        hint: usize,
+        held: &mut Held,
         solver: &dyn ComplementaritySolver,
-    ) -> Result<usize, FeError> {
-        if self.holds(hint, table, delta, scale) {
-            return Ok(hint);
+    ) -> Result<(), FeError> {
+        debug_assert_eq!(delta.len(), table.pairs.len());
+        if self.holds(held, delta) {
+            return Ok(());
         }
-        if let Some(place) = (0..self.maps.len()).find(|i| self.holds(*i, table, delta, scale)) {
-            return Ok(place);
+        if (0..self.maps.len()).any(|place| self.holds_cell_by_cell(place, held, delta)) {
+            return Ok(());
         }
         self.solved += 1;
         let owner = table.pair_of_cells();
@@ -184,7 +279,8 @@ impl ContactMaps {
             vec![false; gaps.len()]
         } else {
             let problem = Problem { compliance: &table.compliance, gaps: &gaps };
-            let warm = self.maps.get(hint).map(|m| m.active.as_slice());
+            let before = held.place.and_then(|place| self.maps.get(place));
+            let warm = before.map(|m| m.active.as_slice());
             let solution = solver
                 .solve(&problem, warm)
                 .map_err(|cause| FeError::Contact { phase: table.phase, cause })?;
@@ -193,20 +289,24 @@ impl ContactMaps {
         };
         let id = self.next;
         self.next += 1;
-        let map = ContactMap::new(table, &owner, active, id).ok_or_else(|| {
+        let map = ContactMap::new(table, &owner, active, id, self.scale).ok_or_else(|| {
             let cause = crate::complementarity::ComplementarityError::Inaccurate {
                 residual: f64::INFINITY,
             };
             FeError::Contact { phase: table.phase, cause }
         })?;
-        if self.maps.len() < MOST_MAPS {
+        let place = if self.maps.len() < MOST_MAPS {
             self.maps.push(map);
-            return Ok(self.maps.len() - 1);
-        }
-        let place = self.oldest;
-        self.oldest = (self.oldest + 1) % MOST_MAPS;
-        self.maps[place] = map;
-        Ok(place)
+            self.maps.len() - 1
+        } else {
+            let place = self.oldest;
+            self.oldest = (self.oldest + 1) % MOST_MAPS;
+            self.maps[place] = map;
+            place
+        };
+        // Near nothing until it was looked at.
+        *held = Held { place: Some(place), id, within: -1.0, ..*held };
+        Ok(())
     }
 }
 
@@ -232,14 +332,14 @@ mod tests {
         for phase in [0.02, 0.3, 0.7] {
             let table = MeshTable::new(mesh, pair, phase, &settings).unwrap();
             let k = table.pairs.len();
-            let (mut maps, scale) = (ContactMaps::default(), (8000.0, settings.window));
-            let mut hint = 0;
+            let mut maps = ContactMaps::new(&settings);
+            let mut held = Held::default();
             for step in 0..40 {
                 // From apart to pressed, the pairs unevenly.
                 let delta: Vec<f64> =
                     (0..k).map(|i| (step as f64 - 4.0 + 0.3 * i as f64) * 0.5e-6).collect();
-                hint = maps.find(&table, &delta, scale, hint, &ActiveSet).unwrap();
-                let map = maps.map(hint);
+                maps.find(&table, &delta, &mut held, &ActiveSet).unwrap();
+                let map = maps.map(held.place().unwrap());
                 let answer = table.answer(&delta, &vec![0.0; k], &ActiveSet, None).unwrap();
                 let total: f64 = answer.pair_forces.iter().sum();
                 for i in 0..k {
@@ -251,7 +351,7 @@ mod tests {
             }
             let (count, solved) = (maps.count(), maps.solved);
             let delta: Vec<f64> = (0..k).map(|i| (15.0 + 0.3 * i as f64) * 0.5e-6).collect();
-            maps.find(&table, &delta, scale, 0, &ActiveSet).unwrap();
+            maps.find(&table, &delta, &mut held, &ActiveSet).unwrap();
             assert_eq!((maps.count(), maps.solved), (count, solved), "a known set is not solved");
         }
     }

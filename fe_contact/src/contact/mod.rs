@@ -9,6 +9,6 @@ mod pair;
 mod table;
 
 pub use law::MeshAnswer;
-pub use maps::{ContactMap, ContactMaps};
+pub use maps::{ContactMap, ContactMaps, Held};
 pub use pair::{Location, PairFrame, ToothFrame, candidates, members};
 pub use table::{CellSettings, Matching, MeshTable, PairCells};

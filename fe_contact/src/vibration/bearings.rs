@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::body::{Port, VibratingBody};
 use super::modal_body::FixedRaceMode;
+use super::packed::Packed;
 use crate::error::FeError;
 use crate::statics::{CARRIER, PLANETS, Races};
 
@@ -25,11 +26,14 @@ pub(super) struct Bearings {
     rigid: DMatrix<f64>,
     /// Elongations on the races' coordinates within a step, the carrier's inertia included, 2N×n.
     rows: DMatrix<f64>,
+    packed_rows: Packed,
     /// I/k + A, m/N.
     pub(super) compliance: DMatrix<f64>,
     ratio: f64,
     /// (K'⁻¹ + G)⁻¹ with K' = (I/k + A)⁻¹ (1 + 2τ/h).
     dynamic: DMatrix<f64>,
+    /// rowsᵀ (K'⁻¹ + G)⁻¹.
+    onto_races: Packed,
     /// (I/k + A) / (1 + 2τ/h).
     softened: DMatrix<f64>,
     ports: Vec<Port>,
@@ -76,6 +80,8 @@ impl Bearings {
         let zero = DVector::zeros(2 * n);
         Self {
             rows: rigid.clone(),
+            packed_rows: Packed::default(),
+            onto_races: Packed::default(),
             rigid,
             dynamic: compliance.clone(),
             softened: compliance.clone(),
@@ -111,7 +117,10 @@ impl Bearings {
                 }
             }
         }
-        Ok(self.rows.transpose() * &self.dynamic * &self.rows)
+        let onto_races = self.rows.transpose() * &self.dynamic;
+        self.packed_rows = Packed::new(&self.rows);
+        self.onto_races = Packed::new(&onto_races);
+        Ok(onto_races * &self.rows)
     }
 
     /// After the carrier's prediction: adds the bearings' history to the races' loads.
@@ -127,8 +136,7 @@ impl Bearings {
             self.history[i] = weight * rule.velocity_history(self.state.x[i], self.state.v[i]);
             self.free[i] = carrier.free(port) + self.history[i];
         }
-        self.forces.gemv(1.0, &self.dynamic, &self.free, 0.0);
-        load.gemv_tr(1.0, &self.rows, &self.forces, 1.0);
+        self.onto_races.add_product(self.free.as_slice(), load.as_mut_slice());
     }
 
     /// Ends the step with the races at x; the carrier's body is ended with it.
@@ -139,8 +147,14 @@ impl Bearings {
         x: &DVector<f64>,
         race: [f64; 3],
     ) {
+        self.elongation.fill(0.0);
+        self.packed_rows.add_product(x.as_slice(), self.elongation.as_mut_slice());
+        if carrier.unknowns() == 0 {
+            // Seats without a motion of their own: e = Bx, and nobody asks for Q.
+            self.state.advance(rule, self.elongation.as_slice());
+            return;
+        }
         // Q = (K'⁻¹ + G)⁻¹ (Bx − free − τ' v*)
-        self.elongation.gemv(1.0, &self.rows, x, 0.0);
         self.elongation -= &self.free;
         self.forces.gemv(1.0, &self.dynamic, &self.elongation, 0.0);
         // e = K'⁻¹ Q + τ' v*

@@ -3,6 +3,8 @@
 use nalgebra::DVector;
 
 use super::set::VibratingSet;
+use crate::complementarity::ActiveSet;
+use crate::contact::Held;
 use crate::error::FeError;
 
 /// Energies of the present state, J.
@@ -55,7 +57,7 @@ impl VibratingSet<'_> {
         let Some(frame) = self.current_frame() else { return 0.0 };
         let of = |mesh: &super::frame::FrameMesh| {
             let delta = &self.approaches.as_slice()[mesh.first..mesh.first + mesh.count];
-            self.maps[mesh.table].map(mesh.map).energy(delta)
+            mesh.map(&self.maps).energy(delta)
         };
         frame.meshes.iter().map(of).sum()
     }
@@ -115,11 +117,14 @@ impl VibratingSet<'_> {
     ) -> Result<Option<f64>, FeError> {
         let Some(frame) = self.frame_at(step_in_cycle) else { return Ok(None) };
         let approaches = &frame.rigid * x - DVector::from_column_slice(&frame.offsets);
-        let meshes: Vec<(usize, usize, usize, usize)> =
-            frame.meshes.iter().map(|m| (m.table, m.first, m.count, m.map)).collect();
+        let meshes: Vec<_> = frame.meshes.iter().map(|m| (m.table, m.first, m.count)).collect();
+        let mut held: Vec<Held> = frame.meshes.iter().map(|m| m.held).collect();
         let mut energy = 0.0;
-        for (table, first, count, hint) in meshes {
-            energy += self.law_energy(table, &approaches.as_slice()[first..first + count], hint)?;
+        for ((table, first, count), held) in meshes.into_iter().zip(&mut held) {
+            let (delta, maps) =
+                (&approaches.as_slice()[first..first + count], &mut self.maps[table]);
+            maps.find(&self.tables.list[table], delta, held, &ActiveSet)?;
+            energy += held.place().map_or(0.0, |place| maps.map(place).energy(delta));
         }
         Ok(Some(energy))
     }

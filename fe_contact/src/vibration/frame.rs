@@ -1,10 +1,13 @@
 //! One position of the mesh cycle as a vibrating set sees it: all that depends on it alone.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::body::Port;
 use super::gear::Gear;
+use super::lag::PairSlot;
+use super::packed::{Packed, ShortRow};
 use super::teeth::{ToothPoint, fill_port, tooth_points};
+use crate::contact::{ContactMap, ContactMaps, Held};
 use crate::error::FeError;
 use crate::statics::{Bodies, Placed, Races};
 
@@ -18,21 +21,29 @@ pub(super) struct FrameMesh {
     pub(super) table: usize,
     pub(super) first: usize,
     pub(super) count: usize,
-    /// Numbers of the pairs.
-    pub(super) pairs: Vec<i64>,
     /// Map last found to hold.
-    pub(super) map: usize,
+    pub(super) held: Held,
     /// Factor on the FE part of its flexibility.
     pub(super) flexibility_factor: f64,
 }
 
-/// Forces of all pairs for given free approaches b, as long as certain maps hold: P = V b + v.
+impl FrameMesh {
+    /// The map that holds, once one was found.
+    #[inline]
+    pub(super) fn map<'m>(&self, maps: &'m [ContactMaps]) -> &'m ContactMap {
+        maps[self.table].map(self.held.place().unwrap_or(0))
+    }
+}
+
+/// Approaches of all pairs for given free ones b, as long as certain maps hold: δ = W b + w.
 #[derive(Debug, Clone)]
 pub(super) struct Combination {
     /// Maps by their ids, one a mesh.
     pub(super) maps: Vec<u64>,
-    pub(super) slope: DMatrix<f64>,
-    pub(super) offset: DVector<f64>,
+    pub(super) slope: Packed,
+    pub(super) offset: Vec<f64>,
+    /// P = S δ + P₀ of each pair within its mesh: P₀, then its row of S.
+    pub(super) laws: Vec<f64>,
 }
 
 /// All pairs of a set at one position.
@@ -50,15 +61,17 @@ pub(super) struct Frame {
     pub(super) own: Vec<Vec<(usize, usize)>>,
     /// Approach on the races' coordinates with rigid bodies, pairs×n.
     pub(super) rigid: DMatrix<f64>,
-    /// Approach on the races' coordinates within a step, pairs×n.
-    pub(super) rows: DMatrix<f64>,
-    /// A⁻¹ rowsᵀ, n×pairs, m/N.
-    pub(super) answers: DMatrix<f64>,
+    /// Approach on the races' coordinates within a step.
+    pub(super) rows: Vec<ShortRow>,
     /// Y: what a unit force on one pair takes from the approach of another within a step, beyond
     /// the cells' own compliance, m/N.
     pub(super) receptance: DMatrix<f64>,
     /// Static FE flexibility that no body's state carries, within meshes, m/N.
     pub(super) lagging: DMatrix<f64>,
+    /// The same, mesh by mesh, each by columns.
+    pub(super) lags: Vec<f64>,
+    /// Where each pair's forces are remembered.
+    pub(super) slots: Vec<PairSlot>,
     pub(super) combinations: Vec<Combination>,
     /// Which combination gives way next.
     pub(super) oldest: usize,
@@ -94,10 +107,11 @@ impl Frame {
             teeth: Vec::with_capacity(count),
             own: vec![Vec::new(); ground.gears.len()],
             rigid: DMatrix::zeros(count, n),
-            rows: DMatrix::zeros(count, n),
-            answers: DMatrix::zeros(n, count),
+            rows: Vec::new(),
             receptance: DMatrix::zeros(count, count),
             lagging: DMatrix::zeros(count, count),
+            lags: Vec::new(),
+            slots: Vec::with_capacity(count),
             combinations: Vec::with_capacity(MOST_COMBINATIONS),
             oldest: 0,
         };
@@ -107,6 +121,7 @@ impl Frame {
                 frame.rigid.row_mut(first + k).tr_copy_from(row);
             }
             frame.offsets.extend(&mesh.offsets);
+            frame.slots.extend(mesh.table.pairs.iter().map(|pair| PairSlot::of(pair.index)));
             if which < front {
                 for ends in tooth_points(ground.bodies, ground.races, mesh)? {
                     let teeth = ends.each_ref().map(|end| {
@@ -124,18 +139,25 @@ impl Frame {
                 table: *table,
                 first,
                 count: mesh.rows.len(),
-                pairs: mesh.table.pairs.iter().map(|p| p.index).collect(),
-                map: 0,
+                held: Held::default(),
                 flexibility_factor: ground.bodies.flexibility_factor(mesh.kind),
             });
         }
-        frame.rows.copy_from(&frame.rigid);
+        let mut rows = frame.rigid.clone();
         for (k, gear) in ground.gears.iter().enumerate() {
-            frame.add_body(ground, k + 1, gear, turned);
+            frame.add_body(ground, k + 1, gear, turned, &mut rows);
         }
-        frame.answers = ground.inverse * frame.rows.transpose();
-        frame.receptance += &frame.rows * &frame.answers;
+        frame.receptance += &rows * (ground.inverse * rows.transpose());
+        let short = rows.row_iter().map(|row| ShortRow::new(row.iter().copied()));
+        let many = || FeError::NoEquilibrium("a tooth pair meets more than two bodies".into());
+        frame.rows = short.collect::<Option<_>>().ok_or_else(many)?;
         frame.receptance -= (1.0 - ground.lag_end) * &frame.lagging;
+        for mesh in &frame.meshes {
+            let own = mesh.first..mesh.first + mesh.count;
+            for j in own.clone() {
+                frame.lags.extend(own.clone().map(|i| frame.lagging[(i, j)]));
+            }
+        }
         Ok(frame)
     }
 
@@ -145,7 +167,14 @@ impl Frame {
     }
 
     /// Elastic part of one gear: couplings, receptances between its ports, lagging flexibility.
-    fn add_body(&mut self, ground: &Ground<'_>, body: usize, gear: &Gear<'_>, turned: f64) {
+    fn add_body(
+        &mut self,
+        ground: &Ground<'_>,
+        body: usize,
+        gear: &Gear<'_>,
+        turned: f64,
+        rows: &mut DMatrix<f64>,
+    ) {
         let mut places: Vec<usize> = Vec::new();
         let mut own: Vec<(ToothPoint, i64)> = Vec::new();
         for (pair, (ends, teeth)) in self.ends.iter().zip(&self.teeth).enumerate() {
@@ -170,7 +199,7 @@ impl Frame {
             for (pair, port) in places.iter().zip(&ports) {
                 for (axis, c) in gear.vibrating.coupling(port, angle).into_iter().enumerate() {
                     if let Some(i) = ground.races.of(body, axis) {
-                        self.rows[(*pair, i)] += c;
+                        rows[(*pair, i)] += c;
                     }
                 }
             }
@@ -220,8 +249,10 @@ impl Frame {
 
     /// Memory, bytes.
     pub(super) fn bytes(&self) -> usize {
-        let matrices = [&self.rigid, &self.rows, &self.answers, &self.receptance, &self.lagging];
+        let matrices = [&self.rigid, &self.receptance, &self.lagging];
         let own: usize = matrices.iter().map(|m| 8 * m.len()).sum();
-        own + self.combinations.iter().map(|c| 8 * (c.slope.len() + c.offset.len())).sum::<usize>()
+        let rows = self.rows.len() * size_of::<ShortRow>();
+        let of = |c: &Combination| c.slope.bytes() + 8 * (c.offset.len() + c.laws.len());
+        own + rows + 8 * self.lags.len() + self.combinations.iter().map(of).sum::<usize>()
     }
 }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use dynamics::{AverageAcceleration, Motion};
+use rayon::prelude::*;
 
 use super::body::{Port, RaceMotion, VibratingBody, into_frame, out_of_frame};
 use super::damping::Proportional;
@@ -98,17 +99,15 @@ impl FullBody {
     /// ℓ_a A⁻¹ ℓ_bᵀ.
     fn between(&self, factor: &Factor, ports: &[Port]) -> Vec<f64> {
         let n = ports.len();
-        let mut matrix = vec![0.0; n * n];
-        let mut column = vec![0.0; self.shared.matrices.size];
-        for (j, port) in ports.iter().enumerate() {
-            column.fill(0.0);
+        let column = |port: &Port| -> Vec<f64> {
+            let mut column = vec![0.0; self.shared.matrices.size];
             port.add_to(1.0, &mut column);
             factor.solve_one(&mut column);
-            for (i, port) in ports.iter().enumerate() {
-                matrix[i * n + j] = port.read(&column);
-            }
-        }
-        matrix
+            ports.iter().map(|port| port.read(&column)).collect()
+        };
+        // A solution a port: worth a thread each.
+        let columns: Vec<Vec<f64>> = ports.par_iter().map(column).collect();
+        (0..n * n).map(|at| columns[at % n][at / n]).collect()
     }
 }
 

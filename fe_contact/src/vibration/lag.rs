@@ -63,16 +63,28 @@ pub(super) struct PairMemory {
     before: [f64; WIDTH],
 }
 
-fn place(pair: i64) -> Option<usize> {
-    usize::try_from(pair + LEAST).ok().filter(|i| *i < WIDTH)
+/// Where a memory keeps the forces of a pair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct PairSlot(u8);
+
+impl PairSlot {
+    /// A pair's own; those too far off share one that stays empty.
+    pub(super) fn of(pair: i64) -> Self {
+        let place = u8::try_from(pair + LEAST).ok().filter(|i| usize::from(*i) < WIDTH);
+        Self(place.unwrap_or(WIDTH as u8))
+    }
+
+    fn place(self) -> Option<usize> {
+        Some(usize::from(self.0)).filter(|i| *i < WIDTH)
+    }
 }
 
 impl PairMemory {
     /// As if the forces had always been these.
-    pub(super) fn rest(&mut self, forces: impl Iterator<Item = (i64, f64)>) {
+    pub(super) fn rest(&mut self, forces: impl Iterator<Item = (PairSlot, f64)>) {
         *self = Self::default();
-        for (pair, force) in forces {
-            if let Some(i) = place(pair) {
+        for (slot, force) in forces {
+            if let Some(i) = slot.place() {
                 (self.filtered[i], self.now[i], self.before[i]) = (force, force, force);
             }
         }
@@ -84,27 +96,31 @@ impl PairMemory {
     }
 
     /// Part of P̃ at the end of the step that is known at its start.
-    pub(super) fn known(&self, rule: &LagRule, pair: i64) -> f64 {
-        place(pair).map_or(0.0, |i| {
+    pub(super) fn known(&self, rule: &LagRule, slot: PairSlot) -> f64 {
+        slot.place().map_or(0.0, |i| {
             rule.state * self.filtered[i] + rule.start * self.now[i] + rule.before * self.before[i]
         })
     }
 
     /// Force of a pair at the end of the last step, N.
-    pub(super) fn now(&self, pair: i64) -> f64 {
-        place(pair).map_or(0.0, |i| self.now[i])
+    pub(super) fn now(&self, slot: PairSlot) -> f64 {
+        slot.place().map_or(0.0, |i| self.now[i])
     }
 
     #[cfg(test)]
     fn filtered(&self, pair: i64) -> f64 {
-        place(pair).map_or(0.0, |i| self.filtered[i])
+        PairSlot::of(pair).place().map_or(0.0, |i| self.filtered[i])
     }
 
     /// Takes in the forces at the end of the step; pairs that are not named carry nothing.
-    pub(super) fn advance(&mut self, rule: &LagRule, forces: impl Iterator<Item = (i64, f64)>) {
+    pub(super) fn advance(
+        &mut self,
+        rule: &LagRule,
+        forces: impl Iterator<Item = (PairSlot, f64)>,
+    ) {
         let mut end = [0.0; WIDTH];
-        for (pair, force) in forces {
-            if let Some(i) = place(pair) {
+        for (slot, force) in forces {
+            if let Some(i) = slot.place() {
                 end[i] = force;
             }
         }
@@ -157,7 +173,7 @@ mod tests {
             memory.before[LEAST as usize] = h * h;
             for step in 1..=20 {
                 let t = f64::from(step) * h;
-                memory.advance(&r, [(0, t * t)].into_iter());
+                memory.advance(&r, [(PairSlot::of(0), t * t)].into_iter());
                 let exact = t * t - 2.0 * beta * t - 2.0 * beta * beta * (-t / beta).exp_m1();
                 let found = memory.filtered(0);
                 assert!((found - exact).abs() < 1e-9 * t * t, "{z} {step}: {found} {exact}");
@@ -168,7 +184,7 @@ mod tests {
     #[test]
     fn pairs_move_on() {
         let mut memory = PairMemory::default();
-        memory.rest([(0, 5.0), (-1, 3.0)].into_iter());
+        memory.rest([(0, 5.0), (-1, 3.0)].into_iter().map(|(k, p)| (PairSlot::of(k), p)));
         memory.move_on();
         assert_eq!((memory.filtered(1), memory.filtered(0)), (5.0, 3.0));
     }

@@ -111,7 +111,7 @@ impl VibratingSet<'_> {
         let mut s = DMatrix::zeros(count, count);
         let mut mesh_tangents = Vec::with_capacity(frame.meshes.len());
         for mesh in &frame.meshes {
-            let map = self.maps[mesh.table].map(mesh.map);
+            let map = mesh.map(&self.maps);
             mesh_tangents.push(map.stiffness.iter().sum());
             for i in 0..mesh.count {
                 for j in 0..mesh.count {

@@ -135,6 +135,9 @@ impl VibratingBody for ModalBody {
     fn predict(&mut self, race: &RaceMotion, angle: f64) -> [f64; 3] {
         let Proportional { alpha, beta } = self.damping;
         let history = self.damping.race_history(&self.rule, race);
+        if self.modes.is_empty() {
+            return [0, 1, 2].map(|i| self.mass[i] * history[i]);
+        }
         let turned = into_frame(history, angle);
         let c = self.inertia();
         let mut load = [0.0; 3];
@@ -175,6 +178,9 @@ impl VibratingBody for ModalBody {
     }
 
     fn finish(&mut self, race: [f64; 3], angle: f64, ports: &[Port], forces: &[f64]) {
+        if self.modes.is_empty() {
+            return;
+        }
         let turned = into_frame(race, angle);
         let c = self.inertia();
         for (j, mode) in self.modes.iter().enumerate() {

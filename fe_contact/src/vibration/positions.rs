@@ -51,7 +51,7 @@ impl VibratingSet<'_> {
     }
 
     /// The frame of the current step, built where it is not there yet.
-    pub(super) fn take_frame(&mut self, with_backs: bool) -> Result<Frame, FeError> {
+    pub(super) fn take_frame(&mut self, with_backs: bool) -> Result<Box<Frame>, FeError> {
         let k = self.step_in_cycle;
         let list = if with_backs { &mut self.frames_with_backs } else { &mut self.frames };
         if let Some(mut frame) = list[k].take() {
@@ -83,12 +83,12 @@ impl VibratingSet<'_> {
             inverse: &self.inverse,
             lag_end: self.lag.end,
         };
-        let mut frame = Frame::new(&ground, &placed, &places, front, turned)?;
+        let mut frame = Box::new(Frame::new(&ground, &placed, &places, front, turned)?);
         let owned: Vec<crate::contact::MeshTable> =
             placed.drain(front..).map(|p| p.table.into_owned()).collect();
         for table in owned {
             self.tables.list.push(Arc::new(table));
-            self.maps.push(ContactMaps::default());
+            self.maps.push(ContactMaps::new(&self.tables.settings));
         }
         if self.statics.has_tooth_errors() {
             self.renew_offsets(&mut frame);
@@ -109,7 +109,7 @@ impl VibratingSet<'_> {
         }
     }
 
-    pub(super) fn put_back(&mut self, frame: Frame, with_backs: bool) {
+    pub(super) fn put_back(&mut self, frame: Box<Frame>, with_backs: bool) {
         let k = self.step_in_cycle;
         let list = if with_backs { &mut self.frames_with_backs } else { &mut self.frames };
         list[k] = Some(frame);
@@ -154,7 +154,8 @@ mod tests {
             let mut list = Vec::new();
             for (m, mesh) in frame.meshes.iter().enumerate() {
                 let phase = set.statics.phase(m, set.position(set.step_in_cycle));
-                for (k, pair) in mesh.pairs.iter().enumerate() {
+                let table = &set.tables.list[mesh.table];
+                for (k, pair) in table.pairs.iter().map(|p| p.index).enumerate() {
                     let at = mesh.first + k;
                     let (ends, teeth) = (frame.ends[at].as_ref(), frame.teeth[at]);
                     let teeth: Vec<i64> = ends
@@ -172,7 +173,7 @@ mod tests {
                             (tooth + gear.teeth_per_cycle() * set.cycles).rem_euclid(count)
                         })
                         .collect();
-                    list.push((m, *pair, phase, teeth));
+                    list.push((m, pair, phase, teeth));
                 }
             }
             list

@@ -67,14 +67,14 @@ impl VibratingSet<'_> {
         }
         for (memory, mesh) in self.memory.iter_mut().zip(&frame.meshes) {
             let own = &p.as_slice()[mesh.first..mesh.first + mesh.count];
-            memory.rest(mesh.pairs.iter().copied().zip(own.iter().copied()));
+            let slots = &frame.slots[mesh.first..mesh.first + mesh.count];
+            memory.rest(slots.iter().copied().zip(own.iter().copied()));
         }
         for mesh in &mut frame.meshes {
             let range = mesh.first..mesh.first + mesh.count;
             let delta = &self.approaches.as_slice()[range];
-            let scale = (self.tables.settings.force, self.tables.settings.window);
             let table = &self.tables.list[mesh.table];
-            mesh.map = self.maps[mesh.table].find(table, delta, scale, mesh.map, solver)?;
+            self.maps[mesh.table].find(table, delta, &mut mesh.held, solver)?;
         }
         self.forces = p;
         self.touched_back = has_backs;

@@ -11,7 +11,7 @@
 //! complementarity conditions hold.
 
 use dynamics::{AverageAcceleration, Motion};
-use gearset::{Facing, Kinematics, Rung, Scene};
+use gearset::{Kinematics, Scene};
 use nalgebra::{DMatrix, DVector};
 
 use super::bearings::Bearings;
@@ -21,12 +21,10 @@ use super::damping::Proportional;
 use super::frame::Frame;
 use super::gear::Gear;
 use super::lag::{LagRule, PairMemory};
-use crate::complementarity::ActiveSet;
+use super::packed::Packed;
 use crate::contact::ContactMaps;
 use crate::error::FeError;
-use crate::statics::{
-    Bodies, CARRIER, Imperfections, PLANETS, Races, SetTables, StaticSet, planet_bearing,
-};
+use crate::statics::{CARRIER, PLANETS, Races, SetTables, StaticSet, planet_bearing};
 
 /// How a set moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -81,13 +79,14 @@ pub struct VibratingSet<'s> {
     pub(super) seat_stiffness: DMatrix<f64>,
     /// Ring, sun, planets.
     pub(super) gears: Vec<Gear<'s>>,
-    /// A⁻¹.
+    /// A⁻¹, and as every step multiplies by it.
     pub(super) inverse: DMatrix<f64>,
+    pub(super) packed_inverse: Packed,
     /// Gyroscopic and centripetal terms, n×n: G (kg/s) and −mΩ² (N/m).
     pub(super) gyroscopic: Option<[DMatrix<f64>; 2]>,
     /// By step in the cycle.
-    pub(super) frames: Vec<Option<Frame>>,
-    pub(super) frames_with_backs: Vec<Option<Frame>>,
+    pub(super) frames: Vec<Option<Box<Frame>>>,
+    pub(super) frames_with_backs: Vec<Option<Box<Frame>>>,
     /// Step in the cycle, cycles gone by, steps taken.
     pub(super) step_in_cycle: usize,
     pub(super) cycles: i64,
@@ -106,13 +105,6 @@ pub struct VibratingSet<'s> {
     pub(super) work: Work,
     /// What it took so far.
     pub counts: Counts,
-}
-
-/// What sets of one scene share at any speed: tables of contact and the races' matrices.
-#[derive(Debug, Clone)]
-pub struct Prepared<'s> {
-    statics: StaticSet<'s>,
-    tables: SetTables,
 }
 
 /// What a run took.
@@ -134,6 +126,8 @@ pub(super) type Loads = (Vec<Port>, Vec<f64>);
 #[derive(Debug, Default)]
 pub(super) struct Work {
     pub(super) load: DVector<f64>,
+    /// What of it the tooth pairs leave to the races.
+    pub(super) left: DVector<f64>,
     pub(super) free: DVector<f64>,
     pub(super) b: DVector<f64>,
     pub(super) x: DVector<f64>,
@@ -148,70 +142,8 @@ pub(super) struct Work {
 /// Degrees of freedom of all bodies from which each gets a thread of its own.
 const LARGE: usize = 10_000;
 
-/// Fewest steps of a mesh cycle.
-const LEAST_STEPS: usize = 16;
-
 impl<'s> VibratingSet<'s> {
-    /// A set at rest without load under a torque on the sun of the given sense, meshes sized for
-    /// `force` (N) each.
-    ///
-    /// # Errors
-    /// If the scene lacks what the bodies need, or a mesh, a factor or a table cannot be had.
-    pub fn new(
-        scene: &Scene,
-        bodies: &'s Bodies,
-        sense: Facing,
-        imperfections: Imperfections,
-        motive: Motive,
-        force: f64,
-    ) -> Result<Self, FeError> {
-        solves_contact(scene)?;
-        fit(scene, &motive)?;
-        let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
-        let tables = statics.tables(force, &motive.positions())?;
-        Self::assemble(scene, statics, motive, tables)
-    }
-
-    /// What sets of one scene, sense and number of steps share at any speed; tables sized for `force`
-    /// (N) in each mesh.
-    ///
-    /// # Errors
-    /// As [`VibratingSet::new`].
-    pub fn prepare(
-        scene: &Scene,
-        bodies: &'s Bodies,
-        sense: Facing,
-        imperfections: Imperfections,
-        motive: Motive,
-        force: f64,
-    ) -> Result<Prepared<'s>, FeError> {
-        solves_contact(scene)?;
-        fit(scene, &motive)?;
-        let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
-        let tables = statics.tables(force, &motive.positions())?;
-        Ok(Prepared { statics, tables })
-    }
-
-    /// A set like [`VibratingSet::new`] on what was prepared for the same scene.
-    ///
-    /// # Errors
-    /// As [`VibratingSet::new`], and if other steps in the cycle were prepared for.
-    pub fn on(scene: &Scene, prepared: &Prepared<'s>, motive: Motive) -> Result<Self, FeError> {
-        solves_contact(scene)?;
-        fit(scene, &motive)?;
-        let Prepared { statics, tables } = prepared.clone();
-        if !motive.positions().iter().all(|p| statics.is_covered(*p, &tables)) {
-            return Err(FeError::Unfit {
-                key: "tables".into(),
-                value: format!("{} tables", tables.list.len()),
-                allowed: "tables of the same steps in a cycle".into(),
-                why: "phases of the mesh cycle are never interpolated".into(),
-            });
-        }
-        Self::assemble(scene, statics, motive, tables)
-    }
-
-    fn assemble(
+    pub(super) fn assemble(
         scene: &Scene,
         statics: StaticSet<'s>,
         motive: Motive,
@@ -230,7 +162,7 @@ impl<'s> VibratingSet<'s> {
             allowed: "a positive length of time".into(),
             why: "speed and steps a cycle, or the step itself, give none".into(),
         })?;
-        let maps = tables.list.iter().map(|_| ContactMaps::default()).collect();
+        let maps = tables.list.iter().map(|_| ContactMaps::new(&tables.settings)).collect();
         let damping = Proportional {
             alpha: scene.damping.mass_proportional_per_s,
             beta: scene.damping.stiffness_proportional_s,
@@ -287,6 +219,7 @@ impl<'s> VibratingSet<'s> {
             seat_stiffness,
             gears,
             inverse: DMatrix::zeros(n, n),
+            packed_inverse: Packed::default(),
             gyroscopic,
             frames: (0..count).map(|_| None).collect(),
             frames_with_backs: (0..count).map(|_| None).collect(),
@@ -306,6 +239,7 @@ impl<'s> VibratingSet<'s> {
         };
         set.factorise()?;
         set.work.load = DVector::zeros(n);
+        set.work.left = DVector::zeros(n);
         set.work.free = DVector::zeros(n);
         set.work.x = DVector::zeros(n);
         set.work.history = vec![0.0; n];
@@ -349,6 +283,7 @@ impl<'s> VibratingSet<'s> {
         }
         let singular = || FeError::NoEquilibrium("the races have no inertia".into());
         self.inverse = a.try_inverse().ok_or_else(singular)?;
+        self.packed_inverse = Packed::new(&self.inverse);
         Ok(())
     }
 
@@ -372,7 +307,7 @@ impl<'s> VibratingSet<'s> {
 
     /// A frame without back flanks.
     pub(super) fn frame_at(&self, step_in_cycle: usize) -> Option<&Frame> {
-        self.frames[step_in_cycle].as_ref()
+        self.frames[step_in_cycle].as_deref()
     }
 
     /// Steps in the cycle of the state before the last step and of the present one.
@@ -381,23 +316,10 @@ impl<'s> VibratingSet<'s> {
         ((self.step_in_cycle + count - 1) % count, self.step_in_cycle)
     }
 
-    /// ½ pᵀ C p of one table at approaches less offsets, J.
-    pub(super) fn law_energy(
-        &mut self,
-        table: usize,
-        delta: &[f64],
-        hint: usize,
-    ) -> Result<f64, FeError> {
-        let scale = (self.tables.settings.force, self.tables.settings.window);
-        let maps = &mut self.maps[table];
-        let place = maps.find(&self.tables.list[table], delta, scale, hint, &ActiveSet)?;
-        Ok(maps.map(place).energy(delta))
-    }
-
     /// The frame of the last step.
     pub(super) fn current_frame(&self) -> Option<&Frame> {
         let list = if self.touched_back { &self.frames_with_backs } else { &self.frames };
-        list[self.step_in_cycle].as_ref()
+        list[self.step_in_cycle].as_deref()
     }
 
     /// Displacements of carrier, ring, sun (x, y, m; θ, rad; carrier frame) and of the planets
@@ -440,54 +362,13 @@ impl<'s> VibratingSet<'s> {
     pub fn bytes(&self) -> [usize; 3] {
         let frames = self.frames.iter().chain(&self.frames_with_backs).flatten();
         let maps = self.maps.iter().map(ContactMaps::bytes).sum();
-        [self.tables.bytes(), maps, frames.map(Frame::bytes).sum()]
+        [self.tables.bytes(), maps, frames.map(|frame| frame.bytes()).sum()]
     }
 
     /// Contact problems solved so far, and maps kept.
     pub fn contact_counts(&self) -> [usize; 2] {
         [self.maps.iter().map(|m| m.solved).sum(), self.maps.iter().map(ContactMaps::count).sum()]
     }
-}
-
-/// Refuses the rung whose meshes follow a law.
-fn solves_contact(scene: &Scene) -> Result<(), FeError> {
-    match scene.dynamics.rung {
-        Rung::MeshLaw => Err(FeError::NoContact),
-        _ => Ok(()),
-    }
-}
-
-/// Refuses damping that is no number, and steps that leave nothing of a cycle: scenes can be built in
-/// memory, past the reader's checks.
-pub(super) fn fit(scene: &Scene, motive: &Motive) -> Result<(), FeError> {
-    let refuse = |key: &str, value: f64, allowed: &str, why: &str| {
-        let (key, value) = (key.to_owned(), format!("{value}"));
-        Err(FeError::Unfit { key, value, allowed: allowed.into(), why: why.into() })
-    };
-    let d = &scene.damping;
-    let values = [
-        ("damping.mass_proportional_per_s", d.mass_proportional_per_s),
-        ("damping.stiffness_proportional_s", d.stiffness_proportional_s),
-        ("damping.bearing_s", d.bearing_s),
-    ];
-    for (key, value) in values {
-        if !(value >= 0.0 && value.is_finite()) {
-            let why = "negative damping feeds the motion, and what is no number ends it";
-            return refuse(key, value, "a finite number, at least 0", why);
-        }
-    }
-    if let Motive::Turning { mesh_frequency, steps_per_cycle } = *motive {
-        if steps_per_cycle < LEAST_STEPS {
-            let why = "fewer steps see neither the second tooth pair nor a harmonic";
-            let value = steps_per_cycle as f64;
-            return refuse("dynamics.steps_per_cycle", value, "at least 16", why);
-        }
-        if !(mesh_frequency > 0.0 && mesh_frequency.is_finite()) {
-            let why = "a set that stands still has its own kind of run";
-            return refuse("operation.speed_rpm", mesh_frequency, "a speed above 0", why);
-        }
-    }
-    Ok(())
 }
 
 /// Speed of the carrier (rad/s) at a mesh frequency (Hz), seen so that the sun turns counter-clockwise

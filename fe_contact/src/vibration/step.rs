@@ -6,7 +6,8 @@ use rayon::prelude::*;
 use super::body::RaceMotion;
 use super::frame::{Combination, Frame};
 use super::gear::Gear;
-use super::set::{Loads, Motive, VibratingSet};
+use super::packed::Packed;
+use super::set::{Loads, Motive, VibratingSet, Work};
 use crate::complementarity::ActiveSet;
 use crate::contact::ContactMaps;
 use crate::error::FeError;
@@ -42,7 +43,9 @@ impl VibratingSet<'_> {
             }
         }
         self.bearings.predict(&self.rule, self.carrier.as_ref(), &mut self.work.load);
-        self.work.free.gemv(1.0, &self.inverse, &self.work.load, 0.0);
+        self.work.free.fill(0.0);
+        let Work { load, free, .. } = &mut self.work;
+        self.packed_inverse.add_product(load.as_slice(), free.as_mut_slice());
         let mut with_backs = false;
         let mut frame = self.take_frame(false)?;
         self.contact(&mut frame)?;
@@ -113,9 +116,8 @@ impl VibratingSet<'_> {
             self.approaches = DVector::zeros(count);
         }
         // b = rows · x_free + elastic − offsets − lagging · known
-        work.b.rows_mut(0, count).gemv(1.0, &frame.rows, &work.free, 0.0);
-        for (b, offset) in work.b.iter_mut().zip(&frame.offsets) {
-            *b -= offset;
+        for ((b, row), offset) in work.b.iter_mut().zip(&frame.rows).zip(&frame.offsets) {
+            *b = row.dot(work.free.as_slice()) - offset;
         }
         for ((gear, own), (ports, _)) in self.gears.iter().zip(&frame.own).zip(&work.ports) {
             if gear.vibrating.unknowns() > 0 {
@@ -124,38 +126,44 @@ impl VibratingSet<'_> {
                 }
             }
         }
+        let mut lags = frame.lags.as_slice();
         for (memory, mesh) in self.memory.iter().zip(&frame.meshes) {
-            for (k, pair) in mesh.pairs.iter().enumerate() {
-                let known = memory.known(&self.lag, *pair);
-                if known != 0.0 {
-                    for i in mesh.first..mesh.first + mesh.count {
-                        work.b[i] -= frame.lagging[(i, mesh.first + k)] * known;
-                    }
-                }
-                // First guess: the forces of the step before.
-                self.forces[mesh.first + k] = memory.now(*pair);
+            let range = mesh.first..mesh.first + mesh.count;
+            let own = &mut work.b.as_mut_slice()[range.clone()];
+            for slot in &frame.slots[range] {
+                let known = memory.known(&self.lag, *slot);
+                let column;
+                (column, lags) = lags.split_at(mesh.count);
+                own.iter_mut().zip(column).for_each(|(b, f)| *b -= f * known);
             }
         }
-        for mesh in &frame.meshes[self.memory.len()..] {
-            self.forces.rows_mut(mesh.first, mesh.count).fill(0.0);
-        }
         let (tables, solver) = (&self.tables, &ActiveSet);
-        let scale = (tables.settings.force, tables.settings.window);
-        let b = work.b.rows(0, count);
-        let mut approaches = self.approaches.rows_mut(0, count);
-        let mut forces = self.forces.rows_mut(0, count);
-        approaches.copy_from(&b);
-        approaches.gemv(-1.0, &frame.receptance, &forces, 1.0);
-        for mesh in &mut frame.meshes {
-            if mesh.map >= self.maps[mesh.table].count() {
-                let delta = &approaches.as_slice()[mesh.first..mesh.first + mesh.count];
-                let table = &tables.list[mesh.table];
-                mesh.map = self.maps[mesh.table].find(table, delta, scale, 0, solver)?;
+        let b = &work.b.as_slice()[..count];
+        let approaches = &mut self.approaches.as_mut_slice()[..count];
+        let forces = &mut self.forces.as_mut_slice()[..count];
+        if frame.meshes.iter().any(|mesh| mesh.held.place().is_none()) {
+            // First guess at a position not met before: the forces of the last step.
+            forces.fill(0.0);
+            for (memory, mesh) in self.memory.iter().zip(&frame.meshes) {
+                let own = mesh.first..mesh.first + mesh.count;
+                let slots = frame.slots[own.clone()].iter();
+                forces[own].iter_mut().zip(slots).for_each(|(p, slot)| *p = memory.now(*slot));
+            }
+            for (i, (delta, b)) in approaches.iter_mut().zip(b).enumerate() {
+                let row = frame.receptance.row(i);
+                *delta = b - row.iter().zip(&*forces).map(|(y, p)| y * p).sum::<f64>();
+            }
+            for mesh in &mut frame.meshes {
+                if mesh.held.place().is_none() {
+                    let delta = &approaches[mesh.first..mesh.first + mesh.count];
+                    let (table, maps) = (&tables.list[mesh.table], &mut self.maps[mesh.table]);
+                    maps.find(table, delta, &mut mesh.held, solver)?;
+                }
             }
         }
         let mut residual = f64::INFINITY;
         for iteration in 0..MOST_ITERATIONS {
-            let known = combination(frame, &self.maps, &mut work.ids);
+            let known = combination(frame, &mut work.ids);
             let place = match known {
                 Some(place) => place,
                 None => {
@@ -166,30 +174,45 @@ impl VibratingSet<'_> {
             };
             self.counts.solutions += 1;
             let chosen = &frame.combinations[place];
-            forces.copy_from(&chosen.offset);
-            forces.gemv(1.0, &chosen.slope, &b, 1.0);
+            // forces takes the approaches until they hold: δ = W b + w
+            forces.copy_from_slice(&chosen.offset);
+            chosen.slope.add_product(b, forces);
             // Where sets alternate, a part of the way is taken.
             let part = if iteration < 12 { 1.0 } else { 0.5 };
             residual = 0.0;
-            for (i, b) in b.iter().enumerate() {
-                let row = frame.receptance.row(i);
-                let along: f64 = row.iter().zip(forces.iter()).map(|(y, p)| y * p).sum();
-                let change = b - along - approaches[i];
+            for (delta, next) in approaches.iter_mut().zip(&*forces) {
+                let change = next - *delta;
                 residual = residual.max(change.abs());
-                approaches[i] += part * change;
+                *delta = if part == 1.0 { *next } else { *delta + part * change };
             }
             let mut all_hold = part == 1.0 || residual < 1e-14;
             for mesh in &mut frame.meshes {
-                let delta = &approaches.as_slice()[mesh.first..mesh.first + mesh.count];
-                let (table, maps) = (&tables.list[mesh.table], &mut self.maps[mesh.table]);
-                if !maps.holds(mesh.map, table, delta, scale) {
-                    mesh.map = maps.find(table, delta, scale, mesh.map, solver)?;
+                let delta = &approaches[mesh.first..mesh.first + mesh.count];
+                let maps = &mut self.maps[mesh.table];
+                if !maps.holds(&mut mesh.held, delta) {
+                    maps.find(&tables.list[mesh.table], delta, &mut mesh.held, solver)?;
                     all_hold = false;
                 }
             }
             if all_hold {
-                work.x.copy_from(&work.free);
-                work.x.gemv(-1.0, &frame.answers, &forces, 1.0);
+                // P = S δ + P₀,  x = A⁻¹ (load − rowsᵀ P)
+                let mut laws = frame.combinations[place].laws.as_slice();
+                for mesh in &frame.meshes {
+                    let own = mesh.first..mesh.first + mesh.count;
+                    let delta = &approaches[own.clone()];
+                    for force in &mut forces[own] {
+                        let law;
+                        (law, laws) = laws.split_at(1 + mesh.count);
+                        let along = law[1..].iter().zip(delta).map(|(s, d)| s * d);
+                        *force = law[0] + along.sum::<f64>();
+                    }
+                }
+                work.left.copy_from(&work.load);
+                for (row, force) in frame.rows.iter().zip(&*forces) {
+                    row.add_to(-force, work.left.as_mut_slice());
+                }
+                work.x.fill(0.0);
+                self.packed_inverse.add_product(work.left.as_slice(), work.x.as_mut_slice());
                 return Ok(());
             }
         }
@@ -206,7 +229,7 @@ impl VibratingSet<'_> {
         }
         for mesh in &frame.meshes {
             let table = &self.tables.list[mesh.table];
-            let map = self.maps[mesh.table].map(mesh.map);
+            let map = mesh.map(&self.maps);
             if let Some(pair) = map.overflows {
                 let (cells, force_n) = (&table.pairs[pair], self.forces[mesh.first + pair]);
                 if force_n > 0.0 {
@@ -258,37 +281,41 @@ impl VibratingSet<'_> {
         self.motion.advance(&self.rule, self.work.x.as_slice());
         for (memory, mesh) in self.memory.iter_mut().zip(&frame.meshes) {
             let own = &self.forces.as_slice()[mesh.first..mesh.first + mesh.count];
-            memory.advance(&self.lag, mesh.pairs.iter().copied().zip(own.iter().copied()));
+            let slots = &frame.slots[mesh.first..mesh.first + mesh.count];
+            memory.advance(&self.lag, slots.iter().copied().zip(own.iter().copied()));
         }
     }
 }
 
 /// The combination whose maps hold now, if it was solved before; `ids` takes the maps' ids.
-fn combination(frame: &Frame, maps: &[ContactMaps], ids: &mut Vec<u64>) -> Option<usize> {
+fn combination(frame: &Frame, ids: &mut Vec<u64>) -> Option<usize> {
     ids.clear();
-    ids.extend(frame.meshes.iter().map(|mesh| maps[mesh.table].map(mesh.map).id));
+    ids.extend(frame.meshes.iter().map(|mesh| mesh.held.id()));
     frame.combinations.iter().position(|c| c.maps == *ids)
 }
 
-/// (I + S Y) P = S b + P₀.
+/// (I + Y S) δ = b − Y P₀.
 fn combine(frame: &Frame, maps: &[ContactMaps], ids: &[u64]) -> Result<Combination, FeError> {
     let count = frame.offsets.len();
     let (mut s, mut p0) = (DMatrix::zeros(count, count), DVector::zeros(count));
+    let mut laws = Vec::with_capacity(count * 4);
     for mesh in &frame.meshes {
-        let map = maps[mesh.table].map(mesh.map);
+        let map = mesh.map(maps);
         for i in 0..mesh.count {
             p0[mesh.first + i] = map.forces[i];
+            laws.push(map.forces[i]);
+            laws.extend_from_slice(&map.stiffness[i * mesh.count..(i + 1) * mesh.count]);
             for j in 0..mesh.count {
                 s[(mesh.first + i, mesh.first + j)] = map.stiffness[i * mesh.count + j];
             }
         }
     }
-    let matrix = DMatrix::identity(count, count) + &s * &frame.receptance;
-    let lu = matrix.lu();
+    let matrix = DMatrix::identity(count, count) + &frame.receptance * &s;
     let singular = || FeError::NoEquilibrium("the step's contact problem is singular".into());
-    let slope = lu.solve(&s).ok_or_else(singular)?;
-    let offset = lu.solve(&p0).ok_or_else(singular)?;
-    Ok(Combination { maps: ids.to_vec(), slope, offset })
+    let slope = matrix.try_inverse().ok_or_else(singular)?;
+    let offset = &slope * (&frame.receptance * -p0);
+    let slope = Packed::new(&slope);
+    Ok(Combination { maps: ids.to_vec(), slope, offset: offset.as_slice().to_vec(), laws })
 }
 
 fn add_of(races: &Races, body: usize, own: [f64; 3], load: &mut DVector<f64>) {

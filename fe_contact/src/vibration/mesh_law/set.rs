@@ -7,7 +7,8 @@ use gearset::{Facing, MeshKind, MeshLaw, Scene};
 use nalgebra::DVector;
 
 use super::super::build::{body_mass, gyroscopic_terms};
-use super::super::set::{Motive, carrier_speed, fit};
+use super::super::prepared::fit;
+use super::super::set::{Motive, carrier_speed};
 use super::law::Tables;
 use crate::contact::PairFrame;
 use crate::error::FeError;

@@ -1,0 +1,116 @@
+//! What has to be in order before a set can turn, and what sets of one scene share.
+
+use gearset::{Facing, Rung, Scene};
+
+use super::set::{Motive, VibratingSet};
+use crate::error::FeError;
+use crate::statics::{Bodies, Imperfections, SetTables, StaticSet};
+
+/// Fewest steps of a mesh cycle.
+const LEAST_STEPS: usize = 16;
+
+/// What sets of one scene share at any speed: tables of contact and the races' matrices.
+#[derive(Debug, Clone)]
+pub struct Prepared<'s> {
+    statics: StaticSet<'s>,
+    tables: SetTables,
+}
+
+impl<'s> VibratingSet<'s> {
+    /// A set at rest without load under a torque on the sun of the given sense, meshes sized for
+    /// `force` (N) each.
+    ///
+    /// # Errors
+    /// If the scene lacks what the bodies need, or a mesh, a factor or a table cannot be had.
+    pub fn new(
+        scene: &Scene,
+        bodies: &'s Bodies,
+        sense: Facing,
+        imperfections: Imperfections,
+        motive: Motive,
+        force: f64,
+    ) -> Result<Self, FeError> {
+        let prepared = Self::prepare(scene, bodies, sense, imperfections, motive, force)?;
+        Self::assemble(scene, prepared.statics, motive, prepared.tables)
+    }
+
+    /// What sets of one scene, sense and number of steps share at any speed; tables sized for `force`
+    /// (N) in each mesh.
+    ///
+    /// # Errors
+    /// As [`VibratingSet::new`].
+    pub fn prepare(
+        scene: &Scene,
+        bodies: &'s Bodies,
+        sense: Facing,
+        imperfections: Imperfections,
+        motive: Motive,
+        force: f64,
+    ) -> Result<Prepared<'s>, FeError> {
+        solves_contact(scene)?;
+        fit(scene, &motive)?;
+        let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
+        let tables = statics.tables(force, &motive.positions())?;
+        Ok(Prepared { statics, tables })
+    }
+
+    /// A set like [`VibratingSet::new`] on what was prepared for the same scene.
+    ///
+    /// # Errors
+    /// As [`VibratingSet::new`], and if other steps in the cycle were prepared for.
+    pub fn on(scene: &Scene, prepared: &Prepared<'s>, motive: Motive) -> Result<Self, FeError> {
+        solves_contact(scene)?;
+        fit(scene, &motive)?;
+        let Prepared { statics, tables } = prepared.clone();
+        if !motive.positions().iter().all(|p| statics.is_covered(*p, &tables)) {
+            return Err(FeError::Unfit {
+                key: "tables".into(),
+                value: format!("{} tables", tables.list.len()),
+                allowed: "tables of the same steps in a cycle".into(),
+                why: "phases of the mesh cycle are never interpolated".into(),
+            });
+        }
+        Self::assemble(scene, statics, motive, tables)
+    }
+}
+
+/// Refuses the rung whose meshes follow a law.
+fn solves_contact(scene: &Scene) -> Result<(), FeError> {
+    match scene.dynamics.rung {
+        Rung::MeshLaw => Err(FeError::NoContact),
+        _ => Ok(()),
+    }
+}
+
+/// Refuses damping that is no number, and steps that leave nothing of a cycle: scenes can be built in
+/// memory, past the reader's checks.
+pub(super) fn fit(scene: &Scene, motive: &Motive) -> Result<(), FeError> {
+    let refuse = |key: &str, value: f64, allowed: &str, why: &str| {
+        let (key, value) = (key.to_owned(), format!("{value}"));
+        Err(FeError::Unfit { key, value, allowed: allowed.into(), why: why.into() })
+    };
+    let d = &scene.damping;
+    let values = [
+        ("damping.mass_proportional_per_s", d.mass_proportional_per_s),
+        ("damping.stiffness_proportional_s", d.stiffness_proportional_s),
+        ("damping.bearing_s", d.bearing_s),
+    ];
+    for (key, value) in values {
+        if !(value >= 0.0 && value.is_finite()) {
+            let why = "negative damping feeds the motion, and what is no number ends it";
+            return refuse(key, value, "a finite number, at least 0", why);
+        }
+    }
+    if let Motive::Turning { mesh_frequency, steps_per_cycle } = *motive {
+        if steps_per_cycle < LEAST_STEPS {
+            let why = "fewer steps see neither the second tooth pair nor a harmonic";
+            let value = steps_per_cycle as f64;
+            return refuse("dynamics.steps_per_cycle", value, "at least 16", why);
+        }
+        if !(mesh_frequency > 0.0 && mesh_frequency.is_finite()) {
+            let why = "a set that stands still has its own kind of run";
+            return refuse("operation.speed_rpm", mesh_frequency, "a speed above 0", why);
+        }
+    }
+    Ok(())
+}
