@@ -291,6 +291,31 @@ impl MeshLaw {
         self.curves.get(*place as usize)
     }
 
+    /// Curve of a flank at a step of the cycle, front flanks of all meshes counted first, then back
+    /// flanks; `None` if left out.
+    #[inline]
+    pub fn curve(&self, flank: usize, step_in_cycle: usize) -> Option<&MeshCurve> {
+        match flank.checked_sub(self.meshes) {
+            None => Some(self.front(flank, step_in_cycle)),
+            Some(mesh) => self.back(mesh, step_in_cycle),
+        }
+    }
+
+    /// Force (N) and tangent (N/m) of a flank so counted.
+    #[inline]
+    pub fn force(&self, flank: usize, step_in_cycle: usize, deflection: f64) -> (f64, f64) {
+        self.curve(flank, step_in_cycle).map_or((0.0, 0.0), |curve| curve.force(deflection))
+    }
+
+    /// Deflection up to which a flank so counted never touches, m.
+    pub fn silent_up_to_m(&self, flank: usize) -> f64 {
+        let (mesh, side) = match flank.checked_sub(self.meshes) {
+            None => (flank, FlankSide::Front),
+            Some(mesh) => (mesh, FlankSide::Back),
+        };
+        self.first_contact_m(mesh, side).unwrap_or(f64::INFINITY)
+    }
+
     /// Least deflection of first contact of a mesh's flanks over the cycle, m; `None` without them.
     pub fn first_contact_m(&self, mesh: usize, side: FlankSide) -> Option<f64> {
         let starts = (0..self.steps()).map(|step| match side {

@@ -16,7 +16,7 @@ use faer::Mat;
 use dynamics::{
     AverageAcceleration, Coupled, CoupledState, Coupling, CouplingLaw, LinearPart, Motion,
 };
-use gearset::{Facing, FlankSide, MeshCurve, MeshLaw, Scene};
+use gearset::{Facing, MeshLaw, Scene};
 
 use crate::coordinates::{Axis, Body, Coordinates};
 use crate::error::LumpedError;
@@ -27,28 +27,14 @@ use crate::springs::{Rows, SpringId};
 #[derive(Debug, Clone)]
 struct Tables(MeshLaw);
 
-impl Tables {
-    #[inline]
-    fn curve(&self, coupling: usize, step_in_cycle: usize) -> Option<&MeshCurve> {
-        match coupling.checked_sub(self.0.meshes()) {
-            None => Some(self.0.front(coupling, step_in_cycle)),
-            Some(mesh) => self.0.back(mesh, step_in_cycle),
-        }
-    }
-}
-
 impl CouplingLaw for Tables {
     #[inline]
     fn answer(&self, coupling: usize, step_in_cycle: usize, deflection: f64) -> (f64, f64) {
-        self.curve(coupling, step_in_cycle).map_or((0.0, 0.0), |curve| curve.force(deflection))
+        self.0.force(coupling, step_in_cycle, deflection)
     }
 
     fn silent_up_to(&self, coupling: usize) -> f64 {
-        let (mesh, side) = match coupling.checked_sub(self.0.meshes()) {
-            None => (coupling, FlankSide::Front),
-            Some(mesh) => (mesh, FlankSide::Back),
-        };
-        self.0.first_contact_m(mesh, side).unwrap_or(f64::INFINITY)
+        self.0.silent_up_to_m(coupling)
     }
 }
 
@@ -194,7 +180,7 @@ impl TimeVarying {
         let (tables, step) = (self.system.law(), self.step_in_cycle());
         let deflections = self.system.deflections();
         let mut each = deflections.iter().enumerate();
-        each.all(|(k, d)| tables.curve(k, step).is_none_or(|curve| curve.reaches(*d)))
+        each.all(|(k, d)| tables.0.curve(k, step).is_none_or(|curve| curve.reaches(*d)))
     }
 
     /// Step in the mesh cycle.

@@ -2,9 +2,10 @@
 
 use std::fmt::Write as _;
 
-use kuva::backend::svg::SvgBackend;
 use kuva::render::color::Color;
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
+
+use super::picture::Picture;
 
 /// As charts drawn by kuva ask for.
 const FONTS: &str = "DejaVu Sans, Verdana, Liberation Sans, Arial, sans-serif";
@@ -112,6 +113,20 @@ impl Canvas {
         })));
     }
 
+    /// A filled rectangle from a corner.
+    pub(super) fn rectangle(&mut self, corner: Pixel, size: [f64; 2], fill: &'static str) {
+        self.scene.add(Primitive::Rect {
+            x: corner[0],
+            y: corner[1],
+            width: size[0],
+            height: size[1],
+            fill: Color::from(fill),
+            stroke: None,
+            stroke_width: None,
+            opacity: None,
+        });
+    }
+
     /// A filled circle.
     pub(super) fn disc(&mut self, centre: Pixel, radius: f64, fill: &'static str) {
         self.circle(centre, radius, fill, None);
@@ -159,7 +174,7 @@ impl Canvas {
         self.text([middle, 46.0], Type::new(12, Anchor::Middle).colour("#444444"), caption);
     }
 
-    pub(super) fn svg(&self) -> String {
-        SvgBackend.render_scene(&self.scene)
+    pub(super) fn picture(self) -> Picture {
+        Picture::new(self.scene)
     }
 }

@@ -1,8 +1,8 @@
 //! The Campbell chart of a set: where mesh harmonics meet natural frequencies, and whether they can
 //! excite what they meet.
 
+use super::picture::Picture;
 use gearset::{AllowedKinds, Kinematics, Scene, excitation_of_scene};
-use kuva::backend::svg::SvgBackend;
 use kuva::plot::{LinePlot, LineStyle, MarkerShape, ScatterPlot};
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
@@ -14,7 +14,7 @@ const TOP_SPEED_RPM: f64 = 2500.0;
 const TOP_FREQUENCY_HZ: f64 = 2500.0;
 
 /// SVG of the chart; `None` for a scene without teeth or operating point.
-pub(crate) fn campbell_svg(scene: &Scene, modes: &NaturalModes) -> Option<String> {
+pub(crate) fn campbell(scene: &Scene, modes: &NaturalModes) -> Option<Picture> {
     let strengths = excitation_of_scene(scene, HARMONICS)?;
     let mut at_top = scene.clone();
     at_top.operation.as_mut()?.speed_rpm = TOP_SPEED_RPM;
@@ -76,7 +76,7 @@ pub(crate) fn campbell_svg(scene: &Scene, modes: &NaturalModes) -> Option<String
         .with_subtitle_size(12)
         .with_x_label("sun speed, rpm")
         .with_y_label("natural frequency, Hz");
-    Some(SvgBackend.render_scene(&render_multiple(plots, layout)))
+    Some(Picture::new(render_multiple(plots, layout)))
 }
 
 fn admits(allowed: AllowedKinds, mode_type: ModeType) -> bool {

@@ -1,6 +1,6 @@
 //! Line charts, drawn the same way by every verb.
 
-use kuva::backend::svg::SvgBackend;
+use super::picture::Picture;
 use kuva::plot::{LinePlot, LineStyle, MarkerShape, ScatterPlot};
 use kuva::render::annotations::ReferenceLine;
 use kuva::render::figure::Figure;
@@ -62,14 +62,14 @@ pub(crate) fn colour(i: usize) -> &'static str {
 }
 
 /// SVG of curves over one pair of axes.
-pub(crate) fn chart(labels: &Labels<'_>, curves: &[Curve]) -> String {
+pub(crate) fn chart(labels: &Labels<'_>, curves: &[Curve]) -> Picture {
     let plots = plots(curves);
     let layout = layout(labels, &plots).with_subtitle(&labels.subtitle).with_subtitle_size(12);
-    SvgBackend.render_scene(&render_multiple(plots, layout))
+    Picture::new(render_multiple(plots, layout))
 }
 
 /// SVG of panels in so many columns under one title.
-pub(crate) fn panels(title: &str, columns: usize, size: (f64, f64), list: &[Panel<'_>]) -> String {
+pub(crate) fn panels(title: &str, columns: usize, size: (f64, f64), list: &[Panel<'_>]) -> Picture {
     let (mut all, mut layouts) = (Vec::new(), Vec::new());
     for panel in list {
         let plots = plots(&panel.curves);
@@ -90,7 +90,7 @@ pub(crate) fn panels(title: &str, columns: usize, size: (f64, f64), list: &[Pane
         .with_cell_size(size.0, size.1)
         .with_plots(all)
         .with_layouts(layouts);
-    SvgBackend.render_scene(&figure.render())
+    Picture::new(figure.render())
 }
 
 fn plots(curves: &[Curve]) -> Vec<Plot> {

@@ -2,6 +2,7 @@
 
 use super::axes::{Axes, Scale, spread};
 use super::canvas::{Anchor, Canvas, Pen, Type};
+use super::picture::Picture;
 use super::sweep_figures::{Quantity, Spot, Subject, colour_of, key_of_types};
 
 const WIDTH: f64 = 860.0;
@@ -20,7 +21,7 @@ const CURVE: Pen = Pen::new("#000000", 1.4);
 const DOWN: Pen = Pen::new("#d55e00", 1.2).dashed("6 3");
 
 /// SVG of all harmonics of a quantity.
-pub(super) fn picture(subject: &Subject, quantity: &Quantity) -> String {
+pub(super) fn picture(subject: &Subject, quantity: &Quantity) -> Picture {
     let count = quantity.harmonics.len() as f64;
     let mut canvas = Canvas::new([WIDTH, HEAD + count * (PANEL + LABELS) + 56.0]);
     canvas.head(&format!("{}: {}", subject.title, quantity.title), &subject.caption);
@@ -54,7 +55,7 @@ pub(super) fn picture(subject: &Subject, quantity: &Quantity) -> String {
             canvas.text([axes.right(), axes.bottom() + 36.0], kind, note);
         }
     }
-    canvas.svg()
+    canvas.picture()
 }
 
 /// Where l f_m is a natural frequency.

@@ -12,6 +12,7 @@ use crate::error::CommandError;
 use super::figure::{Curve, Labels, Panel, colour, panels};
 use super::impulse::Found;
 use super::mode_shapes;
+use super::picture::Picture;
 use super::save;
 
 /// Zeros behind a decay before its spectrum is taken, in lengths of the decay.
@@ -23,12 +24,12 @@ const PASSING: &str = "#c4c8cc";
 
 pub(super) fn draw(found: &Found, folder: &Path) -> Result<(), CommandError> {
     if let Some(svg) = spectra(found)? {
-        save(&folder.join("spectrum.svg"), &svg)?;
+        svg.save(folder, "spectrum")?;
     }
-    save(&folder.join("stabilisation.svg"), &stabilisation(found))?;
+    stabilisation(found).save(folder, "stabilisation")?;
     save(&folder.join("mode_shapes.svg"), &mode_shapes::picture(found))?;
     if let Some(band) = &found.band {
-        save(&folder.join("band.svg"), &over_the_cycle(found, band))?;
+        over_the_cycle(found, band).save(folder, "band")?;
     }
     Ok(())
 }
@@ -39,7 +40,7 @@ fn frequencies(test: &ImpulseTest) -> Vec<f64> {
 
 /// What the sun's translation holds after a force on the sun and after one on the carrier, as in
 /// Fig. 3 of Parker, Agashe & Vijayakar (2000); `None` if neither is there to be pushed.
-fn spectra(found: &Found) -> Result<Option<String>, CommandError> {
+fn spectra(found: &Found) -> Result<Option<Picture>, CommandError> {
     let test = &found.test;
     let pulses = [
         ("sun x force", "The sun's translation after a force pulse on the sun"),
@@ -82,7 +83,7 @@ fn translation(found: &Found, decay: &Decay) -> Result<Option<Vec<(f64, f64)>>, 
 }
 
 /// Poles of every order.
-fn stabilisation(found: &Found) -> String {
+fn stabilisation(found: &Found) -> Picture {
     let (test, chart) = (&found.test, &found.test.identification.chart);
     let ((low, high), modes) = (test.settings.band_hz, frequencies(test));
     let (mut passing, mut stable, mut chosen) = (Vec::new(), Vec::new(), Vec::new());
@@ -122,7 +123,7 @@ fn stabilisation(found: &Found) -> String {
 
 /// Each mode of the test's band over the mesh cycle, then all modes above it as points: what a place
 /// among those of its type means may change there from state to state.
-fn over_the_cycle(found: &Found, band: &FrequencyBand) -> String {
+fn over_the_cycle(found: &Found, band: &FrequencyBand) -> Picture {
     let (low, high) = found.test.settings.band_hz;
     let points = |mode: &ModeBand, t: usize| -> Vec<(f64, f64)> {
         let own = band.positions.iter().zip(&mode.frequencies_hz[t]);

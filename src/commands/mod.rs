@@ -11,6 +11,7 @@ mod mesh;
 mod mesh_picture;
 mod mode_shapes;
 mod modes;
+mod picture;
 mod report;
 mod rules;
 mod rungs_chart;
@@ -22,6 +23,8 @@ mod static_set;
 mod statics;
 mod sweep;
 mod sweep_output;
+#[cfg(feature = "parquet")]
+mod sweep_parquet;
 mod sweep_store;
 mod validate;
 
@@ -31,6 +34,7 @@ mod canvas;
 mod harmonic_column;
 mod sweep_figures;
 mod torque_figures;
+mod torque_map;
 mod waterfall;
 
 pub use schema::schemas;
@@ -65,11 +69,15 @@ fn read_scene(path: &Path) -> Result<Scene, CommandError> {
 
 /// Writes a file, creating its folder if need be.
 fn save(path: &Path, text: &str) -> Result<(), CommandError> {
+    save_bytes(path, text.as_bytes())
+}
+
+fn save_bytes(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
     let failed = |source| CommandError::File { what: "cannot write", path: path.into(), source };
     if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
         std::fs::create_dir_all(folder).map_err(failed)?;
     }
-    std::fs::write(path, text).map_err(failed)
+    std::fs::write(path, bytes).map_err(failed)
 }
 
 /// A scene that FE/contact cannot work with, or cannot be solved.

@@ -4,13 +4,15 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use gearset::{Geometry, Phasing};
 use validation::{PublishedScene, Reference, Status, ValidationError, Verdict, scene, steps};
 
 use crate::error::CommandError;
 
-use super::chart::campbell_svg;
-use super::rungs_chart::rungs_svg;
+use super::chart::campbell;
+use super::rungs_chart::rungs_chart;
 use super::torque_figures::kept_peaks;
+use super::torque_map::torque_map;
 use super::validate::{cells, status_word};
 
 /// Writes the folder, creating it if need be.
@@ -26,28 +28,38 @@ pub(crate) fn write(verdict: &Verdict, folder: &Path) -> Result<(), CommandError
     save("verdict.json", serde_json::to_string_pretty(verdict)? + "\n")?;
     save("verdict.md", markdown(verdict)?)?;
     let sets = [
-        ("campbell_4p.svg", PublishedScene::Oh58FourPlanets),
-        ("campbell_3p.svg", PublishedScene::Oh58ThreePlanets),
+        ("campbell_4p", PublishedScene::Oh58FourPlanets),
+        ("campbell_3p", PublishedScene::Oh58ThreePlanets),
     ];
     for (name, which) in sets {
         let scene = scene(which).map_err(ValidationError::from)?;
         let (_, modes) =
             super::modes::solve(&scene).map_err(|_| ValidationError::Incomplete("lumped model"))?;
-        if let Some(svg) = campbell_svg(&scene, &modes) {
-            save(name, svg)?;
+        if let Some(picture) = campbell(&scene, &modes) {
+            picture.save(folder, name)?;
         }
     }
-    if let Some(svg) = rungs_svg(verdict) {
-        save("rungs.svg", svg)?;
+    if let Some(picture) = rungs_chart(verdict) {
+        picture.save(folder, "rungs")?;
     }
-    let kept = Reference::load().map_err(ValidationError::from)?.torque_peaks;
+    let reference = Reference::load().map_err(ValidationError::from)?;
+    torque_map(&reference.torque_map, paper_gamma()?).save(folder, "torque_map")?;
+    let kept = reference.torque_peaks;
     let mut systems: Vec<&str> = kept.peak.iter().map(|p| p.system.as_str()).collect();
     systems.dedup();
     for system in systems {
-        let name = format!("torque_{}.svg", system.replace(' ', "_"));
-        save(&name, kept_peaks(&kept, system))?;
+        let name = format!("torque_{}", system.replace(' ', "_"));
+        kept_peaks(&kept, system).save(folder, &name)?;
     }
     Ok(())
+}
+
+/// γ of the published four-planet set, cycles.
+fn paper_gamma() -> Result<f64, ValidationError> {
+    let scene = scene(PublishedScene::Oh58FourPlanets)?;
+    let incomplete = || ValidationError::Incomplete("geometry");
+    let geometry = Geometry::from_scene(&scene).and_then(Result::ok).ok_or_else(incomplete)?;
+    Ok(Phasing::new(&geometry, &scene.planets).ok_or_else(incomplete)?.gamma())
 }
 
 fn markdown(verdict: &Verdict) -> Result<String, CommandError> {

@@ -3,10 +3,11 @@
 use validation::{Value, Verdict};
 
 use super::figure::{Curve, Labels, chart};
+use super::picture::Picture;
 
 /// Largest difference of a tabled frequency to `full` over the number of modes, one curve a set; `None`
 /// unless a verdict holds more than the quasi-static rung, as the full profile's does.
-pub(crate) fn rungs_svg(verdict: &Verdict) -> Option<String> {
+pub(crate) fn rungs_chart(verdict: &Verdict) -> Option<Picture> {
     let curve = |name: &str| {
         let prefix = "fe.rungs.frequency.";
         let suffix = format!(".{name}");

@@ -14,7 +14,8 @@ use crate::error::CommandError;
 use crate::output;
 
 use super::figure::{Curve, Labels, chart};
-use super::{fe_refused, save, statics, unfit};
+use super::picture::Picture;
+use super::{fe_refused, statics, unfit};
 
 /// `static --format json` of a gear pair. δ = r_b · elastic rotation of the driving gear, the driven
 /// one held; positive in approach, zero unloaded.
@@ -179,7 +180,7 @@ fn draw(scene: &Scene, cycle: &PairCycle, folder: &Path) -> Result<(), CommandEr
             Curve::new("tangent ΔF/Δδ", over(&|p| p.step_tangent * 1e-6)).dashed(),
         ],
     );
-    save(&folder.join("mesh_stiffness.svg"), &stiffness)?;
+    stiffness.save(folder, "mesh_stiffness")?;
     let error = chart(
         &Labels {
             title: "Transmission error",
@@ -189,7 +190,7 @@ fn draw(scene: &Scene, cycle: &PairCycle, folder: &Path) -> Result<(), CommandEr
         },
         &[Curve::new("", over(&|p| p.deflection * 1e6))],
     );
-    save(&folder.join("transmission_error.svg"), &error)?;
+    error.save(folder, "transmission_error")?;
     // One tooth pair followed from its first to its last touch.
     let mut shares: Vec<(f64, f64)> = Vec::new();
     for p in &cycle.positions {
@@ -207,10 +208,10 @@ fn draw(scene: &Scene, cycle: &PairCycle, folder: &Path) -> Result<(), CommandEr
         },
         &[Curve::new("", shares)],
     );
-    save(&folder.join("load_sharing.svg"), &sharing)?;
+    sharing.save(folder, "load_sharing")?;
     let heaviest = cycle.positions.iter().max_by(|a, b| largest(a).total_cmp(&largest(b)));
     if let Some(p) = heaviest {
-        save(&folder.join("pressure.svg"), &pressure(p, about))?;
+        pressure(p, about).save(folder, "pressure")?;
     }
     Ok(())
 }
@@ -220,7 +221,7 @@ fn largest(p: &PairAtPhase) -> f64 {
 }
 
 /// Pressure of the heaviest pair with its fitted ellipse.
-fn pressure(p: &PairAtPhase, about: String) -> String {
+fn pressure(p: &PairAtPhase, about: String) -> Picture {
     let forces = &p.answer.pair_forces;
     let k = (0..forces.len()).max_by(|a, b| forces[*a].total_cmp(&forces[*b])).unwrap_or(0);
     let cells = &p.table.pairs[k];

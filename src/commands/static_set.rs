@@ -14,7 +14,7 @@ use crate::output;
 
 use super::figure::{Curve, Labels, chart};
 use super::static_pair::PairLoad;
-use super::{fe_refused, save, statics, unfit};
+use super::{fe_refused, statics, unfit};
 
 /// `static --format json` of a whole set. Displacements in the carrier frame, counter-clockwise.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -324,7 +324,7 @@ fn draw(
     let Some(cycle) = cycles.last() else { return Ok(()) };
     let about = format!("{}, {} N·m on the sun", scene.title, cycle.torque_nm);
     let error = cycle.states.iter().map(|s| (s.position, s.transmission_error(radius) * 1e6));
-    let svg = chart(
+    let picture = chart(
         &Labels {
             title: "Transmission error of the set",
             subtitle: about.clone(),
@@ -333,7 +333,7 @@ fn draw(
         },
         &[Curve::new("", error.collect())],
     );
-    save(&folder.join("transmission_error.svg"), &svg)?;
+    picture.save(folder, "transmission_error")?;
     let curves: Vec<Curve> = cycle.states[0]
         .meshes
         .iter()
@@ -344,7 +344,7 @@ fn draw(
             if m.kind == gearset::MeshKind::RingPlanet { curve.dashed() } else { curve }
         })
         .collect();
-    let svg = chart(
+    let picture = chart(
         &Labels {
             title: "Load sharing between the planets",
             subtitle: about.clone(),
@@ -353,7 +353,7 @@ fn draw(
         },
         &curves,
     );
-    save(&folder.join("load_sharing.svg"), &svg)?;
+    picture.save(folder, "load_sharing")?;
     let stiffness: Vec<Curve> = cycle.states[0]
         .meshes
         .iter()
@@ -364,7 +364,7 @@ fn draw(
             Curve::new(m.kind.name(), values.collect())
         })
         .collect();
-    let svg = chart(
+    let picture = chart(
         &Labels {
             title: "Tangent mesh stiffness, planet 0",
             subtitle: about,
@@ -373,13 +373,13 @@ fn draw(
         },
         &stiffness,
     );
-    save(&folder.join("mesh_stiffness.svg"), &svg)?;
+    picture.save(folder, "mesh_stiffness")?;
     if cycles.len() > 1 {
         let (r0, t0) = cycles[0].sun_rms();
         let over = |of: &dyn Fn(&SetCycle) -> f64| -> Vec<(f64, f64)> {
             cycles.iter().map(|c| (c.torque_nm.abs(), of(c))).collect()
         };
-        let svg = chart(
+        let picture = chart(
             &Labels {
                 title: "Static deflection of the sun against torque",
                 subtitle: format!(
@@ -394,7 +394,7 @@ fn draw(
                 Curve::new("translation", over(&|c| c.sun_rms().1 / t0)).dashed(),
             ],
         );
-        save(&folder.join("rms_against_torque.svg"), &svg)?;
+        picture.save(folder, "rms_against_torque")?;
     }
     Ok(())
 }

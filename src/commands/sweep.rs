@@ -72,6 +72,12 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
         write_csv(&sweep, &scene.title, task.torque_nm, &mut table)?;
         let path = folder.join("sweep.csv");
         write_whole(&path, &table).map_err(failed(&path))?;
+        #[cfg(feature = "parquet")]
+        {
+            let table = super::sweep_parquet::parquet(&sweep, &scene.title, task.torque_nm)?;
+            let path = folder.join("sweep.parquet");
+            write_whole(&path, &table).map_err(failed(&path))?;
+        }
         let path = folder.join("sweep.json");
         let sidecar = serde_json::to_string_pretty(&result.sidecar(&task.text))?;
         write_whole(&path, sidecar.as_bytes()).map_err(failed(&path))?;

@@ -10,7 +10,7 @@ use validation::sweep::{Coordinate, Part, Sweep, SweepPoint};
 use crate::error::CommandError;
 
 use super::canvas::{Anchor, Canvas, Pen, Type};
-use super::{harmonic_column, save, waterfall};
+use super::{harmonic_column, waterfall};
 
 /// Amplitudes below this part of the largest of their kind are nothing to draw a panel for.
 const NOTHING: f64 = 1e-9;
@@ -116,11 +116,11 @@ pub(super) fn draw(
     if list.is_empty() {
         return Ok(());
     }
-    save(&folder.join("waterfalls.svg"), &waterfall::over_mesh_frequency(&subject, &list))?;
-    save(&folder.join("frequencies.svg"), &waterfall::over_frequency(&subject, &list))?;
+    waterfall::over_mesh_frequency(&subject, &list).save(folder, "waterfalls")?;
+    waterfall::over_frequency(&subject, &list).save(folder, "frequencies")?;
     for quantity in &list {
-        let name = format!("harmonics_{}.svg", quantity.name);
-        save(&folder.join(name), &harmonic_column::picture(&subject, quantity))?;
+        let name = format!("harmonics_{}", quantity.name);
+        harmonic_column::picture(&subject, quantity).save(folder, &name)?;
     }
     Ok(())
 }

@@ -5,10 +5,11 @@ use validation::{TorquePeak, TorquePeaks};
 use super::axes::{Axes, Scale, spread};
 use super::canvas::{Anchor, Canvas, Pen, Type};
 use super::figure::colour;
+use super::picture::Picture;
 
 /// The kept peaks of one system (`reference/torque_peaks.toml`): sun and planet 0, and the harmonics of
 /// the static deflection that drive them.
-pub(super) fn kept_peaks(kept: &TorquePeaks, system: &str) -> String {
+pub(super) fn kept_peaks(kept: &TorquePeaks, system: &str) -> Picture {
     let panel = |title: &str, of: fn(&TorquePeak) -> &[f64]| PeakPanel {
         title: title.into(),
         series: kept
@@ -61,14 +62,14 @@ const FOOT: f64 = 56.0;
 const PROPORTIONAL: Pen = Pen::new("#9aa0a6", 1.2).dashed("2 3");
 
 /// SVG of peaks over torque, each over its own at its lowest torque.
-fn torque_peaks(title: &str, caption: &str, panels: &[PeakPanel]) -> String {
+fn torque_peaks(title: &str, caption: &str, panels: &[PeakPanel]) -> Picture {
     let cell = LEFT + PEAKS[0] + NAMES;
     let mut canvas = Canvas::new([cell * panels.len().max(1) as f64, HEAD + PEAKS[1] + FOOT]);
     canvas.head(title, caption);
     for (i, panel) in panels.iter().enumerate() {
         peaks(&mut canvas, panel, [LEFT + cell * i as f64, HEAD]);
     }
-    canvas.svg()
+    canvas.picture()
 }
 
 /// Points over that at the lowest torque, by torque; empty if that one is nothing.

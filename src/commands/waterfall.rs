@@ -5,6 +5,7 @@ use lumped::ModeType;
 use super::axes::{Scale, spread};
 use super::canvas::{Anchor, Canvas, Pen, Pixel, Type};
 use super::figure::colour;
+use super::picture::Picture;
 use super::sweep_figures::{Quantity, Spot, Subject, colour_of, key_of_types};
 
 const COLUMNS: usize = 2;
@@ -109,7 +110,7 @@ fn cells(
     list: &[Quantity],
     title: &str,
     draw: impl Fn(&mut Canvas, &Quantity, Pixel),
-) -> String {
+) -> Picture {
     let columns = COLUMNS.min(list.len().max(1));
     let rows = list.len().div_ceil(columns);
     let width = CELL[0] * columns as f64;
@@ -122,7 +123,7 @@ fn cells(
         canvas.text([cell[0] + 0.5 * CELL[0], cell[1] + 18.0], kind, quantity.title.clone());
         draw(&mut canvas, quantity, cell);
     }
-    canvas.svg()
+    canvas.picture()
 }
 
 /// One curve on its own base line, what is behind it hidden.
@@ -150,7 +151,7 @@ fn pen(i: usize, branch: usize) -> Pen {
 
 /// Amplitudes over mesh frequency, the first harmonic in front (Figs 4 to 6, 8 to 11); dots on the base
 /// lines where a harmonic meets a natural frequency.
-pub(super) fn over_mesh_frequency(subject: &Subject, list: &[Quantity]) -> String {
+pub(super) fn over_mesh_frequency(subject: &Subject, list: &[Quantity]) -> Picture {
     let title = "harmonics of the mesh frequency; dots: natural frequency over l";
     cells(subject, list, title, |canvas, quantity, cell| {
         let top = subject.top_mesh_hz;
@@ -190,7 +191,7 @@ pub(super) fn over_mesh_frequency(subject: &Subject, list: &[Quantity]) -> Strin
 
 /// Amplitudes over l f_m, the mesh frequency in the depth (Fig. 7): every peak on the line of a natural
 /// frequency.
-pub(super) fn over_frequency(subject: &Subject, list: &[Quantity]) -> String {
+pub(super) fn over_frequency(subject: &Subject, list: &[Quantity]) -> Picture {
     let title = "harmonics over their own frequency; dashed: natural frequencies";
     cells(subject, list, title, |canvas, quantity, cell| {
         let count = quantity.harmonics.len();

@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod error;
 pub mod modal;
+mod own_truth;
 mod reference;
 mod suites;
 pub mod sweep;
@@ -15,9 +16,8 @@ pub use catalogue::{PublishedScene, scene};
 pub use check::{Check, ReferenceKind, Status, Subject, Tolerance, Value};
 pub use compare::{Comparison, ListedMode, Match, ModelMode, compare};
 pub use error::ValidationError;
-pub use reference::{
-    Frequencies, Miss, ModeTable, Reference, ReferenceError, TorquePeak, TorquePeaks,
-};
+pub use own_truth::{MapCell, TorqueMap, TorquePeak, TorquePeaks};
+pub use reference::{Frequencies, Miss, ModeTable, Reference, ReferenceError};
 pub use suites::explained::{Step, steps};
 pub use suites::tables::Table;
 pub use verdict::Verdict;

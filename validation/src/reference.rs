@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use crate::check::Tolerance;
+use crate::own_truth::{FullImpulse, TorqueMap, TorquePeaks};
 
 /// Why the reference data could not be used.
 #[derive(Debug, thiserror::Error)]
@@ -34,6 +35,8 @@ pub struct Reference {
     pub full_impulse: FullImpulse,
     /// Resonant peaks over torque.
     pub torque_peaks: TorquePeaks,
+    /// Section 4.2 over mesh compliance and γ.
+    pub torque_map: TorqueMap,
     /// Listed misses.
     pub misses: Vec<Miss>,
     tolerances: Vec<ToleranceEntry>,
@@ -150,56 +153,6 @@ pub struct Strengths {
     pub values: Vec<f64>,
 }
 
-/// `full_impulse.toml`.
-#[derive(Debug, Deserialize)]
-#[allow(missing_docs)] // the keys say it all, units included
-pub struct FullImpulse {
-    pub source: String,
-    pub command: String,
-    pub flank_elements: u32,
-    pub torque_nm: f64,
-    pub position: f64,
-    pub set: Vec<FullImpulseSet>,
-}
-
-/// Modes of one set, ascending.
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[allow(missing_docs)] // the keys say it all, units included
-pub struct FullImpulseSet {
-    pub scene: String,
-    pub frequencies_hz: Vec<f64>,
-    pub damping_ratios: Vec<f64>,
-}
-
-/// `torque_peaks.toml`.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[allow(missing_docs)] // the keys say it all, units included
-pub struct TorquePeaks {
-    pub source: String,
-    pub command: String,
-    pub torques_nm: Vec<f64>,
-    pub peak: Vec<TorquePeak>,
-}
-
-/// One resonance: heights over those at the first torque.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-#[allow(missing_docs)] // the keys say it all, units included
-pub struct TorquePeak {
-    pub system: String,
-    pub mode: String,
-    pub harmonic: u32,
-    pub frequency_hz: f64,
-    pub speeds_rpm: Vec<f64>,
-    pub sun: Vec<f64>,
-    pub planet: Vec<f64>,
-    /// The harmonic of the sun's static deflection that drives it.
-    #[serde(rename = "static")]
-    pub at_rest: Vec<f64>,
-}
-
 /// `calculix_2_20.toml`; what the checks use of it.
 #[derive(Debug, Deserialize)]
 pub struct Calculix {
@@ -294,6 +247,7 @@ impl Reference {
             calculix: file!("calculix_2_20.toml"),
             full_impulse: file!("full_impulse.toml"),
             torque_peaks: file!("torque_peaks.toml"),
+            torque_map: file!("torque_map.toml"),
             misses: misses.miss,
             tolerances: tolerances.tolerance,
         })

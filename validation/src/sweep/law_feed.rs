@@ -8,7 +8,7 @@ use gearset::{Facing, MeshLaw, Rung, Scene};
 use lumped::TimeVarying;
 
 use super::feed::SweepModel;
-use super::marching::Marching;
+use super::marching::{Effort, Marching};
 use crate::error::ValidationError;
 
 /// A set whose meshes follow a law made under the torque of the sweep.
@@ -133,6 +133,11 @@ macro_rules! marching {
 
             fn mesh_forces(&self, out: &mut Vec<f64>) {
                 self.0.mesh_forces(out);
+            }
+
+            fn effort(&self) -> Effort {
+                let coordinates = self.0.motion().x.len();
+                Effort { coordinates, solutions: self.0.counts().0 }
             }
 
             fn state(&mut self) -> Vec<f64> {

@@ -4,6 +4,15 @@ use fe_contact::vibration::VibratingSet;
 
 use crate::error::ValidationError;
 
+/// What the steps of a set were made of so far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Coordinates that are stepped, elastic ones included.
+    pub coordinates: usize,
+    /// Mean number of solutions for all meshes in a step.
+    pub solutions: f64,
+}
+
 /// A set that turns at constant nominal speed under a constant torque.
 pub trait Marching {
     /// Puts it to rest in the equilibrium of position 0.
@@ -24,6 +33,9 @@ pub trait Marching {
 
     /// Force of each mesh: sun meshes, ring meshes, then back flanks if any touch, N.
     fn mesh_forces(&self, out: &mut Vec<f64>);
+
+    /// What its steps took.
+    fn effort(&self) -> Effort;
 
     /// All the next step starts from, after whole mesh cycles.
     fn state(&mut self) -> Vec<f64>;
@@ -57,6 +69,14 @@ impl Marching for FeMarching<'_> {
 
     fn mesh_forces(&self, out: &mut Vec<f64>) {
         self.set.mesh_forces(out);
+    }
+
+    fn effort(&self) -> Effort {
+        let counts = self.set.counts;
+        Effort {
+            coordinates: self.set.races().count + self.set.elastic_unknowns(),
+            solutions: counts.solutions as f64 / counts.steps.max(1) as f64,
+        }
     }
 
     fn state(&mut self) -> Vec<f64> {

@@ -81,6 +81,16 @@ pub fn peaks(points: &[&SweepPoint], response: Response, harmonic: usize, least:
     found
 }
 
+/// Place and height of the peak of (place, amplitude) pairs in order: the parabola through the highest and
+/// its neighbours in the logarithm of the amplitude; `None` if the highest stands at an end.
+pub fn top_of_three(points: impl Iterator<Item = (f64, f64)>) -> Option<(f64, f64)> {
+    let list: Vec<(f64, f64)> = points.collect();
+    let highest = (0..list.len()).max_by(|i, k| list[*i].1.total_cmp(&list[*k].1))?;
+    let three = list.get(highest.checked_sub(1)?..highest + 2)?;
+    let (x, y) = ([0, 1, 2].map(|k| three[k].0), [0, 1, 2].map(|k| three[k].1.ln()));
+    vertex(x, y).map(|(place, top)| (place, top.exp()))
+}
+
 /// Top of the parabola through three points, if it has one between them.
 fn vertex(x: [f64; 3], y: [f64; 3]) -> Option<(f64, f64)> {
     // Newton's form: y = y₀ + s (x − x₀) + c (x − x₀)(x − x₁)

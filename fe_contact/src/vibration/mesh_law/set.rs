@@ -149,7 +149,7 @@ impl<'s> MeshLawSet<'s> {
         let (tables, step) = (self.system.law(), self.state().step_in_cycle);
         let deflections = self.system.deflections();
         let mut each = deflections.iter().enumerate();
-        each.all(|(k, d)| tables.curve(k, step).is_none_or(|curve| curve.reaches(*d)))
+        each.all(|(k, d)| tables.0.curve(k, step).is_none_or(|curve| curve.reaches(*d)))
     }
 
     /// Displacements, velocities and accelerations of the races' free coordinates, m and s.

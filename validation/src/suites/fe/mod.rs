@@ -9,6 +9,7 @@ mod fig12;
 mod hertz;
 mod iso6336;
 mod modal;
+mod reduced;
 mod resolved;
 mod rungs;
 mod sets;
@@ -102,7 +103,7 @@ pub(crate) fn checks(
     profile: Profile,
     concerns: &dyn Fn(&str) -> bool,
 ) -> Result<Vec<Check>, ValidationError> {
-    let suites: [(&[&str], Suite); 17] = [
+    let suites: [(&[&str], Suite); 18] = [
         (&["fe.hertz."], hertz::checks),
         (&["fe.convergence."], convergence::checks),
         (&["fe.resolved."], resolved::checks),
@@ -118,6 +119,7 @@ pub(crate) fn checks(
         (&["fe.rungs."], rungs::checks),
         (&["fe.fed."], fed::checks),
         (sweeps::IDS, sweeps::checks),
+        (sweeps::IDS, reduced::checks),
         (&["sweep.control."], sweeps::controls),
         (&["torque."], torque::checks),
     ];

@@ -8,7 +8,7 @@ use crate::Profile;
 use crate::check::{Check, ReferenceKind, Subject};
 use crate::error::ValidationError;
 use crate::modal::{ImpulseSettings, impulse_test};
-use crate::reference::FullImpulseSet;
+use crate::own_truth::FullImpulseSet;
 
 pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     let kept = &lab.reference.full_impulse;

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use dynamics::{Window, spectrum};
 use fe_contact::statics::{Bodies, Imperfections, PitchError};
-use gearset::{Kinematics, Scene, excitation_of_scene};
+use gearset::{ExcitationStrengths, Kinematics, Scene, excitation_of_scene};
 
 use super::Lab;
 use crate::Profile;
@@ -14,7 +14,7 @@ use crate::check::{Check, ReferenceKind, Subject};
 use crate::error::ValidationError;
 use crate::sweep::{
     Content, Coordinate, Direction, FeModel, Memory, Natural, Part, Plan, SteadySettings, Sweep,
-    SweepPoint, assigned, contents, naturals, run,
+    SweepModel, SweepPoint, assigned, contents, naturals, run,
 };
 
 /// What ids of the sweeps start with.
@@ -31,7 +31,7 @@ pub(crate) const IDS: &[&str] = &[
 ];
 
 /// N·m on the sun.
-const TORQUE: f64 = 1130.0;
+pub(super) const TORQUE: f64 = 1130.0;
 
 /// Peaks that stand out by less are left alone.
 const PROMINENT: f64 = 1.3;
@@ -124,26 +124,15 @@ fn set(
     bodies: &Bodies,
     grid: &[f64],
 ) -> Result<Vec<Check>, ValidationError> {
-    let mut checks = Vec::new();
     let model = FeModel::new(scene, bodies, Imperfections::default(), TORQUE);
-    let hz = hz_per_rpm(scene)?;
-    let plan = Plan::new(grid, &[Direction::Up], steady_settings())?;
-    let mut found = run(&model, &plan, hz, &Memory, &|_| ())?;
-    let around = found.around_peaks(PROMINENT, SPAN, 5, steady_settings());
-    found.chains.extend(run(&model, &around, hz, &Memory, &|_| ())?.chains);
+    let found = swept(&model, scene, grid)?;
     let points = found.points();
     let strengths = excitation_of_scene(scene, 5).ok_or(ValidationError::Incomplete("teeth"))?;
-    checks.extend(judged(lab, name, &points, &strengths)?);
-    let id = |what: &str| format!("sweep.{what}.{name}");
-    let (kind, source) = (ReferenceKind::Analytic, "phasor sums of the planets' mesh phases");
+    let mut checks = judged(lab, name, &points, &strengths)?;
     let naturals = naturals(scene, bodies, TORQUE)?;
+    checks.push(peaks_judged(lab, name, &points, &strengths, &naturals)?);
     let list = assigned(&points, &strengths, &naturals, PROMINENT);
-    let worst = list.iter().fold(0.0f64, |a, p| a.max(p.off_percent().abs()));
-    let title = format!(
-        "{name} planets: {} peaks of the sun and planet 0, farthest from ω_n/l of a mode that the harmonic may excite",
-        list.len()
-    );
-    checks.push(lab.number(&id("peaks"), &title, kind, "resonance", "%", 0.0, worst)?);
+    let source = "phasor sums of the planets' mesh phases";
     // The two modes the paper follows, each where its own harmonics meet it.
     let mut modes: Vec<Natural> = Vec::new();
     for n in &naturals {
@@ -175,7 +164,7 @@ fn set(
         };
         let expected: Vec<f64> = (1..=5).filter(may).map(|l| l as f64).collect();
         let actual: Vec<f64> = (1..=5).filter(|l| met(*l)).map(|l| l as f64).collect();
-        let own = id(&format!("harmonics_of_{kind}"));
+        let own = format!("sweep.harmonics_of_{kind}.{name}");
         let title = format!(
             "{name} planets: harmonics that bring the lowest {kind} mode to resonance within the sweep"
         );
@@ -186,27 +175,67 @@ fn set(
     Ok(checks)
 }
 
-/// What holds for any set of equal planets.
-fn judged(
+/// A sweep over some speeds, and closer about its peaks.
+pub(super) fn swept(
+    model: &dyn SweepModel,
+    scene: &Scene,
+    grid: &[f64],
+) -> Result<Sweep, ValidationError> {
+    let hz = hz_per_rpm(scene)?;
+    let plan = Plan::new(grid, &[Direction::Up], steady_settings())?;
+    let mut found = run(model, &plan, hz, &Memory, &|_| ())?;
+    let around = found.around_peaks(PROMINENT, SPAN, 5, steady_settings());
+    found.chains.extend(run(model, &around, hz, &Memory, &|_| ())?.chains);
+    Ok(found)
+}
+
+/// `four` or, of another model, `four_lumped`, for people.
+fn words(name: &str) -> String {
+    match name.split_once('_') {
+        Some((count, model)) => format!("{count} planets, {model}"),
+        None => format!("{name} planets"),
+    }
+}
+
+/// How far the peaks stand from where modes should have them.
+pub(super) fn peaks_judged(
     lab: &Lab<'_>,
     name: &str,
     points: &[&SweepPoint],
-    strengths: &[gearset::ExcitationStrengths],
+    strengths: &[ExcitationStrengths],
+    naturals: &[Natural],
+) -> Result<Check, ValidationError> {
+    let (words, list) = (words(name), assigned(points, strengths, naturals, PROMINENT));
+    let worst = list.iter().fold(0.0f64, |a, p| a.max(p.off_percent().abs()));
+    let title = format!(
+        "{words}: {} peaks of the sun and planet 0, farthest from ω_n/l of a mode that the harmonic may excite",
+        list.len()
+    );
+    let id = format!("sweep.peaks.{name}");
+    lab.number(&id, &title, ReferenceKind::Analytic, "resonance", "%", 0.0, worst)
+}
+
+/// What holds for any set of equal planets.
+pub(super) fn judged(
+    lab: &Lab<'_>,
+    name: &str,
+    points: &[&SweepPoint],
+    strengths: &[ExcitationStrengths],
 ) -> Result<Vec<Check>, ValidationError> {
-    let mut checks = Vec::new();
+    let (mut checks, words) = (Vec::new(), words(name));
     let id = |what: &str| format!("sweep.{what}.{name}");
     let unsteady = points.iter().filter(|p| !p.is_steady).count() as f64;
-    let title = format!("{name} planets: speeds at which cycles do not come to repeat");
+    let title = format!("{words}: speeds at which cycles do not come to repeat");
     checks.push(lab.at_most(&id("unsteady"), &title, "", unsteady)?);
     let list = contents(points, strengths);
     let forbidden = forbidden(&list);
     let title = format!(
-        "{name} planets: largest motion of the sun in a harmonic that planet phasing forbids, over the largest of its kind, {} speeds",
+        "{words}: largest motion of the sun in a harmonic that planet phasing forbids, over the largest of its kind, {} speeds",
         points.len()
     );
     checks.push(lab.at_most(&id("forbidden"), &title, "", forbidden)?);
     let title = format!(
-        "{name} planets: kinds of the sun's motion and harmonics that planet phasing allows and that are there (1e-3 of the largest)"
+        "{words}: kinds of the sun's motion and harmonics that planet phasing allows and that are there (1e-3 of the largest)"
     );
     let expected = list.iter().filter(|c| c.is_allowed).count() as f64;
     let present = list.iter().filter(|c| c.is_allowed && c.share > 1e-3).count() as f64;
@@ -216,7 +245,7 @@ fn judged(
     let subject = Subject { id: &own, title: &title, kind, source, unit: "" };
     checks.push(Check::equal(subject, expected, present));
     let between = points.iter().filter_map(|p| p.between).fold(0.0f64, f64::max);
-    let title = format!("{name} planets: vibration energy between mesh harmonics, over all of it");
+    let title = format!("{words}: vibration energy between mesh harmonics, over all of it");
     checks.push(lab.at_most(&id("between"), &title, "", between)?);
     Ok(checks)
 }
