@@ -13,13 +13,23 @@ pub(super) const TICK_TEXT: Type = Type::new(11, Anchor::Middle);
 pub(super) struct Scale {
     low: f64,
     high: f64,
+    is_log: bool,
 }
 
 impl Scale {
     /// Even, between two ends.
     pub(super) fn linear(low: f64, high: f64) -> Self {
         let high = if high > low { high } else { low + 1.0 };
-        Self { low, high }
+        Self { low, high, is_log: false }
+    }
+
+    /// Logarithmic, a little beyond positive values.
+    pub(super) fn log(values: impl Iterator<Item = f64>) -> Self {
+        let positive = values.filter(|v| *v > 0.0 && v.is_finite());
+        let (low, high) = positive.fold((f64::INFINITY, 0.0f64), |(a, b), v| (a.min(v), b.max(v)));
+        let (low, high) = if low <= high { (low, high) } else { (0.1, 10.0) };
+        let margin = (high / low).powf(0.06).max(1.3);
+        Self { low: low / margin, high: high * margin, is_log: true }
     }
 
     pub(super) fn contains(&self, value: f64) -> bool {
@@ -28,11 +38,18 @@ impl Scale {
 
     /// 0 at the low end, 1 at the high end.
     pub(super) fn share(&self, value: f64) -> f64 {
+        if self.is_log {
+            let value = value.max(self.low);
+            return (value / self.low).ln() / (self.high / self.low).ln();
+        }
         (value - self.low) / (self.high - self.low)
     }
 
     /// About so many round values with their labels.
     pub(super) fn ticks(&self, about: usize) -> Vec<(f64, String)> {
+        if self.is_log {
+            return self.log_ticks();
+        }
         let rough = (self.high - self.low) / about.max(1) as f64;
         let decade = 10f64.powf(rough.log10().floor());
         let factor = [1.0, 2.0, 5.0].into_iter().find(|f| f * decade >= 0.999 * rough);
@@ -42,6 +59,27 @@ impl Scale {
         let to = (self.high / step + 1e-9).floor() as i64;
         let value = |i: i64| i as f64 * step;
         (from..=to).map(|i| (value(i), format!("{:.decimals$}", value(i)))).collect()
+    }
+
+    /// Decades; fives and twos between them where decades are few.
+    fn log_ticks(&self) -> Vec<(f64, String)> {
+        let decades = (self.high / self.low).log10();
+        let factors: &[f64] = if decades < 3.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        let (from, to) = (self.low.log10().floor() as i32, self.high.log10().floor() as i32);
+        let values = (from..=to).flat_map(|k| {
+            factors.iter().map(move |f| match k {
+                -3..=4 => (f * 10f64.powi(k), None),
+                _ => (f * 10f64.powi(k), Some(format!("{f}e{k}"))),
+            })
+        });
+        let short = |v: f64| {
+            let text = format!("{v:.3}");
+            text.trim_end_matches('0').trim_end_matches('.').to_owned()
+        };
+        values
+            .filter(|(v, _)| self.contains(*v))
+            .map(|(v, label)| (v, label.unwrap_or_else(|| short(v))))
+            .collect()
     }
 }
 

@@ -28,9 +28,10 @@ mod sweep_parquet;
 mod sweep_store;
 mod validate;
 
-// Pictures that the verb `sweep` calls for.
+// Pictures of sweeps and of what is kept, and what they are drawn with.
 mod axes;
 mod canvas;
+mod cost_chart;
 mod harmonic_column;
 mod sweep_figures;
 mod torque_figures;

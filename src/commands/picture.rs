@@ -27,8 +27,8 @@ impl Picture {
 
     /// Writes `NAME.svg` and `NAME.png` into a folder, which is made if need be.
     pub(super) fn save(&self, folder: &Path, name: &str) -> Result<(), CommandError> {
-        save(&folder.join(name).with_extension("svg"), &self.svg())?;
-        let path = folder.join(name).with_extension("png");
+        save(&folder.join(format!("{name}.svg")), &self.svg())?;
+        let path = folder.join(format!("{name}.png"));
         let png = PngBackend::new().with_scale(SCALE).render_scene(&self.0);
         let failed = |why: String| CommandError::File {
             what: "cannot draw",

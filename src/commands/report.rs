@@ -1,5 +1,6 @@
 //! The report folder: verdict as Markdown and JSON, the steps that explain the printed four-planet
-//! frequencies, a Campbell chart of either set and, from the full profile, the error of the rungs.
+//! frequencies, a Campbell chart of either set, growth with torque and its map, error against cost and, from
+//! the full profile, the error of the rungs.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -10,6 +11,7 @@ use validation::{PublishedScene, Reference, Status, ValidationError, Verdict, sc
 use crate::error::CommandError;
 
 use super::chart::campbell;
+use super::cost_chart::cost_chart;
 use super::rungs_chart::rungs_chart;
 use super::torque_figures::kept_peaks;
 use super::torque_map::torque_map;
@@ -43,6 +45,7 @@ pub(crate) fn write(verdict: &Verdict, folder: &Path) -> Result<(), CommandError
         picture.save(folder, "rungs")?;
     }
     let reference = Reference::load().map_err(ValidationError::from)?;
+    cost_chart(&reference.ladder).save(folder, "cost")?;
     torque_map(&reference.torque_map, paper_gamma()?).save(folder, "torque_map")?;
     let kept = reference.torque_peaks;
     let mut systems: Vec<&str> = kept.peak.iter().map(|p| p.system.as_str()).collect();

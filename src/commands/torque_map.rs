@@ -41,7 +41,7 @@ fn static_as_dynamic(cell: &MapCell) -> bool {
 
 const PANELS: [Panel; 4] = [
     Panel {
-        title: "every peak grows (least step)",
+        title: "every peak grows (least growth of any step)",
         holds: |cell| cell.monotonic,
         number: least_step,
     },
@@ -62,7 +62,7 @@ const PANELS: [Panel; 4] = [
     },
 ];
 
-/// SVG, a panel for each statement; the ring is where the paper's own stiffness and phases lie.
+/// A panel for each statement; the ring is where the paper's own stiffness and phases lie.
 pub(super) fn torque_map(map: &TorqueMap, paper_gamma: f64) -> Picture {
     let cell = [LEFT + MAP + 20.0, TOP + MAP + FOOT];
     let mut canvas = Canvas::new([2.0 * cell[0], 2.0 * cell[1] - TOP + 50.0]);
@@ -70,7 +70,7 @@ pub(super) fn torque_map(map: &TorqueMap, paper_gamma: f64) -> Picture {
         (map.torques_nm.first().unwrap_or(&0.0), map.torques_nm.last().unwrap_or(&0.0));
     canvas.head(
         "Growth with torque over mesh compliance and phase",
-        &format!("four planets, sun, {first:.0} to {last:.0} N·m, quasi-static rung; numbers at {last:.0} N·m"),
+        &format!("four planets, sun, quasi-static rung; holds: at every torque from {first:.0} to {last:.0} N·m; ratios: growth to {last:.0} N·m"),
     );
     let mut x = cell[0] - 130.0;
     for (fill, name) in [(HOLDS, "holds"), (FAILS, "fails")] {
@@ -132,7 +132,7 @@ fn draw(canvas: &mut Canvas, panel: &Panel, cells: &[&MapCell], [left, top]: Pix
     canvas.text([left + 0.5 * MAP, top + MAP + 36.0], Type::new(12, Anchor::Middle), below);
     let beside = Type::new(12, Anchor::Middle).turned(-90.0);
     canvas.text([left - 58.0, top + 0.5 * MAP], beside, "γ, cycles");
-    if let (Some(x), Some(y)) = (place(&xs, 1.0), place(&ys, paper)) {
+    if let (Some(x), Some(y)) = (place(&xs, 1.0), place(&ys, paper - paper.round())) {
         canvas.ring(middle(x, y), 15.0, Pen::new("#000000", 2.0));
     }
 }

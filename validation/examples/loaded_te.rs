@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("published stiffness", PublishedScene::Oh58FourPlanetsPublishedStiffness),
     ];
     println!(
-        "| scene | N·m | contact ratios (sun, ring) | sun mesh, µm | ring mesh, µm | at phases, µm | set at rest, µm |"
+        "| scene | N·m | contact ratios (sun, ring) | sun mesh l = 1, 2, µm | ring mesh l = 1, 2, µm | l = 2 at the set's phases, µm | set at rest, µm |"
     );
     println!("|---|---:|---:|---:|---:|---:|---:|");
     for (name, which) in both {
@@ -49,27 +49,30 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let still = static_growth(&scene, &bodies, &TORQUES)?;
         for (k, torque) in TORQUES.into_iter().enumerate() {
             let force = torque / planets as f64 / radius;
-            // Harmonic 2 of one mesh, and its effective contact ratio.
-            let of = |kind| -> Result<(Z, f64), Box<dyn std::error::Error>> {
+            // Harmonics 1 and 2 of one mesh, and its effective contact ratio.
+            let of = |kind| -> Result<([Z; 2], f64), Box<dyn std::error::Error>> {
                 let cycle = pair_cycle(&bodies, kind, force, POSITIONS, &ActiveSet)?;
                 let record: Vec<f64> = cycle.positions.iter().map(|p| p.deflection).collect();
-                let line = spectrum(&record, 1.0, Window::Rectangular, 1)?.lines[2];
-                Ok(([line.re, line.im], cycle.effective_contact_ratio()))
+                let lines = spectrum(&record, 1.0, Window::Rectangular, 1)?.lines;
+                let both = [1, 2].map(|l| [lines[l].re, lines[l].im]);
+                Ok((both, cycle.effective_contact_ratio()))
             };
             let (sun, ring) = (of(MeshKind::SunPlanet)?, of(MeshKind::RingPlanet)?);
             let mut sum = [0.0; 2];
             for (m, start) in starts.iter().enumerate() {
                 let (sin, cos) = (2.0 * TAU * start.front).sin_cos();
-                let own = times(if m < planets { sun.0 } else { ring.0 }, [cos, sin]);
+                let own = times(if m < planets { sun.0[1] } else { ring.0[1] }, [cos, sin]);
                 sum = [0, 1].map(|i| sum[i] + own[i] / planets as f64);
             }
             let size = |z: Z| 1e6 * z[0].hypot(z[1]);
             println!(
-                "| {name} | {torque:.0} | {:.2}, {:.2} | {:.3} | {:.3} | {:.3} | {:.3} |",
+                "| {name} | {torque:.0} | {:.2}, {:.2} | {:.2}, {:.2} | {:.2}, {:.2} | {:.2} | {:.2} |",
                 sun.1,
                 ring.1,
-                size(sun.0),
-                size(ring.0),
+                size(sun.0[0]),
+                size(sun.0[1]),
+                size(ring.0[0]),
+                size(ring.0[1]),
                 size(sum),
                 1e6 * radius * still[k][0][2]
             );

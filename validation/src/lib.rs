@@ -4,6 +4,7 @@ mod catalogue;
 mod check;
 mod compare;
 mod error;
+mod larger;
 pub mod modal;
 mod own_truth;
 mod reference;
@@ -16,7 +17,10 @@ pub use catalogue::{PublishedScene, scene};
 pub use check::{Check, ReferenceKind, Status, Subject, Tolerance, Value};
 pub use compare::{Comparison, ListedMode, Match, ModelMode, compare};
 pub use error::ValidationError;
-pub use own_truth::{MapCell, TorqueMap, TorquePeak, TorquePeaks};
+pub use own_truth::{
+    FullSweep, FullSweepPoint, Ladder, LadderRung, MapCell, RotationalPeak, TorqueMap, TorquePeak,
+    TorquePeaks,
+};
 pub use reference::{Frequencies, Miss, ModeTable, Reference, ReferenceError};
 pub use suites::explained::{Step, steps};
 pub use suites::tables::Table;

@@ -3,6 +3,9 @@
 
 use serde::Deserialize;
 
+use crate::reference::{ReferenceError, parse};
+use crate::sweep::top_of_three;
+
 /// `full_impulse.toml`.
 #[derive(Debug, Deserialize)]
 #[allow(missing_docs)] // the keys say it all, units included
@@ -53,6 +56,83 @@ pub struct TorquePeak {
     pub at_rest: Vec<f64>,
 }
 
+/// `full_sweep.toml`: steady states with every degree of freedom.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)] // the keys say it all, units included
+pub struct FullSweep {
+    pub source: String,
+    pub command: String,
+    pub torque_nm: f64,
+    pub flank_elements: u32,
+    pub point: Vec<FullSweepPoint>,
+}
+
+/// The peak of the sun's rotation in the second harmonic, without the error of time steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RotationalPeak {
+    /// Speed of the input member, rpm.
+    pub speed_rpm: f64,
+    /// Height, rad.
+    pub height_rad: f64,
+    /// What the steps leave either uncertain by, percent.
+    pub uncertain_percent: [f64; 2],
+}
+
+impl FullSweep {
+    /// As kept in the repository.
+    ///
+    /// # Errors
+    /// If the file does not hold what the code expects.
+    pub fn load() -> Result<Self, ReferenceError> {
+        parse("full_sweep.toml", include_str!("../../reference/full_sweep.toml"))
+    }
+
+    /// The points at some steps a cycle.
+    pub fn of_steps(&self, steps: u32) -> impl Iterator<Item = &FullSweepPoint> {
+        self.point.iter().filter(move |p| p.steps_per_cycle == steps)
+    }
+
+    /// The peak of the three speeds about it, extrapolated from 140 and 280 steps: errors are of second order,
+    ///
+    /// ```text
+    /// p = p₂₈₀ + (p₂₈₀ − p₁₄₀)/3
+    /// ```
+    ///
+    /// and as uncertain as that is long. `None` if there is none.
+    pub fn rotational_peak(&self) -> Option<RotationalPeak> {
+        let near = |p: &&FullSweepPoint| self.of_steps(280).any(|q| q.speed_rpm == p.speed_rpm);
+        let at = |steps: u32| {
+            let own = self.of_steps(steps).filter(near);
+            top_of_three(own.map(|p| (p.speed_rpm, p.sun_rotation_rad[1])))
+        };
+        let (coarse, fine) = (at(140)?, at(280)?);
+        let without = |fine: f64, coarse: f64| fine + (fine - coarse) / 3.0;
+        let (speed_rpm, height_rad) = (without(fine.0, coarse.0), without(fine.1, coarse.1));
+        let off = |exact: f64, fine: f64| 100.0 * (fine / exact - 1.0).abs();
+        let uncertain_percent = [off(speed_rpm, fine.0), off(height_rad, fine.1)];
+        Some(RotationalPeak { speed_rpm, height_rad, uncertain_percent })
+    }
+}
+
+/// One speed: amplitudes of harmonics 1 to 5.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)] // the keys say it all, units included
+pub struct FullSweepPoint {
+    pub steps_per_cycle: u32,
+    pub speed_rpm: f64,
+    pub cycles: usize,
+    /// Change of the last two cycles in parts of the vibration.
+    pub residual: f64,
+    pub sun_rotation_rad: [f64; 5],
+    pub sun_translation_m: [f64; 5],
+    pub planet_0_rotation_rad: [f64; 5],
+    pub planet_0_translation_m: [f64; 5],
+    pub sun_mesh_0_force_n: [f64; 5],
+    pub ring_mesh_0_force_n: [f64; 5],
+}
+
 /// `torque_map.toml`: section 4.2 over mesh compliance and γ.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -91,4 +171,55 @@ pub struct MapCell {
     pub monotonic: bool,
     pub rotation_above_translation: bool,
     pub third_below_rotation: bool,
+}
+
+/// `ladder.toml`: error against cost.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)] // the keys say it all, units included
+pub struct Ladder {
+    pub source: String,
+    pub command: String,
+    pub torque_nm: f64,
+    /// Peak of the sun's rotation in the second harmonic with `full`, without the error of steps.
+    pub peak_rpm: f64,
+    pub peak_rad: f64,
+    /// What its own steps leave it uncertain by.
+    pub peak_rpm_uncertain_percent: f64,
+    pub peak_rad_uncertain_percent: f64,
+    pub rung: Vec<LadderRung>,
+}
+
+/// One rung at some steps and cells.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)] // the keys say it all, units included
+pub struct LadderRung {
+    pub name: String,
+    pub steps_per_cycle: u32,
+    pub contact_cells: u32,
+    pub peak_rpm: f64,
+    pub peak_rad: f64,
+    /// Time of one step over that of a lumped step, in turns: quartiles.
+    pub step_ratio: [f64; 3],
+    pub coordinates: usize,
+    /// Solutions for all meshes in a step, mean since rest.
+    pub solutions: f64,
+}
+
+impl LadderRung {
+    /// Error of the peak's height, percent.
+    pub fn height_percent(&self, ladder: &Ladder) -> f64 {
+        100.0 * (self.peak_rad / ladder.peak_rad - 1.0)
+    }
+
+    /// Error of its place, percent.
+    pub fn place_percent(&self, ladder: &Ladder) -> f64 {
+        100.0 * (self.peak_rpm / ladder.peak_rpm - 1.0)
+    }
+
+    /// Cost of a mesh cycle over that of a lumped one at 140 steps.
+    pub fn cycle_ratio(&self) -> f64 {
+        self.step_ratio[1] * f64::from(self.steps_per_cycle) / 140.0
+    }
 }

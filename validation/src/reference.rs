@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use crate::check::Tolerance;
-use crate::own_truth::{FullImpulse, TorqueMap, TorquePeaks};
+use crate::own_truth::{FullImpulse, FullSweep, Ladder, TorqueMap, TorquePeaks};
 
 /// Why the reference data could not be used.
 #[derive(Debug, thiserror::Error)]
@@ -37,6 +37,10 @@ pub struct Reference {
     pub torque_peaks: TorquePeaks,
     /// Section 4.2 over mesh compliance and γ.
     pub torque_map: TorqueMap,
+    /// Steady states with every degree of freedom.
+    pub full_sweep: FullSweep,
+    /// Rungs by error and cost.
+    pub ladder: Ladder,
     /// Listed misses.
     pub misses: Vec<Miss>,
     tolerances: Vec<ToleranceEntry>,
@@ -220,7 +224,7 @@ struct MissFile {
     miss: Vec<Miss>,
 }
 
-fn parse<T: serde::de::DeserializeOwned>(
+pub(crate) fn parse<T: serde::de::DeserializeOwned>(
     file: &'static str,
     text: &str,
 ) -> Result<T, ReferenceError> {
@@ -248,6 +252,8 @@ impl Reference {
             full_impulse: file!("full_impulse.toml"),
             torque_peaks: file!("torque_peaks.toml"),
             torque_map: file!("torque_map.toml"),
+            full_sweep: FullSweep::load()?,
+            ladder: file!("ladder.toml"),
             misses: misses.miss,
             tolerances: tolerances.tolerance,
         })

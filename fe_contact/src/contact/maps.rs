@@ -63,12 +63,7 @@ pub struct Held {
 }
 
 impl Held {
-    /// Place of the map; `None` before one was found.
-    pub fn place(&self) -> Option<usize> {
-        self.place
-    }
-
-    /// Its id.
+    /// Id of the map.
     pub fn id(&self) -> u64 {
         self.id
     }
@@ -79,7 +74,8 @@ impl Held {
 pub struct ContactMaps {
     maps: Vec<ContactMap>,
     next: u64,
-    /// Which gives way next when there are too many.
+    /// Most that are kept, and which gives way next when there are too many.
+    most: usize,
     oldest: usize,
     /// Load (N) and window (m) of the tables: what slack is a part of.
     scale: (f64, f64),
@@ -211,12 +207,13 @@ impl ContactMaps {
     /// None yet, for tables of such cells.
     pub fn new(settings: &CellSettings) -> Self {
         let scale = (settings.force, settings.window);
-        Self { maps: Vec::new(), next: 0, oldest: 0, scale, solved: 0 }
+        Self { maps: Vec::new(), next: 0, most: MOST_MAPS, oldest: 0, scale, solved: 0 }
     }
 
-    /// A map by its place.
-    pub fn map(&self, place: usize) -> &ContactMap {
-        &self.maps[place]
+    /// The same, for few maps.
+    #[cfg(test)]
+    pub(crate) fn keep(&mut self, most: usize) {
+        self.most = most;
     }
 
     /// Memory of the maps, bytes.
@@ -232,13 +229,18 @@ impl ContactMaps {
         self.maps.len()
     }
 
+    /// The map that held, unless it gave way to another.
+    #[inline]
+    pub fn held(&self, held: &Held) -> Option<&ContactMap> {
+        self.maps.get(held.place?).filter(|map| map.id == held.id)
+    }
+
     /// Whether the map that held still does at approaches δ (less gap offsets), one for each pair.
     #[inline]
     pub fn holds(&self, held: &mut Held, delta: &[f64]) -> bool {
-        let Some(place) = held.place else { return false };
-        // Another map may have taken the place. No number is within anything.
-        let is_near = self.maps.get(place).is_some_and(|m| m.id == held.id)
-            && delta.len() <= REMEMBERED
+        let Some(place) = held.place.filter(|_| self.held(held).is_some()) else { return false };
+        // No number is within anything.
+        let is_near = delta.len() <= REMEMBERED
             && delta.iter().zip(&held.at).all(|(d, at)| (d - at).abs() <= held.within);
         is_near || self.holds_cell_by_cell(place, held, delta)
     }
@@ -279,7 +281,7 @@ impl ContactMaps {
             vec![false; gaps.len()]
         } else {
             let problem = Problem { compliance: &table.compliance, gaps: &gaps };
-            let before = held.place.and_then(|place| self.maps.get(place));
+            let before = self.held(held);
             let warm = before.map(|m| m.active.as_slice());
             let solution = solver
                 .solve(&problem, warm)
@@ -287,6 +289,11 @@ impl ContactMaps {
             // A touching cell without force belongs to either set.
             solution.active.iter().zip(&solution.forces).map(|(a, p)| *a && *p > 0.0).collect()
         };
+        if let Some(place) = self.maps.iter().position(|m| m.active == active) {
+            // Known, and at the border of what it holds for.
+            *held = Held { place: Some(place), id: self.maps[place].id, within: -1.0, ..*held };
+            return Ok(());
+        }
         let id = self.next;
         self.next += 1;
         let map = ContactMap::new(table, &owner, active, id, self.scale).ok_or_else(|| {
@@ -295,12 +302,12 @@ impl ContactMaps {
             };
             FeError::Contact { phase: table.phase, cause }
         })?;
-        let place = if self.maps.len() < MOST_MAPS {
+        let place = if self.maps.len() < self.most {
             self.maps.push(map);
             self.maps.len() - 1
         } else {
             let place = self.oldest;
-            self.oldest = (self.oldest + 1) % MOST_MAPS;
+            self.oldest = (self.oldest + 1) % self.most;
             self.maps[place] = map;
             place
         };
@@ -339,7 +346,7 @@ mod tests {
                 let delta: Vec<f64> =
                     (0..k).map(|i| (step as f64 - 4.0 + 0.3 * i as f64) * 0.5e-6).collect();
                 maps.find(&table, &delta, &mut held, &ActiveSet).unwrap();
-                let map = maps.map(held.place().unwrap());
+                let map = maps.held(&held).unwrap();
                 let answer = table.answer(&delta, &vec![0.0; k], &ActiveSet, None).unwrap();
                 let total: f64 = answer.pair_forces.iter().sum();
                 for i in 0..k {

@@ -52,12 +52,12 @@ impl VibratingSet<'_> {
         }
     }
 
-    /// ½ pᵀ C p of the present forces.
+    /// ½ pᵀ C p of the present forces; no number if a map gave way since.
     fn contact_energy(&self) -> f64 {
         let Some(frame) = self.current_frame() else { return 0.0 };
         let of = |mesh: &super::frame::FrameMesh| {
             let delta = &self.approaches.as_slice()[mesh.first..mesh.first + mesh.count];
-            mesh.map(&self.maps).energy(delta)
+            mesh.map(&self.maps).map_or(f64::NAN, |map| map.energy(delta))
         };
         frame.meshes.iter().map(of).sum()
     }
@@ -124,7 +124,7 @@ impl VibratingSet<'_> {
             let (delta, maps) =
                 (&approaches.as_slice()[first..first + count], &mut self.maps[table]);
             maps.find(&self.tables.list[table], delta, held, &ActiveSet)?;
-            energy += held.place().map_or(0.0, |place| maps.map(place).energy(delta));
+            energy += maps.held(held).map_or(f64::NAN, |map| map.energy(delta));
         }
         Ok(Some(energy))
     }

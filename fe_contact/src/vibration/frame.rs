@@ -28,10 +28,10 @@ pub(super) struct FrameMesh {
 }
 
 impl FrameMesh {
-    /// The map that holds, once one was found.
+    /// The map that holds, once one was found and while it is kept.
     #[inline]
-    pub(super) fn map<'m>(&self, maps: &'m [ContactMaps]) -> &'m ContactMap {
-        maps[self.table].map(self.held.place().unwrap_or(0))
+    pub(super) fn map<'m>(&self, maps: &'m [ContactMaps]) -> Option<&'m ContactMap> {
+        maps[self.table].held(&self.held)
     }
 }
 

@@ -111,7 +111,8 @@ impl VibratingSet<'_> {
         let mut s = DMatrix::zeros(count, count);
         let mut mesh_tangents = Vec::with_capacity(frame.meshes.len());
         for mesh in &frame.meshes {
-            let map = mesh.map(&self.maps);
+            let lost = || FeError::NoEquilibrium("no contact was found at this position".into());
+            let map = mesh.map(&self.maps).ok_or_else(lost)?;
             mesh_tangents.push(map.stiffness.iter().sum());
             for i in 0..mesh.count {
                 for j in 0..mesh.count {

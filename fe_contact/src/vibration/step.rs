@@ -141,8 +141,8 @@ impl VibratingSet<'_> {
         let b = &work.b.as_slice()[..count];
         let approaches = &mut self.approaches.as_mut_slice()[..count];
         let forces = &mut self.forces.as_mut_slice()[..count];
-        if frame.meshes.iter().any(|mesh| mesh.held.place().is_none()) {
-            // First guess at a position not met before: the forces of the last step.
+        if frame.meshes.iter().any(|mesh| mesh.map(&self.maps).is_none()) {
+            // First guess at a position not met before, or whose map gave way: the forces of the last step.
             forces.fill(0.0);
             for (memory, mesh) in self.memory.iter().zip(&frame.meshes) {
                 let own = mesh.first..mesh.first + mesh.count;
@@ -154,7 +154,7 @@ impl VibratingSet<'_> {
                 *delta = b - row.iter().zip(&*forces).map(|(y, p)| y * p).sum::<f64>();
             }
             for mesh in &mut frame.meshes {
-                if mesh.held.place().is_none() {
+                if mesh.map(&self.maps).is_none() {
                     let delta = &approaches[mesh.first..mesh.first + mesh.count];
                     let (table, maps) = (&tables.list[mesh.table], &mut self.maps[mesh.table]);
                     maps.find(table, delta, &mut mesh.held, solver)?;
@@ -195,6 +195,7 @@ impl VibratingSet<'_> {
                 }
             }
             if all_hold {
+                approaches.copy_from_slice(forces);
                 // P = S δ + P₀,  x = A⁻¹ (load − rowsᵀ P)
                 let mut laws = frame.combinations[place].laws.as_slice();
                 for mesh in &frame.meshes {
@@ -229,8 +230,7 @@ impl VibratingSet<'_> {
         }
         for mesh in &frame.meshes {
             let table = &self.tables.list[mesh.table];
-            let map = mesh.map(&self.maps);
-            if let Some(pair) = map.overflows {
+            if let Some(pair) = mesh.map(&self.maps).and_then(|map| map.overflows) {
                 let (cells, force_n) = (&table.pairs[pair], self.forces[mesh.first + pair]);
                 if force_n > 0.0 {
                     let reach_mm = 0.5e3 * cells.width * cells.x.len() as f64;
@@ -300,7 +300,8 @@ fn combine(frame: &Frame, maps: &[ContactMaps], ids: &[u64]) -> Result<Combinati
     let (mut s, mut p0) = (DMatrix::zeros(count, count), DVector::zeros(count));
     let mut laws = Vec::with_capacity(count * 4);
     for mesh in &frame.meshes {
-        let map = mesh.map(maps);
+        let lost = || FeError::NoEquilibrium("contact at this position was not found".into());
+        let map = mesh.map(maps).ok_or_else(lost)?;
         for i in 0..mesh.count {
             p0[mesh.first + i] = map.forces[i];
             laws.push(map.forces[i]);

@@ -8,6 +8,7 @@ use gearset::{Facing, Scene};
 use super::kinds::{RaceKinds, type_of};
 use super::mode::FeMode;
 use crate::error::ValidationError;
+use crate::larger::large_enough;
 
 /// A standing set under torque.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,9 +20,6 @@ pub struct Preload {
     /// Time step, s.
     pub step_s: f64,
 }
-
-/// How often tables may be laid out anew for twice the load.
-const MOST_DOUBLED: u32 = 5;
 
 /// A standing set at rest under its preload.
 ///
@@ -37,23 +35,13 @@ pub fn preloaded<'b>(
     let sun = bodies.geometry.sun.as_ref().map_or(1.0, |sun| sun.base_radius);
     let force = (torque_nm.abs() / sun / scene.planets.psi_rad.len() as f64).max(1.0);
     let motive = Motive::Standing { position, step: step_s };
-    let rested = |force: f64| {
-        let none = Imperfections::default();
+    // Relieved flanks touch on a wider patch than their force says.
+    large_enough(|size| {
+        let (none, force) = (Imperfections::default(), force * f64::powi(2.0, size as i32));
         let mut set = VibratingSet::new(scene, bodies, sense, none, motive, force)?;
         set.rest(torque_nm.abs())?;
         Ok(set)
-    };
-    // Relieved flanks touch on a wider patch than their force says.
-    let mut first = None;
-    for doubled in 0..MOST_DOUBLED {
-        match rested(force * f64::from(1 << doubled)) {
-            Err(error @ FeError::GridOverflow { .. }) => first = first.or(Some(error)),
-            // Larger tables may be impossible; what asked for them is the reason.
-            Err(error) => return Err(first.unwrap_or(error)),
-            Ok(set) => return Ok(set),
-        }
-    }
-    rested(force)
+    })
 }
 
 /// Undamped modes of a linearised set, typed; damping ratios from the damped ones, matched by order.

@@ -2,13 +2,13 @@
 
 use std::sync::OnceLock;
 
-use fe_contact::FeError;
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{Motive, Prepared, VibratingSet};
 use gearset::{Facing, Rung, Scene};
 
 use super::marching::{FeMarching, Marching};
 use crate::error::ValidationError;
+use crate::larger::SIZES;
 
 /// A model of one gear set under one torque.
 pub trait SweepModel: Sync {
@@ -36,8 +36,10 @@ pub trait SweepModel: Sync {
     ) -> Result<Box<dyn Marching + '_>, ValidationError>;
 }
 
-/// How often tables may be laid out anew for twice the load.
-pub(super) const SIZES: usize = 5;
+/// Sense of a torque on the sun.
+pub(super) fn sense(torque_nm: f64) -> Facing {
+    if torque_nm < 0.0 { Facing::Clockwise } else { Facing::CounterClockwise }
+}
 
 /// Tables are made for this many times the even share of the load: resonance must fit.
 const HEADROOM: f64 = 2.0;
@@ -62,13 +64,6 @@ impl<'s> FeModel<'s> {
     ) -> Self {
         let prepared = [const { OnceLock::new() }; SIZES];
         Self { scene: scene.clone(), bodies, imperfections, torque_nm, prepared }
-    }
-
-    fn sense(&self) -> Facing {
-        match self.torque_nm < 0.0 {
-            true => Facing::Clockwise,
-            false => Facing::CounterClockwise,
-        }
     }
 
     /// Mesh force that tables of a size are made for, N.
@@ -109,7 +104,7 @@ impl SweepModel for FeModel<'_> {
     ) -> Result<Box<dyn Marching + '_>, ValidationError> {
         let steps_per_cycle = self.steps_per_cycle();
         let motive = Motive::Turning { mesh_frequency, steps_per_cycle };
-        let (sense, force) = (self.sense(), self.force(size)?);
+        let (sense, force) = (sense(self.torque_nm), self.force(size)?);
         let slot = &self.prepared[size.min(SIZES - 1)];
         let prepared = match slot.get() {
             Some(prepared) => prepared,
@@ -123,9 +118,4 @@ impl SweepModel for FeModel<'_> {
         let set = VibratingSet::on(&self.scene, prepared, motive)?;
         Ok(Box::new(FeMarching { set, torque_nm: self.torque_nm.abs() }))
     }
-}
-
-/// Whether a fault is that the tables are too small for the load.
-pub(super) fn is_too_small(error: &ValidationError) -> bool {
-    matches!(error, ValidationError::Fe(FeError::GridOverflow { .. }))
 }

@@ -4,10 +4,10 @@
 use dynamics::CoupledState;
 use fe_contact::statics::Bodies;
 use fe_contact::vibration::{LawSettings, MeshLawSet, mesh_law};
-use gearset::{Facing, MeshLaw, Rung, Scene};
+use gearset::{MeshLaw, Rung, Scene};
 use lumped::TimeVarying;
 
-use super::feed::SweepModel;
+use super::feed::{SweepModel, sense};
 use super::marching::{Effort, Marching};
 use crate::error::ValidationError;
 
@@ -45,10 +45,6 @@ impl<'s> LawModel<'s> {
             is_lumped: true,
         }
     }
-}
-
-fn sense(torque_nm: f64) -> Facing {
-    if torque_nm < 0.0 { Facing::Clockwise } else { Facing::CounterClockwise }
 }
 
 impl SweepModel for LawModel<'_> {

@@ -81,14 +81,15 @@ pub fn peaks(points: &[&SweepPoint], response: Response, harmonic: usize, least:
     found
 }
 
-/// Place and height of the peak of (place, amplitude) pairs in order: the parabola through the highest and
-/// its neighbours in the logarithm of the amplitude; `None` if the highest stands at an end.
+/// Place and height of the peak of (place, amplitude) pairs in order, from the highest and its neighbours;
+/// `None` if the highest stands at an end. About one resonance 1/a² is a parabola but for terms of the fourth
+/// order, so that points a half-width apart will do.
 pub fn top_of_three(points: impl Iterator<Item = (f64, f64)>) -> Option<(f64, f64)> {
     let list: Vec<(f64, f64)> = points.collect();
     let highest = (0..list.len()).max_by(|i, k| list[*i].1.total_cmp(&list[*k].1))?;
     let three = list.get(highest.checked_sub(1)?..highest + 2)?;
-    let (x, y) = ([0, 1, 2].map(|k| three[k].0), [0, 1, 2].map(|k| three[k].1.ln()));
-    vertex(x, y).map(|(place, top)| (place, top.exp()))
+    let (x, y) = ([0, 1, 2].map(|k| three[k].0), [0, 1, 2].map(|k| -three[k].1.powi(-2)));
+    vertex(x, y).filter(|(_, top)| *top < 0.0).map(|(place, top)| (place, (-top).powf(-0.5)))
 }
 
 /// Top of the parabola through three points, if it has one between them.
@@ -104,6 +105,22 @@ fn vertex(x: [f64; 3], y: [f64; 3]) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Wherever the peak falls between points a half-width apart.
+    #[test]
+    fn three_points_find_a_resonance() {
+        for centre in [1615.0, 1622.0, 1630.0, 1641.0] {
+            let at = |x: f64| {
+                let r = x / centre;
+                (x, 1.0 / ((1.0 - r * r).powi(2) + (0.036 * r).powi(2)).sqrt())
+            };
+            let (place, height) =
+                top_of_three([1600.0, 1630.0, 1660.0].map(at).into_iter()).unwrap();
+            assert!((place / centre - 1.0).abs() < 1e-3, "{centre}: {place}");
+            assert!((height * 0.036 - 1.0).abs() < 2e-3, "{centre}: {height}");
+        }
+        assert!(top_of_three([(1.0, 1.0), (2.0, 3.0), (3.0, 4.0)].into_iter()).is_none());
+    }
     use crate::sweep::Line;
 
     /// |H| of one degree of freedom at 778 Hz with 2 % damping, met by the first harmonic.

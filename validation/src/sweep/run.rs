@@ -6,12 +6,13 @@ use std::sync::Mutex;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::feed::{SIZES, SweepModel, is_too_small};
+use super::feed::SweepModel;
 use super::judge::prominent;
 use super::plan::{Chain, Plan};
 use super::point::{SweepPoint, TableRow};
 use super::steady::{SteadySettings, steady};
 use crate::error::ValidationError;
+use crate::larger::large_enough;
 
 /// A finished point with the state its chain goes on from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -167,29 +168,16 @@ fn one(
     settings: &SteadySettings,
 ) -> Result<Kept, ValidationError> {
     let mesh_frequency = speed_rpm * hz_per_rpm;
-    let mut size = 0;
-    let mut outgrown = None;
-    loop {
-        let attempt = || {
-            let mut set = model.turning(mesh_frequency, size)?;
-            match state {
-                Some(state) => set.restore(state)?,
-                None => set.rest()?,
-            }
-            let steps = model.steps_per_cycle();
-            let found =
-                steady(set.as_mut(), model.planets(), model.first_planet_rad(), steps, settings)?;
-            let point = SweepPoint::new(speed_rpm, mesh_frequency, &found, settings, size)?;
-            Ok(Kept { point, state: set.state() })
-        };
-        match attempt() {
-            Err(error) if is_too_small(&error) && size + 1 < SIZES => {
-                size += 1;
-                outgrown = Some(error);
-            }
-            // Larger tables may be impossible; what asked for them is the reason.
-            Err(error) => return Err(outgrown.unwrap_or(error)),
-            Ok(kept) => return Ok(kept),
+    large_enough(|size| {
+        let mut set = model.turning(mesh_frequency, size)?;
+        match state {
+            Some(state) => set.restore(state)?,
+            None => set.rest()?,
         }
-    }
+        let steps = model.steps_per_cycle();
+        let found =
+            steady(set.as_mut(), model.planets(), model.first_planet_rad(), steps, settings)?;
+        let point = SweepPoint::new(speed_rpm, mesh_frequency, &found, settings, size)?;
+        Ok(Kept { point, state: set.state() })
+    })
 }

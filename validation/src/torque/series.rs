@@ -37,16 +37,21 @@ impl Series {
     }
 }
 
+/// Frequencies of a split pair are nearer than this to each other, as a ratio.
+const TWINS: f64 = 1.03;
+
 /// The resonances of section 4.2: lowest translational mode (778 Hz) in odd harmonics, lowest
 /// rotational one (1144 Hz) in even ones, third translational one (2110 Hz) in odd ones. Split pairs
-/// are taken by their mean. `None` if there are no such modes.
+/// are taken by their mean, and a mode whose twin is of another kind at this position stands alone.
+/// `None` if there are no such modes.
 pub fn lowest_series(naturals: &[Natural]) -> Option<Vec<Series>> {
     let of = |kind: ModeType| {
         let list = naturals.iter().filter(move |n| n.mode_type == kind).map(|n| n.frequency_hz);
         list.collect::<Vec<f64>>()
     };
     let (translational, rotational) = (of(ModeType::Translational), of(ModeType::Rotational));
-    let pair = |k: usize| Some(0.5 * (translational.get(2 * k)? + translational.get(2 * k + 1)?));
+    let pairs: Vec<&[f64]> = translational.chunk_by(|a, b| *b < TWINS * a).collect();
+    let pair = |k: usize| pairs.get(k).map(|own| own.iter().sum::<f64>() / own.len() as f64);
     let one = |mode_type, is_lowest, frequency_hz, harmonic| Series {
         mode_type,
         is_lowest,

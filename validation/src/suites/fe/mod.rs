@@ -17,6 +17,7 @@ mod stepping;
 mod stiffness;
 mod sweeps;
 mod torque;
+mod truth;
 
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, PairCycle, SetCycle, StaticSet, pair_cycle};
@@ -103,7 +104,7 @@ pub(crate) fn checks(
     profile: Profile,
     concerns: &dyn Fn(&str) -> bool,
 ) -> Result<Vec<Check>, ValidationError> {
-    let suites: [(&[&str], Suite); 18] = [
+    let suites: [(&[&str], Suite); 19] = [
         (&["fe.hertz."], hertz::checks),
         (&["fe.convergence."], convergence::checks),
         (&["fe.resolved."], resolved::checks),
@@ -121,6 +122,7 @@ pub(crate) fn checks(
         (sweeps::IDS, sweeps::checks),
         (sweeps::IDS, reduced::checks),
         (&["sweep.control."], sweeps::controls),
+        (&["truth."], truth::checks),
         (&["torque."], torque::checks),
     ];
     if !suites.iter().any(|(prefixes, _)| prefixes.iter().any(|p| concerns(p))) {

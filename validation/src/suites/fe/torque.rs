@@ -10,12 +10,22 @@ use crate::catalogue::{PublishedScene, scene};
 use crate::check::{Check, ReferenceKind, Subject, Tolerance};
 use crate::error::ValidationError;
 use crate::sweep::{Part, naturals};
-use crate::torque::{Followed, follow, judge, lowest_series, static_growth};
+use crate::torque::{Followed, Series, follow, judge, lowest_series, static_growth};
 
 /// N·m: 5000 to 20000 lb-in.
 const TORQUES: [f64; 4] = [565.0, 1130.0, 1695.0, 2260.0];
 
 const PARTS: [(&str, bool); 2] = [("sun", true), ("planet", false)];
+
+/// A set with the resonances that are followed.
+struct System<'s> {
+    name: &'s str,
+    /// For people.
+    words: &'s str,
+    scene: &'s Scene,
+    bodies: &'s Bodies,
+    series: &'s [Series],
+}
 
 fn systems() -> Result<[(&'static str, &'static str, Scene); 3], ValidationError> {
     Ok([
@@ -35,20 +45,16 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
         let bodies = Bodies::new(&scene)?;
         let missing = ValidationError::Incomplete("modes of the kinds followed");
         let series = lowest_series(&naturals(&scene, &bodies, 1130.0)?).ok_or(missing)?;
-        checks.extend(first_peaks(lab, (name, words), &scene, &bodies, &series)?);
-        checks.extend(all_peaks(lab, (name, words), &scene, &bodies, &series)?);
+        let system = System { name, words, scene: &scene, bodies: &bodies, series: &series };
+        checks.extend(first_peaks(lab, &system)?);
+        checks.extend(all_peaks(lab, &system)?);
     }
     Ok(checks)
 }
 
 /// The lowest translational mode in l = 1 and the lowest rotational one in l = 2.
-fn first_peaks(
-    lab: &Lab<'_>,
-    (name, words): (&str, &str),
-    scene: &Scene,
-    bodies: &Bodies,
-    series: &[crate::torque::Series],
-) -> Result<Vec<Check>, ValidationError> {
+fn first_peaks(lab: &Lab<'_>, system: &System<'_>) -> Result<Vec<Check>, ValidationError> {
+    let System { name, words, scene, bodies, series } = *system;
     let mut checks = Vec::new();
     let first = [series[0], series[2]];
     let found = follow(scene, bodies, &TORQUES, &first, &[Part::Sun], 1e-5)?;
@@ -79,13 +85,8 @@ fn first_peaks(
 }
 
 /// Every followed resonance, in the full profile.
-fn all_peaks(
-    lab: &Lab<'_>,
-    (name, words): (&str, &str),
-    scene: &Scene,
-    bodies: &Bodies,
-    series: &[crate::torque::Series],
-) -> Result<Vec<Check>, ValidationError> {
+fn all_peaks(lab: &Lab<'_>, system: &System<'_>) -> Result<Vec<Check>, ValidationError> {
+    let System { name, words, scene, bodies, series } = *system;
     let both = [Part::Sun, Part::Planet(0)];
     let found = match lab.profile {
         Profile::Quick => None,
