@@ -198,29 +198,37 @@ mod tests {
         assert!(kept > 70 * 8);
     }
 
-    /// Maps that give way to others cost time, not accuracy.
+    /// Maps that give way to others cost time, not accuracy. With three planets the meshes of a kind are
+    /// in phase and share a table; one planet's pin stands off, so that they need different maps at once.
     #[test]
     fn few_maps_march_as_many_do() {
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/oh58_4p.toml");
-        let mut scene = gearset::Scene::from_file(path.as_ref()).unwrap();
-        scene.fe_contact.flank_elements = 8;
-        let bodies = Bodies::new(&scene).unwrap();
-        let motive = Motive::Turning { mesh_frequency: 570.0, steps_per_cycle: 28 };
-        let march = |most: usize| {
-            let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
-            let mut set = VibratingSet::new(&scene, &bodies, sense, none, motive, 12000.0).unwrap();
-            set.maps.iter_mut().for_each(|maps| maps.keep(most));
-            set.rest(1130.0).unwrap();
-            for _ in 0..6 * 28 {
-                set.step().unwrap();
+        for (name, most) in [("oh58_4p", 1), ("oh58_3p", 3)] {
+            let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/");
+            let mut scene = Scene::from_file(format!("{root}{name}.toml").as_ref()).unwrap();
+            scene.fe_contact.flank_elements = 8;
+            let bodies = Bodies::new(&scene).unwrap();
+            let motive = Motive::Turning { mesh_frequency: 570.0, steps_per_cycle: 28 };
+            let march = |most: usize| {
+                let displaced = Imperfections {
+                    displaced_planets: vec![(0, 0.0, 50e-6)],
+                    ..Imperfections::default()
+                };
+                let sense = Facing::CounterClockwise;
+                let mut set =
+                    VibratingSet::new(&scene, &bodies, sense, displaced, motive, 12000.0).unwrap();
+                set.maps.iter_mut().for_each(|maps| maps.keep(most));
+                set.rest(1130.0).unwrap();
+                for _ in 0..6 * 28 {
+                    set.step().unwrap();
+                }
+                (set.motion().x.clone(), set.contact_counts()[0])
+            };
+            let ((many, solved), (few, again)) = (march(64), march(most));
+            assert!(again > solved, "{name}: nothing gave way: {again}, {solved} problems");
+            let largest = many.iter().fold(0.0f64, |a, x| a.max(x.abs()));
+            for (a, b) in many.iter().zip(&few) {
+                assert!((a - b).abs() < 1e-9 * largest, "{name}: {a} {b}");
             }
-            (set.motion().x.clone(), set.contact_counts()[0])
-        };
-        let ((many, solved), (few, again)) = (march(64), march(1));
-        assert!(again > solved + 20, "nothing gave way: {again} and {solved} problems");
-        let largest = many.iter().fold(0.0f64, |a, x| a.max(x.abs()));
-        for (a, b) in many.iter().zip(&few) {
-            assert!((a - b).abs() < 1e-9 * largest, "{a} {b}");
         }
     }
 }

@@ -11,7 +11,7 @@ use super::set::{Loads, Motive, VibratingSet, Work};
 use crate::complementarity::ActiveSet;
 use crate::contact::ContactMaps;
 use crate::error::FeError;
-use crate::statics::{CARRIER, Races};
+use crate::statics::{CARRIER, Races, SetTables};
 
 /// Newton iterations of one step before it is given up.
 const MOST_ITERATIONS: usize = 60;
@@ -153,13 +153,7 @@ impl VibratingSet<'_> {
                 let row = frame.receptance.row(i);
                 *delta = b - row.iter().zip(&*forces).map(|(y, p)| y * p).sum::<f64>();
             }
-            for mesh in &mut frame.meshes {
-                if mesh.map(&self.maps).is_none() {
-                    let delta = &approaches[mesh.first..mesh.first + mesh.count];
-                    let (table, maps) = (&tables.list[mesh.table], &mut self.maps[mesh.table]);
-                    maps.find(table, delta, &mut mesh.held, solver)?;
-                }
-            }
+            find_lost(frame, &mut self.maps, tables, approaches)?;
         }
         let mut residual = f64::INFINITY;
         for iteration in 0..MOST_ITERATIONS {
@@ -167,8 +161,12 @@ impl VibratingSet<'_> {
             let place = match known {
                 Some(place) => place,
                 None => {
+                    let Some(made) = combine(frame, &self.maps, &work.ids)? else {
+                        // Meshes of one table: the map of one gave way to that of another.
+                        find_lost(frame, &mut self.maps, tables, approaches)?;
+                        continue;
+                    };
                     self.counts.combinations += 1;
-                    let made = combine(frame, &self.maps, &work.ids)?;
                     frame.keep(made)
                 }
             };
@@ -294,14 +292,33 @@ fn combination(frame: &Frame, ids: &mut Vec<u64>) -> Option<usize> {
     frame.combinations.iter().position(|c| c.maps == *ids)
 }
 
-/// (I + Y S) δ = b − Y P₀.
-fn combine(frame: &Frame, maps: &[ContactMaps], ids: &[u64]) -> Result<Combination, FeError> {
+/// Finds maps at some approaches for the meshes that have none, or whose map gave way to another.
+fn find_lost(
+    frame: &mut Frame,
+    maps: &mut [ContactMaps],
+    tables: &SetTables,
+    approaches: &[f64],
+) -> Result<(), FeError> {
+    for mesh in &mut frame.meshes {
+        if mesh.map(maps).is_none() {
+            let delta = &approaches[mesh.first..mesh.first + mesh.count];
+            maps[mesh.table].find(&tables.list[mesh.table], delta, &mut mesh.held, &ActiveSet)?;
+        }
+    }
+    Ok(())
+}
+
+/// (I + Y S) δ = b − Y P₀; `None` if a mesh has no map.
+fn combine(
+    frame: &Frame,
+    maps: &[ContactMaps],
+    ids: &[u64],
+) -> Result<Option<Combination>, FeError> {
     let count = frame.offsets.len();
     let (mut s, mut p0) = (DMatrix::zeros(count, count), DVector::zeros(count));
     let mut laws = Vec::with_capacity(count * 4);
     for mesh in &frame.meshes {
-        let lost = || FeError::NoEquilibrium("contact at this position was not found".into());
-        let map = mesh.map(maps).ok_or_else(lost)?;
+        let Some(map) = mesh.map(maps) else { return Ok(None) };
         for i in 0..mesh.count {
             p0[mesh.first + i] = map.forces[i];
             laws.push(map.forces[i]);
@@ -316,7 +333,8 @@ fn combine(frame: &Frame, maps: &[ContactMaps], ids: &[u64]) -> Result<Combinati
     let slope = matrix.try_inverse().ok_or_else(singular)?;
     let offset = &slope * (&frame.receptance * -p0);
     let slope = Packed::new(&slope);
-    Ok(Combination { maps: ids.to_vec(), slope, offset: offset.as_slice().to_vec(), laws })
+    let offset = offset.as_slice().to_vec();
+    Ok(Some(Combination { maps: ids.to_vec(), slope, offset, laws }))
 }
 
 fn add_of(races: &Races, body: usize, own: [f64; 3], load: &mut DVector<f64>) {

@@ -4,11 +4,11 @@
 use gearset::excitation_of_scene;
 
 use super::Lab;
-use super::sweeps::{TORQUE, judged, peaks_judged, speeds, swept};
+use super::sweeps::{PROMINENT, TORQUE, judged, peaks_judged, speeds, swept};
 use crate::Profile;
 use crate::check::Check;
 use crate::error::ValidationError;
-use crate::sweep::{LawModel, naturals};
+use crate::sweep::{LawModel, assigned, naturals};
 
 pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     let ratio = if lab.profile == Profile::Quick { 0.02 } else { 0.005 };
@@ -19,7 +19,8 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     let found = swept(&law, scene, &grid)?;
     let mut checks = judged(lab, "four_mesh_law", &found.points(), &strengths)?;
     let naturals = naturals(scene, &lab.bodies, TORQUE)?;
-    checks.push(peaks_judged(lab, "four_mesh_law", &found.points(), &strengths, &naturals)?);
+    let list = assigned(&found.points(), &strengths, &naturals, PROMINENT);
+    checks.push(peaks_judged(lab, "four_mesh_law", &list)?);
     // Its modes are its own: the printed masses, not those of the meshes.
     let found = swept(&law.lumped(), scene, &grid)?;
     checks.extend(judged(lab, "four_lumped", &found.points(), &strengths)?);

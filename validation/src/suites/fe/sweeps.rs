@@ -13,8 +13,8 @@ use crate::catalogue::PublishedScene;
 use crate::check::{Check, ReferenceKind, Subject};
 use crate::error::ValidationError;
 use crate::sweep::{
-    Content, Coordinate, Direction, FeModel, Memory, Natural, Part, Plan, SteadySettings, Sweep,
-    SweepModel, SweepPoint, assigned, contents, naturals, run,
+    Assigned, Content, Coordinate, Direction, FeModel, Memory, Natural, Part, Plan, SteadySettings,
+    Sweep, SweepModel, SweepPoint, assigned, contents, naturals, run,
 };
 
 /// What ids of the sweeps start with.
@@ -34,7 +34,7 @@ pub(crate) const IDS: &[&str] = &[
 pub(super) const TORQUE: f64 = 1130.0;
 
 /// Peaks that stand out by less are left alone.
-const PROMINENT: f64 = 1.3;
+pub(super) const PROMINENT: f64 = 1.3;
 
 /// The second manifest goes so far to either side of a peak, in parts of its speed.
 const SPAN: f64 = 0.015;
@@ -130,8 +130,8 @@ fn set(
     let strengths = excitation_of_scene(scene, 5).ok_or(ValidationError::Incomplete("teeth"))?;
     let mut checks = judged(lab, name, &points, &strengths)?;
     let naturals = naturals(scene, bodies, TORQUE)?;
-    checks.push(peaks_judged(lab, name, &points, &strengths, &naturals)?);
     let list = assigned(&points, &strengths, &naturals, PROMINENT);
+    checks.push(peaks_judged(lab, name, &list)?);
     let source = "phasor sums of the planets' mesh phases";
     // The two modes the paper follows, each where its own harmonics meet it.
     let mut modes: Vec<Natural> = Vec::new();
@@ -201,11 +201,9 @@ fn words(name: &str) -> String {
 pub(super) fn peaks_judged(
     lab: &Lab<'_>,
     name: &str,
-    points: &[&SweepPoint],
-    strengths: &[ExcitationStrengths],
-    naturals: &[Natural],
+    list: &[Assigned],
 ) -> Result<Check, ValidationError> {
-    let (words, list) = (words(name), assigned(points, strengths, naturals, PROMINENT));
+    let words = words(name);
     let worst = list.iter().fold(0.0f64, |a, p| a.max(p.off_percent().abs()));
     let title = format!(
         "{words}: {} peaks of the sun and planet 0, farthest from ω_n/l of a mode that the harmonic may excite",
