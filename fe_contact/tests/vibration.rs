@@ -192,6 +192,32 @@ fn modes_and_full_bodies_answer_alike() {
     assert!(more < 0.8 * few, "{few} {more}");
 }
 
+/// What modes do not carry of a body is given statically, between its meshes as within them: statics
+/// know nothing of how many there are.
+#[test]
+fn equilibrium_is_that_of_full_bodies_with_any_number_of_modes() {
+    let at_rest = |rung| {
+        let scene = scene("oh58_4p", rung);
+        let bodies = Bodies::new(&scene).unwrap();
+        let mut set = set(&scene, &bodies, standing(5e-6));
+        set.rest(TORQUE).unwrap();
+        set.motion().x.clone()
+    };
+    let full = at_rest(Rung::Full);
+    let size = full.iter().fold(0.0f64, |a, x| a.max(x.abs()));
+    let apart = |rung| {
+        let x = at_rest(rung);
+        x.iter().zip(&full).fold(0.0f64, |a, (x, full)| a.max((x - full).abs())) / size
+    };
+    for n in [1, 5] {
+        let apart = apart(Rung::Modal(n));
+        assert!(apart < 1e-9, "{n} modes: {apart:e}");
+    }
+    // Quasi-static bodies know each mesh alone.
+    let apart = apart(Rung::QuasiStatic);
+    assert!(apart > 1e-5 && apart < 1e-2, "{apart:e}");
+}
+
 #[test]
 fn divergence_names_time_body_and_quantity() {
     let scene = scene("oh58_3p", Rung::QuasiStatic);

@@ -41,10 +41,10 @@ pub(crate) fn write(verdict: &Verdict, folder: &Path) -> Result<(), CommandError
             picture.save(folder, name)?;
         }
     }
-    if let Some(picture) = rungs_chart(verdict) {
+    let reference = Reference::load().map_err(ValidationError::from)?;
+    if let Some(picture) = rungs_chart(verdict, &reference.ladder) {
         picture.save(folder, "rungs")?;
     }
-    let reference = Reference::load().map_err(ValidationError::from)?;
     cost_chart(&reference.ladder).save(folder, "cost")?;
     torque_map(&reference.torque_map, paper_gamma()?).save(folder, "torque_map")?;
     let kept = reference.torque_peaks;

@@ -1,5 +1,5 @@
 //! Error against cost, the rungs of the ladder by steps and contact cells: `reference/ladder.toml`.
-//! Some minutes on two cores, `reference/full_sweep.toml` given.
+//! Twenty minutes on two cores, most of them modes, `reference/full_sweep.toml` given.
 //!
 //! `cargo run --release -p validation --example ladder > ladder.toml && mv ladder.toml reference/`
 //!
@@ -7,7 +7,7 @@
 //! 1413 N·m, against `full` without the error of steps. Cost: time of a step once the set is steady, all rungs in turns
 //! in one run, over that of the lumped model in time at 140 steps; of `full` three cycles, beside the
 //! lumped model, once a first one has met every position. Flanks of eight elements, as the truth
-//! has.
+//! has, and its tables of contact.
 
 use std::time::Instant;
 
@@ -58,7 +58,7 @@ fn settings(cells: u32) -> Vec<Setting> {
     for cells in [cells / 2, 2 * cells] {
         list.push(Setting { model: Model::Rung(Rung::QuasiStatic), steps: 140, cells });
     }
-    for n in [2, 10, 30] {
+    for n in [2, 10, 30, 90] {
         list.push(Setting { model: Model::Rung(Rung::Modal(n)), steps: 140, cells });
     }
     list
@@ -89,13 +89,17 @@ fn model<'s>(
     scene: &Scene,
     bodies: &'s Bodies,
     which: Model,
-    torque: f64,
+    truth: &FullSweep,
 ) -> Outcome<Box<dyn SweepModel + 's>> {
+    let torque = truth.torque_nm;
     let law = || LawModel::new(scene, bodies, torque);
     Ok(match which {
         Model::Lumped => Box::new(law()?.lumped()),
         Model::Rung(Rung::MeshLaw) => Box::new(law()?),
-        Model::Rung(_) => Box::new(FeModel::new(scene, bodies, Imperfections::default(), torque)),
+        Model::Rung(_) => {
+            let model = FeModel::new(scene, bodies, Imperfections::default(), torque);
+            Box::new(model.with_tables(truth.table_size))
+        }
     })
 }
 
@@ -114,6 +118,7 @@ fn main() -> Outcome<()> {
         "torque_nm = {torque:.1}\npeak_rpm = {:.3}\npeak_rad = {:.6e}",
         peak.speed_rpm, peak.height_rad
     );
+    println!("table_size = {}", truth.table_size);
     println!("peak_rpm_uncertain_percent = {:.1e}", peak.uncertain_percent[0]);
     println!("peak_rad_uncertain_percent = {:.1e}", peak.uncertain_percent[1]);
 
@@ -136,7 +141,7 @@ fn main() -> Outcome<()> {
     let models: Vec<_> = settings
         .iter()
         .zip(&made)
-        .map(|(s, (own, bodies))| model(own, bodies, s.model, torque))
+        .map(|(s, (own, bodies))| model(own, bodies, s.model, &truth))
         .collect::<Outcome<_>>()?;
     let steady_settings =
         SteadySettings { tolerance: 1e-6, between_cycles: 0, ..SteadySettings::default() };
@@ -179,7 +184,7 @@ fn main() -> Outcome<()> {
     scene.dynamics.rung = Rung::Full;
     scene.dynamics.steps_per_cycle = 140;
     let bodies = Bodies::new(&scene)?;
-    let full = model(&scene, &bodies, Model::Rung(Rung::Full), torque)?;
+    let full = model(&scene, &bodies, Model::Rung(Rung::Full), &truth)?;
     let mut set = full.turning(TIMED_RPM * hz_per_rpm, 0)?;
     set.rest()?;
     (0..140).try_for_each(|_| set.step())?;

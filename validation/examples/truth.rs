@@ -101,6 +101,7 @@ fn main() -> Outcome<()> {
     println!("source = \"own computation, rung full\"");
     println!("command = \"cargo run --release -p validation --example truth\"");
     println!("torque_nm = {TORQUE_NM:.1}\nflank_elements = {FLANK_ELEMENTS}");
+    println!("table_size = {TABLES}");
     let all: Vec<String> = PLANS
         .into_par_iter()
         .map(|plan| at_speed(&scene, &bodies, plan, hz))

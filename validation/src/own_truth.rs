@@ -65,6 +65,8 @@ pub struct FullSweep {
     pub command: String,
     pub torque_nm: f64,
     pub flank_elements: u32,
+    /// Tables of contact laid out for twice the usual load, this often.
+    pub table_size: usize,
     pub point: Vec<FullSweepPoint>,
 }
 
@@ -181,6 +183,8 @@ pub struct Ladder {
     pub source: String,
     pub command: String,
     pub torque_nm: f64,
+    /// Of tables of contact, as the truth has them.
+    pub table_size: usize,
     /// Peak of the sun's rotation in the second harmonic with `full`, without the error of steps.
     pub peak_rpm: f64,
     pub peak_rad: f64,

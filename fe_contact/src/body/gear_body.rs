@@ -55,6 +55,9 @@ pub struct GearBody {
     /// Displacements (2 rows a sector node, tooth frame of the moving tooth) under unit loads on
     /// tooth 0 (2 columns a load node, its own frame), for teeth −REACH…REACH, m/N.
     responses: Vec<DMatrix<f64>>,
+    /// The same at the load nodes alone (2 rows each), for all teeth on from the loaded one; tooth 0
+    /// alone where teeth are meshed differently, m/N.
+    around: Vec<DMatrix<f64>>,
     boxes: Vec<[f64; 4]>,
 }
 
@@ -88,26 +91,32 @@ impl GearBody {
         factor.solve(&mut right);
         let teeth = mesh.outline.gear().teeth as i64;
         let reach = REACH.min((teeth - 1) / 2);
+        // Displacements in the tooth's own frame at some nodes of its sector.
+        let seen = |tooth: usize, locals: &[usize]| {
+            let (sin, cos) = mesh.tooth_angle(tooth).sin_cos();
+            let mut response = DMatrix::zeros(2 * locals.len(), right.ncols());
+            for (row, local) in locals.iter().enumerate() {
+                let unknown = unknown_of[mesh.nodes[tooth][*local]];
+                if unknown == usize::MAX {
+                    continue;
+                }
+                for c in 0..right.ncols() {
+                    let (x, y) = (right[(unknown, c)], right[(unknown + 1, c)]);
+                    response[(2 * row, c)] = cos * x + sin * y;
+                    response[(2 * row + 1, c)] = -sin * x + cos * y;
+                }
+            }
+            response
+        };
         let responses = (-reach..=reach)
             .map(|offset| {
                 let tooth = offset.rem_euclid(teeth) as usize;
-                let (sin, cos) = mesh.tooth_angle(tooth).sin_cos();
-                let nodes = &mesh.nodes[tooth];
-                let mut response = DMatrix::zeros(2 * nodes.len(), right.ncols());
-                for (local, global) in nodes.iter().enumerate() {
-                    let unknown = unknown_of[*global];
-                    if unknown == usize::MAX {
-                        continue;
-                    }
-                    for c in 0..right.ncols() {
-                        let (x, y) = (right[(unknown, c)], right[(unknown + 1, c)]);
-                        response[(2 * local, c)] = cos * x + sin * y;
-                        response[(2 * local + 1, c)] = -sin * x + cos * y;
-                    }
-                }
-                response
+                let all: Vec<usize> = (0..mesh.nodes[tooth].len()).collect();
+                seen(tooth, &all)
             })
             .collect();
+        let alike = if mesh.sectors.len() > 1 { 1 } else { teeth as usize };
+        let around = (0..alike).map(|tooth| seen(tooth, &load_nodes)).collect();
         let boxes = sector.elements.iter().map(|e| {
             let mut b = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
             // Corners bound the element but for the bulge of its edges.
@@ -130,6 +139,7 @@ impl GearBody {
             load_nodes,
             column_of,
             responses,
+            around,
             boxes,
         })
     }
@@ -262,14 +272,14 @@ impl GearBody {
         offset: i64,
         (point, measured): (&[(usize, f64)], [f64; 2]),
     ) -> f64 {
-        let Some(response) = self.response(offset) else { return 0.0 };
+        let teeth = self.mesh.nodes.len() as i64;
+        let Some(response) = self.around.get(offset.rem_euclid(teeth) as usize) else { return 0.0 };
         let mut sum = 0.0;
         for (column, w) in load {
             for (k, f) in force.iter().enumerate() {
                 for (at, n) in point {
-                    let node = self.node_of(*at);
                     for (r, m) in measured.iter().enumerate() {
-                        sum += w * f * n * m * response[(2 * node + r, column + k)];
+                        sum += w * f * n * m * response[(at + r, column + k)];
                     }
                 }
             }

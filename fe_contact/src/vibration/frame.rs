@@ -1,5 +1,7 @@
 //! One position of the mesh cycle as a vibrating set sees it: all that depends on it alone.
 
+use std::ops::Range;
+
 use nalgebra::DMatrix;
 
 use super::body::Port;
@@ -66,10 +68,13 @@ pub(super) struct Frame {
     /// Y: what a unit force on one pair takes from the approach of another within a step, beyond
     /// the cells' own compliance, m/N.
     pub(super) receptance: DMatrix<f64>,
-    /// Static FE flexibility that no body's state carries, within meshes, m/N.
+    /// Static FE flexibility that no body's state carries, m/N: within meshes, and between those of
+    /// bodies that have a state, which would carry a part of it alone.
     pub(super) lagging: DMatrix<f64>,
-    /// The same, mesh by mesh, each by columns.
+    /// The same by columns: of all pairs, or of those of its own mesh where no other is coupled.
     pub(super) lags: Vec<f64>,
+    /// Whether the columns hold all pairs.
+    pub(super) is_coupled: bool,
     /// Where each pair's forces are remembered.
     pub(super) slots: Vec<PairSlot>,
     pub(super) combinations: Vec<Combination>,
@@ -111,6 +116,7 @@ impl Frame {
             receptance: DMatrix::zeros(count, count),
             lagging: DMatrix::zeros(count, count),
             lags: Vec::new(),
+            is_coupled: ground.gears.iter().any(|gear| gear.vibrating.unknowns() > 0),
             slots: Vec::with_capacity(count),
             combinations: Vec::with_capacity(MOST_COMBINATIONS),
             oldest: 0,
@@ -153,12 +159,17 @@ impl Frame {
         frame.rows = short.collect::<Option<_>>().ok_or_else(many)?;
         frame.receptance -= (1.0 - ground.lag_end) * &frame.lagging;
         for mesh in &frame.meshes {
-            let own = mesh.first..mesh.first + mesh.count;
-            for j in own.clone() {
-                frame.lags.extend(own.clone().map(|i| frame.lagging[(i, j)]));
+            let lagged = frame.lagged_by(mesh);
+            for j in mesh.first..mesh.first + mesh.count {
+                frame.lags.extend(lagged.clone().map(|i| frame.lagging[(i, j)]));
             }
         }
         Ok(frame)
+    }
+
+    /// Pairs whose approach the past forces of a mesh change.
+    pub(super) fn lagged_by(&self, mesh: &FrameMesh) -> Range<usize> {
+        if self.is_coupled { 0..self.offsets.len() } else { mesh.first..mesh.first + mesh.count }
     }
 
     /// Mesh of each pair.
@@ -211,25 +222,24 @@ impl Frame {
         for (i, a) in places.iter().enumerate() {
             for (j, b) in places.iter().enumerate() {
                 let same = self.mesh_of(*a) == self.mesh_of(*b);
-                if carries {
-                    self.receptance[(*a, *b)] += receptance[i * width + j];
-                    if same {
-                        // The cells' compliance holds it already.
-                        self.receptance[(*a, *b)] -= carried[i * width + j];
-                        self.lagging[(*a, *b)] -= carried[i * width + j];
-                    }
+                if !same && !carries {
+                    // Quasi-static bodies know each mesh alone, as statics do.
+                    continue;
                 }
-                if same {
-                    let ((on, tooth_on), (of, tooth_of)) = (&own[j], &own[i]);
-                    let offset = tooth_of - tooth_on;
-                    let flexibility = gear.body.surface_flexibility(
-                        (&on.load, on.direction),
-                        offset,
-                        (&of.load, of.direction),
-                    );
-                    // As in the cells' compliance, which holds the same.
-                    let factor = self.meshes[self.mesh_of(*a)].flexibility_factor;
-                    self.lagging[(*a, *b)] += factor * flexibility;
+                let ((on, tooth_on), (of, tooth_of)) = (&own[j], &own[i]);
+                let whole = gear.body.surface_flexibility(
+                    (&on.load, on.direction),
+                    tooth_of - tooth_on,
+                    (&of.load, of.direction),
+                );
+                // As in the cells' compliance, which holds what is within a mesh.
+                let whole = whole * self.meshes[self.mesh_of(*a)].flexibility_factor;
+                self.lagging[(*a, *b)] += whole;
+                if carries {
+                    self.lagging[(*a, *b)] -= carried[i * width + j];
+                    let beyond_cells = if same { 0.0 } else { whole };
+                    self.receptance[(*a, *b)] +=
+                        receptance[i * width + j] + beyond_cells - carried[i * width + j];
                 }
             }
         }

@@ -125,30 +125,27 @@ impl VibratingSet<'_> {
         }
         let mut rows = DMatrix::zeros(count, size);
         rows.view_mut((0, 0), (count, n)).copy_from(&frame.rigid);
-        let mut carried = DMatrix::<f64>::zeros(count, count);
         let mut first = n + lists[0].2.len();
         for ((gear, own), (_, _, modes)) in self.gears.iter().zip(&frame.own).zip(&lists[1..]) {
             if modes.is_empty() {
                 continue;
             }
-            let ports = self.ports_of(frame, gear, own);
-            for (port, (pair, _)) in ports.iter().zip(own) {
+            for (port, (pair, _)) in self.ports_of(frame, gear, own).iter().zip(own) {
                 for (j, mode) in modes.iter().enumerate() {
                     rows[(*pair, first + j)] += port.read(&mode.shape);
                 }
             }
-            let static_part = gear.vibrating.carried_flexibility(&ports);
-            for (i, (a, _)) in own.iter().enumerate() {
-                for (j, (b, _)) in own.iter().enumerate() {
-                    if frame.mesh_of(*a) == frame.mesh_of(*b) {
-                        carried[(*a, *b)] += static_part[i * own.len() + j];
-                    }
-                }
-            }
             first += modes.len();
         }
-        // The cells' compliance holds what the modes carry; it must not act twice.
-        let contact = stiffened(&s, &carried)?;
+        // What the modes carry within a mesh is in the cells' compliance and must not act twice; what
+        // they do not carry between meshes is nowhere else.
+        let (carried, mut doubled) = (self.carried(frame), -&frame.lagging);
+        for mesh in &frame.meshes {
+            let own = (mesh.first, mesh.first);
+            let size = (mesh.count, mesh.count);
+            doubled.view_mut(own, size).copy_from(&carried.view(own, size));
+        }
+        let contact = stiffened(&s, &doubled)?;
         Ok(LinearSet {
             mass,
             damping,

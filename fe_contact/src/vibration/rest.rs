@@ -82,23 +82,30 @@ impl VibratingSet<'_> {
         Ok(())
     }
 
-    /// Static flexibility between pairs of different meshes that the bodies' states carry, m/N.
+    /// Static flexibility between pairs of different meshes, on bodies with a state of their own, m/N.
     fn across_meshes(&self, frame: &Frame) -> DMatrix<f64> {
+        let mut across = frame.lagging.clone() + self.carried(frame);
+        for mesh in &frame.meshes {
+            across.view_mut((mesh.first, mesh.first), (mesh.count, mesh.count)).fill(0.0);
+        }
+        across
+    }
+
+    /// Static flexibility between pairs that the bodies' states carry, m/N.
+    pub(super) fn carried(&self, frame: &Frame) -> DMatrix<f64> {
         let count = frame.offsets.len();
-        let mut across = DMatrix::zeros(count, count);
+        let mut carried = DMatrix::zeros(count, count);
         for (gear, own) in self.gears.iter().zip(&frame.own) {
             if gear.vibrating.unknowns() == 0 {
                 continue;
             }
-            let carried = gear.vibrating.carried_flexibility(&self.ports_of(frame, gear, own));
+            let of_gear = gear.vibrating.carried_flexibility(&self.ports_of(frame, gear, own));
             for (i, (a, _)) in own.iter().enumerate() {
                 for (j, (b, _)) in own.iter().enumerate() {
-                    if frame.mesh_of(*a) != frame.mesh_of(*b) {
-                        across[(*a, *b)] += carried[i * own.len() + j];
-                    }
+                    carried[(*a, *b)] += of_gear[i * own.len() + j];
                 }
             }
         }
-        across
+        carried
     }
 }

@@ -128,13 +128,12 @@ impl VibratingSet<'_> {
         }
         let mut lags = frame.lags.as_slice();
         for (memory, mesh) in self.memory.iter().zip(&frame.meshes) {
-            let range = mesh.first..mesh.first + mesh.count;
-            let own = &mut work.b.as_mut_slice()[range.clone()];
-            for slot in &frame.slots[range] {
+            let lagged = &mut work.b.as_mut_slice()[frame.lagged_by(mesh)];
+            for slot in &frame.slots[mesh.first..mesh.first + mesh.count] {
                 let known = memory.known(&self.lag, *slot);
                 let column;
-                (column, lags) = lags.split_at(mesh.count);
-                own.iter_mut().zip(column).for_each(|(b, f)| *b -= f * known);
+                (column, lags) = lags.split_at(lagged.len());
+                lagged.iter_mut().zip(column).for_each(|(b, f)| *b -= f * known);
             }
         }
         let (tables, solver) = (&self.tables, &ActiveSet);

@@ -51,6 +51,7 @@ pub struct FeModel<'s> {
     bodies: &'s Bodies,
     imperfections: Imperfections,
     torque_nm: f64,
+    table_size: usize,
     prepared: [OnceLock<Prepared<'s>>; SIZES],
 }
 
@@ -63,7 +64,15 @@ impl<'s> FeModel<'s> {
         torque_nm: f64,
     ) -> Self {
         let prepared = [const { OnceLock::new() }; SIZES];
-        Self { scene: scene.clone(), bodies, imperfections, torque_nm, prepared }
+        let (scene, table_size) = (scene.clone(), 0);
+        Self { scene, bodies, imperfections, torque_nm, table_size, prepared }
+    }
+
+    /// The same with tables laid out for twice the load, as often as `size` says, before any is found too
+    /// small: cells of a pair are as many, so larger tables are coarser ones, and models are compared on
+    /// the same.
+    pub fn with_tables(self, size: usize) -> Self {
+        Self { table_size: size, ..self }
     }
 
     /// Mesh force that tables of a size are made for, N.
@@ -104,6 +113,7 @@ impl SweepModel for FeModel<'_> {
     ) -> Result<Box<dyn Marching + '_>, ValidationError> {
         let steps_per_cycle = self.steps_per_cycle();
         let motive = Motive::Turning { mesh_frequency, steps_per_cycle };
+        let size = size.max(self.table_size);
         let (sense, force) = (sense(self.torque_nm), self.force(size)?);
         let slot = &self.prepared[size.min(SIZES - 1)];
         let prepared = match slot.get() {

@@ -1,4 +1,4 @@
-//! The quasi-static rung over speed against bodies with every degree of freedom, whose steady states are
+//! Rungs of the ladder over speed against bodies with every degree of freedom, whose steady states are
 //! kept.
 
 use fe_contact::statics::{Bodies, Imperfections};
@@ -6,23 +6,86 @@ use gearset::Rung;
 
 use super::Lab;
 use super::sweeps::hz_per_rpm;
-use crate::check::{Check, ReferenceKind};
+use crate::Profile;
+use crate::check::{Check, ReferenceKind, Subject};
 use crate::error::ValidationError;
-use crate::own_truth::FullSweepPoint;
+use crate::own_truth::{FullSweep, FullSweepPoint};
 use crate::sweep::{
     Chain, Coordinate, FeModel, Memory, Part, Plan, Response, SteadySettings, SweepPoint, run,
     top_of_three,
 };
 
-/// Steps a cycle of the rung that is judged.
+/// Steps a cycle of the rungs that are judged.
 const STEPS: u32 = 140;
+
+/// What is measured of a rung, percent.
+struct Differences {
+    /// Place and height of the rotational peak, full bodies without the error of steps.
+    peak: [f64; 2],
+    /// Harmonics of motion and of mesh forces at equal steps.
+    harmonics: [f64; 2],
+}
 
 pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     let kept = &lab.reference.full_sweep;
+    let source = format!("{}; remade by {}", kept.source, kept.command);
+    let speeds = kept.of_steps(STEPS).count();
+    let rungs = [
+        ("quasi_static", "quasi-static", Rung::QuasiStatic),
+        ("modal_2", "two modes a body", Rung::Modal(2)),
+        ("modal_10", "ten modes a body", Rung::Modal(10)),
+    ];
+    let mut checks = Vec::new();
+    for (id, name, rung) in rungs {
+        let is_run = rung == Rung::QuasiStatic || lab.profile == Profile::Full;
+        let found = if is_run { Some(differences(lab, kept, rung)?) } else { None };
+        let peak = |word: &str| {
+            format!(
+                "four planets, {name} at {STEPS} steps: {word} of the sun's rotational peak (l = 2) against full without the error of steps"
+            )
+        };
+        let harmonics = |of: &str| {
+            format!(
+                "four planets, {name}: {of}, harmonics 1 to 5 at {speeds} speeds against full, both at {STEPS} steps, largest difference over the largest harmonic"
+            )
+        };
+        let list = [
+            (format!("truth.frequency.{id}"), peak("place"), found.as_ref().map(|d| d.peak[0])),
+            (format!("truth.height.{id}"), peak("height"), found.as_ref().map(|d| d.peak[1])),
+            (
+                format!("truth.harmonics.{id}.motion"),
+                harmonics("motion of sun and planet"),
+                found.as_ref().map(|d| d.harmonics[0]),
+            ),
+            (
+                format!("truth.harmonics.{id}.force"),
+                harmonics("mesh forces"),
+                found.as_ref().map(|d| d.harmonics[1]),
+            ),
+        ];
+        for (id, title, off) in &list {
+            let kind = ReferenceKind::OwnRegression;
+            let subject = Subject { id, title, kind, source: &source, unit: "%" };
+            let tolerance = lab.reference.tolerance(id, 0.0)?;
+            checks.push(match off {
+                Some(off) => Check::number(subject, 0.0, *off, tolerance),
+                None => Check::not_run(subject, 0.0, tolerance),
+            });
+        }
+    }
+    Ok(checks)
+}
+
+/// A rung against full bodies, both on the same flanks and tables.
+fn differences(
+    lab: &Lab<'_>,
+    kept: &FullSweep,
+    rung: Rung,
+) -> Result<Differences, ValidationError> {
     let mut scene = lab.four.clone();
     scene.fe_contact.flank_elements = kept.flank_elements;
     scene.dynamics.steps_per_cycle = STEPS;
-    scene.dynamics.rung = Rung::QuasiStatic;
+    scene.dynamics.rung = rung;
     let bodies = Bodies::new(&scene)?;
     // Points of a sweep come by speed.
     let mut truth: Vec<&FullSweepPoint> = kept.of_steps(STEPS).collect();
@@ -31,12 +94,11 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     let steady = SteadySettings { tolerance: 1e-7, between_cycles: 0, ..SteadySettings::default() };
     let plan = Plan { steady, chains: vec![Chain { name: "truth".into(), speeds_rpm }] };
     let model = FeModel::new(&scene, &bodies, Imperfections::default(), kept.torque_nm);
+    let model = model.with_tables(kept.table_size);
     let found = run(&model, &plan, hz_per_rpm(&scene)?, &Memory, &|_| ())?;
     let points = found.points();
-    let source = format!("{}; remade by {}", kept.source, kept.command);
-    let (kind, mut checks) = (ReferenceKind::OwnRegression, Vec::new());
 
-    // The peak of the sun's rotation in l = 2, the truth without the error of steps.
+    // The peak of the sun's rotation in l = 2.
     let near = |p: &&&SweepPoint| kept.of_steps(280).any(|q| q.speed_rpm == p.speed_rpm);
     let incomplete = || ValidationError::Incomplete("peak between three speeds");
     let full = kept.rotational_peak().ok_or_else(incomplete)?;
@@ -44,20 +106,9 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     let own = top_of_three(points.iter().filter(near).map(|p| (p.speed_rpm, rotation(p))));
     let own = own.ok_or_else(incomplete)?;
     let percent = |own: f64, full: f64| 100.0 * (own / full - 1.0);
-    let titles = [
-        ("frequency", "place", percent(own.0, full.speed_rpm)),
-        ("height", "height", percent(own.1, full.height_rad)),
-    ];
-    for (what, word, off) in titles {
-        let title = format!(
-            "four planets, quasi-static at {STEPS} steps: {word} of the sun's rotational peak (l = 2) against full without the error of steps"
-        );
-        let id = format!("truth.{what}.quasi_static");
-        checks.push(lab.number(&id, &title, kind, &source, "%", 0.0, off)?);
-    }
 
     // Every harmonic at every speed, at equal steps: what the bodies' inertia does.
-    let mut worst = [0.0f64; 2];
+    let mut harmonics = [0.0f64; 2];
     for (point, full) in points.iter().zip(&truth) {
         let motion = |response: Response| move |l: usize| response.amplitude(point, l);
         let force = |part: Part| move |l: usize| point.amplitude(part, Coordinate::Force, l);
@@ -72,24 +123,15 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
             (Response::Rotation(Part::Planet(0)), &full.planet_0_rotation_rad),
             (Response::Translation(Part::Planet(0)), &full.planet_0_translation_m),
         ] {
-            worst[0] = worst[0].max(off(&motion(response), full));
+            harmonics[0] = harmonics[0].max(off(&motion(response), full));
         }
         for (part, full) in [
             (Part::SunMesh(0), &full.sun_mesh_0_force_n),
             (Part::RingMesh(0), &full.ring_mesh_0_force_n),
         ] {
-            worst[1] = worst[1].max(off(&force(part), full));
+            harmonics[1] = harmonics[1].max(off(&force(part), full));
         }
     }
-    for (what, of, worst) in
-        [("motion", "motion of sun and planet", worst[0]), ("force", "mesh forces", worst[1])]
-    {
-        let title = format!(
-            "four planets, quasi-static: {of}, harmonics 1 to 5 at {} speeds against full, both at {STEPS} steps, largest difference over the largest harmonic",
-            points.len()
-        );
-        let id = format!("truth.harmonics.quasi_static.{what}");
-        checks.push(lab.number(&id, &title, kind, &source, "%", 0.0, worst)?);
-    }
-    Ok(checks)
+    let peak = [percent(own.0, full.speed_rpm), percent(own.1, full.height_rad)];
+    Ok(Differences { peak, harmonics })
 }
