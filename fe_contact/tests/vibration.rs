@@ -1,7 +1,8 @@
 //! Sets in time: at rest, free, turning.
 
+use fe_contact::body::BodyMatrices;
 use fe_contact::statics::{Bodies, Imperfections};
-use fe_contact::vibration::{Motive, VibratingSet};
+use fe_contact::vibration::{Motive, VibratingSet, fixed_race_modes};
 use gearset::{Facing, Rung, Scene};
 
 const TORQUE: f64 = 1130.0;
@@ -216,6 +217,28 @@ fn equilibrium_is_that_of_full_bodies_with_any_number_of_modes() {
     // Quasi-static bodies know each mesh alone.
     let apart = apart(Rung::QuasiStatic);
     assert!(apart > 1e-5 && apart < 1e-2, "{apart:e}");
+}
+
+/// Bending of one tooth is spread over a band of modes, one for each tooth of the gear, far below the next.
+#[test]
+fn teeth_bend_in_a_band_of_as_many_modes() {
+    let scene = scene("oh58_4p", Rung::QuasiStatic);
+    let bodies = Bodies::new(&scene).unwrap();
+    for body in [&bodies.planet, bodies.sun.as_ref().unwrap()] {
+        let (mesh, teeth) = (&body.mesh, body.mesh.outline.gear().teeth as usize);
+        let matrices = BodyMatrices::of_gear(mesh, &body.material, body.face_width).unwrap();
+        let modes = fixed_race_modes(&matrices, teeth + 1, 0.04, mesh.name).unwrap();
+        let khz = |i: usize| modes[i].lambda.sqrt() / std::f64::consts::TAU / 1e3;
+        println!(
+            "{}: {:.1} to {:.1}, then {:.1} kHz",
+            mesh.name,
+            khz(0),
+            khz(teeth - 1),
+            khz(teeth)
+        );
+        let widest = (1..teeth).map(|i| khz(i) / khz(i - 1)).fold(0.0f64, f64::max);
+        assert!(widest < 1.12 && khz(teeth) > 1.3 * khz(teeth - 1), "{}: {widest}", mesh.name);
+    }
 }
 
 #[test]

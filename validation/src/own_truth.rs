@@ -227,3 +227,20 @@ impl LadderRung {
         self.step_ratio[1] * f64::from(self.steps_per_cycle) / 140.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A truth that was remade asks for the ladder to be.
+    #[test]
+    fn the_ladder_stands_beside_the_truth_that_is_kept() {
+        let truth = FullSweep::load().unwrap();
+        let ladder = crate::Reference::load().unwrap().ladder;
+        assert_eq!((ladder.torque_nm, ladder.table_size), (truth.torque_nm, truth.table_size));
+        let peak = truth.rotational_peak().unwrap();
+        // As many digits as are written.
+        assert!((ladder.peak_rpm - peak.speed_rpm).abs() < 1e-3, "{}", peak.speed_rpm);
+        assert!((ladder.peak_rad / peak.height_rad - 1.0).abs() < 1e-6, "{}", peak.height_rad);
+    }
+}

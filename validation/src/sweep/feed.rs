@@ -113,8 +113,8 @@ impl SweepModel for FeModel<'_> {
     ) -> Result<Box<dyn Marching + '_>, ValidationError> {
         let steps_per_cycle = self.steps_per_cycle();
         let motive = Motive::Turning { mesh_frequency, steps_per_cycle };
-        let size = size.max(self.table_size);
-        let (sense, force) = (sense(self.torque_nm), self.force(size)?);
+        let force = self.force(self.table_size + size)?;
+        let sense = sense(self.torque_nm);
         let slot = &self.prepared[size.min(SIZES - 1)];
         let prepared = match slot.get() {
             Some(prepared) => prepared,
