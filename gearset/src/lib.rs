@@ -3,6 +3,7 @@
 
 pub mod assembly;
 mod check;
+mod displaced;
 mod fault;
 mod gear;
 mod geometry;
@@ -23,6 +24,7 @@ mod rules;
 mod scene;
 mod template;
 
+pub use displaced::{DisplacedMesh, Displacements, MeshGradients, MeshHessians, PairLocation};
 pub use fault::{Fault, SceneError};
 pub use gear::{Facing, Flank, Gear, ToothSide};
 pub use geometry::{Geometry, ProfileShiftSums};
