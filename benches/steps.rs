@@ -7,7 +7,7 @@ use std::path::Path;
 use criterion::{Criterion, criterion_group, criterion_main};
 
 use fe_contact::statics::{Bodies, Imperfections};
-use fe_contact::vibration::{Motive, VibratingSet};
+use fe_contact::vibration::{Loading, Motive, VibratingSet};
 use gearset::{Facing, Rung, Scene};
 
 const STEPS: usize = 140;
@@ -36,7 +36,8 @@ fn steps(c: &mut Criterion) {
             None => Motive::Standing { position: 0.0, step: 12.6e-6 },
         };
         let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
-        let mut set = VibratingSet::new(&scene, &bodies, sense, none, motive, force).unwrap();
+        let loading = Loading { torque_nm: TORQUE, mesh_force: force };
+        let mut set = VibratingSet::new(&scene, &bodies, sense, none, motive, loading).unwrap();
         set.rest(TORQUE).unwrap();
         for _ in 0..cycles.map_or(2, |c| c * STEPS) {
             set.step().unwrap();

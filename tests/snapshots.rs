@@ -10,6 +10,7 @@ use insta::Comparator;
 use insta::internals::SnapshotContents;
 use insta::{Settings, Snapshot};
 use serde_json::Value;
+use validation::{Figure, Ledger};
 
 /// Relative tolerance of numbers whose key ends so; the longest match counts.
 const RELATIVE: [(&str, f64); 15] = [
@@ -140,6 +141,31 @@ fn the_counts_in_the_readme_are_those_of_the_verdict() {
     let (passed, failed, missed) = (&verdict["passed"], &verdict["failed"], &verdict["missed"]);
     let words = format!("{passed} checks pass, {failed} fail, {missed} published value");
     assert!(readme.contains(&words), "README.md should say: {words}");
+}
+
+/// The page of assumptions is the ledger with the kept verdict's figures, and names checks that exist.
+#[test]
+fn the_ledger_of_assumptions_has_the_figures_of_the_verdict() {
+    let verdict = kept_verdict();
+    let checks = verdict["checks"].as_array().unwrap();
+    let figure = |id: &str| {
+        let check = checks.iter().find(|check| check["id"] == id);
+        let check = check.unwrap_or_else(|| panic!("the ledger names {id}, which is no check"));
+        Some(Figure {
+            actual: check["actual"].as_f64()?,
+            unit: check["unit"].as_str()?.to_owned(),
+            tolerance: check["tolerance"]["absolute"].as_f64()?,
+        })
+    };
+    let page = Ledger::load().unwrap().page(&figure);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/assumptions.md");
+    let kept = std::fs::read_to_string(path).unwrap();
+    // Figures of two machines differ in digits that no check looks at.
+    let words = |text: &str| -> Vec<String> {
+        let is_word = |word: &&str| word.parse::<f64>().is_err();
+        text.split_whitespace().filter(is_word).map(String::from).collect()
+    };
+    assert!(words(&page) == words(&kept), "docs/assumptions.md is stale: regenerate it");
 }
 
 #[test]

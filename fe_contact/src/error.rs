@@ -38,6 +38,26 @@ pub enum FeError {
         /// Where.
         cause: DistortedElement,
     },
+    /// No loaded configuration repeats itself.
+    #[error(
+        "no mean configuration under {torque_nm} N·m is found: phases still change by {change:.4} cycles; stiffer bearings or a smaller torque keep the gears nearer their places"
+    )]
+    NoReference {
+        /// Torque on the sun, N·m.
+        torque_nm: f64,
+        /// Largest change of a phase in the last try, cycles.
+        change: f64,
+    },
+    /// Displacements too large for linear kinematics.
+    #[error(
+        "approaches of tooth pairs are up to {rest_um:.3} µm off their linear form about the mean loaded configuration, {percent:.0} % of the transmission error: displacements are too large for it; `dynamics.kinematics` = \"exact\" in a sweep, stiffer bearings or a smaller torque are within it"
+    )]
+    BeyondLinear {
+        /// Largest difference, µm.
+        rest_um: f64,
+        /// In percent of the transmission error's peak-to-peak value.
+        percent: f64,
+    },
     /// The factorisation broke down.
     #[error("the stiffness of the {body} is not positive definite: {cause}")]
     Factorisation {

@@ -1,7 +1,7 @@
 //! The time step allocates nothing once its maps are known.
 
 use fe_contact::statics::{Bodies, Imperfections};
-use fe_contact::vibration::{LawSettings, MeshLawSet, Motive, VibratingSet, mesh_law};
+use fe_contact::vibration::{LawSettings, Loading, MeshLawSet, Motive, VibratingSet, mesh_law};
 use gearset::{Facing, Rung, Scene};
 
 #[test]
@@ -14,7 +14,8 @@ fn a_warm_step_allocates_nothing() {
         let bodies = Bodies::new(&scene).unwrap();
         let motive = Motive::Turning { mesh_frequency: 500.0, steps_per_cycle: 28 };
         let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
-        let mut set = VibratingSet::new(&scene, &bodies, sense, none, motive, 8000.0).unwrap();
+        let loading = Loading { torque_nm: 1130.0, mesh_force: 8000.0 };
+        let mut set = VibratingSet::new(&scene, &bodies, sense, none, motive, loading).unwrap();
         set.rest(1130.0).unwrap();
         let cold = allocation_counter::measure(|| set.step().unwrap());
         assert!(cold.count_total > 0, "the first step builds its maps");
@@ -39,7 +40,7 @@ fn a_step_on_tabulated_forces_never_allocates() {
     let sense = Facing::CounterClockwise;
     let settings = LawSettings { nodes: 16, ..LawSettings::at(1130.0) };
     let law = mesh_law(&scene, &bodies, sense, 28, &settings).unwrap();
-    let mut set = MeshLawSet::new(&scene, &bodies, sense, 500.0, law).unwrap();
+    let mut set = MeshLawSet::new(&scene, &bodies, sense, 500.0, 1130.0, law).unwrap();
     set.rest(1130.0).unwrap();
     let made = allocation_counter::measure(|| (0..280).for_each(|_| set.step().unwrap()));
     assert_eq!(made.count_total, 0);

@@ -6,10 +6,15 @@ use std::time::Instant;
 use fe_contact::FeError;
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-use fe_contact::vibration::{LawSettings, MeshLawSet, Motive, VibratingSet, mesh_law};
+use fe_contact::vibration::{LawSettings, Loading, MeshLawSet, Motive, VibratingSet, mesh_law};
 use gearset::{Facing, FlankSide, Rung, Scene};
 
 const TORQUE: f64 = 1413.0;
+/// Tables of contact for a force of each mesh.
+fn loading(mesh_force: f64) -> Loading {
+    Loading { torque_nm: TORQUE, mesh_force }
+}
+
 const FREQUENCY: f64 = 565.714;
 const STEPS: usize = 140;
 
@@ -71,11 +76,11 @@ fn harmonics_are_those_of_the_quasi_static_rung() {
         law.damping_share(4),
         start.elapsed().as_secs_f64()
     );
-    let mut fast = MeshLawSet::new(&scene, &bodies, sense, FREQUENCY, law).unwrap();
+    let mut fast = MeshLawSet::new(&scene, &bodies, sense, FREQUENCY, TORQUE, law).unwrap();
     fast.rest(TORQUE).unwrap();
     let motive = Motive::Turning { mesh_frequency: FREQUENCY, steps_per_cycle: STEPS };
     let none = Imperfections::default();
-    let mut full = VibratingSet::new(&scene, &bodies, sense, none, motive, force).unwrap();
+    let mut full = VibratingSet::new(&scene, &bodies, sense, none, motive, loading(force)).unwrap();
     full.rest(TORQUE).unwrap();
     // At rest alike.
     let (a, b) = (fast.displacements().0[2][2], full.displacements().0[2][2]);
@@ -123,9 +128,11 @@ fn harmonics_are_those_of_the_quasi_static_rung() {
                 apart / scale
             );
             assert!(apart / scale < if h == 0 { 2e-3 } else { 0.15 }, "{name}, harmonic {h}");
-            // The second harmonic stands on a resonance: sizes agree better than phases.
+            // The second harmonic stands on a resonance, 5 to 7 % low here: half of it is the loads beside
+            // the line of action, which follow the vibration in contact and the position alone here, half
+            // the lag of βK, which acts on each pair there and on the mesh as a whole here.
             if k == 0 {
-                assert!((size(one[h]) - size(two[h])).abs() < 0.01 * largest.max(size(two[h])));
+                assert!((size(one[h]) - size(two[h])).abs() < 0.08 * largest.max(size(two[h])));
             }
         }
     }
@@ -165,7 +172,7 @@ fn both_senses_and_resumed_runs_agree() {
     let settings = LawSettings { nodes: 16, ..LawSettings::at(TORQUE) };
     let run = |sense| {
         let law = mesh_law(&scene, &bodies, sense, 28, &settings).unwrap();
-        let mut set = MeshLawSet::new(&scene, &bodies, sense, FREQUENCY, law).unwrap();
+        let mut set = MeshLawSet::new(&scene, &bodies, sense, FREQUENCY, TORQUE, law).unwrap();
         set.rest(TORQUE).unwrap();
         (0..100).for_each(|_| set.step().unwrap());
         let state = set.state().clone();
@@ -187,7 +194,7 @@ fn contact_is_not_solved_on_this_rung() {
     let bodies = Bodies::new(&scene).unwrap();
     let motive = Motive::Standing { position: 0.0, step: 1e-5 };
     let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
-    let set = VibratingSet::new(&scene, &bodies, sense, none, motive, 1e4);
+    let set = VibratingSet::new(&scene, &bodies, sense, none, motive, loading(1e4));
     assert!(matches!(set.map(|_| ()), Err(FeError::NoContact)));
     let unfit = LawSettings::at(-1.0);
     let law = mesh_law(&scene, &bodies, sense, 28, &unfit);
@@ -200,8 +207,10 @@ fn statics_are_those_of_contact() {
     let scene = scene("oh58_4p");
     let bodies = Bodies::new(&scene).unwrap();
     let sense = Facing::CounterClockwise;
-    let law = mesh_law(&scene, &bodies, sense, 28, &LawSettings::at(TORQUE)).unwrap();
-    let mut fast = MeshLawSet::new(&scene, &bodies, sense, FREQUENCY, law).unwrap();
+    // Grids as large as those of the contact it is held against: larger ones are coarser.
+    let settings = LawSettings { reach: 1.3, ..LawSettings::at(TORQUE) };
+    let law = mesh_law(&scene, &bodies, sense, 28, &settings).unwrap();
+    let mut fast = MeshLawSet::new(&scene, &bodies, sense, FREQUENCY, TORQUE, law).unwrap();
     let statics = StaticSet::new(&scene, &bodies, sense, Imperfections::default()).unwrap();
     let cycle = statics.cycle(TORQUE, 28, &ActiveSet).unwrap();
     let exact: Vec<f64> = cycle.states.iter().map(|s| s.central[2][2]).collect();

@@ -1,7 +1,7 @@
 //! The `[dynamics]` table.
 
 use crate::reader::Section;
-use crate::scene::{DynamicsInput, Rung};
+use crate::scene::{DynamicsInput, MeshKinematics, Rung};
 
 /// Rungs by name; the number of modes has a key of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,6 +32,16 @@ pub(crate) fn dynamics(s: Section<'_, '_>) -> DynamicsInput {
     let steps = s.integer("steps_per_cycle", (16, 100_000), "time steps in a mesh cycle");
     let switch = [("off", false), ("on", true)];
     let gyroscopic = s.choice("gyroscopic", &switch, "terms of the turning carrier frame");
+    let ways = [("about_mean", MeshKinematics::AboutMean), ("exact", MeshKinematics::Exact)];
+    let kinematics = s.choice("kinematics", &ways, "how meshes follow the displaced gears");
+    if kinematics == Some(MeshKinematics::Exact) && !matches!(name, None | Some(Name::QuasiStatic))
+    {
+        s.fault(
+            "kinematics",
+            "\"about_mean\" on this rung",
+            "only quasi-static bodies follow exactly",
+        );
+    }
     s.finish();
     let rung = match (name, modes) {
         (Some(Name::MeshLaw), _) => Rung::MeshLaw,
@@ -43,5 +53,6 @@ pub(crate) fn dynamics(s: Section<'_, '_>) -> DynamicsInput {
         rung,
         steps_per_cycle: steps.map_or(default.steps_per_cycle, |n| n as u32),
         gyroscopic: gyroscopic.unwrap_or(default.gyroscopic),
+        kinematics: kinematics.unwrap_or(default.kinematics),
     }
 }

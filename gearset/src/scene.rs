@@ -72,11 +72,24 @@ pub struct DynamicsInput {
     pub steps_per_cycle: u32,
     /// Whether the carrier frame's gyroscopic and centripetal terms act.
     pub gyroscopic: bool,
+    /// How meshes follow the displaced gears in a sweep.
+    pub kinematics: MeshKinematics,
+}
+
+/// How meshes follow the displaced gears.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MeshKinematics {
+    /// Exact for the mean configuration under load, linear (quadratic at corners) about it.
+    AboutMean,
+    /// Exact at every time step: slow.
+    Exact,
 }
 
 impl Default for DynamicsInput {
     fn default() -> Self {
-        Self { rung: Rung::QuasiStatic, steps_per_cycle: 140, gyroscopic: false }
+        let kinematics = MeshKinematics::AboutMean;
+        Self { rung: Rung::QuasiStatic, steps_per_cycle: 140, gyroscopic: false, kinematics }
     }
 }
 

@@ -28,6 +28,9 @@ pub(crate) struct SetOutput {
 struct TorqueOutput {
     /// On the sun.
     torque_nm: f64,
+    /// By how much windup moves the phase of planet 0's sun mesh, from whose start of path under load
+    /// positions count.
+    loaded_phase_shift_cycles: f64,
     /// Root mean square about the mean over the cycle.
     sun_rotation_rms_urad: f64,
     /// Root mean square of |(x, y) − mean| over the cycle.
@@ -97,6 +100,11 @@ struct Work {
     contact_iterations: usize,
     /// Largest imbalance of any race over the load.
     worst_residual: f64,
+    /// What approaches of tooth pairs are off their linear form about the mean loaded configuration at
+    /// most, µm.
+    kinematic_rest_um: f64,
+    /// The same over the transmission error's peak-to-peak value.
+    kinematic_rest_share: f64,
 }
 
 pub(super) fn run(
@@ -191,8 +199,10 @@ fn describe(cycle: &SetCycle, radius: f64) -> TorqueOutput {
         meshes: s.meshes.iter().map(mesh).collect(),
         back_flanks: s.backs.iter().filter(|m| m.force > 0.0).map(mesh).collect(),
     };
+    let rest = cycle.kinematic_rest(radius);
     TorqueOutput {
         torque_nm: cycle.torque_nm,
+        loaded_phase_shift_cycles: cycle.lead,
         sun_rotation_rms_urad: rotation * 1e6,
         sun_translation_rms_um: translation * 1e6,
         transmission_error_mean_um: mean * 1e6,
@@ -203,6 +213,8 @@ fn describe(cycle: &SetCycle, radius: f64) -> TorqueOutput {
             equilibrium_iterations: cycle.states.iter().map(|s| s.iterations).sum(),
             contact_iterations: cycle.states.iter().map(|s| s.contact_iterations).sum(),
             worst_residual: cycle.states.iter().fold(0.0, |a, s| a.max(s.residual)),
+            kinematic_rest_um: 1e6 * rest.largest,
+            kinematic_rest_share: rest.share,
         },
     }
 }
@@ -284,7 +296,19 @@ fn text(
             "sun about its mean: rotation {:.4} µrad RMS, translation {:.4} µm RMS",
             found.sun_rotation_rms_urad, found.sun_translation_rms_um
         )?;
-        let Work { equilibrium_iterations, contact_iterations, worst_residual } = found.work;
+        writeln!(
+            out,
+            "windup moves the sun mesh of planet 0 by {:.4} mesh cycles, from which positions count; linear kinematics about the mean leave {:.1e} µm",
+            found.loaded_phase_shift_cycles, found.work.kinematic_rest_um
+        )?;
+        if cycle.kinematic_rest(radius).is_worth_a_warning() {
+            writeln!(
+                out,
+                "Warning: that is {:.1} % of the transmission error; stiffer bearings or a smaller torque keep it small.",
+                100.0 * found.work.kinematic_rest_share
+            )?;
+        }
+        let Work { equilibrium_iterations, contact_iterations, worst_residual, .. } = found.work;
         writeln!(
             out,
             "{equilibrium_iterations} equilibrium and {contact_iterations} contact iterations, imbalance {worst_residual:.0e} of the load"

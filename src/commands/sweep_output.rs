@@ -67,6 +67,8 @@ struct PointHead<'a> {
     between_harmonics: Option<f64>,
     back_contact: f64,
     times_load_doubled: usize,
+    kinematic_rest_m: Option<f64>,
+    kinematic_rest_share: Option<f64>,
 }
 
 const COLUMNS: [(&str, &str); 14] = [
@@ -137,6 +139,8 @@ impl SweepOutput {
                 between_harmonics: p.between,
                 back_contact: p.back_contact,
                 times_load_doubled: p.size,
+                kinematic_rest_m: p.kinematic_rest_m,
+                kinematic_rest_share: p.kinematic_rest_share,
             })
         });
         Sidecar { head, scene_file, columns: COLUMNS, points: points.collect() }
@@ -173,7 +177,7 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
         "residual",
     ];
     let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9]);
-    let mut unsteady = 0;
+    let (mut unsteady, mut beyond) = (0, 0);
     for chain in &result.chains {
         for p in &chain.points {
             let strongest = |response: Response| {
@@ -188,6 +192,7 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
                 .filter(|l| l.coordinate == validation::sweep::Coordinate::ContactLoss);
             let lost = lost.fold(0.0f64, |a, l| a.max(l.amplitude));
             unsteady += usize::from(!p.is_steady);
+            beyond += usize::from(p.is_beyond_linear);
             table.add_row([
                 chain.name.clone(),
                 format!("{:.1}", p.speed_rpm),
@@ -207,6 +212,12 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
         out,
         "Sun's strongest harmonic l of the mesh frequency; no contact: largest part of a cycle in which a mesh carries nothing."
     )?;
+    if beyond > 0 {
+        writeln!(
+            out,
+            "Warning: at {beyond} of these speeds approaches of tooth pairs are off their linear form about the mean loaded configuration by more than 1 % of the transmission error; `dynamics.kinematics` = \"exact\" sweeps without it, slowly."
+        )?;
+    }
     if unsteady > 0 {
         writeln!(
             out,

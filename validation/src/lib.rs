@@ -5,6 +5,7 @@ mod check;
 mod compare;
 mod error;
 mod larger;
+mod ledger;
 pub mod modal;
 mod own_truth;
 mod reference;
@@ -17,6 +18,7 @@ pub use catalogue::{PublishedScene, scene};
 pub use check::{Check, ReferenceKind, Status, Subject, Tolerance, Value};
 pub use compare::{Comparison, ListedMode, Match, ModelMode, compare};
 pub use error::ValidationError;
+pub use ledger::{Assumption, Figure, Ledger};
 pub use own_truth::{
     FullSweep, FullSweepPoint, Ladder, LadderRung, MapCell, RotationalPeak, TorqueMap, TorquePeak,
     TorquePeaks,

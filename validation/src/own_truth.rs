@@ -68,6 +68,8 @@ pub struct FullSweep {
     /// Tables of contact laid out for twice the usual load, this often.
     pub table_size: usize,
     pub point: Vec<FullSweepPoint>,
+    /// Quasi-static bodies about the peak, by which the error of steps is known.
+    pub quasi_static: Vec<FullSweepPoint>,
 }
 
 /// The peak of the sun's rotation in the second harmonic, without the error of time steps.
@@ -95,25 +97,35 @@ impl FullSweep {
         self.point.iter().filter(move |p| p.steps_per_cycle == steps)
     }
 
-    /// The peak of the three speeds about it, extrapolated from 140 and 280 steps: errors are of second order,
+    /// Whether a speed (rpm) is one of those about the peak.
+    pub fn is_about_the_peak(&self, speed_rpm: f64) -> bool {
+        self.quasi_static.iter().any(|q| q.speed_rpm == speed_rpm)
+    }
+
+    /// The peak of the three speeds about it at 140 steps, less the error of steps q∞/q₁₄₀ of quasi-static
+    /// bodies, of second order:
     ///
     /// ```text
-    /// p = p₂₈₀ + (p₂₈₀ − p₁₄₀)/3
+    /// q∞ = q₂₈₀ + (q₂₈₀ − q₁₄₀)/3
     /// ```
     ///
-    /// and as uncertain as that is long. `None` if there is none.
+    /// and as uncertain as the extrapolation is long. `None` if there is none.
     pub fn rotational_peak(&self) -> Option<RotationalPeak> {
-        let near = |p: &&FullSweepPoint| self.of_steps(280).any(|q| q.speed_rpm == p.speed_rpm);
-        let at = |steps: u32| {
-            let own = self.of_steps(steps).filter(near);
-            top_of_three(own.map(|p| (p.speed_rpm, p.sun_rotation_rad[1])))
+        let top = |points: &mut dyn Iterator<Item = &FullSweepPoint>| {
+            top_of_three(points.map(|p| (p.speed_rpm, p.sun_rotation_rad[1])))
         };
-        let (coarse, fine) = (at(140)?, at(280)?);
+        let full = top(&mut self.of_steps(140).filter(|p| self.is_about_the_peak(p.speed_rpm)))?;
+        let quasi =
+            |steps: u32| top(&mut self.quasi_static.iter().filter(|p| p.steps_per_cycle == steps));
+        let (coarse, fine) = (quasi(140)?, quasi(280)?);
         let without = |fine: f64, coarse: f64| fine + (fine - coarse) / 3.0;
-        let (speed_rpm, height_rad) = (without(fine.0, coarse.0), without(fine.1, coarse.1));
+        let exact = (without(fine.0, coarse.0), without(fine.1, coarse.1));
         let off = |exact: f64, fine: f64| 100.0 * (fine / exact - 1.0).abs();
-        let uncertain_percent = [off(speed_rpm, fine.0), off(height_rad, fine.1)];
-        Some(RotationalPeak { speed_rpm, height_rad, uncertain_percent })
+        Some(RotationalPeak {
+            speed_rpm: full.0 * exact.0 / coarse.0,
+            height_rad: full.1 * exact.1 / coarse.1,
+            uncertain_percent: [off(exact.0, fine.0), off(exact.1, fine.1)],
+        })
     }
 }
 

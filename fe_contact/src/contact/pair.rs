@@ -77,7 +77,49 @@ impl<'m> PairFrame<'m> {
         })
     }
 
-    fn relief_at_origin(&self) -> f64 {
+    /// Pair `index` where the flanks overlap by `approach` (m): each gear turned by half of it into the
+    /// other from where they touch at `phase`. Path, corner, normal, arms and gap are those of the gears
+    /// as they stand, a corner's measured on its own gear.
+    pub(crate) fn pressed(mesh: &'m Mesh, phase: f64, approach: f64, index: i64) -> Option<Self> {
+        let half = 0.5 * approach / mesh.base_pitch;
+        let ends = [(MeshMember::Driver, half), (MeshMember::Driven, -half)];
+        for (member, turned) in ends {
+            match Self::new(mesh, phase + turned, index) {
+                Some(frame) if frame.location == Location::Corner(member) => return Some(frame),
+                _ => {}
+            }
+        }
+        // Neither corner is beyond its end.
+        Self::new(mesh, phase, index).map(|frame| match frame.location {
+            Location::Path => frame,
+            Location::Corner(_) => Self { gap: frame.relief_at_origin(), ..frame },
+        })
+    }
+
+    /// ∂²G/∂e² of a corner's gap G over how far e it stands beyond its end of the path, 1/m; nil on the
+    /// path.
+    pub(crate) fn curvature(&self, mesh: &'m Mesh, phase: f64, approach: f64) -> f64 {
+        const STEP: f64 = 2e-6;
+        let Location::Corner(member) = self.location else { return 0.0 };
+        let half = 0.5 * approach;
+        let own = if member == MeshMember::Driver { half } else { -half };
+        let gap = |step: f64| {
+            let at = Self::new(mesh, phase + (own + step) / mesh.base_pitch, self.index)?;
+            Some(at.rigid_gap())
+        };
+        match (gap(STEP), gap(0.0), gap(-STEP)) {
+            (Some(on), Some(here), Some(back)) => (on - 2.0 * here + back) / (STEP * STEP),
+            _ => 0.0,
+        }
+    }
+
+    /// Gap at the reference point without tip relief, m.
+    pub(crate) fn rigid_gap(&self) -> f64 {
+        self.gap - self.relief_at_origin()
+    }
+
+    /// What tip relief opens the pair by at its reference point, m.
+    pub(crate) fn relief_at_origin(&self) -> f64 {
         let string = |flank: &Flank<'_>| {
             let [x, y] = [self.origin[0] - flank.centre[0], self.origin[1] - flank.centre[1]];
             string_at(flank.gear.base_radius, x.hypot(y))

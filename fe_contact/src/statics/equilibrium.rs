@@ -7,13 +7,16 @@
 //! ```
 //!
 //! whose gradient is K q − f + Σ P b (forces P of the pairs, rows b) and whose Hessian is
-//! K + Σ bᵀ S b with the meshes' tangents S. Newton's method with a line search ends in finitely
+//! K + Σ bᵀ S b with the meshes' tangents S; K holds the bearings and, about a loaded reference, the
+//! turning of the meshes' forces with their lines of action. Newton's method with a line search ends in finitely
 //! many steps, since Ψ is piecewise quadratic.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use super::placed::Placed;
-use super::set::{SetTables, StaticSet};
+use super::set::StaticSet;
+use super::slopes::Slopes;
+use super::tables::SetTables;
 use crate::complementarity::ComplementaritySolver;
 use crate::contact::MeshAnswer;
 use crate::error::FeError;
@@ -21,8 +24,13 @@ use crate::error::FeError;
 /// Fewest loaded cells a patch may have.
 const LEAST_CELLS: usize = 6;
 
+/// Equilibria found anew for the bends of gaps at corners, and the change of displacements (m) below which
+/// they are right.
+const MOST_BENDINGS: usize = 8;
+const BENT: f64 = 1e-12;
+
 /// A set in equilibrium.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Equilibrium<'t> {
     pub(crate) position: f64,
     /// Races' coordinates, m.
@@ -30,44 +38,68 @@ pub(crate) struct Equilibrium<'t> {
     /// Sun meshes, ring meshes, and the back flanks if any touch.
     pub(crate) meshes: Vec<Placed<'t>>,
     pub(crate) answers: Vec<MeshAnswer>,
+    /// Slopes of the deformed flanks that the front meshes' rows hold, and what these leave on the
+    /// races, N.
+    pub(crate) slopes: Vec<Slopes>,
+    pub(crate) level: DVector<f64>,
+    /// The same with what the bends of gaps at corners turn of the pairs' forces, N.
+    pub(crate) load: DVector<f64>,
     /// Largest imbalance over the load.
     pub(crate) residual: f64,
     /// Equilibrium and contact iterations.
     pub(crate) counts: (usize, usize),
 }
 
+/// What acts beside the meshes: K (N/m) and f (N) in K q − f.
+pub(super) struct System {
+    pub(super) stiffness: DMatrix<f64>,
+    pub(super) load: DVector<f64>,
+}
+
 /// Answers of all meshes with the largest residual over the load; equilibrium and contact iterations.
 type Balance = ((Vec<MeshAnswer>, f64), (usize, usize));
 
 impl StaticSet<'_> {
-    /// Equilibrium at one position.
+    /// Equilibrium at one position under loads f (n, N) on the races, the flanks' slopes left out.
     ///
     /// # Errors
     /// As [`StaticSet::cycle`].
     pub(crate) fn equilibrium<'t>(
         &self,
-        torque_nm: f64,
+        f: &DVector<f64>,
         position: f64,
         tables: &'t SetTables,
         start: Option<&DVector<f64>>,
         solver: &dyn ComplementaritySolver,
     ) -> Result<Equilibrium<'t>, FeError> {
-        let f = self.load(torque_nm);
-        let load = f.amax();
         let mut meshes = self.place(position, tables);
-        if load == 0.0 {
+        let none = DVector::zeros(self.races.count);
+        let slopes = Vec::new();
+        if f.amax() == 0.0 {
             let answers = meshes.iter().map(Placed::untouched).collect::<Vec<_>>();
-            let q = DVector::zeros(self.races.count);
-            return Ok(Equilibrium { position, q, meshes, answers, residual: 0.0, counts: (0, 0) });
+            let (q, level, load) = (none.clone(), none.clone(), none);
+            let (residual, counts) = (0.0, (0, 0));
+            return Ok(Equilibrium {
+                position,
+                q,
+                meshes,
+                answers,
+                slopes,
+                level,
+                load,
+                residual,
+                counts,
+            });
         }
         let mut q = match start {
             Some(q) => q.clone(),
-            None => self.first_guess(&f, &meshes)?,
+            None => self.sprung(f)?,
         };
-        let (mut found, mut counts) = self.balance(&f, load, &mut q, &meshes, solver)?;
+        let system = self.system(f, &none);
+        let (mut found, mut counts) = self.balance(&system, &mut q, &meshes, solver)?;
         if self.backs_touch(&q) {
             meshes.extend(self.place_backs(position, &tables.settings)?);
-            let (again, more) = self.balance(&f, load, &mut q, &meshes, solver)?;
+            let (again, more) = self.balance(&system, &mut q, &meshes, solver)?;
             (found, counts) = (again, (counts.0 + more.0, counts.1 + more.1));
         }
         let (answers, residual) = found;
@@ -76,33 +108,101 @@ impl StaticSet<'_> {
             mesh.table.check_patches(answer, LEAST_CELLS, 0.2 * tables.settings.force)?;
             mesh.check_window(&q)?;
         }
-        Ok(Equilibrium { position, q, meshes, answers, residual, counts })
+        let (level, load) = (none.clone(), none);
+        Ok(Equilibrium { position, q, meshes, answers, slopes, level, load, residual, counts })
     }
 
-    /// Finds equilibrium anew after gap offsets were changed.
-    pub(crate) fn settle(
+    /// Puts the slopes of the flanks, as they are deformed in an equilibrium, into its rows, and finds it
+    /// anew.
+    ///
+    /// # Errors
+    /// If contact cannot be solved.
+    pub(crate) fn lean_all(
         &self,
-        torque_nm: f64,
+        f: &DVector<f64>,
+        tables: &SetTables,
         found: &mut Equilibrium<'_>,
         solver: &dyn ComplementaritySolver,
     ) -> Result<(), FeError> {
-        let f = self.load(torque_nm);
+        if f.amax() == 0.0 {
+            return Ok(());
+        }
+        let forces = |k: usize| &found.answers[k].pair_forces;
+        let fronts = 0..self.nominal.len();
+        found.slopes = fronts
+            .map(|mesh| self.slopes(tables, mesh, found.position, forces(mesh)))
+            .collect::<Result<_, _>>()?;
+        let Equilibrium { meshes, slopes, level, .. } = found;
+        for (mesh, (placed, own)) in meshes.iter_mut().zip(slopes).enumerate() {
+            self.lean(mesh, placed, own, level);
+        }
+        self.settle_bent(f, found, solver)
+    }
+
+    /// Finds equilibrium anew with the gaps at corners bent as its own displacements have them.
+    ///
+    /// # Errors
+    /// If contact cannot be solved.
+    pub(crate) fn settle_bent(
+        &self,
+        f: &DVector<f64>,
+        found: &mut Equilibrium<'_>,
+        solver: &dyn ComplementaritySolver,
+    ) -> Result<(), FeError> {
+        let perfect: Vec<Vec<f64>> = found.meshes.iter().map(|m| m.offsets.clone()).collect();
+        let before = found.counts;
+        let mut counts = before;
+        for _ in 0..MOST_BENDINGS {
+            let q = found.q.clone();
+            found.load.copy_from(&found.level);
+            for ((mesh, perfect), answer) in
+                found.meshes.iter_mut().zip(&perfect).zip(&found.answers)
+            {
+                mesh.bend(perfect, &q, &answer.pair_forces, &mut found.load);
+            }
+            self.settle(f, found, solver)?;
+            counts = (counts.0 + found.counts.0, counts.1 + found.counts.1);
+            found.counts = counts;
+            if (&found.q - q).amax() < BENT {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Finds equilibrium anew after rows, gap offsets or loads were changed.
+    pub(crate) fn settle(
+        &self,
+        f: &DVector<f64>,
+        found: &mut Equilibrium<'_>,
+        solver: &dyn ComplementaritySolver,
+    ) -> Result<(), FeError> {
         let ((answers, residual), counts) =
-            self.balance(&f, f.amax(), &mut found.q, &found.meshes, solver)?;
+            self.balance(&self.system(f, &found.load), &mut found.q, &found.meshes, solver)?;
         (found.answers, found.residual, found.counts) = (answers, residual, counts);
         Ok(())
     }
 
+    /// Bearings, and the meshes' forces that turn with their lines of action about the reference.
+    fn system(&self, f: &DVector<f64>, left: &DVector<f64>) -> System {
+        let turning = &self.reference.stiffness;
+        System {
+            stiffness: &self.races.stiffness + turning,
+            load: f + left + turning * &self.reference.q,
+        }
+    }
+
     /// Newton's method from q; answers of all meshes with the residual, and the iterations it took.
-    fn balance(
+    pub(super) fn balance(
         &self,
-        f: &DVector<f64>,
-        load: f64,
+        system: &System,
         q: &mut DVector<f64>,
         meshes: &[Placed<'_>],
         solver: &dyn ComplementaritySolver,
     ) -> Result<Balance, FeError> {
         const MOST: usize = 60;
+        let System { stiffness, load: f } = system;
+        let load = f.amax();
         let mut warm: Vec<Option<Vec<bool>>> = meshes.iter().map(|m| Some(m.guess())).collect();
         let mut contact_iterations = 0;
         let mut evaluate = |q: &DVector<f64>, warm: &mut Vec<Option<Vec<bool>>>| {
@@ -119,13 +219,13 @@ impl StaticSet<'_> {
         };
         let potential = |q: &DVector<f64>, answers: &[MeshAnswer]| {
             let energy: f64 = answers.iter().map(|a| a.energy).sum();
-            0.5 * (&self.races.stiffness * q).dot(q) - f.dot(q) + energy
+            0.5 * (stiffness * q).dot(q) - f.dot(q) + energy
         };
         let mut answers = evaluate(q, &mut warm)?;
         let mut residual = f64::INFINITY;
         for iteration in 1..=MOST {
-            let mut r = f - &self.races.stiffness * &*q;
-            let mut hessian = self.races.stiffness.clone();
+            let mut r = f - stiffness * &*q;
+            let mut hessian = stiffness.clone();
             for (mesh, answer) in meshes.iter().zip(&answers) {
                 mesh.add_to(&mut r, &mut hessian, answer);
             }
@@ -166,17 +266,16 @@ impl StaticSet<'_> {
         self.bodies.material.young * self.bodies.geometry.face_width / 13.0
     }
 
-    /// Equilibrium with a spring in each mesh's nearest pair.
-    fn first_guess(
-        &self,
-        f: &DVector<f64>,
-        meshes: &[Placed<'_>],
-    ) -> Result<DVector<f64>, FeError> {
-        let mut matrix = self.races.stiffness.clone();
-        for mesh in meshes {
-            mesh.add_nominal(&mut matrix, self.nominal_stiffness());
+    /// Equilibrium with a spring on each mesh's path, about the reference.
+    pub(super) fn sprung(&self, f: &DVector<f64>) -> Result<DVector<f64>, FeError> {
+        let (mut matrix, mut f) = (self.races.stiffness.clone(), f.clone());
+        let k = self.nominal_stiffness();
+        for pose in &self.reference.meshes {
+            let row = &pose.gradients[0];
+            matrix.ger(k, row, row, 1.0);
+            f.axpy(k * (row.dot(&self.reference.q) - pose.at[0]), row, 1.0);
         }
-        Ok(definite(matrix).ok_or_else(turns_freely)?.solve(f))
+        Ok(definite(matrix).ok_or_else(turns_freely)?.solve(&f))
     }
 }
 

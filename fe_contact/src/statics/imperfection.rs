@@ -1,9 +1,6 @@
-//! Small departures from the perfect set, as offsets of the gaps.
+//! Small departures from the perfect set: planets out of place, teeth out of pitch.
 
-use gearset::{Gear, MeshKind};
-
-use super::races::Races;
-use crate::contact::PairCells;
+use gearset::{Displacements, Gear, MeshKind};
 
 /// One sun tooth out of its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,38 +30,26 @@ impl Imperfections {
         self
     }
 
-    /// What a displaced planet adds to the gap of a pair with this row, m.
-    pub(super) fn shift(&self, kind: MeshKind, planet: usize, row: &[f64; 6]) -> f64 {
-        let own = match kind {
-            MeshKind::SunPlanet => &row[3..5],
-            MeshKind::RingPlanet => &row[0..2],
+    /// Adds a planet's departure from its nominal place to the displacements (x, y, θ) of driver and
+    /// driven.
+    pub(super) fn displace(&self, kind: MeshKind, planet: usize, x: &mut Displacements) {
+        let first = match kind {
+            MeshKind::SunPlanet => 3,
+            MeshKind::RingPlanet => 0,
         };
-        let displaced = self.displaced_planets.iter().filter(|d| d.0 == planet);
-        // A displacement that approaches closes the gap.
-        displaced.map(|(_, radial, tangential)| -(own[0] * radial + own[1] * tangential)).sum()
+        for (_, radial, tangential) in self.displaced_planets.iter().filter(|d| d.0 == planet) {
+            x[first] += radial;
+            x[first + 1] += tangential;
+        }
     }
 
-    /// What is added to the gaps of a pair, m.
-    pub(super) fn gap(
-        &self,
-        kind: MeshKind,
-        planet: usize,
-        pair: &PairCells,
-        races: &Races,
-        sun_angle: f64,
-        sun: Option<&Gear>,
-    ) -> f64 {
-        let mut gap = self.shift(kind, planet, &pair.row);
-        if let (MeshKind::SunPlanet, Some(sun)) = (kind, sun) {
-            let turned = pair.axes[0] + races.psi[planet] - sun_angle;
-            let tooth = (turned / sun.pitch_angle()).round() as i64;
-            let teeth = i64::from(sun.teeth);
-            for e in &self.pitch_errors {
-                if (e.tooth - tooth).rem_euclid(teeth) == 0 {
-                    gap += e.amount;
-                }
-            }
-        }
-        gap
+    /// What errors of the sun's teeth add to the gap of the pair whose sun tooth has its axis at `axis`
+    /// (rad from where tooth 0 has its own), m.
+    pub(super) fn gap(&self, kind: MeshKind, axis: f64, sun: Option<&Gear>) -> f64 {
+        let (MeshKind::SunPlanet, Some(sun)) = (kind, sun) else { return 0.0 };
+        let tooth = (axis / sun.pitch_angle()).round() as i64;
+        let teeth = i64::from(sun.teeth);
+        let own = self.pitch_errors.iter().filter(|e| (e.tooth - tooth).rem_euclid(teeth) == 0);
+        own.map(|e| e.amount).sum()
     }
 }

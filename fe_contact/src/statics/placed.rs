@@ -13,7 +13,7 @@ use crate::contact::{Location, MeshAnswer, MeshTable};
 use crate::error::FeError;
 
 /// One mesh at one position.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(crate) struct Placed<'t> {
     pub(crate) kind: MeshKind,
     pub(crate) planet: usize,
@@ -21,13 +21,45 @@ pub(crate) struct Placed<'t> {
     pub(crate) table: Cow<'t, MeshTable>,
     /// Approach of each pair on the races' coordinates.
     pub(crate) rows: Vec<DVector<f64>>,
-    /// Gap offsets of the pairs, m.
+    /// What is taken from the rows' products: a pair approaches by b·q − offset, m.
     pub(crate) offsets: Vec<f64>,
+    /// What tooth errors add to the gaps, m.
+    pub(crate) errors: Vec<f64>,
+    /// Pairs at corners, whose gaps bend.
+    pub(crate) bends: Vec<Bend>,
+    /// Approach of each pair per rotation of the driven gear, m/rad.
+    pub(crate) turns: Vec<f64>,
+}
+
+/// A pair at a corner: its gap is quadratic in how far e the corner stands beyond the path,
+///
+/// ```text
+/// approach = b·q − offset − ½ G'' Δe²,   Δe = ∂e·(q − q_ref)
+/// ```
+#[derive(Debug, Clone)]
+pub(crate) struct Bend {
+    /// Pair of the mesh.
+    pub(crate) pair: usize,
+    /// ∂e on the races' coordinates.
+    pub(crate) row: DVector<f64>,
+    /// ∂e·q_ref, m.
+    pub(crate) offset: f64,
+    /// G'', 1/m.
+    pub(crate) curvature: f64,
+    /// ∂e per rotation of the driven gear, m/rad.
+    pub(crate) turn: f64,
+}
+
+impl Bend {
+    /// Δe, m.
+    pub(super) fn moved(&self, q: &DVector<f64>) -> f64 {
+        self.row.dot(q) - self.offset
+    }
 }
 
 impl Placed<'_> {
-    fn approaches(&self, q: &DVector<f64>) -> Vec<f64> {
-        self.rows.iter().map(|b| b.dot(q)).collect()
+    pub(crate) fn approaches(&self, q: &DVector<f64>) -> Vec<f64> {
+        self.rows.iter().zip(&self.offsets).map(|(b, offset)| b.dot(q) - offset).collect()
     }
 
     pub(crate) fn answer(
@@ -36,7 +68,32 @@ impl Placed<'_> {
         solver: &dyn ComplementaritySolver,
         warm: Option<&[bool]>,
     ) -> Result<MeshAnswer, FeError> {
-        self.table.answer(&self.approaches(q), &self.offsets, solver, warm)
+        self.table.answer(&self.approaches(q), &self.errors, solver, warm)
+    }
+
+    /// Takes the gaps' bends at q into the offsets.
+    pub(crate) fn open(&mut self, q: &DVector<f64>) {
+        for bend in &self.bends {
+            let moved = bend.moved(q);
+            self.offsets[bend.pair] += 0.5 * bend.curvature * moved * moved;
+        }
+    }
+
+    /// Takes the gaps' bends at q into the offsets from `perfect` ones, and what they turn of the pairs'
+    /// forces P into the load on the races: P G'' Δe ∂e, N.
+    pub(crate) fn bend(
+        &mut self,
+        perfect: &[f64],
+        q: &DVector<f64>,
+        forces: &[f64],
+        load: &mut DVector<f64>,
+    ) {
+        self.offsets.copy_from_slice(perfect);
+        for bend in &self.bends {
+            let moved = bend.moved(q);
+            self.offsets[bend.pair] += 0.5 * bend.curvature * moved * moved;
+            load.axpy(forces[bend.pair] * bend.curvature * moved, &bend.row, 1.0);
+        }
     }
 
     pub(crate) fn untouched(&self) -> MeshAnswer {
@@ -82,7 +139,7 @@ impl Placed<'_> {
         let least = |k: &usize| {
             let pair = &self.table.pairs[*k];
             let own = &self.table.gaps[pair.first..pair.first + pair.x.len()];
-            own.iter().fold(f64::INFINITY, |a, g| a.min(*g)) + self.offsets[*k]
+            own.iter().fold(f64::INFINITY, |a, g| a.min(*g)) + self.errors[*k]
         };
         let nearest = (0..self.rows.len()).min_by(|a, b| least(a).total_cmp(&least(b)));
         if let Some(b) = nearest.map(|k| &self.rows[k]) {

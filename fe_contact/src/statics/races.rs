@@ -1,8 +1,8 @@
 //! The rigid races of a set: coordinates, bearings, and how pairs approach.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
-use gearset::{MeshKind, Motion, Scene, Support, Torsional};
+use gearset::{Displacements, MeshKind, Motion, Scene, Support, Torsional};
 
 use super::bodies::Bodies;
 use crate::body::CarrierBody;
@@ -25,6 +25,9 @@ pub struct Races {
     pub carrier: Option<CarrierBody>,
     /// Torsional support between sun and ground and so on is part of `stiffness`.
     pub count: usize,
+    /// Elongations of the planet bearings (radial, tangential of each) on the coordinates, 2N×n, and
+    /// their stiffness in series with the carrier, 2N×2N, N/m.
+    seats: [DMatrix<f64>; 2],
 }
 
 /// Position of each body's first coordinate.
@@ -79,6 +82,7 @@ impl Races {
             stiffness: DMatrix::zeros(next, next),
             carrier,
             count: next,
+            seats: [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)],
         };
         for body in CARRIER..PLANETS {
             for axis in 0..3 {
@@ -163,7 +167,8 @@ impl Races {
                 }
             }
         }
-        self.stiffness += rows.transpose() * stiffness * rows;
+        self.stiffness += rows.transpose() * &stiffness * &rows;
+        self.seats = [rows, stiffness];
         Ok(())
     }
 
@@ -179,6 +184,46 @@ impl Races {
             }
         }
         b
+    }
+
+    /// Torque of the planet bearings on the carrier at coordinates q, N·m.
+    pub(crate) fn carrier_torque(&self, q: &DVector<f64>) -> f64 {
+        let [rows, stiffness] = &self.seats;
+        let forces = stiffness * (rows * q);
+        (0..self.planets()).map(|n| forces[2 * n + 1] * self.radii[0]).sum()
+    }
+
+    /// Races' coordinates onto displacements (x, y, m; θ, rad) of driver and driven in the mesh frame of
+    /// planet n, 6×n.
+    pub(crate) fn mesh_matrix(&self, kind: MeshKind, planet: usize) -> DMatrix<f64> {
+        let mut matrix = DMatrix::zeros(6, self.count);
+        for i in 0..6 {
+            let mut unit = [0.0; 6];
+            unit[i] = 1.0;
+            let row = self.approach(kind, planet, &unit);
+            row.iter().enumerate().for_each(|(j, value)| matrix[(i, j)] = *value);
+        }
+        matrix
+    }
+
+    /// Displacements (x, y, m; θ, rad) of driver and driven in the mesh frame of planet n at
+    /// coordinates q: what [`Races::approach`] is the transpose of.
+    pub fn mesh_displacements(&self, kind: MeshKind, planet: usize, q: &[f64]) -> Displacements {
+        let (sin, cos) = self.psi[planet].sin_cos();
+        let of = |body: usize| [0, 1, 2].map(|axis| self.of(body, axis).map_or(0.0, |i| q[i]));
+        let (central, radius) = match kind {
+            MeshKind::SunPlanet => (SUN, self.radii[2]),
+            MeshKind::RingPlanet => (RING, self.radii[1]),
+        };
+        let [x, y, u] = of(central);
+        let first = [cos * x + sin * y, cos * y - sin * x, u / radius];
+        let [zeta, eta, v] = of(PLANETS + planet);
+        let second = [zeta, eta, v / self.radii[3]];
+        let [driver, driven] = match kind {
+            MeshKind::SunPlanet => [first, second],
+            MeshKind::RingPlanet => [second, first],
+        };
+        [driver[0], driver[1], driver[2], driven[0], driven[1], driven[2]]
     }
 
     /// The same, body by body: the central one, then the planet, on (x, y, u) of each.

@@ -2,7 +2,9 @@
 
 use gearset::MeshKind;
 
+use super::kinematic_rest::larger;
 use super::pair::ToothPairLoad;
+use super::rest::KinematicRest;
 
 /// One mesh of a set in equilibrium.
 #[derive(Debug, Clone)]
@@ -36,6 +38,11 @@ pub struct SetState {
     pub meshes: Vec<MeshState>,
     /// Loaded back flanks; phases count in the mirrored mesh.
     pub backs: Vec<MeshState>,
+    /// Torques that leave through carrier and ring.
+    pub reactions: ThroughTorques,
+    /// What the approach of a loaded pair, worked out with exact kinematics at these displacements, is
+    /// off its linear form about the reference at most, m.
+    pub kinematic_rest: f64,
     /// Largest imbalance of any race over the load.
     pub residual: f64,
     /// Equilibrium iterations.
@@ -51,11 +58,23 @@ impl SetState {
     }
 }
 
+/// Torques that the gears exert on carrier and ring about the set's centre, counter-clockwise, N·m.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ThroughTorques {
+    /// Planet bearings on the carrier.
+    pub carrier_nm: f64,
+    /// Ring meshes on the ring.
+    pub ring_nm: f64,
+}
+
 /// Equilibrium over one mesh cycle.
 #[derive(Debug, Clone)]
 pub struct SetCycle {
     /// Torque on the sun, N·m.
     pub torque_nm: f64,
+    /// By how much the torque's windup has moved the phase of planet 0's sun mesh, from whose start of
+    /// path positions count, cycles.
+    pub lead: f64,
     /// Even positions from 0.
     pub states: Vec<SetState>,
 }
@@ -67,6 +86,15 @@ impl SetCycle {
         let (sum, count) =
             meshes.fold((0.0, 0u32), |(sum, n), m| (sum + m.force / m.approach, n + 1));
         sum / f64::from(count.max(1))
+    }
+
+    /// What linear kinematics leave out over the cycle.
+    pub fn kinematic_rest(&self, sun_base_radius: f64) -> KinematicRest {
+        let error = |s: &SetState| s.transmission_error(sun_base_radius);
+        let high = self.states.iter().map(error).fold(f64::NEG_INFINITY, f64::max);
+        let low = self.states.iter().map(error).fold(f64::INFINITY, f64::min);
+        let largest = larger(self.states.iter().map(|s| s.kinematic_rest));
+        KinematicRest::new(largest, high - low)
     }
 
     /// Root mean square about the mean of the sun's rotation (rad) and of its translation (m): the

@@ -187,8 +187,8 @@ fn start_angles(
 ) -> Result<Vec<f64>, FeError> {
     let mut angles = vec![0.0; PLANETS + statics.races.planets()];
     let mut known = vec![false; angles.len()];
-    for placed in statics.place(start, tables) {
-        for ends in tooth_points(statics.bodies, &statics.races, &placed)? {
+    for (which, placed) in statics.place(start, tables).iter().enumerate() {
+        for ends in tooth_points(statics, which, placed)? {
             for end in ends {
                 if !std::mem::replace(&mut known[end.body], true) {
                     angles[end.body] = end.axis;

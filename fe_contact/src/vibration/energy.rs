@@ -6,15 +6,17 @@ use super::set::VibratingSet;
 use crate::complementarity::ActiveSet;
 use crate::contact::Held;
 use crate::error::FeError;
+use crate::statics::larger;
 
 /// Energies of the present state, J.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Energies {
     /// Kinetic energy of the vibration.
     pub kinetic: f64,
-    /// Bearings and supports, the carrier's flexibility among them.
+    /// Bearings and supports, the carrier's flexibility among them, and the turning of the meshes' forces.
     pub bearings: f64,
-    /// ½ pᵀ C p of all meshes, FE flexibility and half-planes, as if it did not lag.
+    /// ½ pᵀ C p of all meshes, FE flexibility and half-planes, as if it did not lag, to first order in how
+    /// compliance changes where the pairs move.
     pub contact: f64,
 }
 
@@ -39,15 +41,32 @@ pub struct StepStart {
 }
 
 impl VibratingSet<'_> {
+    /// What the approach of a loaded pair, worked out with exact kinematics at the present displacements,
+    /// is off its linear form about the reference at most, m; nil where every step is exact.
+    pub fn kinematic_rest(&self) -> f64 {
+        let (Some(frame), None) = (self.current_frame(), &self.grid) else { return 0.0 };
+        let x = DVector::from_column_slice(&self.motion().x);
+        let position = self.position(self.step_in_cycle);
+        let fronts = frame.meshes.iter().take(self.memory.len()).enumerate();
+        larger(fronts.map(|(which, mesh)| {
+            let table = &self.tables.list[mesh.table];
+            let forces = &self.forces.as_slice()[mesh.first..mesh.first + mesh.count];
+            self.statics.rest_of_mesh(which, table, position, &x, forces)
+        }))
+    }
+
     /// Energies of the quasi-static rung; bodies with a state of their own have more.
     pub fn energies(&self) -> Energies {
         let m = self.motion();
         let x = DVector::from_column_slice(&m.x);
         let kinetic = m.v.iter().zip(self.masses()).map(|(v, m)| 0.5 * m * v * v).sum();
         let supports: f64 = x.iter().zip(self.supports.iter()).map(|(x, k)| 0.5 * k * x * x).sum();
+        let reference = self.statics.reference();
+        let moved = &x - &reference.q;
+        let turning = 0.5 * moved.dot(&(&reference.stiffness * &moved));
         Energies {
             kinetic,
-            bearings: supports + self.bearings.energy(),
+            bearings: supports + self.bearings.energy() + turning,
             contact: self.contact_energy(),
         }
     }
@@ -59,13 +78,19 @@ impl VibratingSet<'_> {
             let delta = &self.approaches.as_slice()[mesh.first..mesh.first + mesh.count];
             mesh.map(&self.maps).map_or(f64::NAN, |map| map.energy(delta))
         };
-        frame.meshes.iter().map(of).sum()
+        let energy: f64 = frame.meshes.iter().map(of).sum();
+        let moved = DVector::from_column_slice(&self.motion().x) - &self.statics.reference().q;
+        let left = self.leaning[self.step_in_cycle].rest_of(&self.statics);
+        energy - left.dot(&moved)
     }
 
-    /// What the pairs' forces press the races with, N.
+    /// What the meshes press the races with, N.
     fn pressed(&self) -> DVector<f64> {
         match self.current_frame() {
-            Some(frame) => frame.rigid.tr_mul(&self.forces.rows(0, frame.offsets.len())),
+            Some(frame) => {
+                let pairs = frame.rigid.tr_mul(&self.forces.rows(0, frame.offsets.len()));
+                pairs - self.leaning[self.step_in_cycle].rest_of(&self.statics) - &self.bent
+            }
             None => DVector::zeros(self.mass.len()),
         }
     }
@@ -116,7 +141,7 @@ impl VibratingSet<'_> {
         x: &DVector<f64>,
     ) -> Result<Option<f64>, FeError> {
         let Some(frame) = self.frame_at(step_in_cycle) else { return Ok(None) };
-        let approaches = &frame.rigid * x - DVector::from_column_slice(&frame.offsets);
+        let approaches = &frame.rigid * x - frame.opened_at(x.as_slice());
         let meshes: Vec<_> = frame.meshes.iter().map(|m| (m.table, m.first, m.count)).collect();
         let mut held: Vec<Held> = frame.meshes.iter().map(|m| m.held).collect();
         let mut energy = 0.0;
@@ -126,7 +151,9 @@ impl VibratingSet<'_> {
             maps.find(&self.tables.list[table], delta, held, &ActiveSet)?;
             energy += maps.held(held).map_or(f64::NAN, |map| map.energy(delta));
         }
-        Ok(Some(energy))
+        // What the slopes leave is the same at all displacements.
+        let left = self.leaning[step_in_cycle].rest_of(&self.statics);
+        Ok(Some(energy - left.dot(&(x - &self.statics.reference().q))))
     }
 
     /// What the turning of the meshes did to the contact energy over the step since `start`, J: the

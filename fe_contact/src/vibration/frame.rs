@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::body::Port;
 use super::gear::Gear;
@@ -11,7 +11,7 @@ use super::packed::{Packed, ShortRow};
 use super::teeth::{ToothPoint, fill_port, tooth_points};
 use crate::contact::{ContactMap, ContactMaps, Held};
 use crate::error::FeError;
-use crate::statics::{Bodies, Placed, Races};
+use crate::statics::{Placed, StaticSet};
 
 /// Solved combinations of contact maps that a frame keeps.
 const MOST_COMBINATIONS: usize = 6;
@@ -48,13 +48,29 @@ pub(super) struct Combination {
     pub(super) laws: Vec<f64>,
 }
 
+/// A pair at a corner, as [`crate::statics::Bend`] has it.
+#[derive(Debug, Clone)]
+pub(super) struct FrameBend {
+    /// Among all pairs of the frame.
+    pub(super) pair: usize,
+    pub(super) mesh: usize,
+    pub(super) slot: PairSlot,
+    pub(super) row: ShortRow,
+    pub(super) offset: f64,
+    pub(super) curvature: f64,
+    /// ½ G'' Δe² in the present step, m.
+    pub(super) opened: f64,
+}
+
 /// All pairs of a set at one position.
 #[derive(Debug)]
 pub(super) struct Frame {
     /// Front meshes, then the back ones where they may touch.
     pub(super) meshes: Vec<FrameMesh>,
-    /// Gap offsets, m.
+    /// What is taken from the rows' products, tooth errors included: a pair approaches by b·x − offset, m.
     pub(super) offsets: Vec<f64>,
+    /// The same without tooth errors, m.
+    pub(super) perfect: Vec<f64>,
     /// Ends of each pair on the teeth; none for back flanks.
     pub(super) ends: Vec<Option<[ToothPoint; 2]>>,
     /// Number of the tooth of each end when the set has turned by less than a mesh cycle.
@@ -75,6 +91,8 @@ pub(super) struct Frame {
     pub(super) lags: Vec<f64>,
     /// Whether the columns hold all pairs.
     pub(super) is_coupled: bool,
+    /// Pairs at corners, whose gaps bend.
+    pub(super) bends: Vec<FrameBend>,
     /// Where each pair's forces are remembered.
     pub(super) slots: Vec<PairSlot>,
     pub(super) combinations: Vec<Combination>,
@@ -84,8 +102,7 @@ pub(super) struct Frame {
 
 /// What a frame is built from.
 pub(super) struct Ground<'g> {
-    pub(super) bodies: &'g Bodies,
-    pub(super) races: &'g Races,
+    pub(super) statics: &'g StaticSet<'g>,
     pub(super) gears: &'g [Gear<'g>],
     /// A⁻¹ of the races, n×n.
     pub(super) inverse: &'g DMatrix<f64>,
@@ -104,10 +121,12 @@ impl Frame {
         turned: f64,
     ) -> Result<Self, FeError> {
         let count: usize = placed.iter().map(|p| p.rows.len()).sum();
-        let n = ground.races.count;
+        let many = || FeError::NoEquilibrium("a tooth pair meets more than two bodies".into());
+        let n = ground.statics.races.count;
         let mut frame = Self {
             meshes: Vec::with_capacity(placed.len()),
             offsets: Vec::with_capacity(count),
+            perfect: Vec::with_capacity(count),
             ends: Vec::with_capacity(count),
             teeth: Vec::with_capacity(count),
             own: vec![Vec::new(); ground.gears.len()],
@@ -117,6 +136,7 @@ impl Frame {
             lagging: DMatrix::zeros(count, count),
             lags: Vec::new(),
             is_coupled: ground.gears.iter().any(|gear| gear.vibrating.unknowns() > 0),
+            bends: Vec::new(),
             slots: Vec::with_capacity(count),
             combinations: Vec::with_capacity(MOST_COMBINATIONS),
             oldest: 0,
@@ -126,10 +146,23 @@ impl Frame {
             for (k, row) in mesh.rows.iter().enumerate() {
                 frame.rigid.row_mut(first + k).tr_copy_from(row);
             }
-            frame.offsets.extend(&mesh.offsets);
+            frame.perfect.extend(&mesh.offsets);
+            frame.offsets.extend(mesh.offsets.iter().zip(&mesh.errors).map(|(o, e)| o + e));
+            for bend in &mesh.bends {
+                let (row, offset) = (bend.row.iter().copied(), bend.offset);
+                frame.bends.push(FrameBend {
+                    pair: first + bend.pair,
+                    mesh: which,
+                    slot: PairSlot::of(mesh.table.pairs[bend.pair].index),
+                    row: ShortRow::new(row).ok_or_else(many)?,
+                    offset,
+                    curvature: bend.curvature,
+                    opened: 0.0,
+                });
+            }
             frame.slots.extend(mesh.table.pairs.iter().map(|pair| PairSlot::of(pair.index)));
             if which < front {
-                for ends in tooth_points(ground.bodies, ground.races, mesh)? {
+                for ends in tooth_points(ground.statics, which, mesh)? {
                     let teeth = ends.each_ref().map(|end| {
                         let gear = &ground.gears[end.body - 1];
                         gear.tooth_at(end.axis, turned)
@@ -146,7 +179,7 @@ impl Frame {
                 first,
                 count: mesh.rows.len(),
                 held: Held::default(),
-                flexibility_factor: ground.bodies.flexibility_factor(mesh.kind),
+                flexibility_factor: ground.statics.bodies.flexibility_factor(mesh.kind),
             });
         }
         let mut rows = frame.rigid.clone();
@@ -155,7 +188,6 @@ impl Frame {
         }
         frame.receptance += &rows * (ground.inverse * rows.transpose());
         let short = rows.row_iter().map(|row| ShortRow::new(row.iter().copied()));
-        let many = || FeError::NoEquilibrium("a tooth pair meets more than two bodies".into());
         frame.rows = short.collect::<Option<_>>().ok_or_else(many)?;
         frame.receptance -= (1.0 - ground.lag_end) * &frame.lagging;
         for mesh in &frame.meshes {
@@ -209,7 +241,7 @@ impl Frame {
             }
             for (pair, port) in places.iter().zip(&ports) {
                 for (axis, c) in gear.vibrating.coupling(port, angle).into_iter().enumerate() {
-                    if let Some(i) = ground.races.of(body, axis) {
+                    if let Some(i) = ground.statics.races.of(body, axis) {
                         rows[(*pair, i)] += c;
                     }
                 }
@@ -228,9 +260,9 @@ impl Frame {
                 }
                 let ((on, tooth_on), (of, tooth_of)) = (&own[j], &own[i]);
                 let whole = gear.body.surface_flexibility(
-                    (&on.load, on.direction),
+                    (&on.end.load, on.end.direction),
                     tooth_of - tooth_on,
-                    (&of.load, of.direction),
+                    (&of.end.load, of.end.direction),
                 );
                 // As in the cells' compliance, which holds what is within a mesh.
                 let whole = whole * self.meshes[self.mesh_of(*a)].flexibility_factor;
@@ -243,6 +275,16 @@ impl Frame {
                 }
             }
         }
+    }
+
+    /// Offsets of all pairs with the races at x, the bends of gaps at corners among them, m.
+    pub(super) fn opened_at(&self, x: &[f64]) -> DVector<f64> {
+        let mut offsets = DVector::from_column_slice(&self.offsets);
+        for bend in &self.bends {
+            let moved = bend.row.dot(x) - bend.offset;
+            offsets[bend.pair] += 0.5 * bend.curvature * moved * moved;
+        }
+        offsets
     }
 
     /// Keeps a solved combination, the oldest giving way.

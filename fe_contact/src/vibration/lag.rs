@@ -102,6 +102,11 @@ impl PairMemory {
         })
     }
 
+    /// Force of a pair at the end of the next step, as the last two ends have it, N.
+    pub(super) fn expected(&self, slot: PairSlot) -> f64 {
+        slot.place().map_or(0.0, |i| (2.0 * self.now[i] - self.before[i]).max(0.0))
+    }
+
     /// Force of a pair at the end of the last step, N.
     pub(super) fn now(&self, slot: PairSlot) -> f64 {
         slot.place().map_or(0.0, |i| self.now[i])

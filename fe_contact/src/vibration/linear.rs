@@ -1,7 +1,7 @@
 //! A set linearised about its present state: all touching cells keep touching, no others begin to.
 
 use faer::Mat;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::body::out_of_frame;
 use super::modal_body::FixedRaceMode;
@@ -25,6 +25,9 @@ pub struct LinearSet {
     pub damping: DMatrix<f64>,
     /// K without contact, N/m.
     pub supports: DMatrix<f64>,
+    /// Of K: what the meshes' forces add as they turn with their lines of action, and those of corners as
+    /// these move beyond the path, N/m; nothing damps it.
+    pub turning: DMatrix<f64>,
     /// R, pairs×z.
     pub rows: DMatrix<f64>,
     /// S, pairs×pairs, N/m.
@@ -97,6 +100,21 @@ impl VibratingSet<'_> {
         let bearings = self.bearings.linearised(lists[0].2, n, size)?;
         supports += bearings;
         damping += self.bearing_ratio * &supports;
+        // The meshes' forces turn with their lines of action; that has no dashpot.
+        let mut turning = DMatrix::zeros(size, size);
+        turning.view_mut((0, 0), (n, n)).copy_from(&self.statics.reference().stiffness);
+        // Corners: P (b − G'' Δe ∂e), whose derivative is −P G'' ∂e ∂eᵀ beside that of P.
+        let mut rigid = frame.rigid.clone();
+        for bend in &frame.bends {
+            let row = bend.row.full(n);
+            let moved = row.dot(&DVector::from_column_slice(&self.motion.x)) - bend.offset;
+            let force = self.forces[bend.pair].max(0.0);
+            let mut of_races = turning.view_mut((0, 0), (n, n));
+            of_races.ger(-force * bend.curvature, &row, &row, 1.0);
+            let mut leant = rigid.row_mut(bend.pair);
+            leant -= bend.curvature * moved * row.transpose();
+        }
+        supports += &turning;
         let mut first = n;
         for (_, _, modes) in &lists {
             for (j, mode) in modes.iter().enumerate() {
@@ -124,7 +142,7 @@ impl VibratingSet<'_> {
             return Err(unloaded());
         }
         let mut rows = DMatrix::zeros(count, size);
-        rows.view_mut((0, 0), (count, n)).copy_from(&frame.rigid);
+        rows.view_mut((0, 0), (count, n)).copy_from(&rigid);
         let mut first = n + lists[0].2.len();
         for ((gear, own), (_, _, modes)) in self.gears.iter().zip(&frame.own).zip(&lists[1..]) {
             if modes.is_empty() {
@@ -150,6 +168,7 @@ impl VibratingSet<'_> {
             mass,
             damping,
             supports,
+            turning,
             rows,
             contact,
             mesh_tangents,

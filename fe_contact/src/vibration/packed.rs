@@ -1,7 +1,7 @@
 //! Small matrices as every step multiplies by them: of twenty by twenty, laid out in the order in which
 //! they are read, without the strides that a general library allows for.
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// Rows of a block, which are summed side by side.
 const BLOCK: usize = 8;
@@ -66,6 +66,13 @@ impl ShortRow {
             short.values[k] = value;
         }
         Some(short)
+    }
+
+    /// All n entries.
+    pub(super) fn full(&self, n: usize) -> DVector<f64> {
+        let mut row = DVector::zeros(n);
+        self.add_to(1.0, row.as_mut_slice());
+        row
     }
 
     pub(super) fn dot(&self, x: &[f64]) -> f64 {

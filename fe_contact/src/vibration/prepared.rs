@@ -2,6 +2,7 @@
 
 use gearset::{Facing, Rung, Scene};
 
+use super::leaning::Leaning;
 use super::set::{Motive, VibratingSet};
 use crate::error::FeError;
 use crate::statics::{Bodies, Imperfections, SetTables, StaticSet};
@@ -9,16 +10,27 @@ use crate::statics::{Bodies, Imperfections, SetTables, StaticSet};
 /// Fewest steps of a mesh cycle.
 const LEAST_STEPS: usize = 16;
 
-/// What sets of one scene share at any speed: tables of contact and the races' matrices.
+/// Under what load a set vibrates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Loading {
+    /// Torque on the sun (magnitude) about whose mean configuration the set is linearised, N·m.
+    pub torque_nm: f64,
+    /// Force of a mesh that its tables are laid out for, N.
+    pub mesh_force: f64,
+}
+
+/// What sets of one scene share at any speed: the loaded configuration, tables of contact and the races'
+/// matrices.
 #[derive(Debug, Clone)]
 pub struct Prepared<'s> {
-    statics: StaticSet<'s>,
-    tables: SetTables,
+    pub(super) statics: StaticSet<'s>,
+    pub(super) tables: SetTables,
+    pub(super) leaning: Vec<Leaning>,
 }
 
 impl<'s> VibratingSet<'s> {
-    /// A set at rest without load under a torque on the sun of the given sense, meshes sized for
-    /// `force` (N) each.
+    /// A set for a torque on the sun of the given sense, linearised about its mean configuration under
+    /// that torque; it stands there without motion until [`VibratingSet::rest`] finds its equilibrium.
     ///
     /// # Errors
     /// If the scene lacks what the bodies need, or a mesh, a factor or a table cannot be had.
@@ -28,14 +40,13 @@ impl<'s> VibratingSet<'s> {
         sense: Facing,
         imperfections: Imperfections,
         motive: Motive,
-        force: f64,
+        loading: Loading,
     ) -> Result<Self, FeError> {
-        let prepared = Self::prepare(scene, bodies, sense, imperfections, motive, force)?;
-        Self::assemble(scene, prepared.statics, motive, prepared.tables)
+        let prepared = Self::prepare(scene, bodies, sense, imperfections, motive, loading)?;
+        Self::assemble(scene, prepared, motive)
     }
 
-    /// What sets of one scene, sense and number of steps share at any speed; tables sized for `force`
-    /// (N) in each mesh.
+    /// What sets of one scene, loading and number of steps share at any speed.
     ///
     /// # Errors
     /// As [`VibratingSet::new`].
@@ -45,13 +56,16 @@ impl<'s> VibratingSet<'s> {
         sense: Facing,
         imperfections: Imperfections,
         motive: Motive,
-        force: f64,
+        loading: Loading,
     ) -> Result<Prepared<'s>, FeError> {
         solves_contact(scene)?;
         fit(scene, &motive)?;
         let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
-        let tables = statics.tables(force, &motive.positions())?;
-        Ok(Prepared { statics, tables })
+        let statics = statics.under(loading.torque_nm)?;
+        let positions = motive.positions();
+        let tables = statics.tables(loading.mesh_force, &positions)?;
+        let leaning = Leaning::at(&statics, &tables, &positions)?;
+        Ok(Prepared { statics, tables, leaning })
     }
 
     /// A set like [`VibratingSet::new`] on what was prepared for the same scene.
@@ -61,8 +75,8 @@ impl<'s> VibratingSet<'s> {
     pub fn on(scene: &Scene, prepared: &Prepared<'s>, motive: Motive) -> Result<Self, FeError> {
         solves_contact(scene)?;
         fit(scene, &motive)?;
-        let Prepared { statics, tables } = prepared.clone();
-        if !motive.positions().iter().all(|p| statics.is_covered(*p, &tables)) {
+        let Prepared { statics, tables, .. } = prepared;
+        if !motive.positions().iter().all(|p| statics.is_covered(*p, tables)) {
             return Err(FeError::Unfit {
                 key: "tables".into(),
                 value: format!("{} tables", tables.list.len()),
@@ -70,7 +84,7 @@ impl<'s> VibratingSet<'s> {
                 why: "phases of the mesh cycle are never interpolated".into(),
             });
         }
-        Self::assemble(scene, statics, motive, tables)
+        Self::assemble(scene, prepared.clone(), motive)
     }
 }
 

@@ -20,27 +20,35 @@ impl VibratingSet<'_> {
             let forces = list.iter().flat_map(|a| a.pair_forces.iter().copied());
             DVector::from_vec(forces.collect())
         };
-        let found = self.statics.equilibrium(torque_nm, position, &self.tables, None, solver)?;
-        let has_backs = found.meshes.len() > 2 * self.statics.races.planets();
-        let (mut q, mut p) = (found.q, all(&found.answers));
         self.external = self.statics.load(torque_nm);
+        let f = self.external.clone();
+        let tables = &self.tables.clone();
+        let start = self.statics.reference().q.clone();
+        let mut found = self.statics.equilibrium(&f, position, tables, Some(&start), solver)?;
+        let level = self.leaning[self.step_in_cycle].rest_of(&self.statics);
+        if torque_nm != 0.0 {
+            // The slopes of the flanks are those of the reference's torque, as in every step.
+            let leaning = &self.leaning[self.step_in_cycle];
+            leaning.apply(&self.statics, &mut found.meshes);
+            found.level = level.clone();
+            self.statics.settle_bent(&f, &mut found, solver)?;
+        }
+        let has_backs = found.meshes.len() > 2 * self.statics.races.planets();
+        let (mut q, mut p) = (found.q.clone(), all(&found.answers));
         let mut frame = self.take_frame(has_backs)?;
         // Bodies with a state of their own feel all meshes at once; the cells' compliance knows one
         // mesh alone.
         let across = self.across_meshes(&frame);
         if across.amax() > 0.0 && torque_nm != 0.0 {
-            let tables = &self.tables;
-            let mut found =
-                self.statics.equilibrium(torque_nm, position, tables, Some(&q), solver)?;
             for _ in 0..30 {
                 let shifted = &across * &p;
-                let mut offsets = frame.offsets.iter().zip(shifted.iter());
+                let mut offsets = frame.perfect.iter().zip(shifted.iter());
                 for offset in found.meshes.iter_mut().flat_map(|m| m.offsets.iter_mut()) {
                     if let Some((nominal, shift)) = offsets.next() {
                         *offset = nominal + shift;
                     }
                 }
-                self.statics.settle(torque_nm, &mut found, solver)?;
+                self.statics.settle_bent(&f, &mut found, solver)?;
                 let next = all(&found.answers);
                 let change = (&next - &p).amax();
                 p = next;
@@ -48,12 +56,13 @@ impl VibratingSet<'_> {
                     break;
                 }
             }
-            q = found.q;
+            q = found.q.clone();
         }
         self.motion = Motion::at_rest(q.len());
         self.motion.x.copy_from_slice(q.as_slice());
-        let offsets = DVector::from_column_slice(&frame.offsets);
+        let offsets = frame.opened_at(q.as_slice());
         self.approaches = &frame.rigid * &q - offsets - &across * &p;
+        self.bent = if torque_nm == 0.0 { level * 0.0 } else { &found.load - level };
         self.bearings.rest(self.carrier.as_mut(), &self.seat_stiffness, &q);
         self.fill_ports(&frame);
         for (gear, (ports, forces)) in self.work.ports.iter_mut().enumerate() {

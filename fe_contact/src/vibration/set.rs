@@ -18,13 +18,16 @@ use super::bearings::Bearings;
 use super::body::{Port, RaceMotion, VibratingBody};
 use super::build;
 use super::damping::Proportional;
+use super::exact::GridTables;
 use super::frame::Frame;
 use super::gear::Gear;
 use super::lag::{LagRule, PairMemory};
+use super::leaning::Leaning;
 use super::packed::Packed;
+use super::prepared::Prepared;
 use crate::contact::ContactMaps;
 use crate::error::FeError;
-use crate::statics::{CARRIER, PLANETS, Races, SetTables, StaticSet, planet_bearing};
+use crate::statics::{CARRIER, PLANETS, Races, Reference, SetTables, StaticSet, planet_bearing};
 
 /// How a set moves.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,6 +65,8 @@ impl Motive {
 pub struct VibratingSet<'s> {
     pub(super) statics: StaticSet<'s>,
     pub(super) tables: SetTables,
+    /// By step in the cycle.
+    pub(super) leaning: Vec<Leaning>,
     pub(super) maps: Vec<ContactMaps>,
     pub(super) rule: AverageAcceleration,
     pub(super) motive: Motive,
@@ -84,6 +89,8 @@ pub struct VibratingSet<'s> {
     pub(super) packed_inverse: Packed,
     /// Gyroscopic and centripetal terms, n×n: G (kg/s) and −mΩ² (N/m).
     pub(super) gyroscopic: Option<[DMatrix<f64>; 2]>,
+    /// Tables on a grid of phases, where kinematics are exact at every step.
+    pub(super) grid: Option<GridTables>,
     /// By step in the cycle.
     pub(super) frames: Vec<Option<Box<Frame>>>,
     pub(super) frames_with_backs: Vec<Option<Box<Frame>>>,
@@ -99,6 +106,8 @@ pub struct VibratingSet<'s> {
     pub(super) forces: DVector<f64>,
     /// Approaches of the pairs, less gap offsets, m.
     pub(super) approaches: DVector<f64>,
+    /// What the bends of gaps at corners put on the races in the last step, n, N.
+    pub(super) bent: DVector<f64>,
     pub(super) touched_back: bool,
     /// Whether bodies are worth a thread each.
     pub(super) is_large: bool,
@@ -129,6 +138,8 @@ pub(super) struct Work {
     /// What of it the tooth pairs leave to the races.
     pub(super) left: DVector<f64>,
     pub(super) free: DVector<f64>,
+    /// Where the races are expected at the end of the step, m.
+    pub(super) expected: Vec<f64>,
     pub(super) b: DVector<f64>,
     pub(super) x: DVector<f64>,
     pub(super) history: Vec<f64>,
@@ -145,10 +156,10 @@ const LARGE: usize = 10_000;
 impl<'s> VibratingSet<'s> {
     pub(super) fn assemble(
         scene: &Scene,
-        statics: StaticSet<'s>,
+        prepared: Prepared<'s>,
         motive: Motive,
-        tables: SetTables,
     ) -> Result<Self, FeError> {
+        let Prepared { statics, tables, leaning } = prepared;
         build::one_flexibility(scene, statics.bodies)?;
         let (step, count, start) = match motive {
             Motive::Standing { position, step } => (step, 1, position),
@@ -204,8 +215,11 @@ impl<'s> VibratingSet<'s> {
             _ => None,
         };
         let planets = races.planets();
+        let mut resting = Motion::at_rest(n);
+        resting.x.copy_from_slice(statics.reference().q.as_slice());
         let mut set = Self {
             tables,
+            leaning,
             maps,
             rule,
             motive,
@@ -221,16 +235,18 @@ impl<'s> VibratingSet<'s> {
             inverse: DMatrix::zeros(n, n),
             packed_inverse: Packed::default(),
             gyroscopic,
+            grid: None,
             frames: (0..count).map(|_| None).collect(),
             frames_with_backs: (0..count).map(|_| None).collect(),
             step_in_cycle: 0,
             cycles: 0,
             steps: 0,
             external: DVector::zeros(n),
-            motion: Motion::at_rest(n),
+            motion: resting,
             memory: vec![PairMemory::default(); 2 * planets],
             forces: DVector::zeros(0),
             approaches: DVector::zeros(0),
+            bent: DVector::zeros(n),
             touched_back: false,
             is_large: false,
             work: Work::default(),
@@ -243,6 +259,7 @@ impl<'s> VibratingSet<'s> {
         set.work.free = DVector::zeros(n);
         set.work.x = DVector::zeros(n);
         set.work.history = vec![0.0; n];
+        set.work.expected = vec![0.0; n];
         set.is_large = set.elastic_unknowns() > LARGE;
         set.work.started = vec![Default::default(); set.gears.len()];
         set.work.ports = set.gears.iter().map(|_| Default::default()).collect();
@@ -281,6 +298,8 @@ impl<'s> VibratingSet<'s> {
         if let Some([g, k]) = &self.gyroscopic {
             a += g * self.rule.damping() + k;
         }
+        // The meshes' forces turn with their lines of action.
+        a += &self.statics.reference().stiffness;
         let singular = || FeError::NoEquilibrium("the races have no inertia".into());
         self.inverse = a.try_inverse().ok_or_else(singular)?;
         self.packed_inverse = Packed::new(&self.inverse);
@@ -336,6 +355,11 @@ impl<'s> VibratingSet<'s> {
     /// The races' coordinates.
     pub fn races(&self) -> &Races {
         &self.statics.races
+    }
+
+    /// The configuration the set is linearised about.
+    pub fn reference(&self) -> &Reference {
+        self.statics.reference()
     }
 
     /// Masses of the races' coordinates with rigid bodies, kg.

@@ -1,12 +1,13 @@
 //! The lumped model fed from finite elements: same equations, parameters from the meshes.
 //!
 //! Masses and polar inertias are those of the meshed bodies, each mesh is as stiff as its contact
-//! at one frozen position and preload, 1ᵀS1 over its pairs, bearings are the scene's. What is left
-//! between this model and the linearised FE/contact set is what a lumped model does not have: a
-//! carrier that gives way, and corner pairs that press along another normal than the line of action.
+//! at one frozen position and preload, 1ᵀS1 over its pairs, lines of action are those of the loaded set,
+//! bearings are the scene's. What is left between this model and the linearised FE/contact set is what a
+//! lumped model does not have: a carrier that gives way, corner pairs that press along another normal than
+//! the line of action, the slopes of the deformed flanks, and forces that turn with their lines of action.
 
 use fe_contact::statics::{Bodies, Races};
-use gearset::{LumpedInput, MeshKind, PerBody, PerMesh, PlanetOverride, PlanetPositions, Scene};
+use gearset::{LumpedInput, PerBody, PerMesh, PlanetOverride, PlanetPositions, Scene};
 use lumped::{LumpedModel, ModeType, NaturalModes, Participation};
 
 use super::kinds::type_of;
@@ -25,10 +26,12 @@ pub fn fed_lumped(
     preload: &Preload,
 ) -> Result<Scene, ValidationError> {
     let set = preloaded(scene, bodies, preload)?;
-    fed_from(scene, bodies, set.races(), &set.linearised()?.mesh_tangents)
+    let angles = set.reference().pressure_angles();
+    fed_from(scene, bodies, set.races(), &angles, &set.linearised()?.mesh_tangents)
 }
 
-/// The same with tangents at hand: sun meshes, then ring meshes, one a planet, N/m.
+/// The same with the loaded pressure angles (rad; means over the planets are taken) and tangents (N/m) at
+/// hand: sun meshes, then ring meshes, one a planet.
 ///
 /// # Errors
 /// If there are more tangents than meshes, or the scene lacks a mesh or a mass.
@@ -36,10 +39,14 @@ pub fn fed_from(
     scene: &Scene,
     bodies: &Bodies,
     races: &Races,
+    angles: &[f64],
     tangents: &[f64],
 ) -> Result<Scene, ValidationError> {
     let n = races.planets();
-    if tangents.len() < 2 * n || tangents[2 * n..].iter().any(|t| *t != 0.0) {
+    if angles.len() != 2 * n
+        || tangents.len() < 2 * n
+        || tangents[2 * n..].iter().any(|t| *t != 0.0)
+    {
         return Err(ValidationError::Incomplete("set whose front flanks alone press"));
     }
     let (sun_meshes, ring_meshes) = (&tangents[..n], &tangents[n..2 * n]);
@@ -50,10 +57,6 @@ pub fn fed_from(
         ring_mesh: Some(ring_meshes[planet]),
         ..PlanetOverride::default()
     });
-    let angle = |kind| {
-        let mesh = bodies.geometry.mesh(kind);
-        mesh.map(|m| m.pressure_angle).ok_or(ValidationError::Incomplete("mesh of both kinds"))
-    };
     let (mass, inertia_over_r2) = mass_properties(scene, bodies, races);
     let [carrier, ring, sun, planet] = races.radii.map(Some);
     let mean = |list: &[f64]| list.iter().sum::<f64>() / n as f64;
@@ -66,10 +69,7 @@ pub fn fed_from(
         inertia_over_r2,
         radius: PerBody { carrier, ring, sun, planet },
         mesh: PerMesh { sun_planet: mean(sun_meshes), ring_planet: mean(ring_meshes) },
-        pressure_angle: PerMesh {
-            sun_planet: angle(MeshKind::SunPlanet)?,
-            ring_planet: angle(MeshKind::RingPlanet)?,
-        },
+        pressure_angle: PerMesh { sun_planet: mean(&angles[..n]), ring_planet: mean(&angles[n..]) },
     });
     Ok(fed)
 }

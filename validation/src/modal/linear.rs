@@ -2,7 +2,7 @@
 
 use fe_contact::FeError;
 use fe_contact::statics::{Bodies, Imperfections};
-use fe_contact::vibration::{LinearSet, Motive, VibratingSet};
+use fe_contact::vibration::{LinearSet, Loading, Motive, VibratingSet};
 use gearset::{Facing, Scene};
 
 use super::kinds::{RaceKinds, type_of};
@@ -37,8 +37,9 @@ pub fn preloaded<'b>(
     let motive = Motive::Standing { position, step: step_s };
     // Relieved flanks touch on a wider patch than their force says.
     large_enough(|size| {
-        let (none, force) = (Imperfections::default(), force * f64::powi(2.0, size as i32));
-        let mut set = VibratingSet::new(scene, bodies, sense, none, motive, force)?;
+        let (none, mesh_force) = (Imperfections::default(), force * f64::powi(2.0, size as i32));
+        let loading = Loading { torque_nm: torque_nm.abs(), mesh_force };
+        let mut set = VibratingSet::new(scene, bodies, sense, none, motive, loading)?;
         set.rest(torque_nm.abs())?;
         Ok(set)
     })

@@ -3,8 +3,8 @@
 use std::sync::OnceLock;
 
 use fe_contact::statics::{Bodies, Imperfections};
-use fe_contact::vibration::{Motive, Prepared, VibratingSet};
-use gearset::{Facing, Rung, Scene};
+use fe_contact::vibration::{Loading, Motive, Prepared, VibratingSet};
+use gearset::{Facing, MeshKinematics, Rung, Scene};
 
 use super::marching::{FeMarching, Marching};
 use crate::error::ValidationError;
@@ -42,7 +42,7 @@ pub(super) fn sense(torque_nm: f64) -> Facing {
 }
 
 /// Tables are made for this many times the even share of the load: resonance must fit.
-const HEADROOM: f64 = 2.0;
+pub(crate) const HEADROOM: f64 = 2.0;
 
 /// The FE/contact model on the rung of its scene, tables shared by all speeds.
 #[derive(Debug)]
@@ -113,19 +113,27 @@ impl SweepModel for FeModel<'_> {
     ) -> Result<Box<dyn Marching + '_>, ValidationError> {
         let steps_per_cycle = self.steps_per_cycle();
         let motive = Motive::Turning { mesh_frequency, steps_per_cycle };
-        let force = self.force(self.table_size + size)?;
+        let torque_nm = self.torque_nm.abs();
+        let mesh_force = self.force(self.table_size + size)?;
+        let loading = Loading { torque_nm, mesh_force };
         let sense = sense(self.torque_nm);
+        if self.scene.dynamics.kinematics == MeshKinematics::Exact {
+            let own = self.imperfections.clone();
+            let (scene, bodies) = (&self.scene, self.bodies);
+            let set = VibratingSet::exact(scene, bodies, sense, own, motive, loading)?;
+            return Ok(Box::new(FeMarching { set, torque_nm }));
+        }
         let slot = &self.prepared[size.min(SIZES - 1)];
         let prepared = match slot.get() {
             Some(prepared) => prepared,
             None => {
                 let own = self.imperfections.clone();
                 let made =
-                    VibratingSet::prepare(&self.scene, self.bodies, sense, own, motive, force)?;
+                    VibratingSet::prepare(&self.scene, self.bodies, sense, own, motive, loading)?;
                 slot.get_or_init(|| made)
             }
         };
         let set = VibratingSet::on(&self.scene, prepared, motive)?;
-        Ok(Box::new(FeMarching { set, torque_nm: self.torque_nm.abs() }))
+        Ok(Box::new(FeMarching { set, torque_nm }))
     }
 }

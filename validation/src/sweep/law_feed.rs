@@ -2,7 +2,7 @@
 //! time.
 
 use dynamics::CoupledState;
-use fe_contact::statics::Bodies;
+use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use fe_contact::vibration::{LawSettings, MeshLawSet, mesh_law};
 use gearset::{MeshLaw, Rung, Scene};
 use lumped::TimeVarying;
@@ -15,7 +15,7 @@ use crate::error::ValidationError;
 #[derive(Debug)]
 pub struct LawModel<'s> {
     scene: Scene,
-    bodies: &'s Bodies,
+    loaded: StaticSet<'s>,
     torque_nm: f64,
     law: MeshLaw,
     is_lumped: bool,
@@ -32,14 +32,16 @@ impl<'s> LawModel<'s> {
         let steps = scene.dynamics.steps_per_cycle as usize;
         let settings = LawSettings::at(torque_nm.abs());
         let law = mesh_law(&scene, bodies, sense(torque_nm), steps, &settings)?;
-        Ok(Self { scene, bodies, torque_nm, law, is_lumped: false })
+        let loaded = StaticSet::new(&scene, bodies, sense(torque_nm), Imperfections::default())?;
+        let loaded = loaded.under(torque_nm.abs())?;
+        Ok(Self { scene, loaded, torque_nm, law, is_lumped: false })
     }
 
     /// The lumped model with the same law in its meshes.
     pub fn lumped(&self) -> Self {
         Self {
             scene: self.scene.clone(),
-            bodies: self.bodies,
+            loaded: self.loaded.clone(),
             torque_nm: self.torque_nm,
             law: self.law.clone(),
             is_lumped: true,
@@ -74,7 +76,7 @@ impl SweepModel for LawModel<'_> {
             let set = TimeVarying::new(&self.scene, sense, law, mesh_frequency)?;
             return Ok(Box::new(LumpedMarching(set, torque)));
         }
-        let set = MeshLawSet::new(&self.scene, self.bodies, sense, mesh_frequency, law)?;
+        let set = MeshLawSet::on(&self.scene, &self.loaded, mesh_frequency, law)?;
         Ok(Box::new(LawMarching(set, torque)))
     }
 }

@@ -1,5 +1,6 @@
 //! What a sweep asks of a model in time, whichever it is.
 
+use fe_contact::statics::SUN;
 use fe_contact::vibration::VibratingSet;
 
 use crate::error::ValidationError;
@@ -33,6 +34,12 @@ pub trait Marching {
 
     /// Force of each mesh: sun meshes, ring meshes, then back flanks if any touch, N.
     fn mesh_forces(&self, out: &mut Vec<f64>);
+
+    /// What approaches of tooth pairs are off their linear form at most, and the sun's base radius, m;
+    /// `None` where meshes do not follow displaced gears at all.
+    fn kinematic_rest(&self) -> Option<[f64; 2]> {
+        None
+    }
 
     /// What its steps took.
     fn effort(&self) -> Effort;
@@ -69,6 +76,10 @@ impl Marching for FeMarching<'_> {
 
     fn mesh_forces(&self, out: &mut Vec<f64>) {
         self.set.mesh_forces(out);
+    }
+
+    fn kinematic_rest(&self) -> Option<[f64; 2]> {
+        Some([self.set.kinematic_rest(), self.set.races().radii[SUN]])
     }
 
     fn effort(&self) -> Effort {

@@ -12,6 +12,7 @@ mod record;
 mod run;
 mod steady;
 
+pub(crate) use feed::HEADROOM;
 pub use feed::{FeModel, SweepModel};
 pub use judge::{Assigned, Content, Natural, assigned, contents};
 pub use law_feed::LawModel;

@@ -147,6 +147,9 @@ mod tests {
                     between: None,
                     back_contact: 0.0,
                     size: 0,
+                    kinematic_rest_m: None,
+                    kinematic_rest_share: None,
+                    is_beyond_linear: false,
                     lines: vec![line],
                 }
             })

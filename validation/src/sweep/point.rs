@@ -127,6 +127,13 @@ pub struct SweepPoint {
     pub back_contact: f64,
     /// How often the load the tables are made for was doubled.
     pub size: usize,
+    /// What approaches of tooth pairs are off their linear form about the mean loaded configuration at
+    /// most, m; absent where meshes follow a law.
+    pub kinematic_rest_m: Option<f64>,
+    /// The same over the transmission error's peak-to-peak value.
+    pub kinematic_rest_share: Option<f64>,
+    /// Whether that is worth a warning.
+    pub is_beyond_linear: bool,
     /// Harmonics of everything.
     pub lines: Vec<Line>,
 }
@@ -235,6 +242,9 @@ impl SweepPoint {
             between: found.between,
             back_contact: record.with_backs as f64 / steps,
             size,
+            kinematic_rest_m: found.rest.map(|rest| rest.largest),
+            kinematic_rest_share: found.rest.map(|rest| rest.share),
+            is_beyond_linear: found.rest.is_some_and(|rest| rest.is_worth_a_warning()),
             lines,
         })
     }

@@ -18,6 +18,9 @@ pub struct Record {
     pub with_backs: usize,
 }
 
+/// Channel of the sun's rotation.
+pub(super) const SUN_ROTATION: usize = 8;
+
 impl Record {
     /// An empty record of a set of N planets.
     pub fn new(planets: usize) -> Self {
@@ -80,6 +83,13 @@ impl Record {
             set.step()?;
         }
         Ok(())
+    }
+
+    /// Largest sample of one channel less its smallest.
+    pub fn range(&self, channel: usize) -> f64 {
+        let own = self.channel(channel);
+        let high = own.iter().fold(f64::NEG_INFINITY, |a, x| a.max(*x));
+        high - own.iter().fold(f64::INFINITY, |a, x| a.min(*x))
     }
 
     /// Samples of one channel.

@@ -177,6 +177,9 @@ fn one(
         let steps = model.steps_per_cycle();
         let found =
             steady(set.as_mut(), model.planets(), model.first_planet_rad(), steps, settings)?;
+        if let Some(rest) = found.rest {
+            rest.check()?;
+        }
         let point = SweepPoint::new(speed_rpm, mesh_frequency, &found, settings, size)?;
         Ok(Kept { point, state: set.state() })
     })

@@ -1,9 +1,10 @@
 //! Steady state by marching from cycle to cycle.
 
+use fe_contact::statics::KinematicRest;
 use serde::{Deserialize, Serialize};
 
 use super::marching::Marching;
-use super::record::Record;
+use super::record::{Record, SUN_ROTATION};
 use crate::error::ValidationError;
 
 /// When a march is over, and what is recorded.
@@ -37,7 +38,12 @@ pub struct Steady {
     pub residual: f64,
     /// Energy between mesh harmonics over all vibration, if it was asked for.
     pub between: Option<f64>,
+    /// What linear kinematics leave out, on a sample of positions.
+    pub rest: Option<KinematicRest>,
 }
+
+/// Positions of a mesh cycle at which exact kinematics are evaluated.
+const SAMPLED: usize = 14;
 
 /// Marches from the present state, which must stand at the start of a mesh cycle.
 ///
@@ -65,5 +71,30 @@ pub fn steady(
             Some(before.between_harmonics(count)?)
         }
     };
-    Ok(Steady { record: now, cycles, residual, between })
+    let rest = sampled_rest(set, &now, steps)?;
+    Ok(Steady { record: now, cycles, residual, between, rest })
+}
+
+/// Exact kinematics on one more cycle, against the transmission error of the recorded one.
+fn sampled_rest(
+    set: &mut dyn Marching,
+    record: &Record,
+    steps: usize,
+) -> Result<Option<KinematicRest>, ValidationError> {
+    if set.kinematic_rest().is_none() {
+        return Ok(None);
+    }
+    let (mut largest, mut radius) = (0.0f64, 0.0);
+    for step in 0..steps {
+        set.step()?;
+        if step % (steps / SAMPLED).max(1) != 0 {
+            continue;
+        }
+        if let Some([rest, base_radius]) = set.kinematic_rest() {
+            radius = base_radius;
+            // What is no number is kept.
+            largest = if largest.is_nan() || largest >= rest { largest } else { rest };
+        }
+    }
+    Ok(Some(KinematicRest::new(largest, radius * record.range(SUN_ROTATION))))
 }

@@ -1,14 +1,16 @@
 //! Tables of mesh force from the cells.
 
 use gearset::{CurveKey, Facing, FlankSide, LawPlan, MeshCurve, MeshKind, MeshLaw, Scene};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use rayon::prelude::*;
 
 use super::share::damped_share;
 use crate::complementarity::ActiveSet;
-use crate::contact::{CellSettings, MeshAnswer, MeshTable, PairCells, PairFrame};
+use crate::contact::{CellSettings, MeshAnswer, MeshTable, PairCells};
 use crate::error::FeError;
-use crate::statics::{Bodies, Imperfections, PLANETS, RING, SUN, StaticSet, missing_mesh};
+use crate::statics::{
+    Beside, Bodies, Imperfections, PLANETS, RING, SUN, StaticSet, invariants, missing_mesh, turned,
+};
 
 /// What a law is made for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,9 +28,6 @@ pub struct LawSettings {
 /// Steps of the curves of back flanks, which rarely touch.
 const BACK_NODES: usize = 16;
 
-/// Positions of the mesh cycle at which equilibrium is found.
-const REST_POSITIONS: usize = 14;
-
 impl LawSettings {
     /// For motion about the equilibrium under a torque (N·m): forces up to three times the mean one, back
     /// flanks included.
@@ -40,10 +39,10 @@ impl LawSettings {
 /// The law of a whole set under a torque on the sun of the given sense, at even steps of a mesh cycle;
 /// deterministic, on all threads.
 ///
-/// A mesh's deflection is its approach on the path of contact. A pair that touches with a corner
-/// approaches otherwise: by its own arms where the deflection changes, and by what the set's displacements
-/// at rest make of its other row. Under load those are ten times the deflection, most of which cancels
-/// on the path.
+/// The set is linearised about its mean configuration under the torque: phases and centre distances are
+/// those of the loaded gears. A mesh's deflection is its approach on the path of contact. A pair that
+/// touches with a corner approaches by its own arms; what corners and the slopes of the deformed flanks
+/// put beside the line of action is a load by phase, with the forces of the equilibrium there.
 ///
 /// # Errors
 /// If the scene is no whole set, contact cannot be solved, or the settings are unfit.
@@ -67,21 +66,15 @@ pub fn mesh_law(
     if !(reach >= 1.0 && reach.is_finite()) {
         return Err(unfit("reach", reach, "a finite number, at least 1"));
     }
-    let statics = StaticSet::new(scene, bodies, sense, Imperfections::default())?;
+    let statics = StaticSet::new(scene, bodies, sense, Imperfections::default())?.under(torque)?;
     let planets = statics.races.planets();
-    let mean_force = torque / statics.races.radii[SUN] / planets as f64;
+    let mean_force = statics.share(torque);
     let plan = LawPlan::new(&statics.law_starts(settings.has_backs), steps)?;
-    let row = |kind| -> Result<[f64; 6], FeError> {
-        let frame = PairFrame::new(bodies.joined(kind)?.0, 0.3, 0);
-        Ok(frame.ok_or_else(|| missing_mesh(kind))?.approach_row())
-    };
     let job = Job {
-        rest: mean_rest(&statics, torque, mean_force)?,
+        at_rest: at_rest(&statics, steps, mean_force)?,
         cells: bodies.cells(reach * mean_force),
-        nominal: mean_force,
         largest: reach * mean_force,
         nodes: settings.nodes.max(1),
-        on_path: [row(MeshKind::SunPlanet)?, row(MeshKind::RingPlanet)?],
         statics: &statics,
     };
     let made: Vec<Made> =
@@ -99,23 +92,38 @@ pub fn mesh_law(
     Ok(law.with_damping_share(&shares)?.with_side_loads(sides)?)
 }
 
-/// Displacements at rest under a torque, mean over the mesh cycle.
-fn mean_rest(
-    statics: &StaticSet<'_>,
-    torque: f64,
-    mean_force: f64,
-) -> Result<DVector<f64>, FeError> {
-    let positions: Vec<f64> =
-        (0..REST_POSITIONS).map(|i| i as f64 / REST_POSITIONS as f64).collect();
+/// A mesh in the equilibrium of the set.
+struct AtRest {
+    kind: MeshKind,
+    phase: f64,
+    /// Approach on the path, m.
+    deflection: f64,
+    /// Approach of each pair, by its number, m.
+    approaches: Vec<(i64, f64)>,
+}
+
+/// Every mesh at every step of a cycle, at rest under the reference's torque.
+fn at_rest(statics: &StaticSet<'_>, steps: usize, mean_force: f64) -> Result<Vec<AtRest>, FeError> {
+    let reference = statics.reference();
+    let positions: Vec<f64> = (0..steps).map(|i| i as f64 / steps as f64).collect();
     let tables = statics.tables(mean_force, &positions)?;
-    let mut mean = DVector::zeros(statics.races.count);
-    let mut start = None;
+    let f = statics.load(reference.torque_nm);
+    statics.lay_out_beside(&tables)?;
+    let mut list = Vec::new();
+    let mut start = reference.q.clone();
     for position in positions {
-        let found = statics.equilibrium(torque, position, &tables, start.as_ref(), &ActiveSet)?;
-        mean += &found.q / REST_POSITIONS as f64;
-        start = Some(found.q);
+        let mut found = statics.equilibrium(&f, position, &tables, Some(&start), &ActiveSet)?;
+        statics.lean_all(&f, &tables, &mut found, &ActiveSet)?;
+        for (placed, pose) in found.meshes.iter().zip(&reference.meshes) {
+            let moved = pose.gradients[0].dot(&(&found.q - &reference.q));
+            let deflection = pose.at[0] + moved;
+            let own = placed.table.pairs.iter().map(|pair| pair.index);
+            let approaches = own.zip(placed.approaches(&found.q)).collect();
+            list.push(AtRest { kind: placed.kind, phase: placed.phase, deflection, approaches });
+        }
+        start = found.q;
     }
-    Ok(mean)
+    Ok(list)
 }
 
 /// Approaches of a mesh's pairs over its deflection δ: a δ + o each.
@@ -138,31 +146,52 @@ struct Made {
 /// What all curves of a law are made with.
 struct Job<'j, 's> {
     statics: &'j StaticSet<'s>,
-    rest: DVector<f64>,
+    at_rest: Vec<AtRest>,
     cells: CellSettings,
-    /// Mean and largest force, N.
-    nominal: f64,
+    /// Largest force, N.
     largest: f64,
     nodes: usize,
-    /// Approach rows on the path, sun mesh and ring mesh.
-    on_path: [[f64; 6]; 2],
 }
+
+/// Phases nearer than this are the same phase, rounded differently, cycles.
+const SAME_PHASE: f64 = 1e-11;
 
 impl Job<'_, '_> {
     fn make(&self, key: &CurveKey) -> Result<Made, FeError> {
         let bodies = self.statics.bodies;
-        let (mesh, pair) = bodies.joined(key.kind)?;
+        let pair = bodies.pair(key.kind).ok_or_else(|| missing_mesh(key.kind))?;
+        let reference = self.statics.reference();
+        let which = reference.meshes.iter().position(|pose| pose.kind == key.kind);
+        let which = which.ok_or_else(|| missing_mesh(key.kind))?;
+        let (mesh, gradients) = match key.side {
+            FlankSide::Front => {
+                let own = &reference.loaded[reference.meshes[which].group];
+                (&own.mesh, &own.gradients)
+            }
+            FlankSide::Back => (&reference.backs[which].mesh, &reference.backs[which].gradients),
+        };
         let table = MeshTable::new(mesh, pair, key.phase, &self.cells)?;
-        let on_path = self.on_path(key.kind);
-        let mut along = Approaches::of_arms(&table, &on_path);
+        let arm = |p: &PairCells| invariants(key.kind, gradients, &p.row)[0];
+        let arms: Vec<f64> = table.pairs.iter().map(arm).collect();
+        let mut along = Approaches { extra: vec![0.0; arms.len()], arms };
         match key.side {
             FlankSide::Front => {
-                self.displace(key.kind, &table, &on_path, &mut along);
+                let is_here = |rest: &&AtRest| {
+                    let apart = rest.phase - key.phase;
+                    rest.kind == key.kind && (apart - apart.round()).abs() < SAME_PHASE
+                };
+                let rest = self.at_rest.iter().find(is_here);
+                let rest = rest.ok_or_else(|| missing_mesh(key.kind))?;
+                // Where the mesh rests its pairs approach as they do in the set.
+                for (k, pair) in table.pairs.iter().enumerate() {
+                    if let Some((_, own)) = rest.approaches.iter().find(|a| a.0 == pair.index) {
+                        along.extra[k] = own - along.arms[k] * rest.deflection;
+                    }
+                }
                 let curve = curve(&table, &along, self.largest, self.nodes)?;
-                let deflection = deflection_for(&table, &along, self.nominal)?;
-                let found = at(&table, &along, deflection, &mut None)?;
-                let share = Some(damped_share(self.statics, key, &table, &along, &found)?);
-                let side_load = self.side_load(key.kind, &table, &along, &found);
+                let found = at(&table, &along, rest.deflection, &mut None)?;
+                let share = Some(damped_share(bodies, mesh, &table, &along, &found));
+                let side_load = self.side_load(which, &table, &found)?;
                 Ok(Made { curve, share, side_load })
             }
             FlankSide::Back => {
@@ -174,71 +203,52 @@ impl Job<'_, '_> {
         }
     }
 
-    /// What the displacements at rest add to the approaches of pairs off the path, mean over the planets.
-    fn displace(
-        &self,
-        kind: MeshKind,
-        table: &MeshTable,
-        on_path: &[f64; 6],
-        along: &mut Approaches,
-    ) {
-        let races = &self.statics.races;
-        let planets = races.planets();
-        let of = |planet, row: &[f64; 6]| -> f64 {
-            let row = races.approach(kind, planet, row);
-            row.iter().zip(self.rest.iter()).map(|(b, q)| b * q).sum()
-        };
-        for (k, pair) in table.pairs.iter().enumerate() {
-            let arm = along.arms[k];
-            let one = |planet| of(planet, &pair.row) - arm * of(planet, on_path);
-            along.extra[k] = (0..planets).map(one).sum::<f64>() / planets as f64;
-        }
-    }
-}
-
-impl Job<'_, '_> {
-    /// −Σ P (b − a b₀) over the pairs of a mesh, b₀ the row on the path: on the central gear's (radial,
-    /// tangential, u), then the planet's (ζ, η, u), N.
+    /// What a mesh puts on its gears beside its line of action: with pair forces P and the derivatives A
+    /// of the pairs' approaches,
+    ///
+    /// ```text
+    /// −Σ P (A_σ − κ_σ) ∂σ − Σ P (A_a − κ_a) ∂a' + (∂W/∂σ − κᵀP) ∂σ + …
+    /// ```
+    ///
+    /// on the central gear's (radial, tangential, u), then the planet's (ζ, η, u), N.
     fn side_load(
         &self,
-        kind: MeshKind,
+        which: usize,
         table: &MeshTable,
-        along: &Approaches,
         found: &Found,
-    ) -> [f64; 6] {
-        let mut sum = [0.0; 6];
-        let pairs = table.pairs.iter().zip(&along.arms).zip(&found.pair_forces);
-        for ((pair, arm), force) in pairs {
-            for ((sum, b), on_path) in sum.iter_mut().zip(pair.row).zip(self.on_path(kind)) {
-                *sum -= force * (b - arm * on_path);
-            }
+    ) -> Result<[f64; 6], FeError> {
+        let statics = self.statics;
+        let pose = &statics.reference().meshes[which];
+        let own = &statics.reference().loaded[pose.group];
+        let beside = Beside::coarse(statics.bodies, &own.mesh, table.phase, &self.cells)?;
+        let slopes = beside.slopes(table, &found.pair_forces, &ActiveSet)?;
+        let mut along = slopes.rest;
+        for ((pair, force), kappa) in
+            table.pairs.iter().zip(&found.pair_forces).zip(&slopes.of_pairs)
+        {
+            let by = invariants(pose.kind, &own.gradients, &pair.row);
+            along[0] -= force * (by[1] - kappa[0]);
+            along[1] -= force * (by[2] - kappa[1]);
         }
-        let radii = &self.statics.races.radii;
+        let gradients = [&own.gradients.string, &own.gradients.center_distance];
+        let mut sum = [0.0; 6];
+        for (gradient, force) in gradients.into_iter().zip(along) {
+            let row = turned(gradient, pose.direction);
+            sum.iter_mut().zip(row).for_each(|(sum, row)| *sum += force * row);
+        }
+        let radii = &statics.races.radii;
         let [first, second] = [[sum[0], sum[1], sum[2]], [sum[3], sum[4], sum[5]]];
-        let (central, planet, radius) = match kind {
+        let (central, planet, radius) = match pose.kind {
             MeshKind::SunPlanet => (first, second, radii[SUN]),
             MeshKind::RingPlanet => (second, first, radii[RING]),
         };
         let [x, y, turn] = central;
         let [zeta, eta, spin] = planet;
-        [x, y, turn / radius, zeta, eta, spin / radii[PLANETS]]
-    }
-
-    /// Approach row of pairs on the path.
-    fn on_path(&self, kind: MeshKind) -> [f64; 6] {
-        self.on_path[usize::from(kind == MeshKind::RingPlanet)]
+        Ok([x, y, turn / radius, zeta, eta, spin / radii[PLANETS]])
     }
 }
 
 impl Approaches {
-    /// 1 on the path; at a corner, whose normal and arms differ, the mean of what turning either gear
-    /// gives.
-    fn of_arms(table: &MeshTable, on_path: &[f64; 6]) -> Self {
-        let one = |row: &[f64; 6]| 0.5 * (row[2] / on_path[2] + row[5] / on_path[5]);
-        let arms: Vec<f64> = table.pairs.iter().map(|pair| one(&pair.row)).collect();
-        Self { extra: vec![0.0; arms.len()], arms }
-    }
-
     fn at(&self, deflection: f64) -> Vec<f64> {
         self.arms.iter().zip(&self.extra).map(|(a, o)| a * deflection + o).collect()
     }

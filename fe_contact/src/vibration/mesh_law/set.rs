@@ -3,18 +3,15 @@
 
 use dynamics::{AverageAcceleration, Coupled, CoupledState, Coupling, LinearPart, Motion};
 use faer::Mat;
-use gearset::{Facing, MeshKind, MeshLaw, Scene};
+use gearset::{Facing, MeshLaw, Scene};
 use nalgebra::DVector;
 
 use super::super::build::{body_mass, gyroscopic_terms};
 use super::super::prepared::fit;
 use super::super::set::{Motive, carrier_speed};
 use super::law::Tables;
-use crate::contact::PairFrame;
 use crate::error::FeError;
-use crate::statics::{
-    Bodies, CARRIER, Imperfections, PLANETS, RING, Races, SUN, StaticSet, mirrored, missing_mesh,
-};
+use crate::statics::{Bodies, CARRIER, Imperfections, PLANETS, RING, Races, SUN, StaticSet};
 
 /// A set in time with tabulated mesh forces.
 #[derive(Debug)]
@@ -26,7 +23,8 @@ pub struct MeshLawSet<'s> {
 
 impl<'s> MeshLawSet<'s> {
     /// A set at rest without load at step 0 of a mesh cycle under a torque on the sun of the given sense,
-    /// turning; as many steps a cycle as the law has.
+    /// turning; as many steps a cycle as the law has. The law's torque (N·m, magnitude) says about which
+    /// mean configuration deflections are linear.
     ///
     /// # Errors
     /// If the scene lacks what the set needs, or the law is for another one.
@@ -35,11 +33,28 @@ impl<'s> MeshLawSet<'s> {
         bodies: &'s Bodies,
         sense: Facing,
         mesh_frequency: f64,
+        torque_nm: f64,
+        law: MeshLaw,
+    ) -> Result<Self, FeError> {
+        let statics = StaticSet::new(scene, bodies, sense, Imperfections::default())?;
+        Self::on(scene, &statics.under(torque_nm)?, mesh_frequency, law)
+    }
+
+    /// The same on a set that is linearised about its mean configuration under the law's torque.
+    ///
+    /// # Errors
+    /// As [`MeshLawSet::new`].
+    pub fn on(
+        scene: &Scene,
+        loaded: &StaticSet<'s>,
+        mesh_frequency: f64,
         law: MeshLaw,
     ) -> Result<Self, FeError> {
         let steps = law.steps();
         fit(scene, &Motive::Turning { mesh_frequency, steps_per_cycle: steps })?;
-        let statics = StaticSet::new(scene, bodies, sense, Imperfections::default())?;
+        let statics = loaded.clone();
+        let bodies = statics.bodies;
+        let reference = statics.reference();
         let races = &statics.races;
         let planets = races.planets();
         if law.meshes() != 2 * planets {
@@ -65,26 +80,23 @@ impl<'s> MeshLawSet<'s> {
             let own = if i == j { d.mass_proportional_per_s * mass[i] } else { 0.0 };
             own + d.bearing_s * races.stiffness[(i, j)]
         });
-        let mut stiffness = Mat::from_fn(n, n, |i, j| races.stiffness[(i, j)]);
+        let turning = &reference.stiffness;
+        let mut stiffness = Mat::from_fn(n, n, |i, j| races.stiffness[(i, j)] + turning[(i, j)]);
         if scene.dynamics.gyroscopic {
             let [g, k] = gyroscopic_terms(races, &mass, carrier_speed(scene, mesh_frequency));
             damping += Mat::from_fn(n, n, |i, j| g[(i, j)]);
             stiffness += Mat::from_fn(n, n, |i, j| k[(i, j)]);
         }
         let (mut front, mut back) = (Vec::new(), Vec::new());
-        for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
-            let (mesh, _) = bodies.joined(kind)?;
-            let frame = PairFrame::new(mesh, 0.3, 0).ok_or_else(|| missing_mesh(kind))?;
-            for planet in 0..planets {
-                let row = frame.approach_row();
-                let lag = d.stiffness_proportional_s * law.damping_share(front.len());
-                let coupling = |row: &[f64; 6]| {
-                    let row = races.approach(kind, planet, row);
-                    Coupling { row, offset: 0.0, lag }
-                };
-                front.push(coupling(&row));
-                back.push(coupling(&mirrored(&row)));
-            }
+        for (pose, behind) in reference.meshes.iter().zip(&reference.backs) {
+            let lag = d.stiffness_proportional_s * law.damping_share(front.len());
+            let coupling = |row: &DVector<f64>, at: f64| {
+                let offset = row.dot(&reference.q) - at;
+                Coupling { row: row.as_slice().to_vec(), offset, lag }
+            };
+            front.push(coupling(&pose.gradients[0], pose.at[0]));
+            let backlash = bodies.geometry.normal_backlash(pose.kind).unwrap_or(0.0);
+            back.push(coupling(&behind.row, behind.approach + backlash));
         }
         if !law.has_backs() {
             back.clear();
@@ -97,7 +109,11 @@ impl<'s> MeshLawSet<'s> {
             why: "speed and steps a cycle give no step".into(),
         })?;
         let part = LinearPart { mass: mass.clone(), damping, stiffness };
-        let side_loads = side_loads(races, &law);
+        let turning = turning * &reference.q;
+        let mut side_loads = side_loads(races, &law);
+        for load in &mut side_loads {
+            load.iter_mut().zip(turning.iter()).for_each(|(load, f)| *load += f);
+        }
         let system = Coupled::new(&part, &front, &back, Tables(law), rule, steps);
         let mut system = system.map_err(|cause| failed(&statics, cause))?;
         for (step, load) in side_loads.iter().enumerate() {

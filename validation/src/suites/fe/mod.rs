@@ -8,6 +8,7 @@ mod fed;
 mod fig12;
 mod hertz;
 mod iso6336;
+mod kinematics;
 mod modal;
 mod reduced;
 mod resolved;
@@ -104,7 +105,7 @@ pub(crate) fn checks(
     profile: Profile,
     concerns: &dyn Fn(&str) -> bool,
 ) -> Result<Vec<Check>, ValidationError> {
-    let suites: [(&[&str], Suite); 19] = [
+    let suites: [(&[&str], Suite); 24] = [
         (&["fe.hertz."], hertz::checks),
         (&["fe.convergence."], convergence::checks),
         (&["fe.resolved."], resolved::checks),
@@ -113,6 +114,11 @@ pub(crate) fn checks(
         (&["fe.stiffness."], stiffness::checks),
         (&["fe.iso_6336."], iso6336::checks),
         (&["fe.sets."], sets::checks),
+        (&["fe.kinematics.turned."], kinematics::turned::checks),
+        (&["fe.kinematics.work."], kinematics::work::checks),
+        (&["fe.kinematics.bearings."], kinematics::bearings::checks),
+        (&["fe.kinematics.potential."], kinematics::potential::checks),
+        (&["fe.kinematics.exact."], kinematics::exact::checks),
         (&["fe.fig12."], fig12::checks),
         (&["fe.control."], controls::checks),
         (&["table2.fe_contact.", "table3.fe_contact.", "fe.modal."], modal::checks),

@@ -4,8 +4,9 @@
 use std::f64::consts::TAU;
 
 use dynamics::{Window, spectrum};
-use fe_contact::statics::{Bodies, Imperfections, PitchError};
-use gearset::{ExcitationStrengths, Kinematics, Scene, excitation_of_scene};
+use fe_contact::complementarity::ActiveSet;
+use fe_contact::statics::{Bodies, Imperfections, PitchError, StaticSet};
+use gearset::{ExcitationStrengths, Facing, Kinematics, Scene, excitation_of_scene};
 
 use super::Lab;
 use crate::Profile;
@@ -13,8 +14,8 @@ use crate::catalogue::PublishedScene;
 use crate::check::{Check, ReferenceKind, Subject};
 use crate::error::ValidationError;
 use crate::sweep::{
-    Assigned, Content, Coordinate, Direction, FeModel, Memory, Natural, Part, Plan, SteadySettings,
-    Sweep, SweepModel, SweepPoint, assigned, contents, naturals, run,
+    Assigned, Content, Coordinate, Direction, FeModel, HEADROOM, Memory, Natural, Part, Plan,
+    SteadySettings, Sweep, SweepModel, SweepPoint, assigned, contents, naturals, run,
 };
 
 /// What ids of the sweeps start with.
@@ -248,9 +249,13 @@ pub(super) fn judged(
     Ok(checks)
 }
 
-/// Harmonics 0…5 of the sun's motion (radial, tangential, rotation) at rest.
+/// Harmonics 0…5 of the sun's motion (radial, tangential, rotation) at rest, on the sweep's grids.
 fn static_harmonics(lab: &Lab<'_>) -> Result<[Vec<[f64; 2]>; 3], ValidationError> {
-    let cycle = lab.set(&lab.four, &lab.bodies, TORQUE, 140, Imperfections::default())?;
+    let sun = lab.bodies.geometry.sun.as_ref().ok_or(ValidationError::Incomplete("sun"))?;
+    let share = TORQUE / sun.base_radius / lab.four.planets.count() as f64;
+    let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
+    let set = StaticSet::new(&lab.four, &lab.bodies, sense, none)?;
+    let cycle = set.cycle_on_grids_for(HEADROOM * share, TORQUE, 140, &ActiveSet)?;
     let one = |axis: usize| -> Result<Vec<[f64; 2]>, ValidationError> {
         let record: Vec<f64> = cycle.states.iter().map(|s| s.central[2][axis]).collect();
         let lines = spectrum(&record, 1.0, Window::Rectangular, 1)?.lines;

@@ -99,7 +99,7 @@ fn differences(
     let points = found.points();
 
     // The peak of the sun's rotation in l = 2.
-    let near = |p: &&&SweepPoint| kept.of_steps(280).any(|q| q.speed_rpm == p.speed_rpm);
+    let near = |p: &&&SweepPoint| kept.is_about_the_peak(p.speed_rpm);
     let incomplete = || ValidationError::Incomplete("peak between three speeds");
     let full = kept.rotational_peak().ok_or_else(incomplete)?;
     let rotation = |p: &SweepPoint| Response::Rotation(Part::Sun).amplitude(p, 2);

@@ -1,0 +1,258 @@
+//! A set over a mesh cycle, and the loaded configuration that is its mean.
+
+use nalgebra::DVector;
+
+use super::equilibrium::Equilibrium;
+use super::races::SUN;
+use super::reference::Reference;
+use super::set::StaticSet;
+use super::state::{MeshState, SetCycle, SetState};
+use crate::complementarity::{ActiveSet, ComplementaritySolver};
+use crate::error::FeError;
+
+/// How often grids are laid out anew for four times the load.
+const RESIZINGS: usize = 3;
+
+/// Fewest positions whose mean is the loaded configuration, and most that are tried for a number which
+/// all meshes' phases divide.
+const MEAN_OVER: [usize; 2] = [14, 140];
+
+/// A loaded configuration is found once no phase changes by more than this, cycles: what is left is
+/// linear, and the rest quadratic in it.
+const FOUND: f64 = 1e-3;
+
+/// Configurations tried.
+const MOST: usize = 12;
+
+impl<'s> StaticSet<'s> {
+    /// The set linearised about its mean configuration under a torque on the sun (N·m, magnitude).
+    ///
+    /// # Errors
+    /// If contact cannot be solved, nothing holds the set, or no configuration repeats itself.
+    pub fn under(self, torque_nm: f64) -> Result<Self, FeError> {
+        self.under_with(torque_nm, &DVector::zeros(0))
+    }
+
+    /// The same with further loads on the races' coordinates (n, N; none: no numbers).
+    ///
+    /// # Errors
+    /// As [`StaticSet::under`].
+    pub fn under_with(mut self, torque_nm: f64, further: &DVector<f64>) -> Result<Self, FeError> {
+        let f = self.load_with(torque_nm, further);
+        if f.amax() == 0.0 {
+            let none = DVector::zeros(self.races.count);
+            self.reference = self.reference_at(0.0, none, &[])?;
+            return Ok(self);
+        }
+        let sized_for = self.share(torque_nm).max(1.0);
+        // Springs for meshes bring it within a tooth's deflection.
+        for _ in 0..MOST {
+            let q = self.sprung(&f)?;
+            let next = self.reference_at(torque_nm, q, &self.even_forces(torque_nm))?;
+            let change = next.moved_from(&self.reference);
+            self.reference = next;
+            if change < FOUND {
+                break;
+            }
+        }
+        let mut change = f64::INFINITY;
+        for _ in 0..MOST {
+            let next = resized(sized_for, |size| self.mean(torque_nm, further, size))?;
+            change = next.moved_from(&self.reference);
+            self.reference = next;
+            if change < FOUND {
+                return Ok(self);
+            }
+        }
+        Err(FeError::NoReference { torque_nm, change })
+    }
+
+    /// Force of each mesh if all planets carry alike, N.
+    pub(crate) fn share(&self, torque_nm: f64) -> f64 {
+        torque_nm / self.races.radii[2] / self.races.planets() as f64
+    }
+
+    fn even_forces(&self, torque_nm: f64) -> Vec<f64> {
+        vec![self.share(torque_nm); self.nominal.len()]
+    }
+
+    /// Mean configuration over a mesh cycle about the present reference.
+    fn mean(
+        &self,
+        torque_nm: f64,
+        further: &DVector<f64>,
+        sized_for: f64,
+    ) -> Result<Reference, FeError> {
+        let count = self.even_positions();
+        let positions: Vec<f64> = (0..count).map(|i| i as f64 / count as f64).collect();
+        let tables = self.tables(sized_for, &positions)?;
+        let mut q = DVector::zeros(self.races.count);
+        let mut forces = vec![0.0; self.nominal.len()];
+        let mut start = self.reference.q.clone();
+        let f = self.load_with(torque_nm, further);
+        for position in positions {
+            let found = self.equilibrium(&f, position, &tables, Some(&start), &ActiveSet)?;
+            q += &found.q / count as f64;
+            for (mean, answer) in forces.iter_mut().zip(&found.answers) {
+                *mean += answer.pair_forces.iter().sum::<f64>() / count as f64;
+            }
+            start = found.q;
+        }
+        self.reference_at(torque_nm, q, &forces)
+    }
+
+    /// Fewest positions (at least 14) that all meshes of a kind go through alike: phases of the unloaded
+    /// set in parts of a cycle are whole numbers of them.
+    fn even_positions(&self) -> usize {
+        let [least, most] = MEAN_OVER;
+        let planets = self.races.planets();
+        let is_whole = |count: &usize| {
+            self.nominal[..planets].iter().all(|of| {
+                let x = of.offset * *count as f64;
+                (x - x.round()).abs() < 1e-9
+            })
+        };
+        (least..=most).find(is_whole).unwrap_or(most)
+    }
+
+    /// A torque on the sun (N·m, magnitude) and further loads on the races' coordinates, N.
+    pub(super) fn load_with(&self, torque_nm: f64, further: &DVector<f64>) -> DVector<f64> {
+        let mut f = self.load(torque_nm);
+        if !further.is_empty() {
+            f += further;
+        }
+        f
+    }
+
+    /// Equilibrium at `positions` even positions of one mesh cycle; `torque_nm` is the magnitude of
+    /// the sun's torque, its sense being the set's. The set is linearised about its mean configuration
+    /// under that torque.
+    ///
+    /// # Errors
+    /// If contact cannot be solved, the cells do not suffice, nothing holds the set, or displacements are
+    /// too large for linear kinematics.
+    pub fn cycle(
+        &self,
+        torque_nm: f64,
+        positions: usize,
+        solver: &(dyn ComplementaritySolver + Sync),
+    ) -> Result<SetCycle, FeError> {
+        let found = self.clone().under(torque_nm)?.cycle_here(torque_nm, positions, solver)?;
+        // One position has no range to compare with.
+        if positions > 1 {
+            found.kinematic_rest(self.races.radii[SUN]).check()?;
+        }
+        Ok(found)
+    }
+
+    /// The same about the reference the set has.
+    ///
+    /// # Errors
+    /// As [`StaticSet::cycle`].
+    pub fn cycle_here(
+        &self,
+        torque_nm: f64,
+        positions: usize,
+        solver: &(dyn ComplementaritySolver + Sync),
+    ) -> Result<SetCycle, FeError> {
+        self.cycle_with(torque_nm, &DVector::zeros(0), positions, solver)
+    }
+
+    /// The same on grids laid out for meshes that carry `mesh_force` (N), as sweeps have them: grids for
+    /// larger forces are coarser.
+    ///
+    /// # Errors
+    /// As [`StaticSet::cycle`].
+    pub fn cycle_on_grids_for(
+        &self,
+        mesh_force: f64,
+        torque_nm: f64,
+        positions: usize,
+        solver: &(dyn ComplementaritySolver + Sync),
+    ) -> Result<SetCycle, FeError> {
+        let set = self.clone().under(torque_nm)?;
+        set.cycle_on(torque_nm, &DVector::zeros(0), positions, mesh_force, solver)
+    }
+
+    /// The same with further loads on the races' coordinates (n, N; none: no numbers).
+    ///
+    /// # Errors
+    /// As [`StaticSet::cycle`].
+    pub fn cycle_with(
+        &self,
+        torque_nm: f64,
+        further: &DVector<f64>,
+        positions: usize,
+        solver: &(dyn ComplementaritySolver + Sync),
+    ) -> Result<SetCycle, FeError> {
+        // Grids are sized for an even share of the load. Where a mesh carries far more (a planet out
+        // of place), all are laid out anew for more.
+        resized(self.share(torque_nm).max(1.0), |sized_for| {
+            self.cycle_on(torque_nm, further, positions, sized_for, solver)
+        })
+    }
+
+    fn cycle_on(
+        &self,
+        torque_nm: f64,
+        further: &DVector<f64>,
+        positions: usize,
+        sized_for: f64,
+        solver: &(dyn ComplementaritySolver + Sync),
+    ) -> Result<SetCycle, FeError> {
+        let list: Vec<f64> = (0..positions).map(|i| i as f64 / positions as f64).collect();
+        let tables = self.tables(sized_for, &list)?;
+        let f = self.load_with(torque_nm, further);
+        if f.amax() > 0.0 {
+            self.lay_out_beside(&tables)?;
+        }
+        let mut states = Vec::with_capacity(positions);
+        let mut start = (self.reference.torque_nm > 0.0).then(|| self.reference.q.clone());
+        for position in list {
+            let mut found = self.equilibrium(&f, position, &tables, start.as_ref(), solver)?;
+            self.lean_all(&f, &tables, &mut found, solver)?;
+            states.push(self.state(&found));
+            start = Some(found.q);
+        }
+        Ok(SetCycle { torque_nm: self.sign * torque_nm, lead: self.reference.lead(), states })
+    }
+
+    /// Results in the frame of the scene.
+    fn state(&self, found: &Equilibrium<'_>) -> SetState {
+        self.state_of(found, self.kinematic_rest(found))
+    }
+
+    /// The same with what linear kinematics leave out, m.
+    pub(super) fn state_of(&self, found: &Equilibrium<'_>, kinematic_rest: f64) -> SetState {
+        let Equilibrium { position, q, meshes, answers, residual, counts, .. } = found;
+        let (central, planets) = self.displacements(q);
+        let mut states: Vec<MeshState> =
+            meshes.iter().zip(answers).map(|(mesh, answer)| mesh.state(q, answer)).collect();
+        SetState {
+            position: *position,
+            central,
+            planets,
+            backs: states.split_off(self.nominal.len()),
+            meshes: states,
+            reactions: self.reactions(found),
+            kinematic_rest,
+            residual: *residual,
+            iterations: counts.0,
+            contact_iterations: counts.1,
+        }
+    }
+}
+
+/// Tries what needs tables, laid out for four times the load where it outgrows them.
+fn resized<T>(
+    mut sized_for: f64,
+    attempt: impl Fn(f64) -> Result<T, FeError>,
+) -> Result<T, FeError> {
+    for _ in 0..RESIZINGS {
+        match attempt(sized_for) {
+            Err(FeError::GridOverflow { .. }) => sized_for *= 4.0,
+            result => return result,
+        }
+    }
+    attempt(sized_for)
+}

@@ -1,0 +1,113 @@
+//! What linear kinematics about the reference leave out, worked out after the fact; and the torques that
+//! leave a set.
+
+use std::borrow::Cow;
+
+use gearset::{DisplacedMesh, MeshKind};
+use nalgebra::DVector;
+
+use super::equilibrium::Equilibrium;
+use super::placed::Placed;
+use super::set::StaticSet;
+use super::state::ThroughTorques;
+use crate::contact::MeshTable;
+use crate::error::FeError;
+
+/// The largest number; none if one is none.
+pub(crate) fn larger(each: impl Iterator<Item = f64>) -> f64 {
+    each.fold(0.0, |a, b| if a.is_nan() || a >= b { a } else { b })
+}
+
+impl StaticSet<'_> {
+    /// A front mesh with the races at q, as exact kinematics have it at a position.
+    pub(crate) fn exact_pose(
+        &self,
+        mesh: usize,
+        position: f64,
+        q: &DVector<f64>,
+    ) -> Result<DisplacedMesh, FeError> {
+        let (found, _) = self.ground().displaced(&self.nominal[mesh], q, 1.0)?;
+        let unloaded = position - self.reference.lead() + self.nominal[mesh].offset;
+        Ok(found.turned_by(unloaded))
+    }
+
+    /// Exact approach of the pairs of a table, from where the table has them, with the races at q.
+    pub(crate) fn exact_approaches(
+        &self,
+        mesh: usize,
+        placed: &Placed<'_>,
+        position: f64,
+        q: &DVector<f64>,
+    ) -> Result<Vec<f64>, FeError> {
+        let own = &self.reference.loaded[self.reference.meshes[mesh].group].mesh;
+        let exact = self.exact_pose(mesh, position, q)?;
+        // The table's phase is reduced: its pair 0 need not be that of the turning gears.
+        let whole = (exact.phase() - placed.phase).round();
+        let exact = exact.turned_by(-whole);
+        let inside = || FeError::NoEquilibrium("a corner dips below its mate's base circle".into());
+        let still = own.displaced(placed.phase, &[0.0; 6]);
+        let still = still.map_err(|cause| FeError::NoEquilibrium(cause.to_string()))?;
+        placed
+            .table
+            .pairs
+            .iter()
+            .map(|pair| {
+                let now = exact.clearance(own, pair.index).ok_or_else(inside)?;
+                Ok(still.clearance(own, pair.index).ok_or_else(inside)? - now)
+            })
+            .collect()
+    }
+
+    /// Largest difference of a loaded pair's approach from its linear form, m; no number where exact
+    /// kinematics cannot be had.
+    pub(super) fn kinematic_rest(&self, found: &Equilibrium<'_>) -> f64 {
+        let each =
+            found.answers.iter().enumerate().take(self.nominal.len()).map(|(mesh, answer)| {
+                let table = &found.meshes[mesh].table;
+                self.rest_of_mesh(mesh, table, found.position, &found.q, &answer.pair_forces)
+            });
+        larger(each)
+    }
+
+    /// The same of one front mesh whose pairs carry `forces` (N).
+    pub(crate) fn rest_of_mesh(
+        &self,
+        mesh: usize,
+        table: &MeshTable,
+        position: f64,
+        q: &DVector<f64>,
+        forces: &[f64],
+    ) -> f64 {
+        let mut rigid = self.place_one(mesh, Cow::Borrowed(table), position);
+        rigid.open(q);
+        let Ok(exact) = self.exact_approaches(mesh, &rigid, position, q) else { return f64::NAN };
+        let pairs = exact.iter().zip(rigid.approaches(q)).zip(forces);
+        larger(pairs.filter(|(_, p)| **p > 0.0).map(|((exact, linear), _)| (exact - linear).abs()))
+    }
+
+    /// What leaves through carrier and ring.
+    pub(super) fn reactions(&self, found: &Equilibrium<'_>) -> ThroughTorques {
+        let mut ring = 0.0;
+        for (which, (mesh, answer)) in found.meshes.iter().zip(&found.answers).enumerate() {
+            if mesh.kind != MeshKind::RingPlanet {
+                continue;
+            }
+            for (turn, force) in mesh.turns.iter().zip(&answer.pair_forces) {
+                ring -= force * turn;
+            }
+            for bend in &mesh.bends {
+                let moved = bend.moved(&found.q);
+                ring += answer.pair_forces[bend.pair] * bend.curvature * moved * bend.turn;
+            }
+            // The slopes of the flanks, of front meshes alone.
+            let Some(slopes) = found.slopes.get(which) else { continue };
+            let pose = &self.reference.meshes[which];
+            let by_string = self.reference.loaded[pose.group].gradients.string[5];
+            let kappa = slopes.of_pairs.iter().zip(&answer.pair_forces);
+            ring += by_string * kappa.map(|(kappa, force)| kappa[0] * force).sum::<f64>();
+            ring += by_string * slopes.rest[0];
+        }
+        let carrier = self.races.carrier_torque(&found.q);
+        ThroughTorques { carrier_nm: self.sign * carrier, ring_nm: self.sign * ring }
+    }
+}

@@ -1,0 +1,290 @@
+//! The configuration a set is linearised about: the mean one under the torque at hand.
+//!
+//! Bearings wind up by twenty times the deflection of the teeth. What that does to a mesh is exact
+//! kinematics ([`gearset::DisplacedMesh`]): approach δ, place on the line of action σ and centre distance
+//! a' of every mesh are those of the displaced gears, and tables of contact are laid out there. Only
+//! what is left of the displacements within a mesh cycle is linear,
+//!
+//! ```text
+//! approach of pair k = A_k·(δ, σ, a') at the reference + b_kᵀ (q − q_ref),
+//! b_k = A_δ ∂δ + (A_σ − κ_σ) ∂σ + (A_a − κ_a) ∂a'
+//! ```
+//!
+//! with A_k the pair's own derivatives (1, 0, 0 on the path) and κ the slope of the deformed flanks
+//! ([`Slopes`]), and the forces' turning with the line of action is the stiffness Σ F̄ ∂²δ.
+
+use gearset::{DisplacedMesh, Displacements, Mesh, MeshGradients, MeshKind};
+use nalgebra::{DMatrix, DVector};
+
+use super::bodies::{Bodies, missing_mesh};
+use super::imperfection::Imperfections;
+use super::races::Races;
+use super::set::NominalMesh;
+use crate::error::FeError;
+
+/// Meshes of a kind whose phases differ by less than this from those of the unloaded set's pattern
+/// (cycles), and whose centre distances by less than that (m), share tables: the rest is linear, and
+/// what is quadratic in it is below 1e-11 m.
+const SHARED: [f64; 2] = [1e-3, 5e-6];
+
+/// Gears of one mesh at a centre distance, for the meshes that share its tables.
+#[derive(Debug, Clone)]
+pub(crate) struct LoadedMesh {
+    pub(crate) mesh: Mesh,
+    /// By how much loads have moved the phases, cycles.
+    pub(crate) shift: f64,
+    /// In its own displaced frame, line of centres along x.
+    pub(crate) gradients: MeshGradients,
+}
+
+/// One mesh at the reference.
+#[derive(Debug, Clone)]
+pub(crate) struct MeshPose {
+    pub(crate) kind: MeshKind,
+    pub(crate) planet: usize,
+    /// Which of [`Reference::loaded`].
+    pub(crate) group: usize,
+    /// λ, rad.
+    pub(crate) direction: f64,
+    /// δ, σ and a' less those of the group's tables, m.
+    pub(crate) at: [f64; 3],
+    /// ∂δ, ∂σ, ∂a' on the races' coordinates.
+    pub(crate) gradients: [DVector<f64>; 3],
+}
+
+/// Back flanks of one mesh at the reference, seen in the mirror along its line of centres.
+#[derive(Debug, Clone)]
+pub(crate) struct BackPose {
+    pub(crate) mesh: Mesh,
+    /// By how much loads have moved the phase of the mirrored mesh, cycles.
+    pub(crate) shift: f64,
+    /// λ in the mirror, rad.
+    pub(crate) direction: f64,
+    pub(crate) gradients: MeshGradients,
+    /// δ less the backlash, m.
+    pub(crate) approach: f64,
+    /// ∂δ on the races' coordinates.
+    pub(crate) row: DVector<f64>,
+}
+
+/// What a set is linearised about.
+#[derive(Debug, Clone)]
+pub struct Reference {
+    /// Torque on the sun it is the mean configuration under, N·m (magnitude).
+    pub torque_nm: f64,
+    /// Displacements of the races, n, m.
+    pub q: DVector<f64>,
+    /// Sun meshes, then ring meshes.
+    pub(crate) meshes: Vec<MeshPose>,
+    pub(crate) backs: Vec<BackPose>,
+    pub(crate) loaded: Vec<LoadedMesh>,
+    /// Σ F̄ ∂²δ, n×n, N/m.
+    pub(crate) stiffness: DMatrix<f64>,
+}
+
+/// What a reference is worked out from.
+pub(super) struct Ground<'g> {
+    pub(super) bodies: &'g Bodies,
+    pub(super) races: &'g Races,
+    pub(super) nominal: &'g [NominalMesh],
+    pub(super) imperfections: &'g Imperfections,
+}
+
+impl Ground<'_> {
+    /// A mesh with the races at q, from its unloaded phase 0; seen in the mirror with `sign` −1.
+    pub(super) fn displaced(
+        &self,
+        of: &NominalMesh,
+        q: &DVector<f64>,
+        sign: f64,
+    ) -> Result<(DisplacedMesh, Displacements), FeError> {
+        let (mesh, _) = self.bodies.joined(of.kind)?;
+        let mut x = self.races.mesh_displacements(of.kind, of.planet, q.as_slice());
+        self.imperfections.displace(of.kind, of.planet, &mut x);
+        if sign < 0.0 {
+            x = super::set::mirrored(&x);
+        }
+        let found = mesh.displaced(0.0, &x).map_err(|cause| {
+            FeError::NoEquilibrium(format!(
+                "planet {} is displaced until its gears no longer mesh: {cause}",
+                of.planet
+            ))
+        })?;
+        Ok((found, x))
+    }
+}
+
+impl Reference {
+    /// At displacements q (m) of the races, the meshes carrying `forces` (N) on the mean.
+    pub(super) fn new(
+        ground: &Ground<'_>,
+        torque_nm: f64,
+        q: DVector<f64>,
+        forces: &[f64],
+    ) -> Result<Self, FeError> {
+        let races = ground.races;
+        let n = races.count;
+        let found: Vec<DisplacedMesh> = ground
+            .nominal
+            .iter()
+            .map(|of| ground.displaced(of, &q, 1.0).map(|d| d.0))
+            .collect::<Result<_, _>>()?;
+        let loaded = share(ground, &found)?;
+        let mut meshes = Vec::with_capacity(found.len());
+        let mut stiffness = DMatrix::zeros(n, n);
+        for (which, (of, displaced)) in ground.nominal.iter().zip(&found).enumerate() {
+            let onto =
+                |row: &[f64; 6]| -> DVector<f64> { races.approach(of.kind, of.planet, row).into() };
+            let belongs = |group: &&(LoadedMesh, Vec<usize>)| group.1.contains(&which);
+            let group = loaded.iter().position(|group| belongs(&group)).unwrap_or(0);
+            let own = &loaded[group].0;
+            let string = |mesh: &Mesh, shift: f64| mesh.path_start + shift * mesh.base_pitch;
+            let gradients = displaced.gradients();
+            meshes.push(MeshPose {
+                kind: of.kind,
+                planet: of.planet,
+                group,
+                direction: displaced.line_of_centres,
+                at: [
+                    displaced.approach,
+                    displaced.touching_string() - string(&own.mesh, own.shift),
+                    displaced.center_distance - own.mesh.center_distance,
+                ],
+                gradients: [
+                    onto(&gradients.approach),
+                    onto(&gradients.string),
+                    onto(&gradients.center_distance),
+                ],
+            });
+            let force = forces.get(which).copied().unwrap_or(0.0);
+            if force != 0.0 {
+                let turning = displaced.hessians().approach;
+                let onto_mesh = races.mesh_matrix(of.kind, of.planet);
+                let turning = DMatrix::from_fn(6, 6, |i, j| force * turning[i][j]);
+                stiffness += onto_mesh.transpose() * turning * &onto_mesh;
+            }
+        }
+        let backs = ground
+            .nominal
+            .iter()
+            .map(|of| {
+                let backlash = ground.bodies.geometry.normal_backlash(of.kind).unwrap_or(0.0);
+                let (displaced, _) = ground.displaced(of, &q, -1.0)?;
+                let mesh = moved(ground.bodies, of.kind, displaced.center_distance)?;
+                let gradients = at_rest(&mesh)?;
+                let row = super::set::mirrored(&displaced.gradients().approach);
+                Ok(BackPose {
+                    shift: displaced.phase(),
+                    direction: displaced.line_of_centres,
+                    approach: displaced.approach - backlash,
+                    row: races.approach(of.kind, of.planet, &row).into(),
+                    gradients,
+                    mesh,
+                })
+            })
+            .collect::<Result<_, FeError>>()?;
+        let loaded = loaded.into_iter().map(|group| group.0).collect();
+        Ok(Self { torque_nm, q, meshes, backs, loaded, stiffness })
+    }
+
+    /// By how much loads have moved the phase of planet 0's sun mesh, from which positions count, cycles.
+    pub fn lead(&self) -> f64 {
+        self.meshes.first().map_or(0.0, |pose| self.loaded[pose.group].shift)
+    }
+
+    /// Centre distance of each mesh (sun meshes, then ring meshes), m.
+    pub fn center_distances(&self) -> Vec<f64> {
+        let of = |pose: &MeshPose| self.loaded[pose.group].mesh.center_distance + pose.at[2];
+        self.meshes.iter().map(of).collect()
+    }
+
+    /// Angle between the line of action and the normal to the nominal line of centres of each mesh (sun
+    /// meshes, then ring meshes): the pressure angle of the loaded set as a model with fixed centres has
+    /// it, rad.
+    pub fn pressure_angles(&self) -> Vec<f64> {
+        let of = |pose: &MeshPose| {
+            let alpha = self.loaded[pose.group].mesh.pressure_angle;
+            match pose.kind {
+                MeshKind::SunPlanet => alpha - pose.direction,
+                MeshKind::RingPlanet => alpha + pose.direction,
+            }
+        };
+        self.meshes.iter().map(of).collect()
+    }
+
+    /// Largest change of any mesh's phase (cycles) from another reference.
+    pub(super) fn moved_from(&self, other: &Self) -> f64 {
+        let phase = |r: &Self, k: usize| {
+            let own = &r.loaded[r.meshes[k].group];
+            own.shift + r.meshes[k].at[1] / own.mesh.base_pitch
+        };
+        let change = |k| (phase(self, k) - phase(other, k)).abs();
+        (0..self.meshes.len()).map(change).fold(0.0, f64::max)
+    }
+}
+
+/// Derivatives of a pair's approach with respect to δ, σ and a', from its row on driver and driven in
+/// the displaced frame.
+///
+/// The rotations' entries give A_δ and A_σ, the planet's along the line of centres A_a.
+pub(crate) fn invariants(kind: MeshKind, gradients: &MeshGradients, row: &[f64; 6]) -> [f64; 3] {
+    let (delta, string) = (&gradients.approach, &gradients.string);
+    let determinant = delta[2] * string[5] - delta[5] * string[2];
+    let by_approach = (row[2] * string[5] - row[5] * string[2]) / determinant;
+    let by_string = (delta[2] * row[5] - delta[5] * row[2]) / determinant;
+    let planet = match kind {
+        MeshKind::SunPlanet => 3,
+        MeshKind::RingPlanet => 0,
+    };
+    [by_approach, by_string, row[planet] - by_approach * delta[planet] - by_string * string[planet]]
+}
+
+/// A row on (x, y, θ) of driver and driven in a frame that stands at `angle`, seen from where it is 0.
+pub(crate) fn turned(row: &[f64; 6], angle: f64) -> [f64; 6] {
+    let (sin, cos) = angle.sin_cos();
+    let one = |x: f64, y: f64| [cos * x - sin * y, sin * x + cos * y];
+    let ([a, b], [c, d]) = (one(row[0], row[1]), one(row[3], row[4]));
+    [a, b, row[2], c, d, row[5]]
+}
+
+/// A mesh of a kind at another centre distance.
+pub(super) fn moved(bodies: &Bodies, kind: MeshKind, distance: f64) -> Result<Mesh, FeError> {
+    let mesh = bodies.geometry.mesh(kind).ok_or_else(|| missing_mesh(kind))?;
+    mesh.at_center_distance(distance).map_err(|cause| FeError::NoEquilibrium(cause.to_string()))
+}
+
+/// Gradients of a mesh at its own centre distance, line of centres along x.
+pub(super) fn at_rest(mesh: &Mesh) -> Result<MeshGradients, FeError> {
+    let still = mesh.displaced(0.0, &[0.0; 6]);
+    Ok(still.map_err(|cause| FeError::NoEquilibrium(cause.to_string()))?.gradients())
+}
+
+/// Meshes that share tables, with the places of their members.
+fn share(
+    ground: &Ground<'_>,
+    found: &[DisplacedMesh],
+) -> Result<Vec<(LoadedMesh, Vec<usize>)>, FeError> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (k, displaced) in found.iter().enumerate() {
+        let near = |group: &&mut Vec<usize>| {
+            let first = &found[group[0]];
+            ground.nominal[group[0]].kind == ground.nominal[k].kind
+                && (first.phase() - displaced.phase()).abs() < SHARED[0]
+                && (first.center_distance - displaced.center_distance).abs() < SHARED[1]
+        };
+        match groups.iter_mut().find(near) {
+            Some(group) => group.push(k),
+            None => groups.push(vec![k]),
+        }
+    }
+    let one = |members: Vec<usize>| {
+        let mean = |of: fn(&DisplacedMesh) -> f64| {
+            members.iter().map(|k| of(&found[*k])).sum::<f64>() / members.len() as f64
+        };
+        let kind = ground.nominal[members[0]].kind;
+        let mesh = moved(ground.bodies, kind, mean(|d| d.center_distance))?;
+        let gradients = at_rest(&mesh)?;
+        Ok((LoadedMesh { mesh, shift: mean(DisplacedMesh::phase), gradients }, members))
+    };
+    groups.into_iter().map(one).collect()
+}

@@ -1,0 +1,184 @@
+//! How the compliance of a mesh changes where its pairs move: the slopes of the deformed flanks.
+//!
+//! With W(P, σ, a') the elastic energy of a mesh whose pairs carry P, and E_k = ∂W/∂P_k the elastic approach
+//! of pair k (the gap of tip relief belongs to it),
+//!
+//! ```text
+//! κ_k = ∂E_k/∂σ,  rest = ∂W/∂σ − κᵀP        (and the same for a')
+//! ```
+//!
+//! κ is the slope that a pair meets as it moves over the deformed flanks. It is two to five per cent of the
+//! second harmonic of the sun's rotation at rest, and without it a mesh's forces are no gradient of its
+//! energy. Both come from differences of tables at places to either side: spread loads (as ports take
+//! them) miss what the edge of a tip does to a patch near it.
+
+use gearset::{DisplacedMesh, Mesh};
+use nalgebra::{DMatrix, DVector};
+
+use super::bodies::Bodies;
+use crate::complementarity::ComplementaritySolver;
+use crate::contact::{CellSettings, MeshTable};
+use crate::error::FeError;
+
+/// Slopes of the flanks of one mesh under the forces of its pairs.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Slopes {
+    /// κ of each pair with respect to σ and a', m/m.
+    pub(crate) of_pairs: Vec<[f64; 2]>,
+    /// ∂W/∂σ and ∂W/∂a' less κᵀP, N.
+    pub(crate) rest: [f64; 2],
+}
+
+/// Tables to either side of a place of a mesh: σ on and back, a' wider and narrower.
+#[derive(Debug, Clone)]
+pub(crate) struct Beside {
+    tables: Vec<(Mesh, MeshTable)>,
+    steps: [f64; 2],
+}
+
+/// Steps of the differences along the line of action and of the centre distance, m.
+const STEPS: [f64; 2] = [2e-5, 2e-5];
+
+/// Cells of a pair in tables of which only differences are taken.
+const CELLS: usize = 20;
+
+impl Beside {
+    /// On cells as coarse as differences allow.
+    pub(crate) fn coarse(
+        bodies: &Bodies,
+        mesh: &Mesh,
+        phase: f64,
+        settings: &CellSettings,
+    ) -> Result<Self, FeError> {
+        let cells = settings.cells.min(CELLS);
+        Self::new(bodies, mesh, phase, &CellSettings { cells, ..*settings }, STEPS)
+    }
+
+    /// Beside a phase (cycles) of a mesh, steps in σ and a' in m.
+    pub(super) fn new(
+        bodies: &Bodies,
+        mesh: &Mesh,
+        phase: f64,
+        settings: &CellSettings,
+        steps: [f64; 2],
+    ) -> Result<Self, FeError> {
+        let (_, pair) = bodies.joined(mesh.kind)?;
+        let string = mesh.path_start + phase * mesh.base_pitch;
+        let mut tables = Vec::with_capacity(4);
+        for (which, step) in steps.into_iter().enumerate() {
+            for sign in [1.0, -1.0] {
+                let (mesh, string) = match which {
+                    0 => (mesh.clone(), string + sign * step),
+                    _ => {
+                        let distance = mesh.center_distance + sign * step;
+                        (super::reference::moved(bodies, mesh.kind, distance)?, string)
+                    }
+                };
+                let phase = (string - mesh.path_start) / mesh.base_pitch;
+                let table = MeshTable::new(&mesh, pair, phase, settings)?;
+                tables.push((mesh, table));
+            }
+        }
+        Ok(Self { tables, steps })
+    }
+
+    /// Slopes where the pairs of the table between carry `forces` (N).
+    pub(crate) fn slopes(
+        &self,
+        between: &MeshTable,
+        forces: &[f64],
+        solver: &dyn ComplementaritySolver,
+    ) -> Result<Slopes, FeError> {
+        let mut slopes = Slopes { of_pairs: vec![[0.0; 2]; forces.len()], rest: [0.0; 2] };
+        if forces.iter().all(|p| *p <= 0.0) {
+            return Ok(slopes);
+        }
+        for (which, step) in self.steps.into_iter().enumerate() {
+            let mut ends = self.tables[2 * which..2 * which + 2]
+                .iter()
+                .map(|(mesh, table)| elastic(mesh, table, between, forces, solver));
+            let (Some(after), Some(before)) = (ends.next(), ends.next()) else { continue };
+            let (after, before) = (after?, before?);
+            slopes.rest[which] = (after.1 - before.1) / (2.0 * step);
+            for (k, force) in forces.iter().enumerate() {
+                let kappa = (after.0[k] - before.0[k]) / (2.0 * step);
+                slopes.of_pairs[k][which] = kappa;
+                slopes.rest[which] -= kappa * force;
+            }
+        }
+        Ok(slopes)
+    }
+}
+
+/// A mesh just touching at a phase.
+pub(super) fn unrelieved(mesh: &Mesh, phase: f64) -> Result<DisplacedMesh, FeError> {
+    mesh.displaced(phase, &[0.0; 6]).map_err(|cause| FeError::NoEquilibrium(cause.to_string()))
+}
+
+/// Newton iterations for approaches under given forces.
+const MOST: usize = 80;
+
+/// Approach (m) from which a pair that is to carry is searched, and largest change of it in a step.
+const STRIDE: f64 = 1e-5;
+
+/// Elastic approach E of the pairs of one table (m; tip relief belongs to it) if they carried the given
+/// forces on another table of the mesh, and the elastic energy W = PᵀE − ½ pᵀCp (J).
+fn elastic(
+    mesh: &Mesh,
+    table: &MeshTable,
+    between: &MeshTable,
+    forces: &[f64],
+    solver: &dyn ComplementaritySolver,
+) -> Result<(Vec<f64>, f64), FeError> {
+    let still = unrelieved(mesh, table.phase)?;
+    let pairs: Vec<(usize, usize)> = (0..forces.len())
+        .filter(|k| forces[*k] > 0.0)
+        .filter_map(|k| {
+            let index = between.pairs[k].index;
+            Some((k, table.pairs.iter().position(|p| p.index == index)?))
+        })
+        .collect();
+    let wanted = DVector::from_iterator(pairs.len(), pairs.iter().map(|p| forces[p.0]));
+    let gap = |j: usize| still.clearance(mesh, table.pairs[j].index).unwrap_or(0.0);
+    // What does not carry stays away.
+    let mut approaches = vec![-1.0; table.pairs.len()];
+    let none = vec![0.0; table.pairs.len()];
+    for (_, j) in &pairs {
+        approaches[*j] = gap(*j) + STRIDE;
+    }
+    let mut warm: Option<Vec<bool>> = None;
+    let mut residual = f64::INFINITY;
+    for _ in 0..MOST {
+        let now = table.answer(&approaches, &none, solver, warm.as_deref())?;
+        let off = DVector::from_iterator(
+            pairs.len(),
+            pairs.iter().zip(wanted.iter()).map(|((_, j), p)| p - now.pair_forces[*j]),
+        );
+        residual = off.amax() / wanted.amax().max(f64::MIN_POSITIVE);
+        if residual < 1e-10 {
+            let mut of_pairs = vec![0.0; forces.len()];
+            let mut energy = -now.energy;
+            for ((k, j), p) in pairs.iter().zip(wanted.iter()) {
+                of_pairs[*k] = approaches[*j] - gap(*j);
+                energy += p * of_pairs[*k];
+            }
+            return Ok((of_pairs, energy));
+        }
+        let tangent = DMatrix::from_fn(pairs.len(), pairs.len(), |a, b| {
+            now.tangent[(pairs[a].1, pairs[b].1)]
+        });
+        let step = tangent.lu().solve(&off);
+        for (i, (_, j)) in pairs.iter().enumerate() {
+            // A pair that lost contact on the way comes back.
+            let is_lost = now.pair_forces[*j] <= 0.0;
+            approaches[*j] += match &step {
+                Some(step) if !is_lost && step[i].is_finite() => {
+                    step[i].clamp(-STRIDE, 2.0 * STRIDE)
+                }
+                _ => 0.2 * STRIDE,
+            };
+        }
+        warm = now.active.iter().any(|a| *a).then_some(now.active);
+    }
+    Err(FeError::NotConverged { iterations: MOST, residual })
+}

@@ -1,0 +1,152 @@
+//! Tables of contact for all the phases that some positions of a set need.
+
+use std::collections::HashMap;
+use std::sync::{Arc, OnceLock};
+
+use gearset::MeshKind;
+use rayon::prelude::*;
+
+use super::set::StaticSet;
+use super::slopes::{Beside, Slopes};
+use crate::complementarity::ActiveSet;
+use crate::contact::{CellSettings, MeshTable};
+use crate::error::FeError;
+
+/// Tables of all (meshes that share them, phase) some positions need, for one size of load; equal phases
+/// share one.
+#[derive(Debug, Clone)]
+pub struct SetTables {
+    /// The tables.
+    pub list: Vec<Arc<MeshTable>>,
+    place: HashMap<(usize, i64), usize>,
+    /// Tables beside each, once slopes were asked for.
+    beside: Vec<OnceLock<Arc<Beside>>>,
+    /// Settings they were made with.
+    pub settings: CellSettings,
+}
+
+/// Phases nearer than this many parts of a cycle are the same phase, rounded differently.
+const PHASE_RESOLUTION: f64 = 1e12;
+
+fn key(group: usize, phase: f64) -> (usize, i64) {
+    (group, (phase * PHASE_RESOLUTION).round() as i64)
+}
+
+/// Phase in [0, 1), what rounds to 1 being 0.
+pub(super) fn cycle(phase: f64) -> f64 {
+    let reduced = phase - phase.floor();
+    if reduced * PHASE_RESOLUTION >= PHASE_RESOLUTION - 0.5 { 0.0 } else { reduced }
+}
+
+impl SetTables {
+    /// Memory of the compliances, bytes.
+    pub fn bytes(&self) -> usize {
+        self.list.iter().map(|table| 8 * table.compliance.len()).sum()
+    }
+
+    /// Whether there is a table for meshes of a group at a phase (cycles).
+    pub(crate) fn holds(&self, group: usize, phase: f64) -> bool {
+        self.place.contains_key(&key(group, phase))
+    }
+
+    /// Place in the list of meshes of a group at a phase (cycles) the tables were made for.
+    pub(crate) fn place_of(&self, group: usize, phase: f64) -> usize {
+        self.place[&key(group, phase)]
+    }
+}
+
+impl StaticSet<'_> {
+    /// Tables for all meshes at the given positions (cycles), their grids sized for meshes that carry
+    /// `force` (N).
+    ///
+    /// # Errors
+    /// If a matching point lies outside its tooth.
+    pub fn tables(&self, force: f64, positions: &[f64]) -> Result<SetTables, FeError> {
+        let settings = self.bodies.cells(force);
+        let mut wanted: Vec<(usize, f64)> = Vec::new();
+        let mut seen = std::collections::HashSet::new();
+        for position in positions {
+            for (mesh, pose) in self.reference.meshes.iter().enumerate() {
+                let phase = self.phase(mesh, *position);
+                if seen.insert(key(pose.group, phase)) {
+                    wanted.push((pose.group, phase));
+                }
+            }
+        }
+        let list: Result<Vec<_>, FeError> = wanted
+            .par_iter()
+            .map(|(group, phase)| self.table(*group, *phase, &settings).map(Arc::new))
+            .collect();
+        let place = wanted.iter().enumerate().map(|(i, (g, phase))| (key(*g, *phase), i)).collect();
+        let list = list?;
+        let beside = vec![OnceLock::new(); list.len()];
+        Ok(SetTables { list, place, beside, settings })
+    }
+
+    /// Lays out what [`StaticSet::slopes`] needs beside every table, on all threads.
+    ///
+    /// # Errors
+    /// If a table cannot be had.
+    pub(crate) fn lay_out_beside(&self, tables: &SetTables) -> Result<(), FeError> {
+        let mut of: Vec<(usize, usize)> = tables.place.iter().map(|(k, i)| (*i, k.0)).collect();
+        of.sort_unstable();
+        of.into_par_iter().try_for_each(|(place, group)| {
+            self.beside(tables, place, group)?;
+            Ok(())
+        })
+    }
+
+    /// Tables beside one of the list, made at the first time of asking.
+    fn beside<'t>(
+        &self,
+        tables: &'t SetTables,
+        place: usize,
+        group: usize,
+    ) -> Result<&'t Beside, FeError> {
+        if let Some(beside) = tables.beside[place].get() {
+            return Ok(beside);
+        }
+        let mesh = &self.reference.loaded[group].mesh;
+        let phase = tables.list[place].phase;
+        let made = Beside::coarse(self.bodies, mesh, phase, &tables.settings)?;
+        Ok(tables.beside[place].get_or_init(|| Arc::new(made)))
+    }
+
+    /// Slopes of the flanks of a front mesh at a position, whose pairs carry `forces` (N).
+    ///
+    /// # Errors
+    /// If a table beside the position's cannot be had, or contact on it not be solved.
+    pub(crate) fn slopes(
+        &self,
+        tables: &SetTables,
+        mesh: usize,
+        position: f64,
+        forces: &[f64],
+    ) -> Result<Slopes, FeError> {
+        let place = self.place_of(tables, mesh, position);
+        let beside = self.beside(tables, place, self.reference.meshes[mesh].group)?;
+        beside.slopes(&tables.list[place], forces, &ActiveSet)
+    }
+
+    /// One table of the meshes of a group.
+    pub(crate) fn table(
+        &self,
+        group: usize,
+        phase: f64,
+        settings: &CellSettings,
+    ) -> Result<MeshTable, FeError> {
+        let mesh = &self.reference.loaded[group].mesh;
+        let bodies = self.bodies.pair(mesh.kind).ok_or_else(|| missing(mesh.kind))?;
+        MeshTable::new(mesh, bodies, phase, settings)
+    }
+
+    /// Whether some tables hold the phases of all front meshes at a position.
+    pub(crate) fn is_covered(&self, position: f64, tables: &SetTables) -> bool {
+        let mut meshes = self.reference.meshes.iter().enumerate();
+        meshes.all(|(mesh, pose)| tables.holds(pose.group, self.phase(mesh, position)))
+    }
+}
+
+fn missing(kind: MeshKind) -> FeError {
+    super::bodies::missing_mesh(kind)
+}

@@ -1,0 +1,93 @@
+//! Where tooth pairs push at the two gears of a mesh, and the gears' static flexibility between those places.
+
+use gearset::{Mesh, MeshKind, MeshMember};
+use nalgebra::DMatrix;
+
+use super::bodies::Bodies;
+use crate::contact::{PairCells, PairFrame};
+
+/// One end of a tooth pair: where it pushes at a tooth of one gear.
+///
+/// The load is spread over the matching depth, below which the FE field stands for the tooth, whatever
+/// the mesh: what it measures is smooth, so one load a pair serves.
+#[derive(Debug, Clone)]
+pub(crate) struct PairEnd {
+    /// Angle of the tooth's axis in the mesh frame, rad.
+    pub(crate) axis: f64,
+    /// Functions of the flank with their weights.
+    pub(crate) load: Vec<(usize, f64)>,
+    /// Which displacement of the flank closes the pair, in the tooth's frame.
+    pub(crate) direction: [f64; 2],
+}
+
+/// Half-width of a pair's load in matching depths: wider than any contact patch, so that the cells'
+/// compliance always exceeds what is taken through the ports.
+const SPREAD_IN_DEPTHS: f64 = 1.5;
+
+/// The same in half-grids of cells, which are made for the load: counts where that is far above what
+/// the set is designed for.
+const SPREAD_IN_GRIDS: f64 = 5.0 / 3.0;
+
+/// Both ends of a pair of a mesh at a phase (cycles), driver first, its load spread as `cells` asks;
+/// `None` where the pair's flanks cannot touch.
+pub(crate) fn pair_ends(
+    bodies: &Bodies,
+    mesh: &Mesh,
+    phase: f64,
+    cells: &PairCells,
+) -> Option<[PairEnd; 2]> {
+    let gears = bodies.pair(mesh.kind)?;
+    let frame = PairFrame::new(mesh, phase, cells.index)?;
+    let reach = 0.5 * cells.width * cells.x.len() as f64;
+    let spread = (SPREAD_IN_DEPTHS * bodies.settings.matching.depth).max(SPREAD_IN_GRIDS * reach);
+    Some([MeshMember::Driver, MeshMember::Driven].map(|member| {
+        let gear = gears[member as usize];
+        let tooth = frame.tooth(member);
+        // A driver displaced along the normal approaches, a driven gear against it.
+        let sign = if member == MeshMember::Driver { 1.0 } else { -1.0 };
+        let normal = crate::mesh::rotated(frame.normal, -tooth.axis);
+        let (_, string) = frame.flank_point(member, 0.0);
+        let at = gear.mesh.outline.flank_parameter(string);
+        PairEnd {
+            axis: tooth.axis,
+            load: gear.flank_load(tooth.side, at, spread),
+            direction: [sign * normal[0], sign * normal[1]],
+        }
+    }))
+}
+
+/// Static FE flexibility between some pairs of a mesh at a phase (cycles), both gears', loads spread, m/N;
+/// pairs that cannot touch there have none.
+pub(crate) fn flexibility(
+    bodies: &Bodies,
+    mesh: &Mesh,
+    phase: f64,
+    pairs: &[&PairCells],
+) -> DMatrix<f64> {
+    let count = pairs.len();
+    let mut sum = DMatrix::zeros(count, count);
+    let Some(gears) = bodies.pair(mesh.kind) else { return sum };
+    let ends: Vec<_> = pairs.iter().map(|cells| pair_ends(bodies, mesh, phase, cells)).collect();
+    for (member, gear) in gears.into_iter().enumerate() {
+        let pitch = gear.mesh.outline.gear().pitch_angle();
+        for (k, of) in ends.iter().enumerate() {
+            for (l, on) in ends.iter().enumerate() {
+                let (Some(on), Some(of)) = (on, of) else { continue };
+                let (on, of) = (&on[member], &of[member]);
+                let offset = ((of.axis - on.axis) / pitch).round() as i64;
+                let (load, point) = ((&*on.load, on.direction), (&*of.load, of.direction));
+                sum[(k, l)] += gear.surface_flexibility(load, offset, point);
+            }
+        }
+    }
+    sum * bodies.flexibility_factor(mesh.kind)
+}
+
+/// Numbers of the bodies a mesh joins, driver first.
+pub(crate) fn body_numbers(kind: MeshKind, planet: usize) -> [usize; 2] {
+    use super::races::{PLANETS, RING, SUN};
+    match kind {
+        MeshKind::SunPlanet => [SUN, PLANETS + planet],
+        MeshKind::RingPlanet => [PLANETS + planet, RING],
+    }
+}

@@ -1,0 +1,195 @@
+//! A set in time with exact kinematics at every step: slow, and what the linearised set is judged by.
+//!
+//! At each step the meshes are placed where the gears are, and placed anew until that is where the step
+//! ends. Tables stand on a grid of phases so fine that a mesh is never farther than 4 µm of its path from
+//! one; over that distance approaches are exact, and compliance changes by its slopes.
+
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use gearset::{DisplacedMesh, Facing, Scene};
+use nalgebra::DVector;
+
+use super::frame::{Frame, Ground};
+use super::leaning::Leaning;
+use super::prepared::{Loading, Prepared};
+use super::set::{Motive, VibratingSet};
+use crate::contact::{ContactMaps, PairFrame};
+use crate::error::FeError;
+use crate::statics::{Beside, Bodies, Imperfections, Placed, StaticSet, turned};
+
+/// Tables in a mesh cycle.
+const GRID: f64 = 1120.0;
+
+/// Displacements that change by less than this are found, m.
+const FOUND: f64 = 1e-11;
+
+/// Placings of the meshes in one step before it is given up.
+const MOST: usize = 12;
+
+/// Tables of the grid that were needed so far.
+#[derive(Debug, Default)]
+pub(super) struct GridTables {
+    /// By group of meshes and place on the grid.
+    place: HashMap<(usize, i64), usize>,
+    beside: HashMap<usize, Beside>,
+}
+
+impl<'s> VibratingSet<'s> {
+    /// A quasi-static set whose kinematics are exact at every step, for a torque on the sun of the given
+    /// sense; it turns.
+    ///
+    /// # Errors
+    /// As [`VibratingSet::new`].
+    pub fn exact(
+        scene: &Scene,
+        bodies: &'s Bodies,
+        sense: Facing,
+        imperfections: Imperfections,
+        motive: Motive,
+        loading: Loading,
+    ) -> Result<Self, FeError> {
+        let positions = motive.positions();
+        let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
+        let mut statics = statics.under(loading.torque_nm)?;
+        // Lines of action are taken where they are.
+        statics.reference.stiffness.fill(0.0);
+        let tables = statics.tables(loading.mesh_force, &positions[..1])?;
+        let leaning = vec![Leaning::none(&statics); positions.len()];
+        let mut set = Self::assemble(scene, Prepared { statics, tables, leaning }, motive)?;
+        set.grid = Some(GridTables::default());
+        Ok(set)
+    }
+
+    /// The meshes at the end of the step where the races stand at x; returns the frame and what the slopes
+    /// of the flanks leave on the races, N.
+    fn placed_at(&mut self, x: &DVector<f64>) -> Result<(Box<Frame>, DVector<f64>), FeError> {
+        let position = self.position(self.step_in_cycle);
+        let count = self.statics.reference().meshes.len();
+        let mut load = DVector::zeros(x.len());
+        let mut places = Vec::with_capacity(count);
+        let mut poses: Vec<DisplacedMesh> = Vec::with_capacity(count);
+        for mesh in 0..count {
+            let pose = self.statics.exact_pose(mesh, position, x)?;
+            let near = self.statics.phase(mesh, position);
+            let pose = pose.turned_by(-(pose.phase() - near).round());
+            places.push(self.grid_table(mesh, pose.phase())?);
+            poses.push(pose);
+        }
+        let mut placed = Vec::with_capacity(count);
+        for (mesh, (place, pose)) in places.iter().zip(&poses).enumerate() {
+            placed.push(self.place_on_grid(mesh, *place, pose, x, &mut load)?);
+        }
+        let ground = Ground {
+            statics: &self.statics,
+            gears: &self.gears,
+            inverse: &self.inverse,
+            lag_end: self.lag.end,
+        };
+        let frame = Frame::new(&ground, &placed, &places, count, position)?;
+        Ok((Box::new(frame), load))
+    }
+
+    /// Place of the table nearest to a phase.
+    fn grid_table(&mut self, mesh: usize, phase: f64) -> Result<usize, FeError> {
+        let group = self.statics.reference().meshes[mesh].group;
+        let key = (group, (phase * GRID).round() as i64);
+        if let Some(place) = self.grid.as_ref().and_then(|grid| grid.place.get(&key)) {
+            return Ok(*place);
+        }
+        let settings = self.tables.settings;
+        let phase = key.1 as f64 / GRID;
+        let table = self.statics.table(group, phase, &settings)?;
+        let own = &self.statics.reference().loaded[group].mesh;
+        let beside = Beside::coarse(self.statics.bodies, own, phase, &settings)?;
+        let place = self.tables.list.len();
+        self.tables.list.push(Arc::new(table));
+        self.maps.push(ContactMaps::new(&settings));
+        let grid = self.grid.get_or_insert_default();
+        grid.place.insert(key, place);
+        grid.beside.insert(place, beside);
+        Ok(place)
+    }
+
+    /// One mesh on a table of the grid, its gears as they stand.
+    fn place_on_grid(
+        &self,
+        mesh: usize,
+        place: usize,
+        pose: &DisplacedMesh,
+        x: &DVector<f64>,
+        load: &mut DVector<f64>,
+    ) -> Result<Placed<'static>, FeError> {
+        let of = &self.statics.reference().meshes[mesh];
+        let own = &self.statics.reference().loaded[of.group].mesh;
+        let table = self.tables.list[place].as_ref();
+        let lost = |cause: String| FeError::NoEquilibrium(cause);
+        let there = own.at_center_distance(pose.center_distance);
+        let there = there.map_err(|cause| lost(cause.to_string()))?;
+        let still = own.displaced(table.phase, &[0.0; 6]).map_err(|e| lost(e.to_string()))?;
+        let memory = &self.memory[mesh];
+        let forces: Vec<f64> = table
+            .pairs
+            .iter()
+            .map(|pair| memory.now(super::lag::PairSlot::of(pair.index)).max(0.0))
+            .collect();
+        let grid = self.grid.as_ref().and_then(|grid| grid.beside.get(&place));
+        let beside = grid.ok_or_else(|| lost("a table of the grid is lost".into()))?;
+        let slopes = beside.slopes(table, &forces, &crate::complementarity::ActiveSet)?;
+        let races = &self.statics.races;
+        let onto =
+            |row: &[f64; 6]| -> DVector<f64> { races.approach(of.kind, of.planet, row).into() };
+        let gradients = pose.gradients();
+        let along = [onto(&gradients.string), onto(&gradients.center_distance)];
+        let string = own.path_start + table.phase * own.base_pitch;
+        let moved = [pose.touching_string() - string, pose.center_distance - own.center_distance];
+        let (mut rows, mut offsets) = (Vec::new(), Vec::new());
+        for (pair, kappa) in table.pairs.iter().zip(&slopes.of_pairs) {
+            let here = PairFrame::pressed(&there, pose.phase(), pose.approach, pair.index);
+            let row = here.map_or(pair.row, |frame| frame.approach_row());
+            let mut row = onto(&turned(&row, pose.line_of_centres));
+            let gap = |pose: &DisplacedMesh| pose.clearance(own, pair.index);
+            let approach = gap(&still).zip(gap(pose)).map(|(table, now)| table - now);
+            let inside = || lost("a corner dips below its mate's base circle".into());
+            let mut approach = approach.ok_or_else(inside)?;
+            for ((along, kappa), moved) in along.iter().zip(kappa).zip(moved) {
+                row.axpy(-kappa, along, 1.0);
+                approach -= kappa * moved;
+            }
+            offsets.push(row.dot(x) - approach);
+            rows.push(row);
+        }
+        for (along, rest) in along.iter().zip(slopes.rest) {
+            load.axpy(rest, along, 1.0);
+        }
+        let mut errors = vec![0.0; rows.len()];
+        if self.statics.has_tooth_errors() {
+            self.statics.write_errors(mesh, table, self.turned(), &mut errors);
+        }
+        let (kind, planet, phase) = (of.kind, of.planet, table.phase);
+        let table = Cow::Owned(table.clone());
+        let (bends, turns) = (Vec::new(), Vec::new());
+        Ok(Placed { kind, planet, phase, table, rows, offsets, errors, bends, turns })
+    }
+
+    /// Contact of the step with the meshes placed where it ends; the loads on the races without them are
+    /// in `work.load`.
+    pub(super) fn exact_contact(&mut self) -> Result<Box<Frame>, FeError> {
+        let given = self.work.load.clone();
+        let mut x = DVector::from_column_slice(&self.motion.x);
+        let mut change = f64::INFINITY;
+        for _ in 0..MOST {
+            let (mut frame, load) = self.placed_at(&x)?;
+            self.work.load = &given + load;
+            self.free_races();
+            self.contact(&mut frame)?;
+            change = (&self.work.x - &x).amax();
+            x.copy_from(&self.work.x);
+            if change < FOUND {
+                return Ok(frame);
+            }
+        }
+        Err(FeError::NotConverged { iterations: MOST, residual: change })
+    }
+}

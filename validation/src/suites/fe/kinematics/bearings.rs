@@ -1,0 +1,96 @@
+//! Three planets in phase on soft bearings: however far the set winds up, a mesh stays that of the pair
+//! alone at its centre distance and phase.
+
+use fe_contact::complementarity::ActiveSet;
+use fe_contact::contact::MeshTable;
+use fe_contact::statics::{StaticSet, press};
+use gearset::{MeshKind, PairLocation};
+
+use super::{POSITIONS, breaks, largest, unloaded};
+use crate::check::Check;
+use crate::error::ValidationError;
+use crate::suites::fe::Lab;
+
+const TORQUE: f64 = 1130.0;
+
+/// Stiffness of the planet bearings over that of the scene.
+const BEARINGS: [(&str, &str, f64); 3] = [
+    ("stiff", "ten times as stiff", 10.0),
+    ("own", "as they are", 1.0),
+    ("soft", "a tenth as stiff", 0.1),
+];
+
+/// Largest differences of planet 0's sun mesh from the pair alone over a mesh cycle, µm.
+struct Differences {
+    /// Where all pairs that press do so on the path.
+    on_path: f64,
+    /// At all positions.
+    anywhere: f64,
+    /// How far the planet is from its place without load.
+    windup: f64,
+}
+
+pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+    let mut checks = Vec::new();
+    let mut softest = lab.three.clone();
+    for (id, words, times) in BEARINGS {
+        let mut scene = lab.three.clone();
+        scene.supports.planet_bearing *= times;
+        let set = unloaded(&scene, &lab.bodies)?.under(TORQUE)?;
+        let found = differences(lab, &set)?;
+        for (place, words_of_place, off) in [
+            ("on_path", "where pairs press on the path alone", found.on_path),
+            ("anywhere", "corners too", found.anywhere),
+        ] {
+            let id = format!("fe.kinematics.bearings.{place}.{id}");
+            let title = format!(
+                "three planets, {TORQUE} N·m, planet bearings {words} (planets off by up to {:.0} µm): approach of a sun mesh against the pair alone under its share of the torque at that centre distance and phase, {words_of_place}",
+                found.windup
+            );
+            checks.push(lab.at_most(&id, &title, "µm", off)?);
+        }
+        softest = scene;
+    }
+    let found = differences(lab, &unloaded(&softest, &lab.bodies)?)?;
+    let title = "linear kinematics about the unloaded set, planet bearings a tenth as stiff:";
+    let id = "fe.kinematics.bearings.control";
+    let judged_by = "fe.kinematics.bearings.anywhere.soft";
+    checks.push(breaks(lab, id, title, judged_by, found.anywhere)?);
+    Ok(checks)
+}
+
+fn differences(lab: &Lab<'_>, set: &StaticSet<'_>) -> Result<Differences, ValidationError> {
+    let missing = || ValidationError::Incomplete("sun mesh");
+    let cycle = set.cycle_here(TORQUE, POSITIONS, &ActiveSet)?;
+    let kind = MeshKind::SunPlanet;
+    let nominal = lab.bodies.geometry.mesh(kind).ok_or_else(missing)?;
+    let pair = lab.bodies.pair(kind).ok_or_else(missing)?;
+    let sun = lab.bodies.geometry.sun.as_ref().ok_or_else(missing)?;
+    let force = TORQUE / 3.0 / sun.base_radius;
+    let (mut on_path, mut anywhere) = (Vec::new(), Vec::new());
+    for state in &cycle.states {
+        let own = state.meshes.first().ok_or_else(missing)?;
+        // Planet 0 stands on the x axis: its frame is that of the scene.
+        let ([x, y, turned], [zeta, eta, rolled]) = (state.central[2], state.planets[0]);
+        let places = [x, y, turned, zeta, eta, rolled];
+        let found = nominal.displaced(state.position - cycle.lead, &places);
+        let found = found.map_err(|_| missing())?;
+        // Pairs count from the phase within the cycle.
+        let found = found.turned_by(-(found.phase() - own.phase).round());
+        let mesh = nominal.at_center_distance(found.center_distance).map_err(|_| missing())?;
+        let phase = found.phase().rem_euclid(1.0);
+        let table = MeshTable::new(&mesh, pair, phase, &lab.bodies.cells(force))?;
+        let (alone, _) = press(&table, &mesh, force, &ActiveSet)?;
+        let off = 1e6 * (found.approach - alone).abs();
+        anywhere.push(off);
+        if own.pairs.iter().all(|p| found.location(p.index) == PairLocation::Path) {
+            on_path.push(off);
+        }
+    }
+    let windup = cycle.states.iter().map(|s| 1e6 * s.planets[0][0].hypot(s.planets[0][1]));
+    Ok(Differences {
+        on_path: largest(on_path),
+        anywhere: largest(anywhere),
+        windup: largest(windup),
+    })
+}

@@ -1,0 +1,168 @@
+//! Kinematics linear about the loaded configuration against exact kinematics at every step of the search:
+//! harmonics of the sun at rest.
+
+use fe_contact::complementarity::ActiveSet;
+use fe_contact::statics::{Bodies, SetCycle};
+use gearset::Scene;
+
+use super::{HARMONICS, POSITIONS, at_most, breaks, largest, sun_lines, unloaded};
+use crate::Profile;
+use crate::catalogue::{PublishedScene, scene};
+use crate::check::Check;
+use crate::error::ValidationError;
+use crate::suites::fe::Lab;
+
+/// A tenth of the paper's preload, half of it, it, and twice it, N·m.
+const TORQUES: [f64; 4] = [113.0, 565.0, 1130.0, 2260.0];
+
+/// The one of the quick profile.
+const TORQUE: f64 = 1130.0;
+
+/// Harmonics below this count as this large, µm.
+const SMALL: f64 = 1.0;
+
+/// Flexibilities of the meshes that make those of three planets as stiff as the lumped ones printed,
+/// rounded.
+const SOFT: [f64; 2] = [1.9, 2.6];
+
+/// How linear kinematics differ from exact ones under one torque.
+#[derive(Clone, Copy)]
+struct Differences {
+    torque: f64,
+    /// Of a harmonic of the sun's rotation or of its translation over the largest of that, percent.
+    harmonics: f64,
+    /// What linear kinematics leave of an approach, over the peak-to-peak transmission error, percent.
+    rest: f64,
+}
+
+/// Differences, with the cycle of exact kinematics.
+struct Compared {
+    found: Differences,
+    exact: SetCycle,
+}
+
+pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+    let Compared { found, exact } = differences(&lab.four, &lab.bodies, TORQUE)?;
+    let words = format!("four planets, {TORQUE} N·m");
+    let mut checks = judged(lab, "four", &words, Some(&[found]))?;
+    let old = unloaded(&lab.four, &lab.bodies)?.cycle_here(TORQUE, POSITIONS, &ActiveSet)?;
+    let off = off(&old, &exact, &lab.bodies)?;
+    let title = format!("linear kinematics about the unloaded set, {words}:");
+    let id = "fe.kinematics.exact.control";
+    checks.push(breaks(lab, id, &title, "fe.kinematics.exact.harmonics.four", off)?);
+    for (planets, is_soft, set) in sets()? {
+        // Carriers are none of the bodies.
+        let bodies = match lab.profile {
+            Profile::Full => Some(Bodies::new(&set)?),
+            Profile::Quick => None,
+        };
+        for is_rigid in [false, true] {
+            let mut set = set.clone();
+            let geometry = set.geometry.as_mut().ok_or(ValidationError::Incomplete("geometry"))?;
+            let carrier =
+                geometry.carrier.as_mut().ok_or(ValidationError::Incomplete("carrier"))?;
+            carrier.is_rigid = is_rigid;
+            let meshes = if is_soft { "soft" } else { "own" };
+            let seats = if is_rigid { "rigid" } else { "elastic" };
+            let words = format!(
+                "{planets} planets, meshes as {}, {seats} carrier",
+                if is_soft { "soft as the printed lumped ones" } else { "they are" }
+            );
+            let under = |bodies: &Bodies| -> Result<Vec<Differences>, ValidationError> {
+                TORQUES.into_iter().map(|t| Ok(differences(&set, bodies, t)?.found)).collect()
+            };
+            let found = bodies.as_ref().map(under).transpose()?;
+            let id = format!("{planets}.{meshes}.{seats}");
+            checks.extend(judged(lab, &id, &words, found.as_deref())?);
+        }
+    }
+    Ok(checks)
+}
+
+/// Sets with their names, and whether their meshes are softened.
+fn sets() -> Result<Vec<(&'static str, bool, Scene)>, ValidationError> {
+    use PublishedScene as P;
+    let five = scene(P::FivePlanets)?;
+    let mut softened = five.clone();
+    let factor = &mut softened.fe_contact.flexibility_factor;
+    [factor.sun_planet, factor.ring_planet] = SOFT;
+    Ok(vec![
+        ("three", false, scene(P::Oh58ThreePlanets)?),
+        ("three", true, scene(P::Oh58ThreePlanetsPublishedStiffness)?),
+        ("four", false, scene(P::Oh58FourPlanets)?),
+        ("four", true, scene(P::Oh58FourPlanetsPublishedStiffness)?),
+        ("five", false, five),
+        ("five", true, softened),
+    ])
+}
+
+/// Checks of one set by what was found under each torque; not run if that is nothing.
+fn judged(
+    lab: &Lab<'_>,
+    id: &str,
+    words: &str,
+    found: Option<&[Differences]>,
+) -> Result<Vec<Check>, ValidationError> {
+    let worst = |of: fn(&Differences) -> f64| {
+        let found = found?;
+        let most = largest(found.iter().map(of));
+        let at = found.iter().find(|d| of(d) == most).map_or(f64::NAN, |d| d.torque);
+        Some((most, format!(", largest at {at} N·m")))
+    };
+    let mut checks = Vec::new();
+    for (name, what, worst) in [
+        (
+            "harmonics",
+            format!(
+                "harmonics 1 to {HARMONICS} of the sun's rotation and translation at rest against exact kinematics, over the largest, which counts as {SMALL} µm at least"
+            ),
+            worst(|d| d.harmonics),
+        ),
+        (
+            "rest",
+            "what linear kinematics leave of the approach of a loaded pair, over the peak-to-peak transmission error".into(),
+            worst(|d| d.rest),
+        ),
+    ] {
+        let id = format!("fe.kinematics.exact.{name}.{id}");
+        let at = worst.as_ref().map_or("", |w| &w.1);
+        let title = format!("{words}: {what}{at}");
+        checks.push(at_most(lab, &id, &title, "%", worst.as_ref().map(|w| w.0))?);
+    }
+    Ok(checks)
+}
+
+/// Linear about the loaded configuration against exact kinematics under one torque.
+fn differences(scene: &Scene, bodies: &Bodies, torque: f64) -> Result<Compared, ValidationError> {
+    let set = unloaded(scene, bodies)?.under(torque)?;
+    let cycle = set.cycle_here(torque, POSITIONS, &ActiveSet)?;
+    let exact = set.exact_cycle(torque, POSITIONS)?;
+    let sun = bodies.geometry.sun.as_ref().ok_or(ValidationError::Incomplete("sun"))?;
+    let errors = || cycle.states.iter().map(|s| s.transmission_error(sun.base_radius));
+    let peak_to_peak = largest(errors()) + largest(errors().map(|u| -u));
+    let rest = largest(cycle.states.iter().map(|s| s.kinematic_rest));
+    let found = Differences {
+        torque,
+        harmonics: off(&cycle, &exact, bodies)?,
+        rest: 100.0 * rest / peak_to_peak,
+    };
+    Ok(Compared { found, exact })
+}
+
+/// Largest difference of harmonics of the sun's rotation, and of its translation, over the largest,
+/// percent.
+fn off(cycle: &SetCycle, exact: &SetCycle, bodies: &Bodies) -> Result<f64, ValidationError> {
+    let (cycle, exact) = (sun_lines(cycle, bodies)?, sun_lines(exact, bodies)?);
+    let share = |axes: &[usize]| {
+        let size = |of: &dyn Fn(usize, usize, usize) -> f64| {
+            largest((0..HARMONICS).map(|l| {
+                let parts = axes.iter().flat_map(|axis| [of(*axis, l, 0), of(*axis, l, 1)]);
+                parts.map(|x| x * x).sum::<f64>().sqrt()
+            }))
+        };
+        let most = largest([SMALL, size(&|axis, l, part| exact[axis][l][part])]);
+        100.0 * size(&|axis, l, part| cycle[axis][l][part] - exact[axis][l][part]) / most
+    };
+    let (rotation, translation) = (share(&[0]), share(&[1, 2]));
+    Ok(largest([rotation, translation]))
+}

@@ -1,0 +1,120 @@
+//! Forces of the meshes are the gradient of one potential: what it costs to move the races.
+
+use fe_contact::statics::{CARRIER, StaticSet};
+
+use super::{at_most, breaks, largest, unloaded};
+use crate::Profile;
+use crate::check::Check;
+use crate::error::ValidationError;
+use crate::suites::fe::{Lab, MESHES};
+
+const TORQUE: f64 = 1130.0;
+
+/// Half of what a difference spans, m.
+const STEP: f64 = 0.2e-6;
+
+/// Largest displacement of a race from the mean loaded configuration, m.
+const MOVED: f64 = 3e-6;
+
+/// Positions in the mesh cycle; the first is that of the quick profile.
+const AT: [f64; 3] = [0.15, 0.4, 0.8];
+
+/// How differences of the potential differ from forces, over an even share of the torque.
+struct Differences {
+    /// From the gradient.
+    gradient: f64,
+    /// From its part along the lines of action.
+    along_lines: f64,
+}
+
+pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+    let set = unloaded(&lab.four, &lab.bodies)?.under(TORQUE)?;
+    let mut random = fastrand::Rng::with_seed(1);
+    let mut checks = Vec::new();
+    for (k, position) in AT.into_iter().enumerate() {
+        let is_run = k == 0 || lab.profile == Profile::Full;
+        let found = is_run.then(|| differences(lab, &set, position, &mut random)).transpose()?;
+        let id = format!("fe.kinematics.potential.{k}");
+        let title = format!(
+            "four planets, {TORQUE} N·m, races displaced by up to {:.0} µm from the mean loaded configuration, position {position}: forces of the meshes on each race's coordinates against differences of the meshes' energy, over an even share of the torque",
+            1e6 * MOVED
+        );
+        checks.push(at_most(lab, &id, &title, "", found.as_ref().map(|d| d.gradient))?);
+        if let (0, Some(found)) = (k, &found) {
+            let control = "fe.kinematics.potential.control";
+            let title = "forces along the lines of action alone:";
+            checks.push(breaks(lab, control, title, &id, found.along_lines)?);
+        }
+    }
+    Ok(checks)
+}
+
+fn differences(
+    lab: &Lab<'_>,
+    set: &StaticSet<'_>,
+    position: f64,
+    random: &mut fastrand::Rng,
+) -> Result<Differences, ValidationError> {
+    let mut q = set.reference().q.clone();
+    for x in q.iter_mut() {
+        *x += MOVED * (2.0 * random.f64() - 1.0);
+    }
+    let (_, gradient) = set.mesh_potential(TORQUE, position, &q)?;
+    let along_lines = along_lines(lab, set, q.as_slice(), gradient.as_slice())?;
+    let mut moved = q.clone();
+    let mut off = [Vec::new(), Vec::new()];
+    // No mesh touches the carrier.
+    let carrier = [0, 1, 2].map(|axis| set.races().of(CARRIER, axis));
+    for i in (0..q.len()).filter(|i| !carrier.contains(&Some(*i))) {
+        let mut at = |step: f64| {
+            moved[i] = q[i] + step;
+            set.mesh_potential(TORQUE, position, &moved).map(|found| found.0)
+        };
+        let slope = (at(STEP)? - at(-STEP)?) / (2.0 * STEP);
+        moved[i] = q[i];
+        off[0].push((slope - gradient[i]).abs());
+        off[1].push((slope - along_lines[i]).abs());
+    }
+    let sun = lab.bodies.geometry.sun.as_ref().ok_or(ValidationError::Incomplete("sun"))?;
+    let share = TORQUE / sun.base_radius / set.races().planets() as f64;
+    let [gradient, along_lines] = off.map(|list| largest(list) / share);
+    Ok(Differences { gradient, along_lines })
+}
+
+/// The part of a gradient (N) on the races' coordinates q that forces of the meshes along their lines of
+/// action can make up.
+fn along_lines(
+    lab: &Lab<'_>,
+    set: &StaticSet<'_>,
+    q: &[f64],
+    gradient: &[f64],
+) -> Result<Vec<f64>, ValidationError> {
+    let races = set.races();
+    let mut part = vec![0.0; q.len()];
+    // Rows of the meshes made orthogonal one after the other.
+    let mut rows: Vec<Vec<f64>> = Vec::new();
+    for kind in MESHES {
+        let missing = || ValidationError::Incomplete("mesh");
+        let mesh = lab.bodies.geometry.mesh(kind).ok_or_else(missing)?;
+        for planet in 0..races.planets() {
+            // Lines of action know nothing of the phase.
+            let places = races.mesh_displacements(kind, planet, q);
+            let displaced = mesh.displaced(0.0, &places).map_err(|_| missing())?;
+            let mut row = races.approach(kind, planet, &displaced.gradients().approach);
+            for other in &rows {
+                let share = dot(&row, other);
+                row.iter_mut().zip(other).for_each(|(x, other)| *x -= share * other);
+            }
+            let length = dot(&row, &row).sqrt();
+            row.iter_mut().for_each(|x| *x /= length);
+            let share = dot(gradient, &row);
+            part.iter_mut().zip(&row).for_each(|(x, row)| *x += share * row);
+            rows.push(row);
+        }
+    }
+    Ok(part)
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

@@ -1,0 +1,98 @@
+//! Virtual work: over a mesh cycle the mean torques on carrier and ring are those of the numbers of
+//! teeth, whatever the deflections.
+//!
+//! The potential of a set at rest is the same a mesh cycle later, while the sun's torque has done its
+//! work on the rolled angle. So carrier and ring take T (1 + Z_r/Z_s) and −T Z_r/Z_s on the mean; linear
+//! kinematics about the unloaded set have no such potential.
+//!
+//! The mean of N even positions of a periodic function f is off that over the cycle by V/(8 N²) at most,
+//! V the variation of f' (Peano's kernel of the trapezoidal rule), which the second differences of the
+//! positions give as N Σ|Δ²f|. It is not the range that counts: planets out of phase level out each
+//! other's torques but not the kinks where pairs come and go.
+
+use fe_contact::complementarity::ActiveSet;
+use fe_contact::statics::{Bodies, SetCycle, SetState};
+use gearset::Scene;
+
+use super::{POSITIONS, at_most, breaks, largest, unloaded};
+use crate::Profile;
+use crate::catalogue::{PublishedScene, scene};
+use crate::check::Check;
+use crate::error::ValidationError;
+use crate::suites::fe::Lab;
+
+const TORQUE: f64 = 2260.0;
+
+/// Positions of the finer mean, of the full profile.
+const FINE: usize = 4 * POSITIONS;
+
+pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+    let five = scene(PublishedScene::FivePlanets)?;
+    let of_five = Bodies::new(&five)?;
+    let mut checks = Vec::new();
+    let sets = [
+        ("three", &lab.three, &lab.bodies),
+        ("four", &lab.four, &lab.bodies),
+        ("five", &five, &of_five),
+    ];
+    for (name, scene, bodies) in sets {
+        let set = unloaded(scene, bodies)?.under(TORQUE)?;
+        let run = |positions: usize| set.cycle_here(TORQUE, positions, &ActiveSet);
+        let cycle = run(POSITIONS)?;
+        let fine = if lab.profile == Profile::Full { Some(run(FINE)?) } else { None };
+        for (count, cycle) in [(POSITIONS, Some(&cycle)), (FINE, fine.as_ref())] {
+            let found = cycle.map(|cycle| means(scene, cycle)).transpose()?;
+            let parts = [("carrier", found.map(|f| f[0])), ("ring", found.map(|f| f[1]))];
+            for (body, found) in parts {
+                let id = format!("fe.kinematics.work.{body}.{name}.{count}");
+                let title = format!(
+                    "{name} planets, {TORQUE} N·m: mean torque on the {body} over {count} positions against that by numbers of teeth, over what the trapezoidal rule may be off"
+                );
+                checks.push(at_most(lab, &id, &title, "", found)?);
+            }
+        }
+        let id = format!("fe.kinematics.work.balance.{name}");
+        let title = format!(
+            "{name} planets, {TORQUE} N·m: largest sum of the torques on carrier and ring less the sun's at any position, over the sun's"
+        );
+        checks.push(lab.at_most(&id, &title, "", open(&cycle))?);
+        if name == "four" {
+            let old = unloaded(scene, bodies)?.cycle_here(TORQUE, FINE, &ActiveSet)?;
+            let title = format!(
+                "linear kinematics about the unloaded set, four planets, {TORQUE} N·m, {FINE} positions:"
+            );
+            let judged_by = format!("fe.kinematics.work.ring.four.{POSITIONS}");
+            let id = "fe.kinematics.work.control";
+            checks.push(breaks(lab, id, &title, &judged_by, means(scene, &old)?[1])?);
+        }
+    }
+    Ok(checks)
+}
+
+/// How far the mean torques on carrier and ring are off those by numbers of teeth, over what the
+/// trapezoidal rule may be off.
+fn means(scene: &Scene, cycle: &SetCycle) -> Result<[f64; 2], ValidationError> {
+    let missing = || ValidationError::Incomplete("numbers of teeth");
+    let (sun, ring) = scene.teeth.and_then(|t| t.sun_ring()).ok_or_else(missing)?;
+    let ratio = f64::from(ring) / f64::from(sun);
+    let t = cycle.torque_nm;
+    let one = |of: fn(&SetState) -> f64, expected: f64| {
+        let list: Vec<f64> = cycle.states.iter().map(of).collect();
+        let n = list.len() as f64;
+        let mean = list.iter().sum::<f64>() / n;
+        let at = |i: usize| list[i % list.len()];
+        let bent: f64 = (0..list.len()).map(|i| (at(i + 2) - 2.0 * at(i + 1) + at(i)).abs()).sum();
+        (mean - expected).abs() / (bent / (8.0 * n))
+    };
+    Ok([
+        one(|s| s.reactions.carrier_nm, t * (1.0 + ratio)),
+        one(|s| s.reactions.ring_nm, -t * ratio),
+    ])
+}
+
+/// Moment on the set that nothing balances, over the sun's torque.
+fn open(cycle: &SetCycle) -> f64 {
+    let t = cycle.torque_nm;
+    let sum = |s: &SetState| s.reactions.carrier_nm + s.reactions.ring_nm - t;
+    largest(cycle.states.iter().map(|s| (sum(s) / t).abs()))
+}
