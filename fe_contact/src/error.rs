@@ -50,13 +50,14 @@ pub enum FeError {
     },
     /// Displacements too large for linear kinematics.
     #[error(
-        "approaches of tooth pairs are up to {rest_um:.3} µm off their linear form about the mean loaded configuration, {percent:.0} % of the transmission error: displacements are too large for it; `dynamics.kinematics` = \"exact\" in a sweep, stiffer bearings or a smaller torque are within it"
+        "approaches of tooth pairs are up to {rest_um:.3} µm off their linear form about the mean loaded configuration{}: displacements are too large for it; `dynamics.kinematics` = \"exact\" in a sweep, stiffer bearings or a smaller torque are within it",
+        share.map_or(String::new(), |share| format!(", {:.0} % of the sun's peak-to-peak motion", 100.0 * share))
     )]
     BeyondLinear {
         /// Largest difference, µm.
         rest_um: f64,
-        /// In percent of the transmission error's peak-to-peak value.
-        percent: f64,
+        /// The same over the sun's peak-to-peak motion, if there is any.
+        share: Option<f64>,
     },
     /// The factorisation broke down.
     #[error("the stiffness of the {body} is not positive definite: {cause}")]

@@ -8,6 +8,7 @@ mod error;
 pub mod export;
 mod material;
 pub mod mesh;
+mod short_row;
 pub mod statics;
 pub mod vibration;
 

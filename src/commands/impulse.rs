@@ -107,7 +107,7 @@ fn find(
     let torque = settings.preload.torque_nm;
     let failed = |e: ValidationError| match e {
         ValidationError::Unsteady { .. } => refused("--torque-nm", e.to_string()),
-        ValidationError::Fe(FeError::NotConverged { .. }) => {
+        ValidationError::Fe(FeError::NotConverged { .. } | FeError::NoEquilibrium(_)) => {
             refused("--torque-nm", format!("{torque:e} N·m: {e}"))
         }
         _ => unfit(path, e.to_string()),

@@ -104,7 +104,7 @@ struct Work {
     /// most, µm.
     kinematic_rest_um: f64,
     /// The same over the transmission error's peak-to-peak value.
-    kinematic_rest_share: f64,
+    kinematic_rest_share: Option<f64>,
 }
 
 pub(super) fn run(
@@ -302,10 +302,13 @@ fn text(
             found.loaded_phase_shift_cycles, found.work.kinematic_rest_um
         )?;
         if cycle.kinematic_rest(radius).is_worth_a_warning() {
+            let share = found.work.kinematic_rest_share;
+            let of_what = share.map_or("large".into(), |share| {
+                format!("{:.1} % of the transmission error", 100.0 * share)
+            });
             writeln!(
                 out,
-                "Warning: that is {:.1} % of the transmission error; stiffer bearings or a smaller torque keep it small.",
-                100.0 * found.work.kinematic_rest_share
+                "Warning: that is {of_what}; stiffer bearings or a smaller torque keep it small."
             )?;
         }
         let Work { equilibrium_iterations, contact_iterations, worst_residual, .. } = found.work;

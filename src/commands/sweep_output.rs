@@ -215,7 +215,7 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
     if beyond > 0 {
         writeln!(
             out,
-            "Warning: at {beyond} of these speeds approaches of tooth pairs are off their linear form about the mean loaded configuration by more than 1 % of the transmission error; `dynamics.kinematics` = \"exact\" sweeps without it, slowly."
+            "Warning: at {beyond} of these speeds approaches of tooth pairs are off their linear form about the mean loaded configuration by more than 1 % of the sun's motion; `dynamics.kinematics` = \"exact\" sweeps without it, slowly."
         )?;
     }
     if unsteady > 0 {

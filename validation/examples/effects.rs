@@ -1,4 +1,4 @@
-//! Prints the tables of `docs/fe_dynamics_fed.md`: what changes the tabled frequencies, one by one,
+//! Prints the tables of `docs/fe_dynamics_effects.md`: what changes the tabled frequencies, one by one,
 //! and how the linearised FE/contact set compares with the lumped model fed from it.
 
 use fe_contact::statics::Bodies;
@@ -15,7 +15,7 @@ fn main() -> Result<(), ValidationError> {
     let preload = Preload { torque_nm: 1130.0, position: 0.0, step_s: 5e-6 };
     println!("### Rigid carrier: FE/contact against the fed lumped model\n");
     println!(
-        "| planets | position | corner pairs | worst of all modes, % | at, Hz | 5 to 15 kHz, % | all along the line of action, % |"
+        "| planets | position | pairs off the line of action | worst of all modes, % | at, Hz | 5 to 15 kHz, % | all along the line of action, % |"
     );
     println!("|---|---:|---:|---:|---:|---:|---:|");
     for table in Table::ALL {

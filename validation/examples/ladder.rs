@@ -58,7 +58,9 @@ fn settings(cells: u32) -> Vec<Setting> {
     for cells in [cells / 2, 2 * cells] {
         list.push(Setting { model: Model::Rung(Rung::QuasiStatic), steps: 140, cells });
     }
-    list.push(Setting { model: Model::Rung(Rung::Modal(2)), steps: 140, cells });
+    for modes in [2, 10, 30, 90] {
+        list.push(Setting { model: Model::Rung(Rung::Modal(modes)), steps: 140, cells });
+    }
     list
 }
 

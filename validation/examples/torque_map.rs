@@ -1,5 +1,5 @@
 //! The map of section 4.2's statements over mesh compliance and γ, four planets, as TOML for
-//! `reference/torque_map.toml`. Some forty minutes on two cores.
+//! `reference/torque_map.toml`. Some twenty minutes on two cores.
 //!
 //! `cargo run --release -p validation --example torque_map > reference/torque_map.toml`
 //!

@@ -62,7 +62,13 @@ impl Ledger {
             for id in &own.checks {
                 page += &match figure(id) {
                     Some(Figure { actual, unit, tolerance }) => {
-                        format!("| `{id}` | {actual:.2e} {unit} | {tolerance} {unit} |\n")
+                        // Limits as they are kept: 1 or 1e-9, never a row of nils.
+                        let limit = if tolerance.abs() < 1e-3 {
+                            format!("{tolerance:e}")
+                        } else {
+                            tolerance.to_string()
+                        };
+                        format!("| `{id}` | {actual:.2e} {unit} | {limit} {unit} |\n")
                     }
                     None => format!("| `{id}` | full profile | |\n"),
                 };

@@ -20,8 +20,8 @@ pub use compare::{Comparison, ListedMode, Match, ModelMode, compare};
 pub use error::ValidationError;
 pub use ledger::{Assumption, Figure, Ledger};
 pub use own_truth::{
-    FullSweep, FullSweepPoint, Ladder, LadderRung, MapCell, RotationalPeak, TorqueMap, TorquePeak,
-    TorquePeaks,
+    ExactPeak, ExactPeaks, FullSweep, FullSweepPoint, Ladder, LadderRung, MapCell, RotationalPeak,
+    TorqueMap, TorquePeak, TorquePeaks,
 };
 pub use reference::{Frequencies, Miss, ModeTable, Reference, ReferenceError};
 pub use suites::explained::{Step, steps};

@@ -103,10 +103,10 @@ impl FullSweep {
     }
 
     /// The peak of the three speeds about it at 140 steps, less the error of steps q∞/q₁₄₀ of quasi-static
-    /// bodies, of second order:
+    /// bodies, of second order at 280 and 560 steps:
     ///
     /// ```text
-    /// q∞ = q₂₈₀ + (q₂₈₀ − q₁₄₀)/3
+    /// q∞ = q₅₆₀ + (q₅₆₀ − q₂₈₀)/3
     /// ```
     ///
     /// and as uncertain as the extrapolation is long. `None` if there is none.
@@ -117,9 +117,9 @@ impl FullSweep {
         let full = top(&mut self.of_steps(140).filter(|p| self.is_about_the_peak(p.speed_rpm)))?;
         let quasi =
             |steps: u32| top(&mut self.quasi_static.iter().filter(|p| p.steps_per_cycle == steps));
-        let (coarse, fine) = (quasi(140)?, quasi(280)?);
-        let without = |fine: f64, coarse: f64| fine + (fine - coarse) / 3.0;
-        let exact = (without(fine.0, coarse.0), without(fine.1, coarse.1));
+        let (coarse, half, fine) = (quasi(140)?, quasi(280)?, quasi(560)?);
+        let without = |fine: f64, half: f64| fine + (fine - half) / 3.0;
+        let exact = (without(fine.0, half.0), without(fine.1, half.1));
         let off = |exact: f64, fine: f64| 100.0 * (fine / exact - 1.0).abs();
         Some(RotationalPeak {
             speed_rpm: full.0 * exact.0 / coarse.0,
@@ -145,6 +145,30 @@ pub struct FullSweepPoint {
     pub planet_0_translation_m: [f64; 5],
     pub sun_mesh_0_force_n: [f64; 5],
     pub ring_mesh_0_force_n: [f64; 5],
+}
+
+/// `exact_peaks.toml`: resonances with exact kinematics at every step, default scene of four planets.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)] // the keys say it all, units included
+pub struct ExactPeaks {
+    pub source: String,
+    pub command: String,
+    pub peak: Vec<ExactPeak>,
+}
+
+/// One resonance under one torque: amplitudes of the sun at three speeds about it.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(missing_docs)] // the keys say it all, units included
+pub struct ExactPeak {
+    pub mode: String,
+    pub harmonic: usize,
+    pub torque_nm: f64,
+    pub speeds_rpm: [f64; 3],
+    /// Translation in m, or rotation in rad.
+    pub sun: [f64; 3],
+    pub cycles: [usize; 3],
 }
 
 /// `torque_map.toml`: section 4.2 over mesh compliance and γ.

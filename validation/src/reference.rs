@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use crate::check::Tolerance;
-use crate::own_truth::{FullImpulse, FullSweep, Ladder, TorqueMap, TorquePeaks};
+use crate::own_truth::{ExactPeaks, FullImpulse, FullSweep, Ladder, TorqueMap, TorquePeaks};
 
 /// Why the reference data could not be used.
 #[derive(Debug, thiserror::Error)]
@@ -35,6 +35,8 @@ pub struct Reference {
     pub full_impulse: FullImpulse,
     /// Resonant peaks over torque.
     pub torque_peaks: TorquePeaks,
+    /// Resonant peaks with exact kinematics.
+    pub exact_peaks: ExactPeaks,
     /// Section 4.2 over mesh compliance and γ.
     pub torque_map: TorqueMap,
     /// Steady states with every degree of freedom.
@@ -251,6 +253,7 @@ impl Reference {
             calculix: file!("calculix_2_20.toml"),
             full_impulse: file!("full_impulse.toml"),
             torque_peaks: file!("torque_peaks.toml"),
+            exact_peaks: file!("exact_peaks.toml"),
             torque_map: file!("torque_map.toml"),
             full_sweep: FullSweep::load()?,
             ladder: file!("ladder.toml"),

@@ -6,7 +6,7 @@ use gearset::{Mesh, MeshKind, MeshMember};
 use nalgebra::DVector;
 
 use super::placed::{Bend, Placed};
-use super::reference::{BackPose, invariants, turned};
+use super::reference::{invariants, turned};
 use super::set::{StaticSet, mirrored};
 use super::slopes::Slopes;
 use super::tables::{SetTables, cycle};
@@ -161,16 +161,7 @@ impl StaticSet<'_> {
 
     /// Whether any back flanks meet at these displacements.
     pub(crate) fn backs_touch(&self, q: &DVector<f64>) -> bool {
-        let met = |back: &BackPose| {
-            let moved: f64 = back
-                .row
-                .iter()
-                .zip(q.iter().zip(self.reference.q.iter()))
-                .map(|(b, (q, at))| b * (q - at))
-                .sum();
-            moved + back.approach >= 0.0
-        };
-        self.reference.backs.iter().any(met)
+        self.reference.backs.iter().any(|back| back.is_met(q.as_slice()))
     }
 
     /// The back flanks of one mesh: the mesh seen in the mirror along its line of centres. They

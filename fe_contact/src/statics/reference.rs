@@ -21,6 +21,7 @@ use super::imperfection::Imperfections;
 use super::races::Races;
 use super::set::NominalMesh;
 use crate::error::FeError;
+use crate::short_row::ShortRow;
 
 /// Meshes of a kind whose phases differ by less than this from those of the unloaded set's pattern
 /// (cycles), and whose centre distances by less than that (m), share tables: the rest is linear, and
@@ -64,7 +65,16 @@ pub(crate) struct BackPose {
     /// δ less the backlash, m.
     pub(crate) approach: f64,
     /// ∂δ on the races' coordinates.
-    pub(crate) row: DVector<f64>,
+    pub(crate) row: ShortRow,
+    /// The product of the row with displacements from which on the flanks meet, m.
+    met_at: f64,
+}
+
+impl BackPose {
+    /// Whether the flanks meet with the races at q (m).
+    pub(crate) fn is_met(&self, q: &[f64]) -> bool {
+        self.row.dot(q) >= self.met_at
+    }
 }
 
 /// What a set is linearised about.
@@ -173,11 +183,17 @@ impl Reference {
                 let mesh = moved(ground.bodies, of.kind, displaced.center_distance)?;
                 let gradients = at_rest(&mesh)?;
                 let row = super::set::mirrored(&displaced.gradients().approach);
+                let row = races.approach(of.kind, of.planet, &row);
+                let row = ShortRow::new(row.into_iter()).ok_or_else(|| {
+                    FeError::NoEquilibrium("a mesh has more than two bodies".into())
+                })?;
+                let approach = displaced.approach - backlash;
                 Ok(BackPose {
                     shift: displaced.phase(),
                     direction: displaced.line_of_centres,
-                    approach: displaced.approach - backlash,
-                    row: races.approach(of.kind, of.planet, &row).into(),
+                    approach,
+                    met_at: row.dot(q.as_slice()) - approach,
+                    row,
                     gradients,
                     mesh,
                 })

@@ -7,8 +7,9 @@ use crate::error::FeError;
 pub struct KinematicRest {
     /// Largest difference of an approach from its linear form, m.
     pub largest: f64,
-    /// The same in parts of the transmission error's peak-to-peak value.
-    pub share: f64,
+    /// The same in parts of the sun's peak-to-peak motion; none where that is nil, as it is of a single
+    /// position. At rest that is the transmission error; in time translation counts as well.
+    pub share: Option<f64>,
 }
 
 /// From this share on a result carries a warning, from that one on it is refused, unless the difference
@@ -17,15 +18,15 @@ const WARNED: (f64, f64) = (0.01, 1e-8);
 const REFUSED: (f64, f64) = (0.1, 1e-7);
 
 impl KinematicRest {
-    /// From the largest difference and the transmission error's peak-to-peak value (m).
-    pub fn new(largest: f64, transmission_error: f64) -> Self {
-        let share = if largest == 0.0 { 0.0 } else { largest / transmission_error };
+    /// From the largest difference and the sun's peak-to-peak motion (m).
+    pub fn new(largest: f64, motion: f64) -> Self {
+        let share = (motion != 0.0).then(|| largest / motion);
         Self { largest, share }
     }
 
     fn is_beyond(&self, (share, least): (f64, f64)) -> bool {
         // What is no number is beyond everything.
-        let is_small = self.largest <= least || self.share <= share;
+        let is_small = self.largest <= least || self.share.is_some_and(|own| own <= share);
         !is_small
     }
 
@@ -40,8 +41,8 @@ impl KinematicRest {
     /// [`FeError::BeyondLinear`].
     pub fn check(&self) -> Result<(), FeError> {
         if self.is_beyond(REFUSED) {
-            let (rest_um, percent) = (1e6 * self.largest, 100.0 * self.share);
-            return Err(FeError::BeyondLinear { rest_um, percent });
+            let rest_um = 1e6 * self.largest;
+            return Err(FeError::BeyondLinear { rest_um, share: self.share });
         }
         Ok(())
     }
@@ -54,6 +55,10 @@ mod tests {
     #[test]
     fn small_differences_pass_and_large_ones_are_named() {
         assert!(!KinematicRest::new(0.0, 0.0).is_worth_a_warning());
+        // One position has no transmission error to be a share of.
+        let alone = KinematicRest::new(1e-12, 0.0);
+        assert!(alone.share.is_none() && !alone.is_worth_a_warning());
+        assert!(KinematicRest::new(1e-6, 0.0).check().is_err());
         // Five planets may cancel their transmission error: nanometres are no matter.
         assert!(!KinematicRest::new(5e-9, 1e-9).is_worth_a_warning());
         let warned = KinematicRest::new(0.05e-6, 2e-6);

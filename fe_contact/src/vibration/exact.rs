@@ -28,6 +28,9 @@ const FOUND: f64 = 1e-11;
 /// Placings of the meshes in one step before it is given up.
 const MOST: usize = 12;
 
+/// Placings after which a mesh keeps its table: half-way between two of them it might go to and fro.
+const FREE: usize = 4;
+
 /// Tables of the grid that were needed so far.
 #[derive(Debug, Default)]
 pub(super) struct GridTables {
@@ -62,9 +65,14 @@ impl<'s> VibratingSet<'s> {
         Ok(set)
     }
 
-    /// The meshes at the end of the step where the races stand at x; returns the frame and what the slopes
-    /// of the flanks leave on the races, N.
-    fn placed_at(&mut self, x: &DVector<f64>) -> Result<(Box<Frame>, DVector<f64>), FeError> {
+    /// The meshes at the end of the step where the races stand at x, on the tables nearest to them, or on
+    /// `kept` ones if there are any; returns the frame, what the slopes of the flanks leave on the races
+    /// (N), and the places of the tables.
+    fn placed_at(
+        &mut self,
+        x: &DVector<f64>,
+        kept: Option<&[usize]>,
+    ) -> Result<(Box<Frame>, DVector<f64>, Vec<usize>), FeError> {
         let position = self.position(self.step_in_cycle);
         let count = self.statics.reference().meshes.len();
         let mut load = DVector::zeros(x.len());
@@ -74,7 +82,10 @@ impl<'s> VibratingSet<'s> {
             let pose = self.statics.exact_pose(mesh, position, x)?;
             let near = self.statics.phase(mesh, position);
             let pose = pose.turned_by(-(pose.phase() - near).round());
-            places.push(self.grid_table(mesh, pose.phase())?);
+            places.push(match kept.and_then(|kept| kept.get(mesh)) {
+                Some(place) => *place,
+                None => self.grid_table(mesh, pose.phase())?,
+            });
             poses.push(pose);
         }
         let mut placed = Vec::with_capacity(count);
@@ -88,7 +99,7 @@ impl<'s> VibratingSet<'s> {
             lag_end: self.lag.end,
         };
         let frame = Frame::new(&ground, &placed, &places, count, position)?;
-        Ok((Box::new(frame), load))
+        Ok((Box::new(frame), load, places))
     }
 
     /// Place of the table nearest to a phase.
@@ -179,8 +190,12 @@ impl<'s> VibratingSet<'s> {
         let given = self.work.load.clone();
         let mut x = DVector::from_column_slice(&self.motion.x);
         let mut change = f64::INFINITY;
-        for _ in 0..MOST {
-            let (mut frame, load) = self.placed_at(&x)?;
+        let mut kept: Option<Vec<usize>> = None;
+        for placing in 0..MOST {
+            let (mut frame, load, places) = self.placed_at(&x, kept.as_deref())?;
+            if placing >= FREE {
+                kept = Some(places);
+            }
             self.work.load = &given + load;
             self.free_races();
             self.contact(&mut frame)?;

@@ -7,10 +7,11 @@ use nalgebra::{DMatrix, DVector};
 use super::body::Port;
 use super::gear::Gear;
 use super::lag::PairSlot;
-use super::packed::{Packed, ShortRow};
+use super::packed::Packed;
 use super::teeth::{ToothPoint, fill_port, tooth_points};
 use crate::contact::{ContactMap, ContactMaps, Held};
 use crate::error::FeError;
+use crate::short_row::ShortRow;
 use crate::statics::{Placed, StaticSet};
 
 /// Solved combinations of contact maps that a frame keeps.

@@ -94,6 +94,8 @@ pub struct VibratingSet<'s> {
     /// By step in the cycle.
     pub(super) frames: Vec<Option<Box<Frame>>>,
     pub(super) frames_with_backs: Vec<Option<Box<Frame>>>,
+    /// By step in the cycle: meshes whose phase starts anew at it.
+    pub(super) restarts: Vec<Vec<usize>>,
     /// Step in the cycle, cycles gone by, steps taken.
     pub(super) step_in_cycle: usize,
     pub(super) cycles: i64,
@@ -238,6 +240,7 @@ impl<'s> VibratingSet<'s> {
             grid: None,
             frames: (0..count).map(|_| None).collect(),
             frames_with_backs: (0..count).map(|_| None).collect(),
+            restarts: Vec::new(),
             step_in_cycle: 0,
             cycles: 0,
             steps: 0,
@@ -254,6 +257,7 @@ impl<'s> VibratingSet<'s> {
             statics,
         };
         set.factorise()?;
+        set.restarts = (0..count).map(|step| set.restarting(step)).collect();
         set.work.load = DVector::zeros(n);
         set.work.left = DVector::zeros(n);
         set.work.free = DVector::zeros(n);
@@ -314,6 +318,14 @@ impl<'s> VibratingSet<'s> {
                 step_in_cycle as f64 / steps_per_cycle as f64
             }
         }
+    }
+
+    /// Meshes whose phase is less at a step of the cycle than at the one before.
+    fn restarting(&self, step: usize) -> Vec<usize> {
+        let before = (step + self.frames.len() - 1) % self.frames.len();
+        let phase = |mesh: usize, step: usize| self.statics.phase(mesh, self.position(step));
+        let starts = |mesh: &usize| phase(*mesh, step) < phase(*mesh, before);
+        (0..self.memory.len()).filter(starts).collect()
     }
 
     /// Mesh cycles since the start, as an angle knows them.

@@ -136,17 +136,13 @@ impl VibratingSet<'_> {
     fn tick(&mut self) {
         self.steps += 1;
         if let Motive::Turning { steps_per_cycle, .. } = self.motive {
-            let before = self.position(self.step_in_cycle);
             self.step_in_cycle += 1;
             if self.step_in_cycle == steps_per_cycle {
                 self.step_in_cycle = 0;
                 self.cycles += 1;
             }
-            let after = self.position(self.step_in_cycle);
-            for (mesh, memory) in self.memory.iter_mut().enumerate() {
-                if self.statics.phase(mesh, after) < self.statics.phase(mesh, before) {
-                    memory.move_on();
-                }
+            for mesh in &self.restarts[self.step_in_cycle] {
+                self.memory[*mesh].move_on();
             }
         }
     }

@@ -130,7 +130,7 @@ pub struct SweepPoint {
     /// What approaches of tooth pairs are off their linear form about the mean loaded configuration at
     /// most, m; absent where meshes follow a law.
     pub kinematic_rest_m: Option<f64>,
-    /// The same over the transmission error's peak-to-peak value.
+    /// The same over the sun's largest peak-to-peak motion: x, y, or rotation at the base circle.
     pub kinematic_rest_share: Option<f64>,
     /// Whether that is worth a warning.
     pub is_beyond_linear: bool,
@@ -243,7 +243,7 @@ impl SweepPoint {
             back_contact: record.with_backs as f64 / steps,
             size,
             kinematic_rest_m: found.rest.map(|rest| rest.largest),
-            kinematic_rest_share: found.rest.map(|rest| rest.share),
+            kinematic_rest_share: found.rest.and_then(|rest| rest.share),
             is_beyond_linear: found.rest.is_some_and(|rest| rest.is_worth_a_warning()),
             lines,
         })

@@ -18,8 +18,8 @@ pub struct Record {
     pub with_backs: usize,
 }
 
-/// Channel of the sun's rotation.
-pub(super) const SUN_ROTATION: usize = 8;
+/// Channels of the sun: x, y, rotation.
+pub(super) const SUN: [usize; 3] = [6, 7, 8];
 
 impl Record {
     /// An empty record of a set of N planets.

@@ -4,7 +4,7 @@ use fe_contact::statics::KinematicRest;
 use serde::{Deserialize, Serialize};
 
 use super::marching::Marching;
-use super::record::{Record, SUN_ROTATION};
+use super::record::{Record, SUN};
 use crate::error::ValidationError;
 
 /// When a march is over, and what is recorded.
@@ -75,7 +75,8 @@ pub fn steady(
     Ok(Steady { record: now, cycles, residual, between, rest })
 }
 
-/// Exact kinematics on one more cycle, against the transmission error of the recorded one.
+/// Exact kinematics on one more cycle, against the sun's motion over the recorded one: its rotation at the base
+/// circle is the transmission error, but resonances of translational modes have little of it.
 fn sampled_rest(
     set: &mut dyn Marching,
     record: &Record,
@@ -96,5 +97,6 @@ fn sampled_rest(
             largest = if largest.is_nan() || largest >= rest { largest } else { rest };
         }
     }
-    Ok(Some(KinematicRest::new(largest, radius * record.range(SUN_ROTATION))))
+    let [x, y, rotation] = SUN.map(|channel| record.range(channel));
+    Ok(Some(KinematicRest::new(largest, x.max(y).max(radius * rotation))))
 }

@@ -96,7 +96,7 @@ impl<'s> MeshLawSet<'s> {
             };
             front.push(coupling(&pose.gradients[0], pose.at[0]));
             let backlash = bodies.geometry.normal_backlash(pose.kind).unwrap_or(0.0);
-            back.push(coupling(&behind.row, behind.approach + backlash));
+            back.push(coupling(&behind.row.full(n), behind.approach + backlash));
         }
         if !law.has_backs() {
             back.clear();

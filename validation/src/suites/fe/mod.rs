@@ -105,7 +105,7 @@ pub(crate) fn checks(
     profile: Profile,
     concerns: &dyn Fn(&str) -> bool,
 ) -> Result<Vec<Check>, ValidationError> {
-    let suites: [(&[&str], Suite); 24] = [
+    let suites: [(&[&str], Suite); 25] = [
         (&["fe.hertz."], hertz::checks),
         (&["fe.convergence."], convergence::checks),
         (&["fe.resolved."], resolved::checks),
@@ -119,6 +119,7 @@ pub(crate) fn checks(
         (&["fe.kinematics.bearings."], kinematics::bearings::checks),
         (&["fe.kinematics.potential."], kinematics::potential::checks),
         (&["fe.kinematics.exact."], kinematics::exact::checks),
+        (&["fe.kinematics.peaks."], kinematics::peaks::checks),
         (&["fe.fig12."], fig12::checks),
         (&["fe.control."], controls::checks),
         (&["table2.fe_contact.", "table3.fe_contact.", "fe.modal."], modal::checks),

@@ -69,7 +69,7 @@ pub(crate) fn sweep_of(
 }
 
 pub(crate) fn steady_settings() -> SteadySettings {
-    SteadySettings { tolerance: 1e-8, ..SteadySettings::default() }
+    SteadySettings { tolerance: 1e-9, ..SteadySettings::default() }
 }
 
 /// Largest share of what is forbidden.

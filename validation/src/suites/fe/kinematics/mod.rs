@@ -3,6 +3,7 @@
 
 pub(crate) mod bearings;
 pub(crate) mod exact;
+pub(crate) mod peaks;
 pub(crate) mod potential;
 pub(crate) mod turned;
 pub(crate) mod work;

@@ -1,0 +1,61 @@
+//! Rows that name two bodies of three coordinates, as tooth pairs do.
+
+use nalgebra::DVector;
+
+/// Coordinates of the two bodies that meet in a tooth pair.
+const SHORT: usize = 6;
+
+/// A row that names two bodies of three coordinates.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct ShortRow {
+    places: [u16; SHORT],
+    values: [f64; SHORT],
+}
+
+impl ShortRow {
+    /// `None` if more coordinates take part.
+    pub(crate) fn new(row: impl Iterator<Item = f64>) -> Option<Self> {
+        let mut short = Self::default();
+        let nonzero = row.enumerate().filter(|(_, value)| *value != 0.0);
+        for (k, (place, value)) in nonzero.enumerate() {
+            *short.places.get_mut(k)? = u16::try_from(place).ok()?;
+            short.values[k] = value;
+        }
+        Some(short)
+    }
+
+    /// All n entries.
+    pub(crate) fn full(&self, n: usize) -> DVector<f64> {
+        let mut row = DVector::zeros(n);
+        self.add_to(1.0, row.as_mut_slice());
+        row
+    }
+
+    pub(crate) fn dot(&self, x: &[f64]) -> f64 {
+        self.places.iter().zip(&self.values).map(|(i, r)| x[usize::from(*i)] * r).sum()
+    }
+
+    /// x += factor rowᵀ.
+    pub(crate) fn add_to(&self, factor: f64, x: &mut [f64]) {
+        for (i, r) in self.places.iter().zip(&self.values) {
+            x[usize::from(*i)] += factor * r;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_rows_hold_six_coordinates() {
+        let row = [0.0, 2.0, 0.0, -1.0, 0.5];
+        let x = [7.0, 3.0, 9.0, 4.0, 2.0];
+        let short = ShortRow::new(row.into_iter()).unwrap();
+        assert_eq!(short.dot(&x), 3.0);
+        let mut sum = x;
+        short.add_to(2.0, &mut sum);
+        assert_eq!(sum, [7.0, 7.0, 9.0, 2.0, 3.0]);
+        assert!(ShortRow::new([1.0; 7].into_iter()).is_none());
+    }
+}
