@@ -26,7 +26,7 @@ fn main() -> Result<(), ValidationError> {
             println!(
                 "| {} | {position:.2} | {} | {:+.3} | {:.0} | {:+.3} | {:.0e} |",
                 table.planets(),
-                found.corner_pairs,
+                found.pairs_off_the_line,
                 found.worst_percent,
                 found.at_hz,
                 found.worst_mesh_ruled_percent,

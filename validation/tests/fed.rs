@@ -6,7 +6,7 @@ use validation::modal::{Preload, agreement, fed_lumped};
 use validation::{PublishedScene, scene};
 
 #[test]
-fn where_all_pairs_stand_on_the_path_the_models_are_one() {
+fn where_all_pairs_press_along_the_line_of_action_the_models_are_one() {
     let mut three = scene(PublishedScene::Oh58ThreePlanets).unwrap();
     three.fe_contact.flank_elements = 10;
     let bodies = Bodies::new(&three).unwrap();
@@ -14,9 +14,10 @@ fn where_all_pairs_stand_on_the_path_the_models_are_one() {
     // The sun turning either way: the mirrored set is another with the same frequencies.
     for torque in [1130.0, -1130.0] {
         let found = agreement(&three, &bodies, &at(torque)).unwrap();
-        assert_eq!(found.corner_pairs, 0);
         assert_eq!(found.modes, 2 + 3 + 9);
-        assert!(found.worst_percent.abs() < 1e-5, "{}", found.worst_percent);
+        assert!(found.along_the_line_percent.abs() < 1e-9, "{}", found.along_the_line_percent);
+        // Slopes of the deformed flanks turn every pair a little; no corner presses here.
+        assert!(found.worst_percent.abs() < 0.2, "{}", found.worst_percent);
     }
     let fed = fed_lumped(&three, &bodies, &at(1130.0)).unwrap();
     let lumped = fed.lumped.as_ref().unwrap();
@@ -25,7 +26,9 @@ fn where_all_pairs_stand_on_the_path_the_models_are_one() {
     assert_eq!(lumped.mass.planet, Some(planet.mass));
     assert!((lumped.inertia_over_r2.planet.unwrap() * r * r / planet.inertia - 1.0).abs() < 1e-14);
     let angle = bodies.geometry.mesh(MeshKind::RingPlanet).unwrap().pressure_angle;
-    assert_eq!(lumped.pressure_angle.ring_planet, angle);
+    // The loaded planets have orbited by some 0.2 mm on an arm of 89 mm, and lines of centres with them.
+    let moved = (lumped.pressure_angle.ring_planet - angle).abs();
+    assert!(moved > 0.0 && moved < 5e-3, "{moved}");
     // Phases alike: meshes alike; tangents of steel teeth an inch wide.
     for own in &fed.overrides {
         for (k, first) in

@@ -39,6 +39,15 @@ pub(super) struct GridTables {
     beside: HashMap<usize, Beside>,
 }
 
+/// Meshes placed where the gears are.
+struct PlacedStep {
+    frame: Box<Frame>,
+    /// What the slopes of the flanks leave on the races, N.
+    load: DVector<f64>,
+    /// Places of the meshes' tables.
+    places: Vec<usize>,
+}
+
 impl<'s> VibratingSet<'s> {
     /// A quasi-static set whose kinematics are exact at every step, for a torque on the sun of the given
     /// sense; it turns.
@@ -66,13 +75,12 @@ impl<'s> VibratingSet<'s> {
     }
 
     /// The meshes at the end of the step where the races stand at x, on the tables nearest to them, or on
-    /// `kept` ones if there are any; returns the frame, what the slopes of the flanks leave on the races
-    /// (N), and the places of the tables.
+    /// `kept` ones if there are any.
     fn placed_at(
         &mut self,
         x: &DVector<f64>,
         kept: Option<&[usize]>,
-    ) -> Result<(Box<Frame>, DVector<f64>, Vec<usize>), FeError> {
+    ) -> Result<PlacedStep, FeError> {
         let position = self.position(self.step_in_cycle);
         let count = self.statics.reference().meshes.len();
         let mut load = DVector::zeros(x.len());
@@ -99,7 +107,7 @@ impl<'s> VibratingSet<'s> {
             lag_end: self.lag.end,
         };
         let frame = Frame::new(&ground, &placed, &places, count, position)?;
-        Ok((Box::new(frame), load, places))
+        Ok(PlacedStep { frame: Box::new(frame), load, places })
     }
 
     /// Place of the table nearest to a phase.
@@ -192,7 +200,7 @@ impl<'s> VibratingSet<'s> {
         let mut change = f64::INFINITY;
         let mut kept: Option<Vec<usize>> = None;
         for placing in 0..MOST {
-            let (mut frame, load, places) = self.placed_at(&x, kept.as_deref())?;
+            let PlacedStep { mut frame, load, places } = self.placed_at(&x, kept.as_deref())?;
             if placing >= FREE {
                 kept = Some(places);
             }

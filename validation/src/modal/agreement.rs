@@ -30,7 +30,7 @@ pub struct Agreement {
     /// Modes compared.
     pub modes: usize,
     /// Pressing pairs that do not press along the line of action.
-    pub corner_pairs: usize,
+    pub pairs_off_the_line: usize,
 }
 
 /// Where the meshes rule, Hz.
@@ -111,7 +111,7 @@ fn compare(
         worst_mesh_ruled_percent: off(&frequencies, &|f| MESH_RULED_HZ.contains(&f)).0,
         along_the_line_percent: off(&put_right, &|_| true).0.abs(),
         modes: lumped.len(),
-        corner_pairs: corners.count(),
+        pairs_off_the_line: corners.count(),
     })
 }
 

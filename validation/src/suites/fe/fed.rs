@@ -69,7 +69,7 @@ fn positions(lab: &Lab<'_>, table: Table) -> Result<Vec<Check>, ValidationError>
     for percent in POSITIONS {
         let found = agreement(&set, &lab.bodies, &preload(0.01 * f64::from(percent)))?;
         straight = straight.max(found.along_the_line_percent);
-        if found.corner_pairs == 0 {
+        if found.pairs_off_the_line == 0 {
             on_path = Some(found.worst_percent.abs().max(on_path.unwrap_or(0.0)));
         }
         let id = format!("fe.fed.rigid_carrier.{name}.{percent}");
@@ -94,7 +94,7 @@ fn positions(lab: &Lab<'_>, table: Table) -> Result<Vec<Check>, ValidationError>
 }
 
 fn where_worst(found: &Agreement) -> String {
-    match found.corner_pairs {
+    match found.pairs_off_the_line {
         _ if found.worst_percent.abs() < ROUNDING => " (no corner pair presses)".into(),
         1 => format!(" (worst at {:.0} Hz; 1 corner pair presses)", found.at_hz),
         n => format!(" (worst at {:.0} Hz; {n} corner pairs press)", found.at_hz),
