@@ -10,6 +10,7 @@ use fe_contact::vibration::{LawSettings, Loading, MeshLawSet, Motive, VibratingS
 use gearset::{Facing, FlankSide, Rung, Scene};
 
 const TORQUE: f64 = 1413.0;
+
 /// Tables of contact for a force of each mesh.
 fn loading(mesh_force: f64) -> Loading {
     Loading { torque_nm: TORQUE, mesh_force }

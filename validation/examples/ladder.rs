@@ -1,5 +1,5 @@
 //! Error against cost, the rungs of the ladder by steps and contact cells: `reference/ladder.toml`.
-//! Ten minutes on two cores, `reference/full_sweep.toml` given.
+//! Twenty minutes on two cores, most of them modes, `reference/full_sweep.toml` given.
 //!
 //! `cargo run --release -p validation --example ladder > ladder.toml && mv ladder.toml reference/`
 //!
@@ -193,17 +193,15 @@ fn main() -> Outcome<()> {
         own.push(timed(set.as_mut(), 0.0)? / timed(sets[0].as_mut(), BATCH_S)?);
     }
     own.sort_by(f64::total_cmp);
-    {
-        let near = |p: &&FullSweepPoint| truth.is_about_the_peak(p.speed_rpm);
-        let points = truth.of_steps(140).filter(near);
-        let (rpm, rad) = top_of_three(points.map(|p| (p.speed_rpm, p.sun_rotation_rad[1])))
-            .ok_or("the truth has no peak")?;
-        println!("\n[[rung]]\nname = \"full\"\nsteps_per_cycle = 140");
-        println!("contact_cells = {}", scene.fe_contact.contact_cells);
-        println!("peak_rpm = {rpm:.3}\npeak_rad = {rad:.6e}");
-        println!("step_ratio = [{:.0}.0, {:.0}.0, {:.0}.0]", own[0], own[1], own[2]);
-        let effort = set.effort();
-        println!("coordinates = {}\nsolutions = {:.2}", effort.coordinates, effort.solutions);
-    }
+    let near = |p: &&FullSweepPoint| truth.is_about_the_peak(p.speed_rpm);
+    let points = truth.of_steps(140).filter(near);
+    let (rpm, rad) = top_of_three(points.map(|p| (p.speed_rpm, p.sun_rotation_rad[1])))
+        .ok_or("the truth has no peak")?;
+    println!("\n[[rung]]\nname = \"full\"\nsteps_per_cycle = 140");
+    println!("contact_cells = {}", scene.fe_contact.contact_cells);
+    println!("peak_rpm = {rpm:.3}\npeak_rad = {rad:.6e}");
+    println!("step_ratio = [{:.0}.0, {:.0}.0, {:.0}.0]", own[0], own[1], own[2]);
+    let effort = set.effort();
+    println!("coordinates = {}\nsolutions = {:.2}", effort.coordinates, effort.solutions);
     Ok(())
 }
