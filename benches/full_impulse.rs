@@ -1,11 +1,11 @@
-//! Remakes `reference/full_impulse.toml`: impulse tests on bodies with every finite-element degree of
+//! Remakes `kept/full_impulse.toml`: impulse tests on bodies with every finite-element degree of
 //! freedom. Prints the file; about ten minutes on two cores.
 
 use std::path::Path;
 
+use experiments::modal::{ImpulseSettings, impulse_test};
 use fe_contact::statics::Bodies;
-use gearset::{Rung, Scene};
-use validation::modal::{ImpulseSettings, impulse_test};
+use gearset::{Fidelity, Scene};
 
 const FLANK_ELEMENTS: u32 = 8;
 const TORQUE: f64 = 1130.0;
@@ -17,7 +17,7 @@ fn main() {
     }
     println!("kind = \"own truth\"");
     println!(
-        "source = \"this program, rung full, fe_contact.flank_elements = {FLANK_ELEMENTS}, pulses of 5 µs, \
+        "source = \"this program, fidelity full, fe_contact.flank_elements = {FLANK_ELEMENTS}, pulses of 5 µs, \
          decays of 10 ms, 1130 N·m, position 0\""
     );
     println!("command = \"cargo bench --bench full_impulse\"");
@@ -26,7 +26,7 @@ fn main() {
     for name in ["oh58_3p", "oh58_4p"] {
         let mut scene = Scene::from_file(&root.join(format!("{name}.toml"))).unwrap();
         scene.fe_contact.flank_elements = FLANK_ELEMENTS;
-        scene.dynamics.rung = Rung::Full;
+        scene.dynamics.fidelity = Fidelity::Full;
         let bodies = Bodies::new(&scene).unwrap();
         let test = impulse_test(&scene, &bodies, &ImpulseSettings::short(TORQUE, 0.0)).unwrap();
         let list = |of: &dyn Fn(usize) -> String| {

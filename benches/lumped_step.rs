@@ -51,7 +51,7 @@ fn scene() -> Outcome<Scene> {
 }
 
 fn law(scene: &Scene, backs: bool) -> Outcome<MeshLaw> {
-    let geometry = Geometry::from_scene(scene).ok_or("no geometry")?.map_err(|e| e.to_string())?;
+    let geometry = Geometry::from_scene(scene).map_err(|e| e.to_string())?;
     let phasing = Phasing::new(&geometry, &scene.planets).ok_or("no whole set")?;
     let mut starts = MeshStart::of_set(&phasing);
     for start in &mut starts {

@@ -1,4 +1,4 @@
-//! Cost of one time step on each rung, four planets turning at 1600 rpm under 1413 N·m, once the maps of
+//! Cost of one time step on each fidelity, four planets turning at 1600 rpm under 1413 N·m, once the maps of
 //! a cycle are known. Counts are printed first: what a step is made of.
 
 use std::hint::black_box;
@@ -8,7 +8,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{Loading, Motive, VibratingSet};
-use gearset::{Facing, Rung, Scene};
+use gearset::{Facing, Fidelity, Scene};
 
 const STEPS: usize = 140;
 const TORQUE: f64 = 1413.0;
@@ -22,14 +22,14 @@ fn steps(c: &mut Criterion) {
     let force = TORQUE / 4.0 / bodies.geometry.sun.as_ref().unwrap().base_radius;
     let mut group = c.benchmark_group("step");
     group.sample_size(10);
-    let rungs = [
-        ("quasi_static", Rung::QuasiStatic, Some(60)),
-        ("modal_2", Rung::Modal(2), Some(60)),
-        ("modal_10", Rung::Modal(10), Some(60)),
-        ("full_standing", Rung::Full, None),
+    let fidelities = [
+        ("quasi_static", Fidelity::QuasiStatic, Some(60)),
+        ("modal_2", Fidelity::Modal(2), Some(60)),
+        ("modal_10", Fidelity::Modal(10), Some(60)),
+        ("full_standing", Fidelity::Full, None),
     ];
-    for (name, rung, cycles) in rungs {
-        scene.dynamics.rung = rung;
+    for (name, fidelity, cycles) in fidelities {
+        scene.dynamics.fidelity = fidelity;
         // Every position of a turning `full` costs a solution for each port; standing has one.
         let motive = match cycles {
             Some(_) => Motive::Turning { mesh_frequency: 565.714, steps_per_cycle: STEPS },

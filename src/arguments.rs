@@ -182,7 +182,7 @@ pub struct Impulse {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Model {
-    /// FE/contact, on the rung of the scene.
+    /// FE/contact, on the fidelity of the scene.
     FeContact,
     /// Lumped, its mesh forces tabulated over deflection and phase by FE/contact.
     Lumped,
@@ -190,7 +190,7 @@ pub enum Model {
 
 #[derive(Debug, Args)]
 pub struct Sweep {
-    /// Scene file of a whole set; its `[dynamics]` says on which rung and in how many steps.
+    /// Scene file of a whole set; its `[dynamics]` says on which fidelity and in how many steps.
     pub scene: PathBuf,
     /// Speeds of the input member: first, last and step, rpm.
     #[arg(long, value_name = "FROM:TO:STEP", default_value = "100:2500:25", value_parser = range,

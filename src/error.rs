@@ -59,6 +59,9 @@ pub enum CommandError {
     /// The models or the reference data could not be used.
     #[error(transparent)]
     Validation(#[from] validation::ValidationError),
+    /// An experiment could not be made.
+    #[error(transparent)]
+    Experiment(#[from] experiments::ExperimentError),
 }
 
 impl CommandError {

@@ -7,6 +7,7 @@ mod error;
 mod output;
 
 pub use dynamics;
+pub use experiments;
 pub use fe_contact;
 pub use gearset;
 pub use lumped;

@@ -281,17 +281,17 @@ fn impulse_refuses_what_makes_no_sense_with_one_message() {
     }
     // Every degree of freedom has no small linearisation to make a band of.
     let folder = tempfile::tempdir().unwrap();
-    let path = with_rung(folder.path(), "oh58_3p.toml", "rung = \"full\"");
+    let path = with_fidelity(folder.path(), "oh58_3p.toml", "fidelity = \"full\"");
     let (code, _, err) = run(&["impulse", &path, "--band"]);
-    assert!(code == 2 && err.contains("`dynamics.rung` = \"full\""), "{err}");
+    assert!(code == 2 && err.contains("`dynamics.fidelity` = \"full\""), "{err}");
 }
 
-/// A scene of the repository on another rung, on coarse meshes.
-fn with_rung(folder: &Path, name: &str, rung: &str) -> String {
+/// A scene of the repository on another fidelity, on coarse meshes.
+fn with_fidelity(folder: &Path, name: &str, fidelity: &str) -> String {
     let text = std::fs::read_to_string(scene(name)).unwrap();
     let path = folder.join(name);
     let coarse = "[fe_contact]\nflank_elements = 6\nelement = \"linear\"";
-    std::fs::write(&path, format!("{text}\n{coarse}\n\n[dynamics]\n{rung}\n")).unwrap();
+    std::fs::write(&path, format!("{text}\n{coarse}\n\n[dynamics]\n{fidelity}\n")).unwrap();
     path.display().to_string()
 }
 
@@ -335,11 +335,11 @@ fn impulse_as_text_csv_and_pictures() {
 #[test]
 fn impulse_without_a_small_linearisation() {
     let folder = tempfile::tempdir().unwrap();
-    let path = with_rung(folder.path(), "oh58_3p.toml", "rung = \"full\"");
+    let path = with_fidelity(folder.path(), "oh58_3p.toml", "fidelity = \"full\"");
     let (code, text, err) =
         run(&["impulse", &path, "--torque-nm", "1130", "--step-us", "40", "--duration-ms", "12"]);
     assert_eq!(code, 0, "{err}");
-    assert!(text.contains("rung: full") && text.contains("no small linearisation"), "{text}");
+    assert!(text.contains("fidelity: full") && text.contains("no small linearisation"), "{text}");
     let rows: Vec<&str> = text.lines().filter(|l| l.contains("ational ")).collect();
     let empty = |row: &&&str| row.matches('–').count() >= 4;
     assert!(rows.iter().filter(empty).count() == 8, "{text}");

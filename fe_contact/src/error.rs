@@ -155,7 +155,7 @@ pub enum FeError {
     Coupled(#[from] dynamics::CoupledError),
     /// The scene asks for tabulated mesh forces where contact is to be solved.
     #[error(
-        "`dynamics.rung` = \"mesh_law\" looks mesh forces up in tables and solves no contact: this needs \"quasi_static\", \"modal\" or \"full\""
+        "`dynamics.fidelity` = \"mesh_law\" looks mesh forces up in tables and solves no contact: this needs \"quasi_static\", \"modal\" or \"full\""
     )]
     NoContact,
     /// Nothing holds a motion that the load drives.

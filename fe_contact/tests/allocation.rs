@@ -2,15 +2,15 @@
 
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{LawSettings, Loading, MeshLawSet, Motive, VibratingSet, mesh_law};
-use gearset::{Facing, Rung, Scene};
+use gearset::{Facing, Fidelity, Scene};
 
 #[test]
 fn a_warm_step_allocates_nothing() {
-    for rung in [Rung::QuasiStatic, Rung::Modal(2)] {
+    for fidelity in [Fidelity::QuasiStatic, Fidelity::Modal(2)] {
         let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
         let mut scene = Scene::from_file(path.as_ref()).unwrap();
         scene.fe_contact.flank_elements = 8;
-        scene.dynamics.rung = rung;
+        scene.dynamics.fidelity = fidelity;
         let bodies = Bodies::new(&scene).unwrap();
         let motive = Motive::Turning { mesh_frequency: 500.0, steps_per_cycle: 28 };
         let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
@@ -27,7 +27,7 @@ fn a_warm_step_allocates_nothing() {
                 set.step().unwrap();
             }
         });
-        assert_eq!(warm.count_total, 0, "{rung:?}");
+        assert_eq!(warm.count_total, 0, "{fidelity:?}");
     }
 }
 

@@ -1,4 +1,4 @@
-//! Sets on tabulated mesh forces against the quasi-static rung, which solves contact.
+//! Sets on tabulated mesh forces against the quasi-static fidelity, which solves contact.
 
 use std::f64::consts::TAU;
 use std::time::Instant;
@@ -7,7 +7,7 @@ use fe_contact::FeError;
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use fe_contact::vibration::{LawSettings, Loading, MeshLawSet, Motive, VibratingSet, mesh_law};
-use gearset::{Facing, FlankSide, Rung, Scene};
+use gearset::{Facing, Fidelity, FlankSide, Scene};
 
 const TORQUE: f64 = 1413.0;
 
@@ -63,7 +63,7 @@ fn record(cycles: usize, mut step: impl FnMut(&mut Vec<f64>)) -> Vec<Vec<f64>> {
 }
 
 #[test]
-fn harmonics_are_those_of_the_quasi_static_rung() {
+fn harmonics_are_those_of_the_quasi_static_fidelity() {
     let scene = scene("oh58_4p");
     let bodies = Bodies::new(&scene).unwrap();
     let (sense, force) = (Facing::CounterClockwise, force(&scene, &bodies));
@@ -189,9 +189,9 @@ fn both_senses_and_resumed_runs_agree() {
 }
 
 #[test]
-fn contact_is_not_solved_on_this_rung() {
+fn contact_is_not_solved_on_this_fidelity() {
     let mut scene = scene("oh58_3p");
-    scene.dynamics.rung = Rung::MeshLaw;
+    scene.dynamics.fidelity = Fidelity::MeshLaw;
     let bodies = Bodies::new(&scene).unwrap();
     let motive = Motive::Standing { position: 0.0, step: 1e-5 };
     let (sense, none) = (Facing::CounterClockwise, Imperfections::default());

@@ -3,16 +3,16 @@
 use fe_contact::body::BodyMatrices;
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{LinearSet, Loading, Motive, VibratingSet, fixed_race_modes};
-use gearset::{Facing, Rung, Scene};
+use gearset::{Facing, Fidelity, Scene};
 
 const TORQUE: f64 = 1130.0;
 
-fn scene(name: &str, rung: Rung) -> Scene {
+fn scene(name: &str, fidelity: Fidelity) -> Scene {
     let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let mut scene = Scene::from_file(path.as_ref()).unwrap();
     // Coarse, since nothing here depends on the mesh.
     scene.fe_contact.flank_elements = 8;
-    scene.dynamics.rung = rung;
+    scene.dynamics.fidelity = fidelity;
     scene
 }
 
@@ -39,11 +39,11 @@ fn turning(steps_per_cycle: usize) -> Motive {
     Motive::Turning { mesh_frequency: 500.0, steps_per_cycle }
 }
 
-/// Every rung stays at rest in its own equilibrium.
+/// Every fidelity stays at rest in its own equilibrium.
 #[test]
 fn a_set_at_rest_stays_at_rest() {
-    for rung in [Rung::QuasiStatic, Rung::Modal(3), Rung::Full] {
-        let scene = scene("oh58_4p", rung);
+    for fidelity in [Fidelity::QuasiStatic, Fidelity::Modal(3), Fidelity::Full] {
+        let scene = scene("oh58_4p", fidelity);
         let bodies = Bodies::new(&scene).unwrap();
         let mut set = set(&scene, &bodies, standing(5e-6));
         set.rest(TORQUE).unwrap();
@@ -54,7 +54,7 @@ fn a_set_at_rest_stays_at_rest() {
         }
         let moved = set.motion().x.iter().zip(&start).map(|(a, b)| (a - b).abs());
         let moved = moved.fold(0.0f64, f64::max);
-        assert!(moved < 1e-9 * size, "{rung:?}: {moved:e} of {size:e}");
+        assert!(moved < 1e-9 * size, "{fidelity:?}: {moved:e} of {size:e}");
     }
 }
 
@@ -78,7 +78,7 @@ fn after_swell(scene: &Scene, bodies: &Bodies, steps: usize) -> Vec<f64> {
 #[test]
 fn newmark_is_of_second_order_with_and_without_lag() {
     for beta in [None, Some(0.0)] {
-        let mut scene = scene("oh58_4p", Rung::QuasiStatic);
+        let mut scene = scene("oh58_4p", Fidelity::QuasiStatic);
         if let Some(beta) = beta {
             scene.damping.stiffness_proportional_s = beta;
         }
@@ -95,7 +95,7 @@ fn newmark_is_of_second_order_with_and_without_lag() {
 /// T + V changes by what forces did, in every step, standing or turning.
 #[test]
 fn the_discrete_energy_identity_holds() {
-    let scene = scene("oh58_4p", Rung::QuasiStatic);
+    let scene = scene("oh58_4p", Fidelity::QuasiStatic);
     let bodies = Bodies::new(&scene).unwrap();
     let mut set = set(&scene, &bodies, turning(140));
     set.rest(TORQUE).unwrap();
@@ -116,7 +116,7 @@ fn the_discrete_energy_identity_holds() {
 /// Three planets in phase: the sun does not leave its centre, and planets move alike.
 #[test]
 fn three_planets_keep_the_sun_in_its_centre() {
-    let scene = scene("oh58_3p", Rung::QuasiStatic);
+    let scene = scene("oh58_3p", Fidelity::QuasiStatic);
     let bodies = Bodies::new(&scene).unwrap();
     let mut set = set(&scene, &bodies, turning(70));
     set.rest(TORQUE).unwrap();
@@ -136,7 +136,7 @@ fn three_planets_keep_the_sun_in_its_centre() {
 /// The tangent of the linearised set is what statics does under a little more torque.
 #[test]
 fn linearisation_is_the_derivative_of_statics() {
-    let scene = scene("oh58_4p", Rung::QuasiStatic);
+    let scene = scene("oh58_4p", Fidelity::QuasiStatic);
     let bodies = Bodies::new(&scene).unwrap();
     let mut set = set(&scene, &bodies, standing(5e-6));
     set.rest(TORQUE).unwrap();
@@ -160,7 +160,7 @@ fn undamped_turning_left_out(mut linear: LinearSet) -> LinearSet {
 /// Damping by α and β alone: every low mode is proportionally damped but for the half-planes.
 #[test]
 fn linear_damping_is_near_that_of_proportional_damping() {
-    let scene = scene("oh58_3p", Rung::QuasiStatic);
+    let scene = scene("oh58_3p", Fidelity::QuasiStatic);
     let bodies = Bodies::new(&scene).unwrap();
     let mut set = set(&scene, &bodies, standing(5e-6));
     set.rest(TORQUE).unwrap();
@@ -177,8 +177,8 @@ fn linear_damping_is_near_that_of_proportional_damping() {
 #[test]
 fn modes_and_full_bodies_answer_alike() {
     // Every mode there is would be the full body; a few dozen come near.
-    let run = |rung| {
-        let scene = scene("oh58_3p", rung);
+    let run = |fidelity| {
+        let scene = scene("oh58_3p", fidelity);
         let bodies = Bodies::new(&scene).unwrap();
         let mut set = set(&scene, &bodies, standing(5e-6));
         set.rest(TORQUE).unwrap();
@@ -192,13 +192,13 @@ fn modes_and_full_bodies_answer_alike() {
         }
         path
     };
-    let full = run(Rung::Full);
+    let full = run(Fidelity::Full);
     let apart = |path: &[f64]| {
         let square: f64 = path.iter().zip(&full).map(|(a, b)| (a - b).powi(2)).sum();
         (square / full.iter().map(|x| x * x).sum::<f64>()).sqrt()
     };
-    let few = apart(&run(Rung::QuasiStatic));
-    let more = apart(&run(Rung::Modal(12)));
+    let few = apart(&run(Fidelity::QuasiStatic));
+    let more = apart(&run(Fidelity::Modal(12)));
     assert!(few < 0.02, "{few}");
     assert!(more < 0.8 * few, "{few} {more}");
 }
@@ -207,32 +207,32 @@ fn modes_and_full_bodies_answer_alike() {
 /// know nothing of how many there are.
 #[test]
 fn equilibrium_is_that_of_full_bodies_with_any_number_of_modes() {
-    let at_rest = |rung| {
-        let scene = scene("oh58_4p", rung);
+    let at_rest = |fidelity| {
+        let scene = scene("oh58_4p", fidelity);
         let bodies = Bodies::new(&scene).unwrap();
         let mut set = set(&scene, &bodies, standing(5e-6));
         set.rest(TORQUE).unwrap();
         set.motion().x.clone()
     };
-    let full = at_rest(Rung::Full);
+    let full = at_rest(Fidelity::Full);
     let size = full.iter().fold(0.0f64, |a, x| a.max(x.abs()));
-    let apart = |rung| {
-        let x = at_rest(rung);
+    let apart = |fidelity| {
+        let x = at_rest(fidelity);
         x.iter().zip(&full).fold(0.0f64, |a, (x, full)| a.max((x - full).abs())) / size
     };
     for n in [1, 5] {
-        let apart = apart(Rung::Modal(n));
+        let apart = apart(Fidelity::Modal(n));
         assert!(apart < 1e-9, "{n} modes: {apart:e}");
     }
     // Quasi-static bodies know each mesh alone.
-    let apart = apart(Rung::QuasiStatic);
+    let apart = apart(Fidelity::QuasiStatic);
     assert!(apart > 1e-5 && apart < 1e-2, "{apart:e}");
 }
 
 /// Bending of one tooth is spread over a band of modes, one for each tooth of the gear, far below the next.
 #[test]
 fn teeth_bend_in_a_band_of_as_many_modes() {
-    let scene = scene("oh58_4p", Rung::QuasiStatic);
+    let scene = scene("oh58_4p", Fidelity::QuasiStatic);
     let bodies = Bodies::new(&scene).unwrap();
     for body in [&bodies.planet, bodies.sun.as_ref().unwrap()] {
         let (mesh, teeth) = (&body.mesh, body.mesh.outline.gear().teeth as usize);
@@ -253,7 +253,7 @@ fn teeth_bend_in_a_band_of_as_many_modes() {
 
 #[test]
 fn divergence_names_time_body_and_quantity() {
-    let scene = scene("oh58_3p", Rung::QuasiStatic);
+    let scene = scene("oh58_3p", Fidelity::QuasiStatic);
     let bodies = Bodies::new(&scene).unwrap();
     let mut set = set(&scene, &bodies, standing(5e-6));
     set.rest(TORQUE).unwrap();
@@ -266,7 +266,7 @@ fn divergence_names_time_body_and_quantity() {
 
 #[test]
 fn what_cannot_run_is_refused_with_its_key() {
-    let mut scene = scene("oh58_3p", Rung::QuasiStatic);
+    let mut scene = scene("oh58_3p", Fidelity::QuasiStatic);
     let bodies = Bodies::new(&scene).unwrap();
     let refused = |scene: &Scene, motive| {
         let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
@@ -288,7 +288,7 @@ fn what_cannot_run_is_refused_with_its_key() {
 /// linearise about.
 #[test]
 fn without_torque_nothing_touches() {
-    let scene = scene("oh58_3p", Rung::QuasiStatic);
+    let scene = scene("oh58_3p", Fidelity::QuasiStatic);
     let bodies = Bodies::new(&scene).unwrap();
     let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
     let unloaded = Loading { torque_nm: 0.0, mesh_force: 8e3 };
@@ -305,7 +305,7 @@ fn without_torque_nothing_touches() {
 /// The sun thrown across its backlash meets the other flanks and comes back.
 #[test]
 fn a_sun_thrown_back_meets_the_other_flanks() {
-    let scene = scene("oh58_3p", Rung::QuasiStatic);
+    let scene = scene("oh58_3p", Fidelity::QuasiStatic);
     let bodies = Bodies::new(&scene).unwrap();
     // Grids wide enough for the blow.
     let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
@@ -337,7 +337,7 @@ fn a_sun_thrown_back_meets_the_other_flanks() {
 /// well.
 #[test]
 fn a_mirrored_set_under_reversed_torque_moves_as_the_mirror() {
-    let mut scene = scene("oh58_4p", Rung::QuasiStatic);
+    let mut scene = scene("oh58_4p", Fidelity::QuasiStatic);
     let bodies = Bodies::new(&scene).unwrap();
     let run = |scene: &Scene, sense| {
         let none = Imperfections::default();
@@ -374,7 +374,7 @@ fn a_mirrored_set_under_reversed_torque_moves_as_the_mirror() {
 /// Factors on the meshes' flexibility: rest, linearisation and damping see one and the same mesh.
 #[test]
 fn a_set_with_softer_meshes_is_one_set_at_rest_and_in_motion() {
-    let mut soft = scene("oh58_3p", Rung::QuasiStatic);
+    let mut soft = scene("oh58_3p", Fidelity::QuasiStatic);
     let factors = &mut soft.fe_contact.flexibility_factor;
     (factors.sun_planet, factors.ring_planet) = (1.9, 2.6);
     let mut bodies = Bodies::new(&soft).unwrap();
@@ -398,8 +398,8 @@ fn a_set_with_softer_meshes_is_one_set_at_rest_and_in_motion() {
     }
     drop(set);
     bodies.settings.input.flexibility_factor.sun_planet = 1.0;
-    for rung in [Rung::Modal(2), Rung::Full] {
-        soft.dynamics.rung = rung;
+    for fidelity in [Fidelity::Modal(2), Fidelity::Full] {
+        soft.dynamics.fidelity = fidelity;
         let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
         let made = VibratingSet::new(&soft, &bodies, sense, none, standing(5e-6), loading(8000.0));
         let refused = made.unwrap_err().to_string();
@@ -410,7 +410,7 @@ fn a_set_with_softer_meshes_is_one_set_at_rest_and_in_motion() {
 /// What is fixed to the planets' races moves with them and changes no equilibrium.
 #[test]
 fn added_mass_rides_on_the_planets_races() {
-    let plain = scene("oh58_3p", Rung::QuasiStatic);
+    let plain = scene("oh58_3p", Fidelity::QuasiStatic);
     let mut heavy = plain.clone();
     heavy.supports.planet_added.mass_kg = 0.25;
     heavy.supports.planet_added.inertia_kg_m2 = 2e-3;

@@ -2,22 +2,22 @@
 
 use crate::assembly;
 use crate::gear::Gear;
-use crate::geometry::Geometry;
+use crate::geometry::{Geometry, GeometryError};
 use crate::mesh::{Mesh, MeshKind, MeshMember};
 use crate::reader::Document;
-use crate::scene::{Rung, Scene};
+use crate::scene::{Fidelity, Scene};
 
 /// Judges the whole scene; faults go to the document.
 pub(crate) fn whole(document: &Document<'_>, scene: &Scene) {
     distinct_positions(document, scene);
     factors_need_quasi_static(document, scene);
     match Geometry::from_scene(scene) {
-        Some(Ok(geometry)) => tooth_geometry(document, scene, &geometry),
-        Some(Err(no_mesh)) => {
+        Ok(geometry) => tooth_geometry(document, scene, &geometry),
+        Err(GeometryError::NoMesh(no_mesh)) => {
             let allowed = format!("above {:.4} mm", no_mesh.least * 1e3);
             document.fault("geometry.center_distance_mm", allowed, no_mesh.to_string());
         }
-        None => {}
+        Err(GeometryError::Absent(_)) => {}
     }
 }
 
@@ -212,14 +212,14 @@ fn one_mesh(document: &Document<'_>, geometry: &Geometry, mesh: &Mesh) {
 /// Bodies with elastic states of their own serve several meshes at once.
 fn factors_need_quasi_static(document: &Document<'_>, scene: &Scene) {
     let factor = scene.fe_contact.flexibility_factor;
-    if scene.dynamics.rung == Rung::QuasiStatic {
+    if scene.dynamics.fidelity == Fidelity::QuasiStatic {
         return;
     }
     for (name, value) in [("sun_planet", factor.sun_planet), ("ring_planet", factor.ring_planet)] {
         if value != 1.0 {
             let key = format!("fe_contact.flexibility_factor.{name}");
             let why = "a planet that vibrates within itself cannot be softer for one mesh alone";
-            document.fault(&key, "1, or dynamics.rung = \"quasi_static\"", why);
+            document.fault(&key, "1, or dynamics.fidelity = \"quasi_static\"", why);
         }
     }
 }

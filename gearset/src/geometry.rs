@@ -30,6 +30,17 @@ pub struct Geometry {
     pub ring_planet: Option<Mesh>,
 }
 
+/// Why a scene has no tooth geometry.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum GeometryError {
+    /// The scene gives parameters only.
+    #[error("{0} is absent: the scene has no tooth geometry")]
+    Absent(&'static str),
+    /// The base circles do not fit the centre distance.
+    #[error(transparent)]
+    NoMesh(#[from] NoMesh),
+}
+
 /// Profile-shift sums for zero backlash, rack given (ring with the internal-gear sign).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ProfileShiftSums {
@@ -40,9 +51,14 @@ pub struct ProfileShiftSums {
 }
 
 impl Geometry {
-    /// Geometry of a scene; `None` for parameter-only sets.
-    pub fn from_scene(scene: &Scene) -> Option<Result<Self, NoMesh>> {
-        Some(Self::new(scene.geometry.as_ref()?, &scene.teeth?))
+    /// Geometry of a scene.
+    ///
+    /// # Errors
+    /// [`GeometryError::Absent`] for parameter-only sets; otherwise as [`Geometry::new`].
+    pub fn from_scene(scene: &Scene) -> Result<Self, GeometryError> {
+        let input = scene.geometry.as_ref().ok_or(GeometryError::Absent("[geometry]"))?;
+        let teeth = scene.teeth.as_ref().ok_or(GeometryError::Absent("[teeth]"))?;
+        Ok(Self::new(input, teeth)?)
     }
 
     /// Works the geometry out.

@@ -31,6 +31,11 @@ pub enum KinematicsError {
     /// The speed is not a number.
     #[error("input speed {0} rpm is not finite")]
     SpeedNotFinite(f64),
+    /// The scene lacks what motion follows from.
+    #[error(
+        "{0} is absent: motion follows from the numbers of teeth and the operating point of a planetary set"
+    )]
+    Absent(&'static str),
     /// A gear without teeth.
     #[error("the {0} has no teeth")]
     NoTeeth(&'static str),
@@ -189,16 +194,21 @@ impl Kinematics {
         })
     }
 
-    /// Motion at the scene's operating point; `None` unless the scene is a whole set with teeth and
-    /// an operating point.
-    pub fn from_scene(scene: &Scene) -> Option<Result<Self, KinematicsError>> {
+    /// Motion at the scene's operating point.
+    ///
+    /// # Errors
+    /// [`KinematicsError::Absent`] unless the scene is a whole set with teeth and an operating point;
+    /// otherwise as [`Kinematics::new`].
+    pub fn from_scene(scene: &Scene) -> Result<Self, KinematicsError> {
+        use KinematicsError::Absent;
         if scene.kind != SceneKind::Planetary {
-            return None;
+            return Err(Absent("kind = \"planetary\""));
         }
-        let teeth = scene.teeth?;
-        let (sun, ring) = teeth.sun_ring()?;
-        let Operation { fixed, input, speed_rpm, .. } = scene.operation?;
-        Some(Self::new(sun, teeth.planet, ring, fixed, input, speed_rpm))
+        let teeth = scene.teeth.ok_or(Absent("[teeth]"))?;
+        let (sun, ring) = teeth.sun_ring().ok_or(Absent("teeth.sun or teeth.ring"))?;
+        let Operation { fixed, input, speed_rpm, .. } =
+            scene.operation.ok_or(Absent("[operation]"))?;
+        Self::new(sun, teeth.planet, ring, fixed, input, speed_rpm)
     }
 
     /// External torques in equilibrium when the input member gets `input_torque_nm`:

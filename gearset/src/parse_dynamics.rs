@@ -1,9 +1,9 @@
 //! The `[dynamics]` table.
 
 use crate::reader::Section;
-use crate::scene::{DynamicsInput, MeshKinematics, Rung};
+use crate::scene::{DynamicsInput, Fidelity, MeshKinematics};
 
-/// Rungs by name; the number of modes has a key of its own.
+/// Fidelities by name; the number of modes has a key of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Name {
     MeshLaw,
@@ -20,13 +20,13 @@ pub(crate) fn dynamics(s: Section<'_, '_>) -> DynamicsInput {
         ("modal", Name::Modal),
         ("full", Name::Full),
     ];
-    let name = s.choice("rung", &names, "what stands behind the teeth");
+    let name = s.choice("fidelity", &names, "what stands behind the teeth");
     let modes = s.integer("modes", (1, 400), "modes of each body with its race held");
     if modes.is_some() && name != Some(Name::Modal) {
-        s.fault("modes", "with rung = \"modal\"", "no other rung takes a number of modes");
+        s.fault("modes", "with fidelity = \"modal\"", "no other fidelity takes a number of modes");
     }
     if name == Some(Name::Modal) && !s.has("modes") {
-        s.fault("modes", "a whole number from 1 to 400", "rung = \"modal\" needs it");
+        s.fault("modes", "a whole number from 1 to 400", "fidelity = \"modal\" needs it");
     }
     // Fewer steps than this leave nothing of a mesh cycle.
     let steps = s.integer("steps_per_cycle", (16, 100_000), "time steps in a mesh cycle");
@@ -38,19 +38,19 @@ pub(crate) fn dynamics(s: Section<'_, '_>) -> DynamicsInput {
     {
         s.fault(
             "kinematics",
-            "\"about_mean\" on this rung",
+            "\"about_mean\" on this fidelity",
             "only quasi-static bodies follow exactly",
         );
     }
     s.finish();
-    let rung = match (name, modes) {
-        (Some(Name::MeshLaw), _) => Rung::MeshLaw,
-        (Some(Name::Full), _) => Rung::Full,
-        (Some(Name::Modal), Some(n)) => Rung::Modal(n as u32),
-        _ => Rung::QuasiStatic,
+    let fidelity = match (name, modes) {
+        (Some(Name::MeshLaw), _) => Fidelity::MeshLaw,
+        (Some(Name::Full), _) => Fidelity::Full,
+        (Some(Name::Modal), Some(n)) => Fidelity::Modal(n as u32),
+        _ => Fidelity::QuasiStatic,
     };
     DynamicsInput {
-        rung,
+        fidelity,
         steps_per_cycle: steps.map_or(default.steps_per_cycle, |n| n as u32),
         gyroscopic: gyroscopic.unwrap_or(default.gyroscopic),
         kinematics: kinematics.unwrap_or(default.kinematics),

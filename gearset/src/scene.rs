@@ -1,6 +1,6 @@
 //! The scene: plain types, SI units, everything one run needs to know about a gear set.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::mesh::MeshKind;
 
@@ -49,10 +49,10 @@ pub struct Scene {
     pub dynamics: DynamicsInput,
 }
 
-/// What stands behind the teeth when the set vibrates: the rungs of the fidelity ladder.
+/// What stands behind the teeth when the set vibrates: the fidelities of the fidelity ladder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Rung {
+pub enum Fidelity {
     /// As quasi-static, each mesh's force looked up in a table over deflection and phase.
     MeshLaw,
     /// Rigid inertia, FE flexibility without inertia of its own.
@@ -67,7 +67,7 @@ pub enum Rung {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DynamicsInput {
     /// Bodies.
-    pub rung: Rung,
+    pub fidelity: Fidelity,
     /// Time steps in a mesh cycle.
     pub steps_per_cycle: u32,
     /// Whether the carrier frame's gyroscopic and centripetal terms act.
@@ -89,7 +89,12 @@ pub enum MeshKinematics {
 impl Default for DynamicsInput {
     fn default() -> Self {
         let kinematics = MeshKinematics::AboutMean;
-        Self { rung: Rung::QuasiStatic, steps_per_cycle: 140, gyroscopic: false, kinematics }
+        Self {
+            fidelity: Fidelity::QuasiStatic,
+            steps_per_cycle: 140,
+            gyroscopic: false,
+            kinematics,
+        }
     }
 }
 
@@ -437,7 +442,7 @@ pub struct Damping {
 }
 
 /// A central member.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Member {
     /// Sun.

@@ -16,7 +16,7 @@ const CORNER_REACH: f64 = 0.6e-3;
 
 fn oh58() -> Geometry {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/oh58_4p.toml");
-    Geometry::from_scene(&Scene::from_file(&path).unwrap()).unwrap().unwrap()
+    Geometry::from_scene(&Scene::from_file(&path).unwrap()).unwrap()
 }
 
 /// Linear congruential generator (Knuth's MMIX constants).

@@ -8,7 +8,7 @@ use gearset::{Facing, Flank, Gear, Geometry, MeshKind, Phasing, PlanetPositions,
 fn oh58(name: &str) -> (Scene, Geometry) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
     let scene = Scene::from_file(&path).unwrap();
-    let geometry = Geometry::from_scene(&scene).unwrap().unwrap();
+    let geometry = Geometry::from_scene(&scene).unwrap();
     (scene, geometry)
 }
 

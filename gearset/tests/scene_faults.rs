@@ -155,7 +155,7 @@ fn each_kind_of_fault_names_its_key_and_says_why() {
                     "# flexibility_factor = { sun_planet = 1.0",
                     "flexibility_factor = { sun_planet = 2",
                 ),
-                ("[operation]", "[dynamics]\nrung = \"full\"\n[operation]"),
+                ("[operation]", "[dynamics]\nfidelity = \"full\"\n[operation]"),
             ],
             "fe_contact.flexibility_factor.sun_planet",
             "quasi_static",

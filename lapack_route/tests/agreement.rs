@@ -58,7 +58,7 @@ fn list(table: &toml::Value, key: &str) -> Vec<f64> {
     entries.iter().map(|v| number(v).unwrap()).collect()
 }
 
-/// The absolute tolerance that `reference/tolerances.toml` gives to checks of this name.
+/// The absolute tolerance that `checks/tolerances.toml` gives to checks of this name.
 fn tolerance_hz(checks: &str) -> f64 {
     let table = reference("tolerances");
     let all = table["tolerance"].as_array().unwrap();

@@ -21,7 +21,7 @@ const TORQUE: f64 = 1413.0;
 const FREQUENCY: f64 = 565.714;
 
 fn starts(scene: &Scene) -> Vec<MeshStart> {
-    let geometry = Geometry::from_scene(scene).unwrap().unwrap();
+    let geometry = Geometry::from_scene(scene).unwrap();
     MeshStart::of_set(&Phasing::new(&geometry, &scene.planets).unwrap())
 }
 

@@ -18,7 +18,7 @@ pub(crate) fn campbell(scene: &Scene, modes: &NaturalModes) -> Option<Picture> {
     let strengths = excitation_of_scene(scene, HARMONICS)?;
     let mut at_top = scene.clone();
     at_top.operation.as_mut()?.speed_rpm = TOP_SPEED_RPM;
-    let top_mesh_hz = Kinematics::from_scene(&at_top)?.ok()?.mesh_frequency_hz;
+    let top_mesh_hz = Kinematics::from_scene(&at_top).ok()?.mesh_frequency_hz;
     let mut plots = Vec::new();
     for l in 1..=HARMONICS {
         let reach = (TOP_FREQUENCY_HZ / (f64::from(l) * top_mesh_hz)).min(1.0);

@@ -1,13 +1,13 @@
-//! Error against cost of the rungs of the ladder (`reference/ladder.toml`).
+//! Error against cost of the fidelities of the ladder (`kept/ladder.toml`).
 
-use validation::{Ladder, LadderRung};
+use validation::{Ladder, LadderFidelity};
 
 use super::axes::{Axes, Scale};
 use super::canvas::{Anchor, Canvas, Pen, Pixel, Type};
 use super::figure::colour;
 use super::picture::Picture;
 
-/// A rung at some steps and cells.
+/// A fidelity at some steps and cells.
 struct Setting {
     /// Steps, and cells where they are not the default.
     label: String,
@@ -20,7 +20,7 @@ struct Setting {
 /// What is off: a title, how it is read, what the truth leaves open, and where it is good enough.
 struct Panel {
     title: &'static str,
-    error: fn(&LadderRung, &Ladder) -> f64,
+    error: fn(&LadderFidelity, &Ladder) -> f64,
     uncertain: f64,
     wanted: f64,
 }
@@ -40,13 +40,13 @@ pub(super) fn cost_chart(ladder: &Ladder) -> Picture {
     let panels = [
         Panel {
             title: "height of the peak",
-            error: LadderRung::height_percent,
+            error: LadderFidelity::height_percent,
             uncertain: ladder.peak_rad_uncertain_percent,
             wanted: 1.0,
         },
         Panel {
             title: "place of the peak",
-            error: LadderRung::place_percent,
+            error: LadderFidelity::place_percent,
             uncertain: ladder.peak_rpm_uncertain_percent,
             wanted: 0.2,
         },
@@ -57,11 +57,11 @@ pub(super) fn cost_chart(ladder: &Ladder) -> Picture {
         "sun rotation, second harmonic, four planets, {} N·m; truth: full bodies; labels: steps a mesh cycle",
         ladder.torque_nm
     );
-    canvas.head("What a rung costs and how far off it is", &caption);
+    canvas.head("What a fidelity costs and how far off it is", &caption);
     let mut groups: Vec<&str> = Vec::new();
-    for rung in &ladder.rung {
-        if !groups.contains(&rung.name.as_str()) {
-            groups.push(&rung.name);
+    for fidelity in &ladder.fidelity {
+        if !groups.contains(&fidelity.name.as_str()) {
+            groups.push(&fidelity.name);
         }
     }
     for (k, panel) in panels.iter().enumerate() {
@@ -73,20 +73,20 @@ pub(super) fn cost_chart(ladder: &Ladder) -> Picture {
 }
 
 fn settings(ladder: &Ladder, panel: &Panel, groups: &[&str]) -> Vec<Setting> {
-    let usual = ladder.rung.first().map_or(0, |r| r.contact_cells);
-    let one = |rung: &LadderRung| {
-        let cells = match rung.contact_cells == usual {
+    let usual = ladder.fidelity.first().map_or(0, |r| r.contact_cells);
+    let one = |fidelity: &LadderFidelity| {
+        let cells = match fidelity.contact_cells == usual {
             true => String::new(),
-            false => format!(", {} cells", rung.contact_cells),
+            false => format!(", {} cells", fidelity.contact_cells),
         };
         Setting {
-            label: format!("{}{cells}", rung.steps_per_cycle),
-            group: groups.iter().position(|g| *g == rung.name).unwrap_or(0),
-            cost: rung.cycle_ratio(),
-            error: (panel.error)(rung, ladder).abs().max(panel.uncertain).max(1e-3),
+            label: format!("{}{cells}", fidelity.steps_per_cycle),
+            group: groups.iter().position(|g| *g == fidelity.name).unwrap_or(0),
+            cost: fidelity.cycle_ratio(),
+            error: (panel.error)(fidelity, ladder).abs().max(panel.uncertain).max(1e-3),
         }
     };
-    ladder.rung.iter().map(one).collect()
+    ladder.fidelity.iter().map(one).collect()
 }
 
 fn draw(canvas: &mut Canvas, ladder: &Ladder, panel: &Panel, groups: &[&str], corner: Pixel) {

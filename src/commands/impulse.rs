@@ -2,14 +2,14 @@
 
 use std::io::Write;
 
-use fe_contact::FeError;
-use fe_contact::statics::{Bodies, Races};
-use gearset::{Rung, Scene, SceneKind};
-use validation::ValidationError;
-use validation::modal::{
+use experiments::ExperimentError;
+use experiments::modal::{
     FeMode, FrequencyBand, ImpulseSettings, ImpulseTest, Preload, SettingsError, frequency_band,
     impulse_test, linear_modes, mesh_influence, preloaded,
 };
+use fe_contact::FeError;
+use fe_contact::statics::{Bodies, Races};
+use gearset::{Fidelity, Scene, SceneKind};
 
 use crate::arguments::{Impulse, TableFormat};
 use crate::error::CommandError;
@@ -64,8 +64,8 @@ fn settings(arguments: &Impulse, scene: &Scene) -> Result<ImpulseSettings, Comma
     if scene.geometry.is_none() {
         return Err(unfit(path, "[geometry] is absent: teeth are needed to touch"));
     }
-    if scene.dynamics.rung == Rung::MeshLaw {
-        let reason = "`dynamics.rung` = \"mesh_law\" solves no contact, which a modal test stands on: \
+    if scene.dynamics.fidelity == Fidelity::MeshLaw {
+        let reason = "`dynamics.fidelity` = \"mesh_law\" solves no contact, which a modal test stands on: \
                       take \"quasi_static\", \"modal\" or \"full\"";
         return Err(unfit(path, reason));
     }
@@ -77,8 +77,8 @@ fn settings(arguments: &Impulse, scene: &Scene) -> Result<ImpulseSettings, Comma
     settings.preload.step_s = 1e-6 * arguments.step_us;
     settings.duration_s = 1e-3 * arguments.duration_ms;
     settings.check().map_err(|e| refused(argument(&e), e.to_string()))?;
-    if arguments.band && scene.dynamics.rung == Rung::Full {
-        let reason = "`dynamics.rung` = \"full\" has no small linearisation: take \"modal\"";
+    if arguments.band && scene.dynamics.fidelity == Fidelity::Full {
+        let reason = "`dynamics.fidelity` = \"full\" has no small linearisation: take \"modal\"";
         return Err(refused("--band", reason));
     }
     if arguments.band && arguments.format == TableFormat::Csv && arguments.figures.is_none() {
@@ -105,9 +105,9 @@ fn find(
 ) -> Result<Found, CommandError> {
     let path = &arguments.scene;
     let torque = settings.preload.torque_nm;
-    let failed = |e: ValidationError| match e {
-        ValidationError::Unsteady { .. } => refused("--torque-nm", e.to_string()),
-        ValidationError::Fe(FeError::NotConverged { .. } | FeError::NoEquilibrium(_)) => {
+    let failed = |e: ExperimentError| match e {
+        ExperimentError::Unsteady { .. } => refused("--torque-nm", e.to_string()),
+        ExperimentError::Fe(FeError::NotConverged { .. } | FeError::NoEquilibrium(_)) => {
             refused("--torque-nm", format!("{torque:e} N·m: {e}"))
         }
         _ => unfit(path, e.to_string()),
@@ -115,7 +115,7 @@ fn find(
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let set = preloaded(&scene, &bodies, &settings.preload).map_err(|e| failed(e.into()))?;
     let races = set.races().clone();
-    let linear = if scene.dynamics.rung == Rung::Full {
+    let linear = if scene.dynamics.fidelity == Fidelity::Full {
         None
     } else {
         let linear = set.linearised().map_err(fe_refused(path))?;

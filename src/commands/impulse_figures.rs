@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use dynamics::{Window, spectrum};
+use experiments::modal::{Decay, FrequencyBand, ImpulseTest, ModeBand};
 use fe_contact::statics::SUN;
 use validation::ValidationError;
-use validation::modal::{Decay, FrequencyBand, ImpulseTest, ModeBand};
 
 use crate::error::CommandError;
 

@@ -1,10 +1,10 @@
 //! JSON of `impulse`.
 
-use gearset::Rung;
+use experiments::modal::{Decay, FeMode, FrequencyBand, ModeBand, Preload, Spread};
+use gearset::Fidelity;
 use lumped::ModeType;
 use schemars::JsonSchema;
 use serde::Serialize;
-use validation::modal::{Decay, FeMode, FrequencyBand, ModeBand, Preload, Spread};
 
 use super::impulse::Found;
 
@@ -21,12 +21,12 @@ pub(crate) struct ImpulseOutput {
     /// Lowest and highest frequency looked for.
     pub(super) band_limits_hz: [f64; 2],
     /// quasi_static, modal or full.
-    pub(super) rung: String,
-    /// Modes of each body with its race held; null on other rungs than modal.
+    pub(super) fidelity: String,
+    /// Modes of each body with its race held; null on other fidelities than modal.
     pub(super) body_modes: Option<u32>,
     /// Time steps taken in all.
     pub(super) steps: u64,
-    /// Whether the linearised modes are given; they are not on the rung full.
+    /// Whether the linearised modes are given; they are not on the fidelity full.
     pub(super) has_linearisation: bool,
     /// Modes in the band, identified from the decays, linearised, or both; ascending.
     pub(super) modes: Vec<ModeEntry>,
@@ -143,11 +143,11 @@ impl ImpulseOutput {
         let test = &found.test;
         let settings = &test.settings;
         let Preload { torque_nm, position, step_s } = settings.preload;
-        let (rung, body_modes) = match found.scene.dynamics.rung {
-            Rung::MeshLaw => ("mesh_law", None),
-            Rung::QuasiStatic => ("quasi_static", None),
-            Rung::Modal(n) => ("modal", Some(n)),
-            Rung::Full => ("full", None),
+        let (fidelity, body_modes) = match found.scene.dynamics.fidelity {
+            Fidelity::MeshLaw => ("mesh_law", None),
+            Fidelity::QuasiStatic => ("quasi_static", None),
+            Fidelity::Modal(n) => ("modal", Some(n)),
+            Fidelity::Full => ("full", None),
         };
         Self {
             torque_nm,
@@ -155,7 +155,7 @@ impl ImpulseOutput {
             step_us: 1e6 * step_s,
             duration_ms: 1e3 * settings.duration_s,
             band_limits_hz: [settings.band_hz.0, settings.band_hz.1],
-            rung: rung.into(),
+            fidelity: fidelity.into(),
             body_modes,
             steps: test.steps,
             has_linearisation: found.linear.is_some(),

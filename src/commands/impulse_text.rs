@@ -23,13 +23,13 @@ pub(super) fn text(
         plain(result.duration_ms),
         plain(result.step_us)
     )?;
-    let bodies = match (result.rung.as_str(), result.body_modes) {
+    let bodies = match (result.fidelity.as_str(), result.body_modes) {
         ("modal", Some(n)) => format!("modal, {n} modes of each body"),
-        (rung, _) => rung.to_owned(),
+        (fidelity, _) => fidelity.to_owned(),
     };
-    writeln!(out, "rung: {bodies}; {} steps taken in all", result.steps)?;
+    writeln!(out, "fidelity: {bodies}; {} steps taken in all", result.steps)?;
     if !result.has_linearisation {
-        writeln!(out, "no small linearisation on this rung: its columns are empty")?;
+        writeln!(out, "no small linearisation on this fidelity: its columns are empty")?;
     }
     modes(result, out)?;
     pulses(&result.pulses, out)?;

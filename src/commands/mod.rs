@@ -2,6 +2,7 @@
 
 mod chart;
 mod compare;
+mod fidelity_chart;
 mod figure;
 mod impulse;
 mod impulse_figures;
@@ -14,7 +15,6 @@ mod modes;
 mod picture;
 mod report;
 mod rules;
-mod rungs_chart;
 mod scene;
 mod schema;
 mod static_approach;

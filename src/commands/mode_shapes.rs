@@ -3,9 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write as _;
 
+use experiments::modal::FeMode;
 use fe_contact::mesh::polar;
 use fe_contact::statics::{CARRIER, PLANETS, RING, SUN};
-use validation::modal::FeMode;
 
 use super::impulse::Found;
 

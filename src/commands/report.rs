@@ -1,6 +1,6 @@
 //! The report folder: verdict as Markdown and JSON, the steps that explain the printed four-planet
 //! frequencies, a Campbell chart of either set, growth with torque and its map, error against cost and, from
-//! the full profile, the error of the rungs.
+//! the full profile, the error of the fidelities.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -12,7 +12,7 @@ use crate::error::CommandError;
 
 use super::chart::campbell;
 use super::cost_chart::cost_chart;
-use super::rungs_chart::rungs_chart;
+use super::fidelity_chart::fidelity_chart;
 use super::torque_figures::kept_peaks;
 use super::torque_map::torque_map;
 use super::validate::{cells, status_word};
@@ -42,8 +42,8 @@ pub(crate) fn write(verdict: &Verdict, folder: &Path) -> Result<(), CommandError
         }
     }
     let reference = Reference::load().map_err(ValidationError::from)?;
-    if let Some(picture) = rungs_chart(verdict, &reference.ladder) {
-        picture.save(folder, "rungs")?;
+    if let Some(picture) = fidelity_chart(verdict, &reference.ladder) {
+        picture.save(folder, "fidelities")?;
     }
     cost_chart(&reference.ladder).save(folder, "cost")?;
     torque_map(&reference.torque_map, paper_gamma()?).save(folder, "torque_map")?;
@@ -61,7 +61,7 @@ pub(crate) fn write(verdict: &Verdict, folder: &Path) -> Result<(), CommandError
 fn paper_gamma() -> Result<f64, ValidationError> {
     let scene = scene(PublishedScene::Oh58FourPlanets)?;
     let incomplete = || ValidationError::Incomplete("geometry");
-    let geometry = Geometry::from_scene(&scene).and_then(Result::ok).ok_or_else(incomplete)?;
+    let geometry = Geometry::from_scene(&scene).ok().ok_or_else(incomplete)?;
     Ok(Phasing::new(&geometry, &scene.planets).ok_or_else(incomplete)?.gamma())
 }
 

@@ -89,8 +89,8 @@ struct MeshSummary {
 
 impl SceneSummary {
     fn of(scene: &Scene) -> Self {
-        let geometry = Geometry::from_scene(scene).and_then(Result::ok);
-        let kinematics = Kinematics::from_scene(scene).and_then(Result::ok);
+        let geometry = Geometry::from_scene(scene).ok();
+        let kinematics = Kinematics::from_scene(scene).ok();
         let geometry = geometry.as_ref();
         let phasing = geometry.and_then(|g| Phasing::new(g, &scene.planets));
         let phasing = phasing.filter(|_| scene.kind == SceneKind::Planetary);

@@ -3,14 +3,14 @@
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 
-use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Kinematics, Rung, Scene, SceneKind};
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use validation::ValidationError;
-use validation::sweep::{
+use experiments::ExperimentError;
+use experiments::sweep::{
     Direction, FeModel, LawModel, Memory, Plan, PlanError, PointStore, SteadySettings, Sweep,
     SweepModel, even_speeds, naturals, run as run_plan,
 };
+use fe_contact::statics::{Bodies, Imperfections};
+use gearset::{Fidelity, Kinematics, Scene, SceneKind};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::arguments::{Model, Sweep as SweepArguments, TableFormat};
 use crate::error::CommandError;
@@ -33,8 +33,8 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
     let scene = read_scene(path)?;
     let task = Task::new(arguments, &scene)?;
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
-    let model: Box<dyn SweepModel> = match (arguments.model, scene.dynamics.rung) {
-        (Model::FeContact, Rung::MeshLaw) => {
+    let model: Box<dyn SweepModel> = match (arguments.model, scene.dynamics.fidelity) {
+        (Model::FeContact, Fidelity::MeshLaw) => {
             Box::new(LawModel::new(&scene, &bodies, task.torque_nm)?)
         }
         (Model::FeContact, _) => {
@@ -53,9 +53,11 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
         }
     }
     if let Some(folder) = &arguments.figures {
-        let found = match scene.dynamics.rung {
+        let found = match scene.dynamics.fidelity {
             // No small linearisation: the quasi-static one stands in for lines in a picture.
-            Rung::Full | Rung::MeshLaw => naturals(&quasi_static(&scene), &bodies, task.torque_nm)?,
+            Fidelity::Full | Fidelity::MeshLaw => {
+                naturals(&quasi_static(&scene), &bodies, task.torque_nm)?
+            }
             _ => naturals(&scene, &bodies, task.torque_nm)?,
         };
         let natural: Vec<_> = found.iter().map(|n| (n.frequency_hz, n.mode_type)).collect();
@@ -91,7 +93,7 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
 
 fn quasi_static(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
-    scene.dynamics.rung = Rung::QuasiStatic;
+    scene.dynamics.fidelity = Fidelity::QuasiStatic;
     scene
 }
 
@@ -127,8 +129,7 @@ impl<'a> Task<'a> {
             || unfit(path, "[operation] is absent: it says which member's speed is swept");
         let mut at_one = scene.clone();
         at_one.operation.as_mut().ok_or_else(missing)?.speed_rpm = 1.0;
-        let kinematics =
-            Kinematics::from_scene(&at_one).and_then(Result::ok).ok_or_else(missing)?;
+        let kinematics = Kinematics::from_scene(&at_one).ok().ok_or_else(missing)?;
         let [from, to, step] = arguments.speeds_rpm;
         let refuse = |argument| move |e: PlanError| refused(argument, e.to_string());
         let speeds = even_speeds(from, to, step).map_err(refuse("--speeds-rpm"))?;
@@ -166,11 +167,11 @@ impl<'a> Task<'a> {
             }
             None => Box::new(Memory),
         };
-        let done = |_: &validation::sweep::SweepPoint| bar.inc(1);
+        let done = |_: &experiments::sweep::SweepPoint| bar.inc(1);
         let found = run_plan(model, plan, self.hz_per_rpm, store.as_ref(), &done);
         bar.finish_and_clear();
         found.map_err(|e| match e {
-            ValidationError::Fe(e) => unfit(&self.arguments.scene, e.to_string()),
+            ExperimentError::Fe(e) => unfit(&self.arguments.scene, e.to_string()),
             other => other.into(),
         })
     }

@@ -3,9 +3,9 @@
 
 use std::path::Path;
 
+use experiments::sweep::{Coordinate, Part, Sweep, SweepPoint};
 use gearset::Scene;
 use lumped::ModeType;
-use validation::sweep::{Coordinate, Part, Sweep, SweepPoint};
 
 use crate::error::CommandError;
 
@@ -62,7 +62,7 @@ impl Quantity {
 /// All that the pictures of a sweep share.
 pub(super) struct Subject {
     pub(super) title: String,
-    /// Rung, torque, speeds.
+    /// Fidelity, torque, speeds.
     pub(super) caption: String,
     /// Whether every point came to its steady state.
     pub(super) is_settled: bool,
@@ -141,8 +141,8 @@ fn subject(sweep: &Sweep, context: &Context<'_>) -> Option<Subject> {
     Some(Subject {
         title: context.scene.title.clone(),
         caption: format!(
-            "rung {}, {:.0} N·m on the sun, {:.0} to {:.0} rpm{unsettled}",
-            sweep.rung, context.torque_nm, first.speed_rpm, last.speed_rpm
+            "fidelity {}, {:.0} N·m on the sun, {:.0} to {:.0} rpm{unsettled}",
+            sweep.fidelity, context.torque_nm, first.speed_rpm, last.speed_rpm
         ),
         is_settled: moved == 0,
         top_mesh_hz: last.mesh_frequency_hz,

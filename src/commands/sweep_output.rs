@@ -2,10 +2,10 @@
 
 use std::io::Write;
 
+use experiments::sweep::{Part, Response, SteadySettings, Sweep, SweepPoint};
 use gearset::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
-use validation::sweep::{Part, Response, SteadySettings, Sweep, SweepPoint};
 
 use crate::error::CommandError;
 use crate::output;
@@ -15,8 +15,8 @@ use crate::output;
 pub struct SweepOutput {
     /// Scene.
     scene: String,
-    /// Rung of the ladder.
-    rung: String,
+    /// Fidelity of the ladder.
+    fidelity: String,
     /// Version of the program.
     version: String,
     /// Torque on the sun, N·m.
@@ -73,7 +73,7 @@ struct PointHead<'a> {
 
 const COLUMNS: [(&str, &str); 14] = [
     ("scene", "title of the scene"),
-    ("rung", "rung of the fidelity ladder"),
+    ("fidelity", "fidelity of the fidelity ladder"),
     ("torque_nm", "torque on the sun, N m"),
     ("speed_rpm", "speed of the input member, rpm"),
     ("mesh_frequency_hz", "mesh frequency, Hz"),
@@ -104,7 +104,7 @@ impl SweepOutput {
         };
         Self {
             scene: scene.title.clone(),
-            rung: sweep.rung.clone(),
+            fidelity: sweep.fidelity.clone(),
             version: env!("CARGO_PKG_VERSION").into(),
             torque_nm,
             steps_per_cycle: scene.dynamics.steps_per_cycle,
@@ -120,7 +120,7 @@ impl SweepOutput {
     pub(super) fn sidecar<'a>(&'a self, scene_file: &'a str) -> Sidecar<'a> {
         let mut head = serde_json::Map::new();
         head.insert("scene".into(), self.scene.clone().into());
-        head.insert("rung".into(), self.rung.clone().into());
+        head.insert("fidelity".into(), self.fidelity.clone().into());
         head.insert("version".into(), self.version.clone().into());
         head.insert("torque_nm".into(), self.torque_nm.into());
         head.insert("steps_per_cycle".into(), self.steps_per_cycle.into());
@@ -163,7 +163,7 @@ pub(super) fn write_csv(
 
 /// A line a speed: the strongest harmonic of the sun's motion, and what it took.
 pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), CommandError> {
-    writeln!(out, "{}: {}, {} N·m on the sun\n", result.scene, result.rung, result.torque_nm)?;
+    writeln!(out, "{}: {}, {} N·m on the sun\n", result.scene, result.fidelity, result.torque_nm)?;
     let header = [
         "chain",
         "rpm",
@@ -189,7 +189,7 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
             let lost = p
                 .lines
                 .iter()
-                .filter(|l| l.coordinate == validation::sweep::Coordinate::ContactLoss);
+                .filter(|l| l.coordinate == experiments::sweep::Coordinate::ContactLoss);
             let lost = lost.fold(0.0f64, |a, l| a.max(l.amplitude));
             unsteady += usize::from(!p.is_steady);
             beyond += usize::from(p.is_beyond_linear);

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
+use experiments::sweep::{Sweep, TableRow};
 use parquet::column::writer::ColumnWriter;
 use parquet::data_type::ByteArray;
 use parquet::errors::ParquetError;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
-use validation::sweep::{Sweep, TableRow};
 
 use crate::error::CommandError;
 
@@ -23,7 +23,7 @@ use Column::{Count, Number, Text};
 /// Named and ordered as in the CSV.
 const COLUMNS: [(&str, Column); 14] = [
     ("scene", Text(|row| &row.scene)),
-    ("rung", Text(|row| &row.rung)),
+    ("fidelity", Text(|row| &row.fidelity)),
     ("torque_nm", Number(|row| row.torque_nm)),
     ("speed_rpm", Number(|row| row.speed_rpm)),
     ("mesh_frequency_hz", Number(|row| row.mesh_frequency_hz)),
@@ -87,7 +87,7 @@ mod tests {
     fn what_is_written_can_be_read() {
         let row = |speed_rpm: f64, harmonic| TableRow {
             scene: "a set".into(),
-            rung: "quasi-static".into(),
+            fidelity: "quasi-static".into(),
             torque_nm: 1130.0,
             speed_rpm,
             mesh_frequency_hz: 0.5 * speed_rpm,

@@ -4,8 +4,8 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use experiments::sweep::{Chain, Kept, Plan, PointStore, StoreError};
 use serde::{Deserialize, Serialize};
-use validation::sweep::{Chain, Kept, Plan, PointStore, StoreError};
 
 use crate::error::CommandError;
 
@@ -21,15 +21,15 @@ pub(super) struct Manifest {
     pub(super) version: String,
     /// The scene file's text.
     pub(super) scene: String,
-    pub(super) rung: String,
+    pub(super) fidelity: String,
     pub(super) torque_nm: f64,
     pub(super) plan: Plan,
 }
 
 impl Manifest {
-    pub(super) fn new(scene: String, rung: String, torque_nm: f64, plan: Plan) -> Self {
+    pub(super) fn new(scene: String, fidelity: String, torque_nm: f64, plan: Plan) -> Self {
         let version = env!("CARGO_PKG_VERSION").to_owned();
-        Self { format: FORMAT, version, scene, rung, torque_nm, plan }
+        Self { format: FORMAT, version, scene, fidelity, torque_nm, plan }
     }
 }
 
@@ -85,15 +85,15 @@ fn difference(text: &str, wanted: &Manifest) -> Option<String> {
     let Ok(found) = serde_json::from_value::<Manifest>(value) else {
         return Some("its manifest lacks keys".into());
     };
-    let Manifest { version, scene, rung, torque_nm, plan, .. } = found;
+    let Manifest { version, scene, fidelity, torque_nm, plan, .. } = found;
     if version != wanted.version {
         return Some(format!("written by version {version}, this is {}", wanted.version));
     }
     if scene != wanted.scene {
         return Some("the scene file has another text".into());
     }
-    if rung != wanted.rung {
-        return Some(format!("of rung {rung}, not {}", wanted.rung));
+    if fidelity != wanted.fidelity {
+        return Some(format!("of fidelity {fidelity}, not {}", wanted.fidelity));
     }
     if torque_nm != wanted.torque_nm {
         return Some(format!("under {torque_nm} N·m, not {} N·m", wanted.torque_nm));

@@ -7,7 +7,7 @@ use super::canvas::{Anchor, Canvas, Pen, Type};
 use super::figure::colour;
 use super::picture::Picture;
 
-/// The kept peaks of one system (`reference/torque_peaks.toml`): sun and planet 0, and the harmonics of
+/// The kept peaks of one system (`kept/torque_peaks.toml`): sun and planet 0, and the harmonics of
 /// the static deflection that drive them.
 pub(super) fn kept_peaks(kept: &TorquePeaks, system: &str) -> Picture {
     let panel = |title: &str, of: fn(&TorquePeak) -> &[f64]| PeakPanel {
@@ -31,7 +31,7 @@ pub(super) fn kept_peaks(kept: &TorquePeaks, system: &str) -> Picture {
     let title = format!("OH-58, four planets, {system}: growth with torque");
     torque_peaks(
         &title,
-        "quasi-static rung; peaks over those at 565 N·m; dotted: in proportion",
+        "quasi-static fidelity; peaks over those at 565 N·m; dotted: in proportion",
         &panels,
     )
 }

@@ -1,5 +1,5 @@
 //! Where over mesh compliance and γ the statements on growth with torque hold
-//! (`reference/torque_map.toml`).
+//! (`kept/torque_map.toml`).
 
 use validation::{MapCell, TorqueMap};
 
@@ -70,7 +70,7 @@ pub(super) fn torque_map(map: &TorqueMap, paper_gamma: f64) -> Picture {
         (map.torques_nm.first().unwrap_or(&0.0), map.torques_nm.last().unwrap_or(&0.0));
     canvas.head(
         "Growth with torque over mesh compliance and phase",
-        &format!("four planets, sun, quasi-static rung; holds: at every torque from {first:.0} to {last:.0} N·m; ratios: growth to {last:.0} N·m"),
+        &format!("four planets, sun, quasi-static fidelity; holds: at every torque from {first:.0} to {last:.0} N·m; ratios: growth to {last:.0} N·m"),
     );
     let mut x = cell[0] - 130.0;
     for (fill, name) in [(HOLDS, "holds"), (FAILS, "fails")] {

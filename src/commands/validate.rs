@@ -61,7 +61,7 @@ fn write_text(verdict: &Verdict, out: &mut dyn Write) -> std::io::Result<()> {
         writeln!(out, "  expected {expected:?}, actual {actual:?}")?;
     }
     if verdict.missed > 0 {
-        writeln!(out, "misses are analysed in reference/misses.toml")?;
+        writeln!(out, "misses are analysed in checks/misses.toml")?;
     }
     let Verdict { passed, missed, failed, .. } = verdict;
     writeln!(out, "{passed} passed, {missed} missed, {failed} failed")

@@ -1,8 +1,9 @@
 //! Prints the tables of `docs/fe_dynamics_effects.md`: what changes the tabled frequencies, one by one,
 //! and how the linearised FE/contact set compares with the lumped model fed from it.
 
+use experiments::modal::{Preload, agreement};
 use fe_contact::statics::Bodies;
-use validation::modal::{EffectStudy, Preload, Variant, agreement, effects};
+use validation::effects::{EffectStudy, Variant, effects};
 use validation::{PublishedScene, Reference, Table, ValidationError, scene};
 
 /// Positions in the mesh cycle.

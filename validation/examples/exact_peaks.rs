@@ -1,16 +1,16 @@
-//! Resonant peaks with exact kinematics at every step for `reference/exact_peaks.toml`: the default scene
-//! with four planets at the torques and places of `reference/torque_peaks.toml`, sun's translation in the
+//! Resonant peaks with exact kinematics at every step for `kept/exact_peaks.toml`: the default scene
+//! with four planets at the torques and places of `kept/torque_peaks.toml`, sun's translation in the
 //! first harmonic and its rotation in the second. A quarter of an hour on two cores.
 //!
-//! `cargo run --release -p validation --example exact_peaks > p.toml && mv p.toml reference/exact_peaks.toml`
+//! `cargo run --release -p validation --example exact_peaks > p.toml && mv p.toml kept/exact_peaks.toml`
 //!
 //! Every march starts from the steady state of kinematics that are linear about the loaded configuration,
 //! and goes on until its own cycles repeat.
 
+use experiments::sweep::{FeModel, Part, Response, SteadySettings, SweepModel, SweepPoint, steady};
 use fe_contact::statics::{Bodies, Imperfections};
 use gearset::{Kinematics, MeshKinematics, Scene};
 use rayon::prelude::*;
-use validation::sweep::{FeModel, Part, Response, SteadySettings, SweepModel, SweepPoint, steady};
 use validation::{PublishedScene, Reference, scene};
 
 /// Resonances as the torque study names them, with what is read of the sun.
@@ -71,7 +71,7 @@ fn exact(scene: &Scene, bodies: &Bodies, case: &Case, hz: f64) -> Outcome<Vec<(f
 fn main() -> Outcome<()> {
     let scene = scene(PublishedScene::Oh58FourPlanets)?;
     let bodies = Bodies::new(&scene)?;
-    let kinematics = Kinematics::from_scene(&scene).ok_or("no kinematics")??;
+    let kinematics = Kinematics::from_scene(&scene)?;
     let hz = kinematics.mesh_frequency_hz / scene.operation.ok_or("no speed")?.speed_rpm;
     let kept = Reference::load()?.torque_peaks;
     let mut cases = Vec::new();
@@ -90,7 +90,7 @@ fn main() -> Outcome<()> {
     println!(
         "# Resonant peaks with exact kinematics at every step, four planets, 140 steps a cycle."
     );
-    println!("source = \"own computation: dynamics.kinematics = exact, rung quasi_static\"");
+    println!("source = \"own computation: dynamics.kinematics = exact, fidelity quasi_static\"");
     println!("command = \"cargo run --release -p validation --example exact_peaks\"");
     for (case, found) in cases.iter().zip(&found) {
         let list = |of: &dyn Fn(&(f64, usize)) -> String| {

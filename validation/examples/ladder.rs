@@ -1,22 +1,22 @@
-//! Error against cost, the rungs of the ladder by steps and contact cells: `reference/ladder.toml`.
-//! Twenty minutes on two cores, most of them modes, `reference/full_sweep.toml` given.
+//! Error against cost, the fidelities of the ladder by steps and contact cells: `kept/ladder.toml`.
+//! Twenty minutes on two cores, most of them modes, `kept/full_sweep.toml` given.
 //!
-//! `cargo run --release -p validation --example ladder > ladder.toml && mv ladder.toml reference/`
+//! `cargo run --release -p validation --example ladder > ladder.toml && mv ladder.toml kept/`
 //!
 //! Error: place and height of the peak of the sun's rotation in the second harmonic, four planets under
-//! 1413 N·m, against `full` without the error of steps. Cost: time of a step once the set is steady, all rungs in turns
+//! 1413 N·m, against `full` without the error of steps. Cost: time of a step once the set is steady, all fidelities in turns
 //! in one run, over that of the lumped model in time at 140 steps; of `full` three cycles, beside the
 //! lumped model, once a first one has met every position. Flanks of eight elements, as the truth
 //! has, and its tables of contact.
 
 use std::time::Instant;
 
-use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Kinematics, Rung, Scene};
-use validation::sweep::{
+use experiments::sweep::{
     Direction, FeModel, LawModel, Marching, Memory, Part, Plan, Response, SteadySettings,
     SweepModel, SweepPoint, run, steady, top_of_three,
 };
+use fe_contact::statics::{Bodies, Imperfections};
+use gearset::{Fidelity, Kinematics, Scene};
 use validation::{FullSweep, FullSweepPoint, PublishedScene, scene};
 
 /// Speeds about the peak, rpm, as near each other as those of the truth.
@@ -34,7 +34,7 @@ type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 #[derive(Clone, Copy, PartialEq)]
 enum Model {
     Lumped,
-    Rung(Rung),
+    Fidelity(Fidelity),
 }
 
 struct Setting {
@@ -50,16 +50,16 @@ fn settings(cells: u32) -> Vec<Setting> {
         list.push(Setting { model: Model::Lumped, steps, cells });
     }
     for steps in [70, 140, 280, 560] {
-        list.push(Setting { model: Model::Rung(Rung::MeshLaw), steps, cells });
+        list.push(Setting { model: Model::Fidelity(Fidelity::MeshLaw), steps, cells });
     }
     for steps in [28, 56, 70, 140, 280, 560] {
-        list.push(Setting { model: Model::Rung(Rung::QuasiStatic), steps, cells });
+        list.push(Setting { model: Model::Fidelity(Fidelity::QuasiStatic), steps, cells });
     }
     for cells in [cells / 2, 2 * cells] {
-        list.push(Setting { model: Model::Rung(Rung::QuasiStatic), steps: 140, cells });
+        list.push(Setting { model: Model::Fidelity(Fidelity::QuasiStatic), steps: 140, cells });
     }
     for modes in [2, 10, 30, 90] {
-        list.push(Setting { model: Model::Rung(Rung::Modal(modes)), steps: 140, cells });
+        list.push(Setting { model: Model::Fidelity(Fidelity::Modal(modes)), steps: 140, cells });
     }
     list
 }
@@ -95,8 +95,8 @@ fn model<'s>(
     let law = || LawModel::new(scene, bodies, torque);
     Ok(match which {
         Model::Lumped => Box::new(law()?.lumped()),
-        Model::Rung(Rung::MeshLaw) => Box::new(law()?),
-        Model::Rung(_) => {
+        Model::Fidelity(Fidelity::MeshLaw) => Box::new(law()?),
+        Model::Fidelity(_) => {
             let model = FeModel::new(scene, bodies, Imperfections::default(), torque);
             Box::new(model.with_tables(truth.table_size))
         }
@@ -107,12 +107,12 @@ fn main() -> Outcome<()> {
     let truth = FullSweep::load()?;
     let (torque, mut scene) = (truth.torque_nm, scene(PublishedScene::Oh58FourPlanets)?);
     scene.fe_contact.flank_elements = truth.flank_elements;
-    let kinematics = Kinematics::from_scene(&scene).ok_or("no kinematics")??;
+    let kinematics = Kinematics::from_scene(&scene)?;
     let hz_per_rpm = kinematics.mesh_frequency_hz / scene.operation.ok_or("no speed")?.speed_rpm;
     let peak = truth.rotational_peak().ok_or("the truth has no peak")?;
-    println!("# Rungs of the ladder by error and cost, four planets.");
+    println!("# Fidelities of the ladder by error and cost, four planets.");
     println!("# Remade by: cargo run --release -p validation --example ladder");
-    println!("source = \"own computation; truth: rung full, steps extrapolated\"");
+    println!("source = \"own computation; truth: fidelity full, steps extrapolated\"");
     println!("command = \"cargo run --release -p validation --example ladder\"");
     println!(
         "torque_nm = {torque:.1}\npeak_rpm = {:.3}\npeak_rad = {:.6e}",
@@ -131,8 +131,8 @@ fn main() -> Outcome<()> {
             let mut own = scene.clone();
             own.dynamics.steps_per_cycle = s.steps;
             own.fe_contact.contact_cells = s.cells;
-            if let Model::Rung(rung) = s.model {
-                own.dynamics.rung = rung;
+            if let Model::Fidelity(fidelity) = s.model {
+                own.dynamics.fidelity = fidelity;
             }
             let bodies = Bodies::new(&own)?;
             Ok((own, bodies))
@@ -173,7 +173,7 @@ fn main() -> Outcome<()> {
         let quartiles = [ROUNDS / 4, ROUNDS / 2, 3 * ROUNDS / 4].map(|i| own[i]);
         let [low, median, high] = quartiles;
         let effort = set.effort();
-        println!("\n[[rung]]\nname = \"{}\"", model.name());
+        println!("\n[[fidelity]]\nname = \"{}\"", model.name());
         println!("steps_per_cycle = {}\ncontact_cells = {}", setting.steps, setting.cells);
         println!("peak_rpm = {:.3}\npeak_rad = {:.6e}", top.0, top.1);
         println!("step_ratio = [{low:.2}, {median:.2}, {high:.2}]");
@@ -181,10 +181,10 @@ fn main() -> Outcome<()> {
     }
 
     // Every degree of freedom: each position costs a solution a port before its first step.
-    scene.dynamics.rung = Rung::Full;
+    scene.dynamics.fidelity = Fidelity::Full;
     scene.dynamics.steps_per_cycle = 140;
     let bodies = Bodies::new(&scene)?;
-    let full = model(&scene, &bodies, Model::Rung(Rung::Full), &truth)?;
+    let full = model(&scene, &bodies, Model::Fidelity(Fidelity::Full), &truth)?;
     let mut set = full.turning(TIMED_RPM * hz_per_rpm, 0)?;
     set.rest()?;
     (0..140).try_for_each(|_| set.step())?;
@@ -197,7 +197,7 @@ fn main() -> Outcome<()> {
     let points = truth.of_steps(140).filter(near);
     let (rpm, rad) = top_of_three(points.map(|p| (p.speed_rpm, p.sun_rotation_rad[1])))
         .ok_or("the truth has no peak")?;
-    println!("\n[[rung]]\nname = \"full\"\nsteps_per_cycle = 140");
+    println!("\n[[fidelity]]\nname = \"full\"\nsteps_per_cycle = 140");
     println!("contact_cells = {}", scene.fe_contact.contact_cells);
     println!("peak_rpm = {rpm:.3}\npeak_rad = {rad:.6e}");
     println!("step_ratio = [{:.0}.0, {:.0}.0, {:.0}.0]", own[0], own[1], own[2]);

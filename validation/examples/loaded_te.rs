@@ -14,10 +14,10 @@
 use std::f64::consts::TAU;
 
 use dynamics::{Window, spectrum};
+use experiments::torque::static_growth;
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, pair_cycle};
 use gearset::{MeshKind, MeshStart, Phasing};
-use validation::torque::static_growth;
 use validation::{PublishedScene, scene};
 
 const TORQUES: [f64; 4] = [565.0, 1130.0, 1695.0, 2260.0];

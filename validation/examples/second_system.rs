@@ -4,9 +4,9 @@
 //!
 //! `cargo run --release -p validation --example second_system`
 
+use experiments::modal::lumped_frequencies;
 use gearset::Scene;
 use lumped::ModeType;
-use validation::modal::lumped_frequencies;
 use validation::{PublishedScene, ValidationError, scene};
 
 /// Lowest translational (mean of its pair) and rotational mode, Hz.

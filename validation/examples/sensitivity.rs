@@ -3,10 +3,10 @@
 //!
 //! `cargo run --release -p validation --example sensitivity`
 
+use experiments::sweep::{Part, naturals};
+use experiments::torque::{follow, lowest_series};
 use fe_contact::statics::Bodies;
 use gearset::{PlaneState, Scene};
-use validation::sweep::{Part, naturals};
-use validation::torque::{follow, lowest_series};
 use validation::{PublishedScene, scene};
 
 const TORQUES: [f64; 2] = [565.0, 2260.0];

@@ -1,12 +1,12 @@
 //! Follows the resonances of section 4.2 over torque on its three scenes, as TOML for
-//! `reference/torque_peaks.toml`: heights over those at 565 N·m in the sun and in planet 0, and the
+//! `kept/torque_peaks.toml`: heights over those at 565 N·m in the sun and in planet 0, and the
 //! growth of the static deflection's harmonics that drive them. About five minutes on two cores.
 //!
-//! `cargo run --release -p validation --example torque > reference/torque_peaks.toml`
+//! `cargo run --release -p validation --example torque > kept/torque_peaks.toml`
 
+use experiments::sweep::{Part, naturals};
+use experiments::torque::{Followed, follow, lowest_series, static_growth};
 use fe_contact::statics::Bodies;
-use validation::sweep::{Part, naturals};
-use validation::torque::{Followed, follow, lowest_series, static_growth};
 use validation::{PublishedScene, scene};
 
 const TORQUES: [f64; 4] = [565.0, 1130.0, 1695.0, 2260.0];
@@ -14,7 +14,7 @@ const TORQUES: [f64; 4] = [565.0, 1130.0, 1695.0, 2260.0];
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let command = "cargo run --release -p validation --example torque";
     println!("# Resonant peaks over torque, four planets: heights over those at the first torque.");
-    println!("source = \"own computation: quasi-static rung, 140 steps a cycle\"");
+    println!("source = \"own computation: quasi-static fidelity, 140 steps a cycle\"");
     println!("command = \"{command}\"");
     println!("torques_nm = {TORQUES:?}");
     let systems = [

@@ -1,7 +1,7 @@
 //! The map of section 4.2's statements over mesh compliance and γ, four planets, as TOML for
-//! `reference/torque_map.toml`. Some twenty minutes on two cores.
+//! `kept/torque_map.toml`. Some twenty minutes on two cores.
 //!
-//! `cargo run --release -p validation --example torque_map > reference/torque_map.toml`
+//! `cargo run --release -p validation --example torque_map > kept/torque_map.toml`
 //!
 //! Compliance: `softening` s makes the factors on the FE flexibility 1 + s (f − 1), f being those of
 //! `scenes/oh58_4p_published_stiffness.toml`, so that s = 0 is the default scene and s = 1 the paper's
@@ -11,12 +11,13 @@
 //! translational in l = 1, lowest rotational in l = 2, third translational in l = 3; 84 steps a cycle,
 //! cycles repeating to 1e-5. The static deflection's growth stands beside that of the peaks.
 
+use experiments::sweep::{Part, naturals};
+use experiments::torque::{Followed, follow, lowest_series, static_growth};
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use gearset::{Facing, MeshKind, PerMesh, Phasing, ReliefShape, Scene, ThicknessInput, TipRelief};
 use rayon::prelude::*;
-use validation::sweep::{Part, naturals};
-use validation::torque::{Followed, follow, judge, lowest_series, static_growth};
+use validation::judge;
 use validation::{PublishedScene, scene};
 
 const TORQUES: [f64; 4] = [565.0, 1130.0, 1695.0, 2260.0];
@@ -130,7 +131,7 @@ fn main() -> Outcome<()> {
         scene(PublishedScene::Oh58FourPlanetsPublishedStiffness)?.fe_contact.flexibility_factor;
     println!("# Statements on growth with torque over mesh compliance and γ, four planets.");
     println!("# Remade by: cargo run --release -p validation --example torque_map");
-    println!("source = \"own computation, quasi-static rung, 84 steps a cycle\"");
+    println!("source = \"own computation, quasi-static fidelity, 84 steps a cycle\"");
     println!("command = \"cargo run --release -p validation --example torque_map\"");
     println!("torques_nm = {TORQUES:?}");
     // Two at a time, so that what is found is printed as it comes, in order.

@@ -1,21 +1,21 @@
-//! Steady states of `full` at five speeds for `reference/full_sweep.toml`: four planets under 1413 N·m,
+//! Steady states of `full` at five speeds for `kept/full_sweep.toml`: four planets under 1413 N·m,
 //! about the peak of the sun's rotation in the second harmonic, off resonance, and at the lowest
 //! translational mode's first harmonic. Half an hour on two cores.
 //!
-//! `cargo run --release -p validation --example truth > reference/full_sweep.toml`
+//! `cargo run --release -p validation --example truth > kept/full_sweep.toml`
 //!
-//! Flanks of eight elements, as every rung it is compared with must have. 140 steps a cycle; what steps do, of
-//! second order and alike on all rungs, is told from quasi-static bodies at 140, 280 and 560 steps about the
+//! Flanks of eight elements, as every fidelity it is compared with must have. 140 steps a cycle; what steps do, of
+//! second order and alike on all fidelities, is told from quasi-static bodies at 140, 280 and 560 steps about the
 //! peak.
 //! Each speed starts at few steps, and every finer run from the steady state before it, which saves most
 //! cycles of the dear ones.
 
-use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Kinematics, Rung, Scene};
-use rayon::prelude::*;
-use validation::sweep::{
+use experiments::sweep::{
     Coordinate, FeModel, Part, Response, SteadySettings, SweepModel, SweepPoint, steady,
 };
+use fe_contact::statics::{Bodies, Imperfections};
+use gearset::{Fidelity, Kinematics, Scene};
+use rayon::prelude::*;
 use validation::{PublishedScene, scene};
 
 const TORQUE_NM: f64 = 1413.0;
@@ -109,14 +109,14 @@ fn at_speed(
 
 fn main() -> Outcome<()> {
     let mut scene = scene(PublishedScene::Oh58FourPlanets)?;
-    scene.dynamics.rung = Rung::Full;
+    scene.dynamics.fidelity = Fidelity::Full;
     scene.fe_contact.flank_elements = FLANK_ELEMENTS;
     let bodies = Bodies::new(&scene)?;
-    let kinematics = Kinematics::from_scene(&scene).ok_or("no kinematics")??;
+    let kinematics = Kinematics::from_scene(&scene)?;
     let hz = kinematics.mesh_frequency_hz / scene.operation.ok_or("no speed")?.speed_rpm;
     println!("# Harmonics 1 to 5 of steady states with every degree of freedom, four planets.");
     println!("# Remade by: cargo run --release -p validation --example truth");
-    println!("source = \"own computation, rung full\"");
+    println!("source = \"own computation, fidelity full\"");
     println!("command = \"cargo run --release -p validation --example truth\"");
     println!("torque_nm = {TORQUE_NM:.1}\nflank_elements = {FLANK_ELEMENTS}");
     println!("table_size = {TABLES}");
@@ -125,7 +125,7 @@ fn main() -> Outcome<()> {
         .map(|plan| at_speed("point", &scene, &bodies, plan, hz))
         .collect::<Outcome<_>>()?;
     all.iter().for_each(|text| print!("{text}"));
-    scene.dynamics.rung = Rung::QuasiStatic;
+    scene.dynamics.fidelity = Fidelity::QuasiStatic;
     for speed_rpm in SPEEDS_ALONE {
         let plan = SpeedPlan { speed_rpm, ..STEPS_ALONE };
         print!("{}", at_speed("quasi_static", &scene, &bodies, plan, hz)?);

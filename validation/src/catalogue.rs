@@ -36,7 +36,7 @@ pub enum PublishedScene {
 pub fn scene(which: PublishedScene) -> Result<Scene, SceneError> {
     macro_rules! file {
         ($name:literal) => {
-            include_str!(concat!("../../scenes/", $name))
+            include_str!(concat!("../scenes/", $name))
         };
     }
     Scene::from_toml(match which {

@@ -12,6 +12,12 @@ pub enum ValidationError {
     /// A scene of the catalogue lacks something a check needs.
     #[error("a scene of the catalogue has no {0}")]
     Incomplete(&'static str),
+    /// A scene of the catalogue has no operating point.
+    #[error(transparent)]
+    Kinematics(#[from] gearset::KinematicsError),
+    /// A plan of a sweep.
+    #[error(transparent)]
+    Plan(#[from] experiments::sweep::PlanError),
     /// The FE/contact model.
     #[error(transparent)]
     Fe(#[from] fe_contact::FeError),
@@ -21,30 +27,13 @@ pub enum ValidationError {
     /// An eigenproblem.
     #[error(transparent)]
     Eigen(#[from] dynamics::EigenError),
-    /// Settings of an impulse test.
+    /// An experiment.
     #[error(transparent)]
-    Settings(#[from] crate::modal::SettingsError),
-    /// A preload under which the set moves by itself.
-    #[error(
-        "{torque_nm} N·m: under this torque the set does not stay at rest, or small pulses leave it in large motion: there is no state to find modes about"
-    )]
-    Unsteady {
-        /// Torque on the sun, N m.
-        torque_nm: f64,
-    },
-    /// Modes from records.
-    #[error("identification: {0}")]
-    Identify(#[from] dynamics::identify::IdentifyError),
+    Experiment(#[from] experiments::ExperimentError),
     /// A spectrum.
     #[error(transparent)]
     Spectrum(#[from] dynamics::SpectrumError),
     /// A lumped model.
     #[error(transparent)]
     Lumped(#[from] lumped::LumpedError),
-    /// A plan of a sweep.
-    #[error(transparent)]
-    Plan(#[from] crate::sweep::PlanError),
-    /// A point of a sweep that could not be kept or read.
-    #[error(transparent)]
-    Store(#[from] crate::sweep::StoreError),
 }

@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use crate::reference::{ReferenceError, parse};
 
-/// `reference/assumptions.toml`.
+/// `checks/assumptions.toml`.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ledger {
@@ -43,14 +43,14 @@ impl Ledger {
     /// # Errors
     /// If the file does not hold what the code expects.
     pub fn load() -> Result<Self, ReferenceError> {
-        parse("assumptions.toml", include_str!("../../reference/assumptions.toml"))
+        parse("checks/assumptions.toml", include_str!("../checks/assumptions.toml"))
     }
 
     /// The page `docs/assumptions.md` with the figures a verdict has; checks that it does not have are
     /// said to run in the full profile.
     pub fn page(&self, figure: &dyn Fn(&str) -> Option<Figure>) -> String {
         let mut page = String::from(
-            "# Assumptions, and how large each is\n\nEvery approximation of model and method, the checks that measure its size on the shipped scenes\n(`epicyclic validate --only ID`), what the kept verdict has, and the range in which it holds. Made from\n`reference/assumptions.toml` and `snapshots/verdict.snap` by\n`cargo run --release -p validation --example assumptions > docs/assumptions.md`.\n",
+            "# Assumptions, and how large each is\n\nEvery approximation of model and method, the checks that measure its size on the shipped scenes\n(`epicyclic validate --only ID`), what the kept verdict has, and the range in which it holds. Made from\n`checks/assumptions.toml` and `snapshots/verdict.snap` by\n`cargo run --release -p validation --example assumptions > docs/assumptions.md`.\n",
         );
         for own in &self.assumption {
             page += &format!("\n## {}\n\n{}\n", own.name, own.says);

@@ -3,15 +3,12 @@
 mod catalogue;
 mod check;
 mod compare;
+pub mod effects;
 mod error;
-mod larger;
 mod ledger;
-pub mod modal;
 mod own_truth;
 mod reference;
 mod suites;
-pub mod sweep;
-pub mod torque;
 mod verdict;
 
 pub use catalogue::{PublishedScene, scene};
@@ -20,11 +17,12 @@ pub use compare::{Comparison, ListedMode, Match, ModelMode, compare};
 pub use error::ValidationError;
 pub use ledger::{Assumption, Figure, Ledger};
 pub use own_truth::{
-    ExactPeak, ExactPeaks, FullSweep, FullSweepPoint, Ladder, LadderRung, MapCell, RotationalPeak,
-    TorqueMap, TorquePeak, TorquePeaks,
+    ExactPeak, ExactPeaks, FullSweep, FullSweepPoint, Ladder, LadderFidelity, MapCell,
+    RotationalPeak, TorqueMap, TorquePeak, TorquePeaks,
 };
 pub use reference::{Frequencies, Miss, ModeTable, Reference, ReferenceError};
 pub use suites::explained::{Step, steps};
+pub use suites::statements::{Statement, judge};
 pub use suites::tables::Table;
 pub use verdict::Verdict;
 

@@ -4,7 +4,7 @@
 use serde::Deserialize;
 
 use crate::reference::{ReferenceError, parse};
-use crate::sweep::top_of_three;
+use experiments::sweep::top_of_three;
 
 /// `full_impulse.toml`.
 #[derive(Debug, Deserialize)]
@@ -89,7 +89,7 @@ impl FullSweep {
     /// # Errors
     /// If the file does not hold what the code expects.
     pub fn load() -> Result<Self, ReferenceError> {
-        parse("full_sweep.toml", include_str!("../../reference/full_sweep.toml"))
+        parse("kept/full_sweep.toml", include_str!("../kept/full_sweep.toml"))
     }
 
     /// The points at some steps a cycle.
@@ -227,14 +227,14 @@ pub struct Ladder {
     /// What its own steps leave it uncertain by.
     pub peak_rpm_uncertain_percent: f64,
     pub peak_rad_uncertain_percent: f64,
-    pub rung: Vec<LadderRung>,
+    pub fidelity: Vec<LadderFidelity>,
 }
 
-/// One rung at some steps and cells.
+/// One fidelity at some steps and cells.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[allow(missing_docs)] // the keys say it all, units included
-pub struct LadderRung {
+pub struct LadderFidelity {
     pub name: String,
     pub steps_per_cycle: u32,
     pub contact_cells: u32,
@@ -247,7 +247,7 @@ pub struct LadderRung {
     pub solutions: f64,
 }
 
-impl LadderRung {
+impl LadderFidelity {
     /// Error of the peak's height, percent.
     pub fn height_percent(&self, ladder: &Ladder) -> f64 {
         100.0 * (self.peak_rad / ladder.peak_rad - 1.0)

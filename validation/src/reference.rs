@@ -1,4 +1,4 @@
-//! Published numbers, tolerances and listed misses, as kept in `reference/`.
+//! Published numbers, tolerances and listed misses, as kept in `reference/`, `kept/` and `checks/`.
 
 use serde::Deserialize;
 
@@ -8,8 +8,8 @@ use crate::own_truth::{ExactPeaks, FullImpulse, FullSweep, Ladder, TorqueMap, To
 /// Why the reference data could not be used.
 #[derive(Debug, thiserror::Error)]
 pub enum ReferenceError {
-    /// A file of `reference/` is not what the code expects.
-    #[error("reference/{file} cannot be read: {cause}")]
+    /// A file of `reference/`, `kept/` or `checks/` is not what the code expects.
+    #[error("{file} cannot be read: {cause}")]
     Unreadable {
         /// File name.
         file: &'static str,
@@ -18,7 +18,7 @@ pub enum ReferenceError {
         cause: Box<toml::de::Error>,
     },
     /// A check has no tolerance.
-    #[error("reference/tolerances.toml has no entry for the check `{0}`")]
+    #[error("checks/tolerances.toml has no entry for the check `{0}`")]
     NoTolerance(String),
 }
 
@@ -41,7 +41,7 @@ pub struct Reference {
     pub torque_map: TorqueMap,
     /// Steady states with every degree of freedom.
     pub full_sweep: FullSweep,
-    /// Rungs by error and cost.
+    /// Fidelities by error and cost.
     pub ladder: Ladder,
     /// Listed misses.
     pub misses: Vec<Miss>,
@@ -242,21 +242,21 @@ impl Reference {
     pub fn load() -> Result<Self, ReferenceError> {
         macro_rules! file {
             ($name:literal) => {
-                parse($name, include_str!(concat!("../../reference/", $name)))?
+                parse($name, include_str!(concat!("../", $name)))?
             };
         }
-        let tolerances: ToleranceFile = file!("tolerances.toml");
-        let misses: MissFile = file!("misses.toml");
+        let tolerances: ToleranceFile = file!("checks/tolerances.toml");
+        let misses: MissFile = file!("checks/misses.toml");
         Ok(Self {
-            lin_parker: file!("lin_parker_1999.toml"),
-            parker: file!("parker_2000.toml"),
-            calculix: file!("calculix_2_20.toml"),
-            full_impulse: file!("full_impulse.toml"),
-            torque_peaks: file!("torque_peaks.toml"),
-            exact_peaks: file!("exact_peaks.toml"),
-            torque_map: file!("torque_map.toml"),
+            lin_parker: file!("reference/lin_parker_1999.toml"),
+            parker: file!("reference/parker_2000.toml"),
+            calculix: file!("reference/calculix_2_20.toml"),
+            full_impulse: file!("kept/full_impulse.toml"),
+            torque_peaks: file!("kept/torque_peaks.toml"),
+            exact_peaks: file!("kept/exact_peaks.toml"),
+            torque_map: file!("kept/torque_map.toml"),
             full_sweep: FullSweep::load()?,
-            ladder: file!("ladder.toml"),
+            ladder: file!("kept/ladder.toml"),
             misses: misses.miss,
             tolerances: tolerances.tolerance,
         })

@@ -47,7 +47,7 @@ fn judge_miss(check: &mut Check, miss: &Miss) {
         Some(Value::Number(x)) => (x - miss.value).abs() <= miss.tolerance,
         _ => false,
     };
-    // What others printed, and what a rung is to reach beside truth of our own; no theorem.
+    // What others printed, and what a fidelity is to reach beside truth of our own; no theorem.
     let may_miss = matches!(check.kind, ReferenceKind::Published | ReferenceKind::OwnRegression);
     check.status = match check.status {
         Status::Fail if may_miss && pinned => Status::Miss,
@@ -61,7 +61,7 @@ fn unknown_miss(miss: &Miss) -> Check {
         id: &miss.id,
         title: "a listed miss has a check of its id",
         kind: ReferenceKind::OwnRegression,
-        source: "reference/misses.toml",
+        source: "checks/misses.toml",
         unit: "",
     };
     Check::equal(subject, "a check", "no such check")

@@ -1,8 +1,8 @@
 //! The lumped model fed from FE where the two models must be one: signs, inertias, senses.
 
+use experiments::modal::{Preload, agreement, fed_lumped};
 use fe_contact::statics::Bodies;
 use gearset::MeshKind;
-use validation::modal::{Preload, agreement, fed_lumped};
 use validation::{PublishedScene, scene};
 
 #[test]

@@ -1,10 +1,10 @@
 //! Scenes whose numbers were found rather than printed still do what they were found for.
 
+use experiments::modal::{Preload, linear_modes, lumped_frequencies, of_type, preloaded};
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use gearset::{Facing, MeshKind};
 use lumped::ModeType;
-use validation::modal::{Preload, linear_modes, lumped_frequencies, of_type, preloaded};
 use validation::{PublishedScene, scene};
 
 /// Printed lumped mesh stiffness, N/m.

@@ -3,12 +3,12 @@
 use std::collections::HashMap;
 use std::sync::Mutex;
 
-use fe_contact::statics::{Bodies, Imperfections, PitchError};
-use gearset::{Kinematics, Scene};
-use validation::sweep::{
+use experiments::sweep::{
     Chain, Coordinate, Direction, FeModel, Kept, Memory, Part, Plan, PointStore, SteadySettings,
     StoreError, Sweep, SweepModel, run,
 };
+use fe_contact::statics::{Bodies, Imperfections, PitchError};
+use gearset::{Kinematics, Scene};
 
 fn scene(steps: u32) -> Scene {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/oh58_4p.toml");
@@ -19,7 +19,7 @@ fn scene(steps: u32) -> Scene {
 }
 
 fn hz_per_rpm(scene: &Scene) -> f64 {
-    let kinematics = Kinematics::from_scene(scene).unwrap().unwrap();
+    let kinematics = Kinematics::from_scene(scene).unwrap();
     kinematics.mesh_frequency_hz / scene.operation.unwrap().speed_rpm
 }
 

@@ -91,7 +91,7 @@ impl Bodies {
             key: "geometry".into(),
             why: "teeth are needed to mesh and to touch",
         };
-        let geometry = Geometry::from_scene(scene).and_then(Result::ok).ok_or(missing)?;
+        let geometry = Geometry::from_scene(scene).ok().ok_or(missing)?;
         let input = scene.fe_contact;
         fit(&input)?;
         let material = Elastic::new(&scene.material, input.plane);

@@ -1,4 +1,4 @@
-//! What a set asks of a vibrating body, whichever rung of the ladder it stands on.
+//! What a set asks of a vibrating body, whichever fidelity of the ladder it stands on.
 
 use dynamics::Motion;
 

@@ -1,9 +1,9 @@
-//! The bodies of a vibrating set, on the rung its scene asks for.
+//! The bodies of a vibrating set, on the fidelity its scene asks for.
 
 use std::sync::Arc;
 
 use dynamics::AverageAcceleration;
-use gearset::{MeshKind, Motion as Support, Rung, Scene};
+use gearset::{Fidelity, MeshKind, Motion as Support, Scene};
 use nalgebra::DMatrix;
 
 use super::body::{Port, VibratingBody};
@@ -21,7 +21,7 @@ use crate::statics::{
 /// What all bodies of a set share.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Settings {
-    pub(super) rung: Rung,
+    pub(super) fidelity: Fidelity,
     pub(super) damping: Proportional,
     pub(super) rule: AverageAcceleration,
 }
@@ -29,7 +29,7 @@ pub(super) struct Settings {
 /// Refuses factors on the meshes' flexibility where bodies have elastic states of their own, which
 /// serve several meshes at once.
 pub(super) fn one_flexibility(scene: &Scene, bodies: &Bodies) -> Result<(), FeError> {
-    if scene.dynamics.rung == Rung::QuasiStatic {
+    if scene.dynamics.fidelity == Fidelity::QuasiStatic {
         return Ok(());
     }
     for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
@@ -38,7 +38,7 @@ pub(super) fn one_flexibility(scene: &Scene, bodies: &Bodies) -> Result<(), FeEr
             return Err(FeError::Unfit {
                 key: format!("{FLEXIBILITY_FACTOR}.{}", kind.name()),
                 value: format!("{factor}"),
-                allowed: "1, or `dynamics.rung` = \"quasi_static\"".into(),
+                allowed: "1, or `dynamics.fidelity` = \"quasi_static\"".into(),
                 why: "a planet that vibrates within itself cannot be softer for one mesh alone"
                     .into(),
             });
@@ -93,16 +93,18 @@ fn flexible<'a>(
     mass: [f64; 3],
     matrices: &dyn Fn() -> Result<BodyMatrices, FeError>,
 ) -> Result<Box<dyn Fn() -> Box<dyn VibratingBody> + 'a>, FeError> {
-    let Settings { rung, damping, rule } = *settings;
-    match rung {
-        Rung::Full => {
+    let Settings { fidelity, damping, rule } = *settings;
+    match fidelity {
+        Fidelity::Full => {
             let shared = SharedFactors::new(Arc::new(matrices()?), name, radius, damping, rule)?;
             Ok(Box::new(move || Box::new(FullBody::new(mass, shared.clone()))))
         }
-        Rung::MeshLaw => Err(FeError::NoContact),
-        Rung::QuasiStatic | Rung::Modal(_) => {
-            let modes: Arc<[FixedRaceMode]> = match rung {
-                Rung::Modal(n) => fixed_race_modes(&matrices()?, n as usize, radius, name)?.into(),
+        Fidelity::MeshLaw => Err(FeError::NoContact),
+        Fidelity::QuasiStatic | Fidelity::Modal(_) => {
+            let modes: Arc<[FixedRaceMode]> = match fidelity {
+                Fidelity::Modal(n) => {
+                    fixed_race_modes(&matrices()?, n as usize, radius, name)?.into()
+                }
                 _ => Arc::new([]),
             };
             Ok(Box::new(move || Box::new(ModalBody::new(mass, damping, modes.clone(), rule))))
@@ -124,7 +126,7 @@ pub(super) fn carrier(
     let n = races.planets();
     let mass = body_mass(statics, scene, CARRIER)?;
     let Some(body) = races.carrier.as_ref().filter(|b| !b.is_rigid) else {
-        let rigid = Settings { rung: Rung::QuasiStatic, ..*settings };
+        let rigid = Settings { fidelity: Fidelity::QuasiStatic, ..*settings };
         let make = flexible(&rigid, "carrier", races.radii[CARRIER], mass, &|| {
             Err(FeError::NoEquilibrium("a rigid carrier has no matrices".into()))
         })?;

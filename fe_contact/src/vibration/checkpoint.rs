@@ -15,7 +15,7 @@ impl VibratingSet<'_> {
         out
     }
 
-    /// Goes on from a state of a set of the same scene and rung, at this set's own speed.
+    /// Goes on from a state of a set of the same scene and fidelity, at this set's own speed.
     ///
     /// # Errors
     /// If the state is that of another kind of set.
@@ -27,7 +27,7 @@ impl VibratingSet<'_> {
                 key: "state".into(),
                 value: format!("{} numbers", state.len()),
                 allowed: format!("{expected} finite numbers"),
-                why: "a set goes on from a state of the same scene and rung only".into(),
+                why: "a set goes on from a state of the same scene and fidelity only".into(),
             });
         }
         self.cycles = state[0] as i64;

@@ -55,7 +55,7 @@ impl VibratingSet<'_> {
         }))
     }
 
-    /// Energies of the quasi-static rung; bodies with a state of their own have more.
+    /// Energies of the quasi-static fidelity; bodies with a state of their own have more.
     pub fn energies(&self) -> Energies {
         let m = self.motion();
         let x = DVector::from_column_slice(&m.x);

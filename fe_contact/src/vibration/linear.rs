@@ -65,7 +65,7 @@ impl VibratingSet<'_> {
         let turned = self.turned();
         let no_modes = || {
             FeError::NoEquilibrium(
-                "`dynamics.rung` = \"full\" has no small linearisation: take \"modal\"".into(),
+                "`dynamics.fidelity` = \"full\" has no small linearisation: take \"modal\"".into(),
             )
         };
         let mut lists: Vec<(usize, f64, &[FixedRaceMode])> = Vec::new();

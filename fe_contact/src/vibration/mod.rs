@@ -1,4 +1,4 @@
-//! Sets in time: bodies on the rungs of the fidelity ladder, contact inside every step.
+//! Sets in time: bodies on the fidelities of the fidelity ladder, contact inside every step.
 
 mod bearings;
 mod body;

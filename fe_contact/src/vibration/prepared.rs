@@ -1,6 +1,6 @@
 //! What has to be in order before a set can turn, and what sets of one scene share.
 
-use gearset::{Facing, Rung, Scene};
+use gearset::{Facing, Fidelity, Scene};
 
 use super::leaning::Leaning;
 use super::set::{Motive, VibratingSet};
@@ -88,10 +88,10 @@ impl<'s> VibratingSet<'s> {
     }
 }
 
-/// Refuses the rung whose meshes follow a law.
+/// Refuses the fidelity whose meshes follow a law.
 fn solves_contact(scene: &Scene) -> Result<(), FeError> {
-    match scene.dynamics.rung {
-        Rung::MeshLaw => Err(FeError::NoContact),
+    match scene.dynamics.fidelity {
+        Fidelity::MeshLaw => Err(FeError::NoContact),
         _ => Ok(()),
     }
 }

@@ -1,4 +1,4 @@
-//! The equilibrium a vibrating set starts from, on its own rung.
+//! The equilibrium a vibrating set starts from, on its own fidelity.
 
 use dynamics::Motion;
 use nalgebra::{DMatrix, DVector};

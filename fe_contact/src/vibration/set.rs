@@ -181,7 +181,7 @@ impl<'s> VibratingSet<'s> {
             beta: scene.damping.stiffness_proportional_s,
         };
         let races = &statics.races;
-        let settings = build::Settings { rung: scene.dynamics.rung, damping, rule };
+        let settings = build::Settings { fidelity: scene.dynamics.fidelity, damping, rule };
         let gears = build::gears(&statics, scene, &tables, &settings, start)?;
         let (carrier, ports, flexibility) = build::carrier(&statics, scene, &settings)?;
         let of_bearings: Vec<f64> =
@@ -411,7 +411,7 @@ impl<'s> VibratingSet<'s> {
 /// against it, as positions in the mesh cycle count in either sense of torque.
 pub(super) fn carrier_speed(scene: &Scene, mesh_frequency: f64) -> f64 {
     match Kinematics::from_scene(scene) {
-        Some(Ok(k)) if k.mesh_frequency_hz > 0.0 => {
+        Ok(k) if k.mesh_frequency_hz > 0.0 => {
             let speeds = k.speeds_rad_per_s;
             let sense = (speeds.sun - speeds.carrier).signum();
             sense * speeds.carrier * mesh_frequency / k.mesh_frequency_hz

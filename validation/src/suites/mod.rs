@@ -7,6 +7,7 @@ mod fe;
 mod lin_parker;
 pub(crate) mod modes_of;
 mod rules;
+pub(crate) mod statements;
 mod structure;
 mod table1;
 pub(crate) mod tables;

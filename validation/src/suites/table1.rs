@@ -10,7 +10,7 @@ use crate::reference::Reference;
 pub(crate) fn checks(reference: &Reference) -> Result<Vec<Check>, ValidationError> {
     let set = scene(PublishedScene::Oh58FourPlanets)?;
     let no_geometry = ValidationError::Incomplete("geometry");
-    let geometry = Geometry::from_scene(&set).and_then(Result::ok).ok_or(no_geometry)?;
+    let geometry = Geometry::from_scene(&set).ok().ok_or(no_geometry)?;
     let mesh = |kind| geometry.mesh(kind).ok_or(ValidationError::Incomplete("mesh"));
     let (sp, rp) = (mesh(MeshKind::SunPlanet)?, mesh(MeshKind::RingPlanet)?);
     let (t, d) = (&reference.parker.table1, &reference.parker.derived);
@@ -65,7 +65,7 @@ fn mesh_frequency(set: &Scene) -> Result<f64, ValidationError> {
     let mut set = set.clone();
     let operation = set.operation.as_mut().ok_or(ValidationError::Incomplete("operation"))?;
     operation.speed_rpm = 2500.0;
-    let kinematics = Kinematics::from_scene(&set).and_then(Result::ok);
+    let kinematics = Kinematics::from_scene(&set).ok();
     Ok(kinematics.ok_or(ValidationError::Incomplete("kinematics"))?.mesh_frequency_hz)
 }
 

@@ -1,4 +1,4 @@
-//! A set in time whose mesh forces follow a law: the quasi-static rung's races, masses, bearings and
+//! A set in time whose mesh forces follow a law: the quasi-static fidelity's races, masses, bearings and
 //! carrier, and table look-up instead of contact.
 
 use dynamics::{AverageAcceleration, Coupled, CoupledState, Coupling, LinearPart, Motion};

@@ -5,11 +5,10 @@ use super::Lab;
 use crate::Profile;
 use crate::catalogue::scene;
 use crate::check::{Check, ReferenceKind, Subject};
+use crate::effects::{Base, EffectStudy, Effects, Variant, effects};
 use crate::error::ValidationError;
-use crate::modal::{
-    Agreement, Base, EffectStudy, Effects, Preload, Variant, agreement, agreement_after, effects,
-};
 use crate::suites::tables::Table;
+use experiments::modal::{Agreement, Preload, agreement, agreement_after};
 
 /// Preload of the tables, N m.
 const TORQUE: f64 = 1130.0;
@@ -210,7 +209,7 @@ fn every_mode(lab: &Lab<'_>, found: &Effects) -> Check {
     if lab.profile == Profile::Quick {
         return Check::not_run(subject, 0.0, crate::check::Tolerance::exact());
     }
-    let of = |effects: &Option<Vec<crate::modal::Effect>>| match effects {
+    let of = |effects: &Option<Vec<crate::effects::Effect>>| match effects {
         Some(list) => list.iter().filter(|e| !e.percent.is_finite()).count(),
         None => found.mode_type.len(),
     };

@@ -18,7 +18,7 @@ const RACK_ANGLE_DEG: f64 = 22.5;
 /// internal gear has z₂ = ∞ and x₂ = 0. C_B = [1 + 0.5 (1.2 − h_f/m)][1 − 0.02 (20° − α)], and
 /// c_γ = c' (0.75 ε_α + 0.25).
 pub(crate) fn mean_stiffness(scene: &Scene, kind: MeshKind) -> Option<f64> {
-    let geometry = Geometry::from_scene(scene)?.ok()?;
+    let geometry = Geometry::from_scene(scene).ok()?;
     let mesh = geometry.mesh(kind)?;
     let alpha = RACK_ANGLE_DEG.to_radians();
     // Profile shift from the tooth's thickness: t = m (π/2 + 2 x tan α₀) on r = m z/2.

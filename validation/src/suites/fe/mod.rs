@@ -5,6 +5,7 @@ mod calculix;
 mod controls;
 mod convergence;
 mod fed;
+mod fidelity;
 mod fig12;
 mod hertz;
 mod iso6336;
@@ -12,7 +13,6 @@ mod kinematics;
 mod modal;
 mod reduced;
 mod resolved;
-mod rungs;
 mod sets;
 mod stepping;
 mod stiffness;
@@ -124,7 +124,7 @@ pub(crate) fn checks(
         (&["fe.control."], controls::checks),
         (&["table2.fe_contact.", "table3.fe_contact.", "fe.modal."], modal::checks),
         (&["fe.stepping."], stepping::checks),
-        (&["fe.rungs."], rungs::checks),
+        (&["fe.fidelity."], fidelity::checks),
         (&["fe.fed."], fed::checks),
         (sweeps::IDS, sweeps::checks),
         (sweeps::IDS, reduced::checks),

@@ -7,12 +7,12 @@ use lumped::ModeType;
 use super::Lab;
 use crate::check::{Check, ReferenceKind, Subject};
 use crate::error::ValidationError;
-use crate::modal::{
+use crate::reference::ModeTable;
+use crate::suites::modes_of::type_named;
+use experiments::modal::{
     FeMode, ImpulseSettings, ImpulseTest, impulse_test, linear_modes, mesh_influence, of_type,
     preloaded,
 };
-use crate::reference::ModeTable;
-use crate::suites::modes_of::type_named;
 
 /// Preload of the paper's speed sweeps, N m; its impulse tests' own is not given.
 const TORQUE: f64 = 1130.0;

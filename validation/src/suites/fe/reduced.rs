@@ -1,4 +1,4 @@
-//! The reduced models under the same judging as the rung they are made from: meshes that follow a law,
+//! The reduced models under the same judging as the fidelity they are made from: meshes that follow a law,
 //! between FE bodies' races and in the lumped model.
 
 use gearset::excitation_of_scene;
@@ -8,7 +8,7 @@ use super::sweeps::{PROMINENT, TORQUE, judged, peaks_judged, speeds, swept};
 use crate::Profile;
 use crate::check::Check;
 use crate::error::ValidationError;
-use crate::sweep::{LawModel, assigned, naturals};
+use experiments::sweep::{LawModel, assigned, naturals};
 
 pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     let ratio = if lab.profile == Profile::Quick { 0.02 } else { 0.005 };

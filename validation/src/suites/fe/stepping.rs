@@ -19,7 +19,7 @@ fn turning<'b>(
     steps_per_cycle: usize,
 ) -> Result<VibratingSet<'b>, ValidationError> {
     let missing = || ValidationError::Incomplete("numbers of teeth or operation");
-    let kinematics = Kinematics::from_scene(scene).and_then(Result::ok).ok_or_else(missing)?;
+    let kinematics = Kinematics::from_scene(scene).ok().ok_or_else(missing)?;
     let per_rpm = kinematics.mesh_frequency_hz / kinematics.speeds_rpm.sun;
     let mesh_frequency = (per_rpm * SPEED_RPM).abs();
     let sun = bodies.geometry.sun.as_ref().ok_or(ValidationError::Incomplete("sun"))?;

@@ -6,15 +6,16 @@ use std::f64::consts::TAU;
 use dynamics::{Window, spectrum};
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, PitchError, StaticSet};
-use gearset::{ExcitationStrengths, Facing, Kinematics, Scene, excitation_of_scene};
+use gearset::{ExcitationStrengths, Facing, LoadCase, Scene, excitation_of_scene};
 
 use super::Lab;
 use crate::Profile;
 use crate::catalogue::PublishedScene;
 use crate::check::{Check, ReferenceKind, Subject};
 use crate::error::ValidationError;
-use crate::sweep::{
-    Assigned, Content, Coordinate, Direction, FeModel, HEADROOM, Memory, Natural, Part, Plan,
+use experiments::NaturalMode;
+use experiments::sweep::{
+    Assigned, Content, Coordinate, Direction, FeModel, HEADROOM, Memory, Part, Plan,
     SteadySettings, Sweep, SweepModel, SweepPoint, assigned, contents, naturals, run,
 };
 
@@ -42,10 +43,7 @@ const SPAN: f64 = 0.015;
 
 /// Mesh frequency of one rpm of the input member, Hz.
 pub(crate) fn hz_per_rpm(scene: &Scene) -> Result<f64, ValidationError> {
-    let kinematics = Kinematics::from_scene(scene).and_then(Result::ok);
-    let operation = scene.operation.ok_or(ValidationError::Incomplete("operation"))?;
-    let kinematics = kinematics.ok_or(ValidationError::Incomplete("kinematics"))?;
-    Ok(kinematics.mesh_frequency_hz / operation.speed_rpm)
+    Ok(LoadCase::of_scene(scene)?.mesh_frequency_per_rpm_hz())
 }
 
 /// Speeds from first to last (rpm), each by the same part above the one before.
@@ -65,7 +63,7 @@ pub(crate) fn sweep_of(
 ) -> Result<Sweep, ValidationError> {
     let model = FeModel::new(scene, bodies, imperfections, torque_nm);
     let plan = Plan::new(speeds_rpm, &[Direction::Up], steady)?;
-    run(&model, &plan, hz_per_rpm(scene)?, &Memory, &|_| ())
+    Ok(run(&model, &plan, hz_per_rpm(scene)?, &Memory, &|_| ())?)
 }
 
 pub(crate) fn steady_settings() -> SteadySettings {
@@ -111,10 +109,7 @@ fn five(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
 
 /// Torque on the sun at the operating point, N m.
 fn five_torque(scene: &Scene) -> Result<f64, ValidationError> {
-    let operation = scene.operation.ok_or(ValidationError::Incomplete("operation"))?;
-    let kinematics = Kinematics::from_scene(scene).and_then(Result::ok);
-    let kinematics = kinematics.ok_or(ValidationError::Incomplete("kinematics"))?;
-    Ok(kinematics.torques_nm(operation.torque_nm).sun)
+    Ok(LoadCase::of_scene(scene)?.sun_torque_nm)
 }
 
 /// Everything that is judged of one set.
@@ -135,7 +130,7 @@ fn set(
     checks.push(peaks_judged(lab, name, &list)?);
     let source = "phasor sums of the planets' mesh phases";
     // The two modes the paper follows, each where its own harmonics meet it.
-    let mut modes: Vec<Natural> = Vec::new();
+    let mut modes: Vec<NaturalMode> = Vec::new();
     for n in &naturals {
         if modes.iter().all(|m| m.mode_type != n.mode_type) {
             modes.push(*n);

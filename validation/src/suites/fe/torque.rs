@@ -9,8 +9,9 @@ use crate::Profile;
 use crate::catalogue::{PublishedScene, scene};
 use crate::check::{Check, ReferenceKind, Subject, Tolerance};
 use crate::error::ValidationError;
-use crate::sweep::{Part, naturals};
-use crate::torque::{Followed, Series, follow, judge, lowest_series, static_growth};
+use crate::suites::statements::judge;
+use experiments::sweep::{Part, naturals};
+use experiments::torque::{Followed, Series, follow, lowest_series, static_growth};
 
 /// N·m: 5000 to 20000 lb-in.
 const TORQUES: [f64; 4] = [565.0, 1130.0, 1695.0, 2260.0];

@@ -1,8 +1,8 @@
-//! Rungs of the ladder over speed against bodies with every degree of freedom, whose steady states are
+//! Fidelities of the ladder over speed against bodies with every degree of freedom, whose steady states are
 //! kept.
 
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::Rung;
+use gearset::Fidelity;
 
 use super::Lab;
 use super::sweeps::hz_per_rpm;
@@ -10,17 +10,17 @@ use crate::Profile;
 use crate::check::{Check, ReferenceKind, Subject};
 use crate::error::ValidationError;
 use crate::own_truth::{FullSweep, FullSweepPoint};
-use crate::sweep::{
+use experiments::sweep::{
     Chain, Coordinate, FeModel, Memory, Part, Plan, Response, SteadySettings, SweepPoint, run,
     top_of_three,
 };
 
-/// Steps a cycle of the truth, with which harmonics are compared; and those of the cheapest rung within the
-/// limits of the peak (`reference/ladder.toml`).
+/// Steps a cycle of the truth, with which harmonics are compared; and those of the cheapest fidelity within the
+/// limits of the peak (`kept/ladder.toml`).
 const STEPS: u32 = 140;
 const FINE: u32 = 280;
 
-/// What is measured of a rung, percent.
+/// What is measured of a fidelity, percent.
 struct Differences {
     /// Place and height of the rotational peak, full bodies without the error of steps.
     peak: [f64; 2],
@@ -32,16 +32,16 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     let kept = &lab.reference.full_sweep;
     let source = format!("{}; remade by {}", kept.source, kept.command);
     let speeds = kept.of_steps(STEPS).count();
-    let rungs = [
-        ("quasi_static", "quasi-static", Rung::QuasiStatic, STEPS),
-        ("quasi_static_280", "quasi-static", Rung::QuasiStatic, FINE),
-        ("modal_2", "two modes a body", Rung::Modal(2), STEPS),
-        ("modal_10", "ten modes a body", Rung::Modal(10), STEPS),
+    let fidelities = [
+        ("quasi_static", "quasi-static", Fidelity::QuasiStatic, STEPS),
+        ("quasi_static_280", "quasi-static", Fidelity::QuasiStatic, FINE),
+        ("modal_2", "two modes a body", Fidelity::Modal(2), STEPS),
+        ("modal_10", "ten modes a body", Fidelity::Modal(10), STEPS),
     ];
     let mut checks = Vec::new();
-    for (id, name, rung, steps) in rungs {
-        let is_run = rung == Rung::QuasiStatic || lab.profile == Profile::Full;
-        let found = if is_run { Some(differences(lab, kept, rung, steps)?) } else { None };
+    for (id, name, fidelity, steps) in fidelities {
+        let is_run = fidelity == Fidelity::QuasiStatic || lab.profile == Profile::Full;
+        let found = if is_run { Some(differences(lab, kept, fidelity, steps)?) } else { None };
         let peak = |word: &str| {
             format!(
                 "four planets, {name} at {steps} steps: {word} of the sun's rotational peak (l = 2) against full without the error of steps"
@@ -81,17 +81,17 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     Ok(checks)
 }
 
-/// A rung against full bodies, both on the same flanks and tables.
+/// A fidelity against full bodies, both on the same flanks and tables.
 fn differences(
     lab: &Lab<'_>,
     kept: &FullSweep,
-    rung: Rung,
+    fidelity: Fidelity,
     steps: u32,
 ) -> Result<Differences, ValidationError> {
     let mut scene = lab.four.clone();
     scene.fe_contact.flank_elements = kept.flank_elements;
     scene.dynamics.steps_per_cycle = steps;
-    scene.dynamics.rung = rung;
+    scene.dynamics.fidelity = fidelity;
     let bodies = Bodies::new(&scene)?;
     // Points of a sweep come by speed.
     let mut truth: Vec<&FullSweepPoint> = kept.of_steps(STEPS).collect();

@@ -10,7 +10,7 @@ use crate::error::ValidationError;
 use crate::own_truth::ExactPeak;
 use crate::suites::fe::Lab;
 use crate::suites::fe::sweeps::hz_per_rpm;
-use crate::sweep::{
+use experiments::sweep::{
     Chain, FeModel, Memory, Part, Plan, Response, SteadySettings, run, top_of_three,
 };
 

@@ -1,0 +1,44 @@
+//! Why an experiment could not be made.
+
+/// Why an experiment could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum ExperimentError {
+    /// The scene lacks something the experiment needs.
+    #[error("the scene has no {0}")]
+    Incomplete(&'static str),
+    /// The scene has no operating point, or no motion follows from it.
+    #[error(transparent)]
+    Kinematics(#[from] gearset::KinematicsError),
+    /// The FE/contact model.
+    #[error(transparent)]
+    Fe(#[from] fe_contact::FeError),
+    /// An eigenproblem.
+    #[error(transparent)]
+    Eigen(#[from] dynamics::EigenError),
+    /// Settings of an impulse test.
+    #[error(transparent)]
+    Settings(#[from] crate::modal::SettingsError),
+    /// A preload under which the set moves by itself.
+    #[error(
+        "{torque_nm} N·m: under this torque the set does not stay at rest, or small pulses leave it in large motion: there is no state to find modes about"
+    )]
+    Unsteady {
+        /// Torque on the sun, N m.
+        torque_nm: f64,
+    },
+    /// Modes from records.
+    #[error("identification: {0}")]
+    Identify(#[from] dynamics::identify::IdentifyError),
+    /// A spectrum.
+    #[error(transparent)]
+    Spectrum(#[from] dynamics::SpectrumError),
+    /// A lumped model.
+    #[error(transparent)]
+    Lumped(#[from] lumped::LumpedError),
+    /// A plan of a sweep.
+    #[error(transparent)]
+    Plan(#[from] crate::sweep::PlanError),
+    /// A point of a sweep that could not be kept or read.
+    #[error(transparent)]
+    Store(#[from] crate::sweep::StoreError),
+}

@@ -1,0 +1,144 @@
+//! The linearised FE/contact set with a rigid carrier against the lumped model fed from it.
+//!
+//! Both approach along the same line of action as long as every pressing pair stands on the
+//! theoretical path: n = (sin α, cos α) in the mesh frame of a sun mesh, (sin α, −cos α) in that of a
+//! ring mesh, with arms of exactly r_b. Then 1ᵀS1 is all there is of S, and the two must agree to
+//! rounding. A pair at a tip corner presses along the normal of the flank it presses on: its approach
+//! is not the mesh's δ, so that motions which leave δ alone stretch it all the same.
+
+use fe_contact::statics::{Bodies, PLANETS, Races, SUN};
+use fe_contact::vibration::LinearSet;
+use gearset::Scene;
+use lumped::{LumpedModel, NaturalModes, SpringId};
+
+use super::fed::fed_from;
+use super::linear::{Preload, preloaded};
+use crate::error::ExperimentError;
+
+/// Differences between the two models over all modes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Agreement {
+    /// Largest, of FE/contact against fed lumped, with its sign, percent.
+    pub worst_percent: f64,
+    /// Frequency where that is, Hz.
+    pub at_hz: f64,
+    /// Largest between 5 and 15 kHz, where the meshes rule, with its sign, percent.
+    pub worst_mesh_ruled_percent: f64,
+    /// Largest once all pairs press along the line of action, percent.
+    pub along_the_line_percent: f64,
+    /// Modes compared.
+    pub modes: usize,
+    /// Pressing pairs that do not press along the line of action.
+    pub pairs_off_the_line: usize,
+}
+
+/// Where the meshes rule, Hz.
+const MESH_RULED_HZ: std::ops::RangeInclusive<f64> = 5e3..=15e3;
+
+/// Entries of an approach row further than this from the lumped one belong to another normal.
+const SAME_ROW: f64 = 1e-9;
+
+/// Compares the two at one position and preload, the carrier taken as rigid.
+///
+/// # Errors
+/// If the set has no equilibrium there or an eigenproblem fails.
+pub fn agreement(
+    scene: &Scene,
+    bodies: &Bodies,
+    preload: &Preload,
+) -> Result<Agreement, ExperimentError> {
+    agreement_after(scene, bodies, preload, |_| {})
+}
+
+/// The same with the fed lumped scene changed by `spoil` first: a control, which must not agree.
+///
+/// # Errors
+/// As [`agreement`].
+pub fn agreement_after(
+    scene: &Scene,
+    bodies: &Bodies,
+    preload: &Preload,
+    spoil: impl Fn(&mut Scene),
+) -> Result<Agreement, ExperimentError> {
+    let rigid = with_rigid_carrier(scene);
+    let set = preloaded(&rigid, bodies, preload)?;
+    let linear = set.linearised()?;
+    let mut fed = fed_from(
+        &rigid,
+        bodies,
+        set.races(),
+        &set.reference().pressure_angles(),
+        &linear.mesh_tangents,
+    )?;
+    spoil(&mut fed);
+    compare(&linear, set.races(), &LumpedModel::from_scene(&fed)?)
+}
+
+/// The scene with a carrier that does not give way.
+pub fn with_rigid_carrier(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    if let Some(carrier) = scene.geometry.as_mut().and_then(|g| g.carrier.as_mut()) {
+        carrier.is_rigid = true;
+    }
+    scene
+}
+
+fn compare(
+    linear: &LinearSet,
+    races: &Races,
+    model: &LumpedModel,
+) -> Result<Agreement, ExperimentError> {
+    // Forces that turn with their lines of action are not in the lumped model.
+    let mut linear = linear.clone();
+    linear.supports -= &linear.turning;
+    let linear = &linear;
+    let lumped: Vec<f64> = NaturalModes::of(model)?
+        .lambda
+        .iter()
+        .map(|l| l.max(0.0).sqrt() / std::f64::consts::TAU)
+        .collect();
+    let off = |fe: &[f64], band: &dyn Fn(f64) -> bool| {
+        let list = fe.iter().zip(&lumped).filter(|(_, l)| band(**l));
+        let percent = list.map(|(fe, l)| (100.0 * (fe / l - 1.0), *fe));
+        percent.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs())).unwrap_or((f64::NAN, f64::NAN))
+    };
+    let (frequencies, _) = linear.undamped()?;
+    if frequencies.len() != lumped.len() {
+        return Err(ExperimentError::Incomplete("set with as many coordinates in both models"));
+    }
+    let straight = along_the_line(linear, races, model);
+    let corners = (0..linear.rows.nrows()).filter(|i| {
+        let differs = (linear.rows.row(*i) - straight.rows.row(*i)).amax() > SAME_ROW;
+        differs && linear.contact.row(*i).amax() > 0.0
+    });
+    let (put_right, _) = straight.undamped()?;
+    let (worst_percent, at_hz) = off(&frequencies, &|_| true);
+    Ok(Agreement {
+        worst_percent,
+        at_hz,
+        worst_mesh_ruled_percent: off(&frequencies, &|f| MESH_RULED_HZ.contains(&f)).0,
+        along_the_line_percent: off(&put_right, &|_| true).0.abs(),
+        modes: lumped.len(),
+        pairs_off_the_line: corners.count(),
+    })
+}
+
+/// The linearised set with every pair's approach as the lumped model has it for the pair's mesh.
+/// Which mesh that is shows in what the pair moves: one planet, and the sun or not.
+fn along_the_line(linear: &LinearSet, races: &Races, model: &LumpedModel) -> LinearSet {
+    let mut straight = linear.clone();
+    for i in 0..linear.rows.nrows() {
+        let moves = |body: usize| {
+            (0..3).any(|axis| races.of(body, axis).is_some_and(|k| linear.rows[(i, k)] != 0.0))
+        };
+        let Some(n) = (0..races.planets()).find(|n| moves(PLANETS + n)) else { continue };
+        let id = if moves(SUN) { SpringId::SunMesh(n) } else { SpringId::RingMesh(n) };
+        if let Some(spring) = model.springs.iter().find(|s| s.id == id) {
+            straight.rows.row_mut(i).fill(0.0);
+            for (k, b) in &spring.rows[0] {
+                straight.rows[(i, *k)] = *b;
+            }
+        }
+    }
+    straight
+}

@@ -1,0 +1,121 @@
+//! Natural frequencies by linearisation about a preload.
+
+use fe_contact::FeError;
+use fe_contact::statics::{Bodies, Imperfections};
+use fe_contact::vibration::{LinearSet, Loading, Motive, VibratingSet};
+use gearset::{Facing, Scene};
+
+use super::kinds::{RaceKinds, type_of};
+use super::mode::FeMode;
+use crate::error::ExperimentError;
+use crate::table_growth::large_enough;
+
+/// A standing set under torque.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Preload {
+    /// Torque on the sun, N m; clockwise if negative.
+    pub torque_nm: f64,
+    /// Position in the mesh cycle, cycles.
+    pub position: f64,
+    /// Time step, s.
+    pub step_s: f64,
+}
+
+/// A standing set at rest under its preload.
+///
+/// # Errors
+/// If the scene cannot be set up, or there is no equilibrium.
+pub fn preloaded<'b>(
+    scene: &Scene,
+    bodies: &'b Bodies,
+    preload: &Preload,
+) -> Result<VibratingSet<'b>, FeError> {
+    let Preload { torque_nm, position, step_s } = *preload;
+    let sense = if torque_nm >= 0.0 { Facing::CounterClockwise } else { Facing::Clockwise };
+    let sun = bodies.geometry.sun.as_ref().map_or(1.0, |sun| sun.base_radius);
+    let force = (torque_nm.abs() / sun / scene.planets.psi_rad.len() as f64).max(1.0);
+    let motive = Motive::Standing { position, step: step_s };
+    // Relieved flanks touch on a wider patch than their force says.
+    large_enough(|size| {
+        let (none, mesh_force) = (Imperfections::default(), force * f64::powi(2.0, size as i32));
+        let loading = Loading { torque_nm: torque_nm.abs(), mesh_force };
+        let mut set = VibratingSet::new(scene, bodies, sense, none, motive, loading)?;
+        set.rest(torque_nm.abs())?;
+        Ok(set)
+    })
+}
+
+/// Undamped modes of a linearised set, typed; damping ratios from the damped ones, matched by order.
+///
+/// # Errors
+/// If an eigenproblem fails.
+pub fn linear_modes(
+    set: &VibratingSet<'_>,
+    linear: &LinearSet,
+) -> Result<Vec<FeMode>, ExperimentError> {
+    let (frequencies, shapes) = linear.undamped()?;
+    let kinds = RaceKinds::new(set.races(), set.masses());
+    let races = linear.races;
+    let squares: Vec<f64> = frequencies.iter().map(|f| f * f).collect();
+    let damped = linear.damped()?;
+    let mut modes = Vec::with_capacity(frequencies.len());
+    for group in groups(&squares) {
+        let list: Vec<Vec<f64>> =
+            group.clone().map(|j| (0..races).map(|i| shapes[(i, j)]).collect()).collect();
+        let shares = kinds.shares(&list)?;
+        for (k, j) in group.enumerate() {
+            // Modes of elastic bodies that leave the races still have no kind of their own.
+            let own = shares.get(k).copied().unwrap_or([0.0; 3]);
+            let nearest = damped.iter().min_by(|a, b| {
+                let off = |m: &&fe_contact::vibration::DampedMode| {
+                    (m.frequency_hz - frequencies[j]).abs()
+                };
+                off(a).total_cmp(&off(b))
+            });
+            modes.push(FeMode {
+                frequency_hz: frequencies[j],
+                damping_ratio: nearest.map_or(0.0, |m| m.damping_ratio),
+                mode_type: type_of(&own),
+                shares: own,
+                shape: list[k].clone(),
+            });
+        }
+    }
+    Ok(modes)
+}
+
+/// Runs of squares that agree to 1e-7: what symmetry makes equal, computed.
+fn groups(squares: &[f64]) -> Vec<std::ops::Range<usize>> {
+    let mut groups = Vec::new();
+    let mut start = 0;
+    for i in 1..=squares.len() {
+        if i == squares.len() || squares[i] - squares[i - 1] > 1e-7 * squares[i] {
+            groups.push(start..i);
+            start = i;
+        }
+    }
+    groups
+}
+
+/// How one mode follows the mesh stiffnesses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshInfluence {
+    /// ∂ln f/∂ln k, all meshes scaled alike.
+    pub all_meshes: f64,
+}
+
+/// ∂ln f/∂ln k_mesh = φᵀ Rᵀ S R φ / 2λ of every mode of a linearised set, in the order of its
+/// frequencies.
+///
+/// # Errors
+/// If the eigenproblem fails.
+pub fn mesh_influence(linear: &LinearSet) -> Result<Vec<MeshInfluence>, ExperimentError> {
+    let (frequencies, shapes) = linear.undamped()?;
+    let of = |j: usize| {
+        let stretch = &linear.rows * shapes.column(j);
+        let energy = stretch.dot(&(&linear.contact * &stretch));
+        let lambda = (std::f64::consts::TAU * frequencies[j]).powi(2);
+        MeshInfluence { all_meshes: if lambda > 0.0 { 0.5 * energy / lambda } else { 0.0 } }
+    };
+    Ok((0..frequencies.len()).map(of).collect())
+}

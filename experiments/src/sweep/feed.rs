@@ -1,0 +1,139 @@
+//! Models that sweeps can be run on: whatever gives a turning set at a mesh frequency.
+
+use std::sync::OnceLock;
+
+use fe_contact::statics::{Bodies, Imperfections};
+use fe_contact::vibration::{Loading, Motive, Prepared, VibratingSet};
+use gearset::{Facing, Fidelity, MeshKinematics, Scene};
+
+use super::marching::{FeMarching, Marching};
+use crate::error::ExperimentError;
+use crate::table_growth::SIZES;
+
+/// A model of one gear set under one torque.
+pub trait SweepModel: Sync {
+    /// Name of the fidelity or model, as tables print it.
+    fn name(&self) -> String;
+
+    /// Number of planets.
+    fn planets(&self) -> usize;
+
+    /// ψ₀: central members' radial direction is towards planet 0, rad.
+    fn first_planet_rad(&self) -> f64;
+
+    /// Steps in a mesh cycle.
+    fn steps_per_cycle(&self) -> usize;
+
+    /// The set turning at a mesh frequency (Hz). `size`: how often its tables were found too small
+    /// and are to be laid out for twice the load.
+    ///
+    /// # Errors
+    /// If the set cannot be built.
+    fn turning(
+        &self,
+        mesh_frequency: f64,
+        size: usize,
+    ) -> Result<Box<dyn Marching + '_>, ExperimentError>;
+}
+
+/// Sense of a torque on the sun.
+pub(super) fn sense(torque_nm: f64) -> Facing {
+    if torque_nm < 0.0 { Facing::Clockwise } else { Facing::CounterClockwise }
+}
+
+/// Tables are made for this many times the even share of the load: resonance must fit.
+pub const HEADROOM: f64 = 2.0;
+
+/// The FE/contact model on the fidelity of its scene, tables shared by all speeds.
+#[derive(Debug)]
+pub struct FeModel<'s> {
+    scene: Scene,
+    bodies: &'s Bodies,
+    imperfections: Imperfections,
+    torque_nm: f64,
+    table_size: usize,
+    prepared: [OnceLock<Prepared<'s>>; SIZES],
+}
+
+impl<'s> FeModel<'s> {
+    /// Under a torque on the sun (N m, counter-clockwise positive).
+    pub fn new(
+        scene: &Scene,
+        bodies: &'s Bodies,
+        imperfections: Imperfections,
+        torque_nm: f64,
+    ) -> Self {
+        let prepared = [const { OnceLock::new() }; SIZES];
+        let (scene, table_size) = (scene.clone(), 0);
+        Self { scene, bodies, imperfections, torque_nm, table_size, prepared }
+    }
+
+    /// The same with tables laid out for twice the load, as often as `size` says, before any is found too
+    /// small: cells of a pair are as many, so larger tables are coarser ones, and models are compared on
+    /// the same.
+    pub fn with_tables(self, size: usize) -> Self {
+        Self { table_size: size, ..self }
+    }
+
+    /// Mesh force that tables of a size are made for, N.
+    fn force(&self, size: usize) -> Result<f64, ExperimentError> {
+        let sun = self.bodies.geometry.sun.as_ref();
+        let radius = sun.ok_or(ExperimentError::Incomplete("sun"))?.base_radius;
+        let share = self.torque_nm.abs() / radius / self.planets() as f64;
+        Ok(HEADROOM * share.max(1.0) * f64::powi(2.0, size as i32))
+    }
+}
+
+impl SweepModel for FeModel<'_> {
+    fn name(&self) -> String {
+        match self.scene.dynamics.fidelity {
+            Fidelity::QuasiStatic => "quasi-static".into(),
+            Fidelity::Modal(n) => format!("modal({n})"),
+            Fidelity::Full => "full".into(),
+            Fidelity::MeshLaw => "mesh-law".into(),
+        }
+    }
+
+    fn planets(&self) -> usize {
+        self.scene.planets.psi_rad.len()
+    }
+
+    fn first_planet_rad(&self) -> f64 {
+        self.scene.planets.psi_rad.first().copied().unwrap_or(0.0)
+    }
+
+    fn steps_per_cycle(&self) -> usize {
+        self.scene.dynamics.steps_per_cycle as usize
+    }
+
+    fn turning(
+        &self,
+        mesh_frequency: f64,
+        size: usize,
+    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+        let steps_per_cycle = self.steps_per_cycle();
+        let motive = Motive::Turning { mesh_frequency, steps_per_cycle };
+        let torque_nm = self.torque_nm.abs();
+        let mesh_force = self.force(self.table_size + size)?;
+        let loading = Loading { torque_nm, mesh_force };
+        let sense = sense(self.torque_nm);
+        if self.scene.dynamics.kinematics == MeshKinematics::Exact {
+            let own = self.imperfections.clone();
+            let (scene, bodies) = (&self.scene, self.bodies);
+            let set = VibratingSet::exact(scene, bodies, sense, own, motive, loading)?;
+            return Ok(Box::new(FeMarching { set, torque_nm }));
+        }
+        let slot = &self.prepared[size.min(SIZES - 1)];
+        let prepared = match slot.get() {
+            Some(prepared) => prepared,
+            None => {
+                let own = self.imperfections.clone();
+                let made =
+                    VibratingSet::prepare(&self.scene, self.bodies, sense, own, motive, loading)?;
+                slot.get_or_init(|| made)
+            }
+        };
+        let set = VibratingSet::on(&self.scene, prepared, motive)?;
+        Ok(Box::new(FeMarching { set, torque_nm }))
+    }
+}

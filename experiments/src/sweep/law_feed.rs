@@ -1,0 +1,156 @@
+//! Models whose meshes follow a tabulated law: the FE/contact fidelity `mesh_law`, and the lumped model in
+//! time.
+
+use dynamics::CoupledState;
+use fe_contact::statics::{Bodies, Imperfections, StaticSet};
+use fe_contact::vibration::{LawSettings, MeshLawSet, mesh_law};
+use gearset::{Fidelity, MeshLaw, Scene};
+use lumped::TimeVarying;
+
+use super::feed::{SweepModel, sense};
+use super::marching::{Effort, Marching};
+use crate::error::ExperimentError;
+
+/// A set whose meshes follow a law made under the torque of the sweep.
+#[derive(Debug)]
+pub struct LawModel<'s> {
+    scene: Scene,
+    loaded: StaticSet<'s>,
+    torque_nm: f64,
+    law: MeshLaw,
+    is_lumped: bool,
+}
+
+impl<'s> LawModel<'s> {
+    /// The FE/contact set under a torque on the sun (N m, counter-clockwise positive).
+    ///
+    /// # Errors
+    /// If the law cannot be made.
+    pub fn new(scene: &Scene, bodies: &'s Bodies, torque_nm: f64) -> Result<Self, ExperimentError> {
+        let mut scene = scene.clone();
+        scene.dynamics.fidelity = Fidelity::MeshLaw;
+        let steps = scene.dynamics.steps_per_cycle as usize;
+        let settings = LawSettings::at(torque_nm.abs());
+        let law = mesh_law(&scene, bodies, sense(torque_nm), steps, &settings)?;
+        let loaded = StaticSet::new(&scene, bodies, sense(torque_nm), Imperfections::default())?;
+        let loaded = loaded.under(torque_nm.abs())?;
+        Ok(Self { scene, loaded, torque_nm, law, is_lumped: false })
+    }
+
+    /// The lumped model with the same law in its meshes.
+    pub fn lumped(&self) -> Self {
+        Self {
+            scene: self.scene.clone(),
+            loaded: self.loaded.clone(),
+            torque_nm: self.torque_nm,
+            law: self.law.clone(),
+            is_lumped: true,
+        }
+    }
+}
+
+impl SweepModel for LawModel<'_> {
+    fn name(&self) -> String {
+        if self.is_lumped { "lumped".into() } else { "mesh-law".into() }
+    }
+
+    fn planets(&self) -> usize {
+        self.scene.planets.psi_rad.len()
+    }
+
+    fn first_planet_rad(&self) -> f64 {
+        self.scene.planets.psi_rad.first().copied().unwrap_or(0.0)
+    }
+
+    fn steps_per_cycle(&self) -> usize {
+        self.law.steps()
+    }
+
+    fn turning(
+        &self,
+        mesh_frequency: f64,
+        _: usize,
+    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+        let (law, sense, torque) = (self.law.clone(), sense(self.torque_nm), self.torque_nm.abs());
+        if self.is_lumped {
+            let set = TimeVarying::new(&self.scene, sense, law, mesh_frequency)?;
+            return Ok(Box::new(LumpedMarching(set, torque)));
+        }
+        let set = MeshLawSet::on(&self.scene, &self.loaded, mesh_frequency, law)?;
+        Ok(Box::new(LawMarching(set, torque)))
+    }
+}
+
+/// Everything in a state as plain numbers.
+fn flat(state: &CoupledState) -> Vec<f64> {
+    let mut out = vec![state.step_in_cycle as f64, state.steps as f64];
+    let CoupledState { modal, forces, .. } = state;
+    for list in [&modal.x, &modal.v, &modal.a, &forces[0], &forces[1]] {
+        out.extend(list);
+    }
+    out
+}
+
+/// A state like `pattern` from plain numbers; `None` if they are too few or too many.
+fn shaped(flat: &[f64], pattern: &CoupledState) -> Option<CoupledState> {
+    let mut state = pattern.clone();
+    let (head, mut rest) = flat.split_at_checked(2)?;
+    (state.step_in_cycle, state.steps) = (head[0] as usize, head[1] as u64);
+    let CoupledState { modal, forces, .. } = &mut state;
+    let [first, second] = forces;
+    for list in [&mut modal.x, &mut modal.v, &mut modal.a, first, second] {
+        let (own, others) = rest.split_at_checked(list.len())?;
+        list.copy_from_slice(own);
+        rest = others;
+    }
+    rest.is_empty().then_some(state)
+}
+
+/// A state of another kind of set.
+const FOREIGN: ExperimentError = ExperimentError::Incomplete("state that fits this model");
+
+/// A set with the torque it rests under, N m.
+struct LawMarching<'s>(MeshLawSet<'s>, f64);
+
+struct LumpedMarching(TimeVarying, f64);
+
+macro_rules! marching {
+    ($which:ty) => {
+        impl Marching for $which {
+            fn rest(&mut self) -> Result<(), ExperimentError> {
+                Ok(self.0.rest(self.1)?)
+            }
+
+            fn step(&mut self) -> Result<(), ExperimentError> {
+                Ok(self.0.step()?)
+            }
+
+            fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+                self.0.displacements()
+            }
+
+            fn mesh_forces(&self, out: &mut Vec<f64>) {
+                self.0.mesh_forces(out);
+            }
+
+            fn effort(&self) -> Effort {
+                let coordinates = self.0.motion().x.len();
+                Effort { coordinates, solutions: self.0.counts().0 }
+            }
+
+            fn state(&mut self) -> Vec<f64> {
+                flat(self.0.state())
+            }
+
+            fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError> {
+                // The load belongs to the set, not to its state.
+                self.rest()?;
+                let state = shaped(state, self.0.state()).ok_or(FOREIGN)?;
+                Ok(self.0.set_state(&state)?)
+            }
+        }
+    };
+}
+
+marching!(LawMarching<'_>);
+marching!(LumpedMarching);

@@ -1,0 +1,100 @@
+//! What a sweep asks of a model in time, whichever it is.
+
+use fe_contact::statics::SUN;
+use fe_contact::vibration::VibratingSet;
+
+use crate::error::ExperimentError;
+
+/// What the steps of a set were made of so far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Coordinates that are stepped, elastic ones included.
+    pub coordinates: usize,
+    /// Mean number of solutions for all meshes in a step.
+    pub solutions: f64,
+}
+
+/// A set that turns at constant nominal speed under a constant torque.
+pub trait Marching {
+    /// Puts it to rest in the equilibrium of position 0.
+    ///
+    /// # Errors
+    /// If there is none.
+    fn rest(&mut self) -> Result<(), ExperimentError>;
+
+    /// One time step.
+    ///
+    /// # Errors
+    /// If contact cannot be solved or the motion diverges.
+    fn step(&mut self) -> Result<(), ExperimentError>;
+
+    /// Displacements of carrier, ring, sun (x, y, m; θ, rad) and of the planets (ζ, η, θ) in the
+    /// carrier frame, counter-clockwise.
+    fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>);
+
+    /// Force of each mesh: sun meshes, ring meshes, then back flanks if any touch, N.
+    fn mesh_forces(&self, out: &mut Vec<f64>);
+
+    /// What approaches of tooth pairs are off their linear form at most, and the sun's base radius, m;
+    /// `None` where meshes do not follow displaced gears at all.
+    fn kinematic_rest(&self) -> Option<[f64; 2]> {
+        None
+    }
+
+    /// What its steps took.
+    fn effort(&self) -> Effort;
+
+    /// All the next step starts from, after whole mesh cycles.
+    fn state(&mut self) -> Vec<f64>;
+
+    /// Goes on from a state.
+    ///
+    /// # Errors
+    /// If it is of another kind of set.
+    fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError>;
+}
+
+/// An FE/contact set under the torque it is given.
+#[derive(Debug)]
+pub(super) struct FeMarching<'s> {
+    pub(super) set: VibratingSet<'s>,
+    pub(super) torque_nm: f64,
+}
+
+impl Marching for FeMarching<'_> {
+    fn rest(&mut self) -> Result<(), ExperimentError> {
+        Ok(self.set.rest(self.torque_nm)?)
+    }
+
+    fn step(&mut self) -> Result<(), ExperimentError> {
+        Ok(self.set.step()?)
+    }
+
+    fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+        self.set.displacements()
+    }
+
+    fn mesh_forces(&self, out: &mut Vec<f64>) {
+        self.set.mesh_forces(out);
+    }
+
+    fn kinematic_rest(&self) -> Option<[f64; 2]> {
+        Some([self.set.kinematic_rest(), self.set.races().radii[SUN]])
+    }
+
+    fn effort(&self) -> Effort {
+        let counts = self.set.counts;
+        Effort {
+            coordinates: self.set.races().count + self.set.elastic_unknowns(),
+            solutions: counts.solutions as f64 / counts.steps.max(1) as f64,
+        }
+    }
+
+    fn state(&mut self) -> Vec<f64> {
+        self.set.state()
+    }
+
+    fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError> {
+        Ok(self.set.restore(state)?)
+    }
+}

@@ -1,0 +1,25 @@
+//! Speed sweeps: steady states of a turning set by marching, their harmonics, as fixed plans.
+
+mod feed;
+mod judge;
+mod law_feed;
+mod marching;
+mod naturals;
+mod peaks;
+mod plan;
+mod point;
+mod record;
+mod run;
+mod steady;
+
+pub use feed::{FeModel, HEADROOM, SweepModel};
+pub use judge::{Assigned, Content, assigned, contents};
+pub use law_feed::LawModel;
+pub use marching::{Effort, Marching};
+pub use naturals::naturals;
+pub use peaks::{Peak, Response, peaks, top_of_three};
+pub use plan::{Chain, Direction, Plan, PlanError, even_speeds};
+pub use point::{Coordinate, Line, Part, SweepPoint, TableRow};
+pub use record::Record;
+pub use run::{Kept, Memory, PointStore, StoreError, Sweep, run};
+pub use steady::{Steady, SteadySettings, steady};

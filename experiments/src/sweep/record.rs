@@ -1,0 +1,161 @@
+//! Whole mesh cycles of all displacements and mesh forces, sampled at every step.
+
+use dynamics::{Window, spectrum};
+
+use super::marching::Marching;
+use crate::error::ExperimentError;
+
+/// Samples by rows: three displacements of every body (carrier, ring, sun, planets: radial,
+/// tangential, m; rotation, rad), then the forces of sun meshes and ring meshes (N).
+///
+/// The first sample is the state the cycle starts from, so that phases count from position 0.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Record {
+    planets: usize,
+    samples: Vec<f64>,
+    forces: Vec<f64>,
+    /// Steps in which back flanks pressed.
+    pub with_backs: usize,
+}
+
+/// Channels of the sun: x, y, rotation.
+pub(super) const SUN: [usize; 3] = [6, 7, 8];
+
+impl Record {
+    /// An empty record of a set of N planets.
+    pub fn new(planets: usize) -> Self {
+        Self { planets, ..Self::default() }
+    }
+
+    /// Bodies: carrier, ring, sun, planets.
+    pub fn bodies(&self) -> usize {
+        3 + self.planets
+    }
+
+    /// Channels of displacements.
+    pub fn displacements(&self) -> usize {
+        3 * self.bodies()
+    }
+
+    /// All channels.
+    pub fn width(&self) -> usize {
+        self.displacements() + 2 * self.planets
+    }
+
+    /// Samples.
+    pub fn len(&self) -> usize {
+        self.samples.len() / self.width().max(1)
+    }
+
+    /// Whether nothing is in it.
+    pub fn is_empty(&self) -> bool {
+        self.samples.is_empty()
+    }
+
+    /// Takes the present state; ψ₀ turns central members' x and y towards planet 0.
+    fn take(&mut self, set: &dyn Marching, first_planet_rad: f64) {
+        let (sin, cos) = first_planet_rad.sin_cos();
+        let (central, planets) = set.displacements();
+        for [x, y, theta] in central {
+            self.samples.extend([cos * x + sin * y, cos * y - sin * x, theta]);
+        }
+        self.samples.extend(planets.iter().flatten());
+        set.mesh_forces(&mut self.forces);
+        let fronts = 2 * self.planets;
+        self.samples.extend(self.forces.iter().take(fronts));
+        self.with_backs += usize::from(self.forces.iter().skip(fronts).any(|f| *f > 0.0));
+    }
+
+    /// Records `cycles` mesh cycles of `steps` steps each, from the present state on.
+    ///
+    /// # Errors
+    /// As [`Marching::step`].
+    pub fn march(
+        &mut self,
+        set: &mut dyn Marching,
+        first_planet_rad: f64,
+        steps: usize,
+    ) -> Result<(), ExperimentError> {
+        self.samples.clear();
+        self.with_backs = 0;
+        for _ in 0..steps {
+            self.take(set, first_planet_rad);
+            set.step()?;
+        }
+        Ok(())
+    }
+
+    /// Largest sample of one channel less its smallest.
+    pub fn range(&self, channel: usize) -> f64 {
+        let own = self.channel(channel);
+        let high = own.iter().fold(f64::NEG_INFINITY, |a, x| a.max(*x));
+        high - own.iter().fold(f64::INFINITY, |a, x| a.min(*x))
+    }
+
+    /// Samples of one channel.
+    pub fn channel(&self, channel: usize) -> Vec<f64> {
+        self.samples.iter().skip(channel).step_by(self.width()).copied().collect()
+    }
+
+    /// Largest change from an earlier record of the same length, as part of the largest peak-to-peak
+    /// value of all bodies: of displacements and of rotations, the larger.
+    pub fn change_from(&self, before: &Record) -> f64 {
+        if before.len() != self.len() {
+            return f64::INFINITY;
+        }
+        let width = self.width();
+        // Translations, rotations: (largest change, largest peak to peak).
+        let mut kinds = [(0.0f64, 0.0f64); 2];
+        for channel in 0..self.displacements() {
+            let (mut low, mut high, mut change) = (f64::INFINITY, f64::NEG_INFINITY, 0.0f64);
+            let own = self.samples.iter().skip(channel).step_by(width);
+            let earlier = before.samples.iter().skip(channel).step_by(width);
+            for (a, b) in own.zip(earlier) {
+                (low, high) = (low.min(*a), high.max(*a));
+                change = change.max((a - b).abs());
+            }
+            let kind = &mut kinds[usize::from(channel % 3 == 2)];
+            *kind = (kind.0.max(change), kind.1.max(high - low));
+        }
+        let ratio = |(change, size): (f64, f64)| if change == 0.0 { 0.0 } else { change / size };
+        ratio(kinds[0]).max(ratio(kinds[1]))
+    }
+
+    /// Complex amplitudes of harmonics 0…l of one channel: x(t) ≈ Re Σ X_l e^{i 2π l f_m t}, by
+    /// cosine and sine parts.
+    ///
+    /// # Errors
+    /// If the record is too short or not finite.
+    pub fn harmonics(
+        &self,
+        channel: usize,
+        cycles: usize,
+        harmonics: usize,
+    ) -> Result<Vec<[f64; 2]>, ExperimentError> {
+        let lines = spectrum(&self.channel(channel), 1.0, Window::Rectangular, 1)?.lines;
+        let at = |l: usize| lines.get(l * cycles).map_or([0.0; 2], |x| [x.re, x.im]);
+        Ok((0..=harmonics).map(at).collect())
+    }
+
+    /// Part of the vibration's energy (sum of squared amplitudes of all lines but the mean) that lies
+    /// between mesh harmonics, of translations and of rotations, the larger; over `cycles` cycles.
+    ///
+    /// # Errors
+    /// If the record is too short or not finite.
+    pub fn between_harmonics(&self, cycles: usize) -> Result<f64, ExperimentError> {
+        let mut kinds = [(0.0f64, 0.0f64); 2];
+        for channel in 0..self.displacements() {
+            let lines = spectrum(&self.channel(channel), 1.0, Window::Rectangular, 1)?.lines;
+            let kind = &mut kinds[usize::from(channel % 3 == 2)];
+            for (j, x) in lines.iter().enumerate().skip(1) {
+                let energy = x.re * x.re + x.im * x.im;
+                kind.1 += energy;
+                if j % cycles != 0 {
+                    kind.0 += energy;
+                }
+            }
+        }
+        let ratio = |(between, all): (f64, f64)| if between == 0.0 { 0.0 } else { between / all };
+        Ok(ratio(kinds[0]).max(ratio(kinds[1])))
+    }
+}

@@ -1,0 +1,186 @@
+//! Runs a plan: chains side by side, points kept as soon as they are there.
+
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::feed::SweepModel;
+use super::judge::prominent;
+use super::plan::{Chain, Plan};
+use super::point::{SweepPoint, TableRow};
+use super::steady::{SteadySettings, steady};
+use crate::error::ExperimentError;
+use crate::table_growth::large_enough;
+
+/// A finished point with the state its chain goes on from.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Kept {
+    /// The point.
+    pub point: SweepPoint,
+    /// State after it.
+    pub state: Vec<f64>,
+}
+
+/// Why a point could not be kept or read.
+#[derive(Debug, thiserror::Error)]
+#[error("{message}")]
+pub struct StoreError {
+    /// What went wrong, naming the file.
+    pub message: String,
+}
+
+/// Where finished points go.
+pub trait PointStore: Sync {
+    /// A point that an earlier run finished.
+    ///
+    /// # Errors
+    /// If it is there and cannot be read.
+    fn load(&self, chain: &Chain, index: usize) -> Result<Option<Kept>, StoreError>;
+
+    /// Keeps a point for good.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    fn save(&self, chain: &Chain, index: usize, kept: &Kept) -> Result<(), StoreError>;
+}
+
+/// Keeps nothing beyond the run.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Memory;
+
+impl PointStore for Memory {
+    fn load(&self, _: &Chain, _: usize) -> Result<Option<Kept>, StoreError> {
+        Ok(None)
+    }
+
+    fn save(&self, _: &Chain, _: usize, _: &Kept) -> Result<(), StoreError> {
+        Ok(())
+    }
+}
+
+/// Points of a plan.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Sweep {
+    /// Fidelity or model.
+    pub fidelity: String,
+    /// Points by chain, in its order.
+    pub chains: Vec<(String, Vec<SweepPoint>)>,
+}
+
+impl Sweep {
+    /// All points by speed.
+    pub fn points(&self) -> Vec<&SweepPoint> {
+        let mut all: Vec<&SweepPoint> = self.chains.iter().flat_map(|(_, list)| list).collect();
+        all.sort_by(|a, b| a.speed_rpm.total_cmp(&b.speed_rpm));
+        all
+    }
+
+    /// Chains of `count` speeds about every peak of the sun and of planet 0 that stands out by `least`,
+    /// `span` (parts of the speed) to either side; peaks nearer than that share one.
+    pub fn around_peaks(
+        &self,
+        least: f64,
+        span: f64,
+        count: usize,
+        steady: SteadySettings,
+    ) -> Plan {
+        let found = prominent(&self.points(), steady.harmonics, least);
+        let mut centres: Vec<f64> =
+            found.iter().flat_map(|(_, list)| list.iter().map(|p| p.speed_rpm)).collect();
+        centres.sort_by(f64::total_cmp);
+        centres.dedup_by(|b, a| *b < *a * (1.0 + span));
+        Plan::around(&centres, span, count, steady)
+    }
+
+    /// The tidy table.
+    pub fn rows(&self, scene: &str, torque_nm: f64) -> impl Iterator<Item = TableRow> {
+        self.chains.iter().flat_map(move |(chain, points)| {
+            points.iter().flat_map(move |p| {
+                p.lines.iter().map(move |line| TableRow {
+                    scene: scene.to_owned(),
+                    fidelity: self.fidelity.clone(),
+                    torque_nm,
+                    speed_rpm: p.speed_rpm,
+                    mesh_frequency_hz: p.mesh_frequency_hz,
+                    chain: chain.clone(),
+                    body: line.part.name(),
+                    coordinate: line.coordinate.name().to_owned(),
+                    harmonic: line.harmonic,
+                    amplitude: line.amplitude,
+                    unit: line.coordinate.unit().to_owned(),
+                    phase_rad: line.phase_rad,
+                    cycles: p.cycles,
+                    residual: p.residual,
+                })
+            })
+        })
+    }
+}
+
+/// Runs every chain of a plan; `done` hears of each point, finished now or before. `hz_per_rpm`: mesh
+/// frequency of one rpm of the input member.
+///
+/// # Errors
+/// If a point fails or cannot be kept; finished points stay kept.
+pub fn run(
+    model: &dyn SweepModel,
+    plan: &Plan,
+    hz_per_rpm: f64,
+    store: &dyn PointStore,
+    done: &(dyn Fn(&SweepPoint) + Sync),
+) -> Result<Sweep, ExperimentError> {
+    plan.steady.check(model.steps_per_cycle())?;
+    let found: Mutex<BTreeMap<usize, Vec<SweepPoint>>> = Mutex::default();
+    plan.chains.par_iter().enumerate().try_for_each(|(k, chain)| {
+        let mut points = Vec::with_capacity(chain.speeds_rpm.len());
+        let mut state: Option<Vec<f64>> = None;
+        for (index, speed) in chain.speeds_rpm.iter().enumerate() {
+            let kept = match store.load(chain, index)? {
+                Some(kept) => kept,
+                None => {
+                    let kept = one(model, *speed, hz_per_rpm, state.as_deref(), &plan.steady)?;
+                    store.save(chain, index, &kept)?;
+                    kept
+                }
+            };
+            done(&kept.point);
+            points.push(kept.point);
+            state = Some(kept.state);
+        }
+        if let Ok(mut all) = found.lock() {
+            all.insert(k, points);
+        }
+        Ok::<(), ExperimentError>(())
+    })?;
+    let found = found.into_inner().unwrap_or_default();
+    let chains = plan.chains.iter().map(|c| c.name.clone()).zip(found.into_values()).collect();
+    Ok(Sweep { fidelity: model.name(), chains })
+}
+
+/// One steady state, tables laid out for more where the load outgrows them.
+fn one(
+    model: &dyn SweepModel,
+    speed_rpm: f64,
+    hz_per_rpm: f64,
+    state: Option<&[f64]>,
+    settings: &SteadySettings,
+) -> Result<Kept, ExperimentError> {
+    let mesh_frequency = speed_rpm * hz_per_rpm;
+    large_enough(|size| {
+        let mut set = model.turning(mesh_frequency, size)?;
+        match state {
+            Some(state) => set.restore(state)?,
+            None => set.rest()?,
+        }
+        let steps = model.steps_per_cycle();
+        let found =
+            steady(set.as_mut(), model.planets(), model.first_planet_rad(), steps, settings)?;
+        if let Some(rest) = found.rest {
+            rest.check()?;
+        }
+        let point = SweepPoint::new(speed_rpm, mesh_frequency, &found, settings, size)?;
+        Ok(Kept { point, state: set.state() })
+    })
+}
