@@ -28,7 +28,12 @@ fn main() {
         scene.fe_contact.flank_elements = FLANK_ELEMENTS;
         scene.dynamics.fidelity = Fidelity::Full;
         let bodies = Bodies::new(&scene).unwrap();
-        let test = impulse_test(&scene, &bodies, &ImpulseSettings::short(TORQUE, 0.0)).unwrap();
+        let test = impulse_test(
+            &scene,
+            &bodies,
+            &ImpulseSettings::short(gearset::LoadCase::standing(TORQUE), 0.0),
+        )
+        .unwrap();
         let list = |of: &dyn Fn(usize) -> String| {
             (0..test.modes.len()).map(of).collect::<Vec<_>>().join(", ")
         };

@@ -1,6 +1,7 @@
 //! How a set is driven and loaded. The sense of a torque, its sign on every member and the mesh frequency of a
 //! speed are decided here and nowhere else.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::gear::Facing;
@@ -16,7 +17,7 @@ use crate::scene::{Member, Scene};
 /// let case = LoadCase::of_scene(&scene).unwrap().with_sun_torque(1130.0).at_speed(1600.0);
 /// assert!((case.mesh_frequency_hz - 565.71).abs() < 0.01);
 /// ```
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LoadCase {
     /// Member whose speed and torque are given.
     pub driven: Member,
@@ -74,6 +75,14 @@ impl LoadCase {
             sun_torque_ratio: 1.0,
             mesh_frequency_per_rpm_hz: 0.0,
         }
+    }
+
+    /// A set driven at its sun, of which torque (N m), speed (rpm) and mesh frequency (Hz) are known: results
+    /// read from a table.
+    pub fn turning(sun_torque_nm: f64, speed_rpm: f64, mesh_frequency_hz: f64) -> Self {
+        let mesh_frequency_per_rpm_hz = mesh_frequency_hz / speed_rpm;
+        let standing = Self::standing(sun_torque_nm);
+        Self { speed_rpm, mesh_frequency_hz, mesh_frequency_per_rpm_hz, ..standing }
     }
 
     /// The same under another torque on the driven member, N m.

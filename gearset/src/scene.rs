@@ -1,5 +1,6 @@
 //! The scene: plain types, SI units, everything one run needs to know about a gear set.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::mesh::MeshKind;
@@ -442,7 +443,7 @@ pub struct Damping {
 }
 
 /// A central member.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Member {
     /// Sun.

@@ -9,7 +9,7 @@ use experiments::modal::{
 };
 use fe_contact::FeError;
 use fe_contact::statics::{Bodies, Races};
-use gearset::{Fidelity, Scene, SceneKind};
+use gearset::{Fidelity, LoadCase, Scene, SceneKind};
 
 use crate::arguments::{Impulse, TableFormat};
 use crate::error::CommandError;
@@ -73,7 +73,7 @@ fn settings(arguments: &Impulse, scene: &Scene) -> Result<ImpulseSettings, Comma
         Some(torque) => torque,
         None => operating_torque(path, scene)?,
     };
-    let mut settings = ImpulseSettings::at(torque_nm, arguments.position);
+    let mut settings = ImpulseSettings::at(LoadCase::standing(torque_nm), arguments.position);
     settings.preload.step_s = 1e-6 * arguments.step_us;
     settings.duration_s = 1e-3 * arguments.duration_ms;
     settings.check().map_err(|e| refused(argument(&e), e.to_string()))?;
@@ -104,7 +104,7 @@ fn find(
     settings: &ImpulseSettings,
 ) -> Result<Found, CommandError> {
     let path = &arguments.scene;
-    let torque = settings.preload.torque_nm;
+    let torque = settings.preload.load.sun_torque_nm;
     let failed = |e: ExperimentError| match e {
         ExperimentError::Unsteady { .. } => refused("--torque-nm", e.to_string()),
         ExperimentError::Fe(FeError::NotConverged { .. } | FeError::NoEquilibrium(_)) => {

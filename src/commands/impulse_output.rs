@@ -142,7 +142,7 @@ impl ImpulseOutput {
     pub(super) fn new(found: &Found) -> Self {
         let test = &found.test;
         let settings = &test.settings;
-        let Preload { torque_nm, position, step_s } = settings.preload;
+        let Preload { load, position, step_s } = settings.preload;
         let (fidelity, body_modes) = match found.scene.dynamics.fidelity {
             Fidelity::MeshLaw => ("mesh_law", None),
             Fidelity::QuasiStatic => ("quasi_static", None),
@@ -150,7 +150,7 @@ impl ImpulseOutput {
             Fidelity::Full => ("full", None),
         };
         Self {
-            torque_nm,
+            torque_nm: load.sun_torque_nm,
             position,
             step_us: 1e6 * step_s,
             duration_ms: 1e3 * settings.duration_s,

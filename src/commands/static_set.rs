@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use fe_contact::statics::{Bodies, Imperfections, MeshState, SetCycle, SetState, StaticSet};
-use gearset::{Facing, Scene};
+use gearset::{LoadCase, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -118,14 +118,11 @@ pub(super) fn run(
     let solver = statics::solver(arguments.solver);
     let mut cycles = Vec::new();
     for torque in torques {
-        let sense = match *torque > 0.0 {
-            true => Facing::CounterClockwise,
-            false => Facing::Clockwise,
-        };
-        let set = StaticSet::new(scene, &bodies, sense, Imperfections::default())
+        let load = LoadCase::standing(*torque);
+        let set = StaticSet::new(scene, &bodies, load.sense(), Imperfections::default())
             .map_err(fe_refused(path))?;
         let positions = arguments.positions as usize;
-        cycles.push(set.cycle(torque.abs(), positions, solver).map_err(fe_refused(path))?);
+        cycles.push(set.cycle(load.sun_load_nm(), positions, solver).map_err(fe_refused(path))?);
     }
     let radius = bodies.geometry.sun.as_ref().map(|sun| sun.base_radius);
     let radius = radius.ok_or_else(|| unfit(path, "`geometry.sun` is absent"))?;

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, InteriorPoint, Lemke};
-use gearset::{Kinematics, Scene, SceneKind};
+use gearset::{LoadCase, Scene, SceneKind};
 
 use crate::arguments::{ContactSolver, Static};
 use crate::error::CommandError;
@@ -83,8 +83,7 @@ fn set_torques(arguments: &Static, scene: &Scene) -> Result<Vec<f64>, CommandErr
 
 /// Torque on the sun at the operating point, other than 0.
 pub(super) fn operating_torque(path: &Path, scene: &Scene) -> Result<f64, CommandError> {
-    let operation = scene.operation.zip(Kinematics::from_scene(scene).ok());
-    let torque = operation.map(|(o, kinematics)| kinematics.torques_nm(o.torque_nm).sun);
+    let torque = LoadCase::of_scene(scene).ok().map(|case| case.sun_torque_nm);
     torque.filter(|t| *t != 0.0).ok_or_else(|| {
         let reason = "`operation.torque_nm` is absent or 0: give it, or the argument --torque-nm";
         unfit(path, reason)

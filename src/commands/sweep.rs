@@ -9,7 +9,7 @@ use experiments::sweep::{
     SweepModel, even_speeds, naturals, run as run_plan,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, Kinematics, Scene, SceneKind};
+use gearset::{Fidelity, LoadCase, Scene, SceneKind};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::arguments::{Model, Sweep as SweepArguments, TableFormat};
@@ -35,12 +35,12 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let model: Box<dyn SweepModel> = match (arguments.model, scene.dynamics.fidelity) {
         (Model::FeContact, Fidelity::MeshLaw) => {
-            Box::new(LawModel::new(&scene, &bodies, task.torque_nm)?)
+            Box::new(LawModel::new(&scene, &bodies, task.case)?)
         }
         (Model::FeContact, _) => {
-            Box::new(FeModel::new(&scene, &bodies, Imperfections::default(), task.torque_nm))
+            Box::new(FeModel::new(&scene, &bodies, Imperfections::default(), task.case))
         }
-        (Model::Lumped, _) => Box::new(LawModel::new(&scene, &bodies, task.torque_nm)?.lumped()),
+        (Model::Lumped, _) => Box::new(LawModel::new(&scene, &bodies, task.case)?.lumped()),
     };
     let model = model.as_ref();
     let mut sweep = task.march(model, &task.plan, "plan.json")?;
@@ -56,27 +56,28 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
         let found = match scene.dynamics.fidelity {
             // No small linearisation: the quasi-static one stands in for lines in a picture.
             Fidelity::Full | Fidelity::MeshLaw => {
-                naturals(&quasi_static(&scene), &bodies, task.torque_nm)?
+                naturals(&quasi_static(&scene), &bodies, task.case)?
             }
-            _ => naturals(&scene, &bodies, task.torque_nm)?,
+            _ => naturals(&scene, &bodies, task.case)?,
         };
         let natural: Vec<_> = found.iter().map(|n| (n.frequency_hz, n.mode_type)).collect();
-        let context = Context { scene: &scene, torque_nm: task.torque_nm, natural: &natural };
+        let context =
+            Context { scene: &scene, torque_nm: task.case.sun_torque_nm, natural: &natural };
         sweep_figures::draw(&sweep, &context, folder)?;
     }
-    let result = SweepOutput::new(&scene, task.torque_nm, &task.plan.steady, &sweep);
+    let result = SweepOutput::new(&scene, task.case.sun_torque_nm, &task.plan.steady, &sweep);
     if let Some(folder) = &arguments.out {
         let failed = |path: &Path| {
             let path = path.to_owned();
             move |source| CommandError::File { what: "cannot write", path, source }
         };
         let mut table = Vec::new();
-        write_csv(&sweep, &scene.title, task.torque_nm, &mut table)?;
+        write_csv(&sweep, &scene.title, &mut table)?;
         let path = folder.join("sweep.csv");
         write_whole(&path, &table).map_err(failed(&path))?;
         #[cfg(feature = "parquet")]
         {
-            let table = super::sweep_parquet::parquet(&sweep, &scene.title, task.torque_nm)?;
+            let table = super::sweep_parquet::parquet(&sweep, &scene.title)?;
             let path = folder.join("sweep.parquet");
             write_whole(&path, &table).map_err(failed(&path))?;
         }
@@ -86,7 +87,7 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
     }
     match arguments.format {
         TableFormat::Json => output::json(out, &result),
-        TableFormat::Csv => write_csv(&sweep, &scene.title, task.torque_nm, out),
+        TableFormat::Csv => write_csv(&sweep, &scene.title, out),
         TableFormat::Text => text(&result, out),
     }
 }
@@ -102,9 +103,8 @@ struct Task<'a> {
     arguments: &'a SweepArguments,
     /// The scene file.
     text: String,
-    torque_nm: f64,
-    /// Mesh frequency of one rpm of the input member, Hz.
-    hz_per_rpm: f64,
+    /// Torque and driven member; speeds are the plan's.
+    case: LoadCase,
     plan: Plan,
 }
 
@@ -127,9 +127,7 @@ impl<'a> Task<'a> {
         };
         let missing =
             || unfit(path, "[operation] is absent: it says which member's speed is swept");
-        let mut at_one = scene.clone();
-        at_one.operation.as_mut().ok_or_else(missing)?.speed_rpm = 1.0;
-        let kinematics = Kinematics::from_scene(&at_one).ok().ok_or_else(missing)?;
+        let case = LoadCase::of_scene(scene).map_err(|_| missing())?.with_sun_torque(torque_nm);
         let [from, to, step] = arguments.speeds_rpm;
         let refuse = |argument| move |e: PlanError| refused(argument, e.to_string());
         let speeds = even_speeds(from, to, step).map_err(refuse("--speeds-rpm"))?;
@@ -148,7 +146,7 @@ impl<'a> Task<'a> {
         let plan = Plan::new(&speeds, directions, steady).map_err(refuse("--speeds-rpm"))?;
         let failed = |source| CommandError::File { what: "cannot read", path: path.into(), source };
         let text = std::fs::read_to_string(path).map_err(failed)?;
-        Ok(Self { arguments, text, torque_nm, hz_per_rpm: kinematics.mesh_frequency_hz, plan })
+        Ok(Self { arguments, text, case, plan })
     }
 
     /// Runs one manifest, keeping its points if there is a folder for them.
@@ -162,13 +160,14 @@ impl<'a> Task<'a> {
         let store: Box<dyn PointStore> = match &self.arguments.out {
             Some(folder) => {
                 let text = self.text.clone();
-                let wanted = Manifest::new(text, model.name(), self.torque_nm, plan.clone());
+                let wanted =
+                    Manifest::new(text, model.name(), self.case.sun_torque_nm, plan.clone());
                 Box::new(Folder::open(folder, manifest, &wanted)?)
             }
             None => Box::new(Memory),
         };
         let done = |_: &experiments::sweep::SweepPoint| bar.inc(1);
-        let found = run_plan(model, plan, self.hz_per_rpm, store.as_ref(), &done);
+        let found = run_plan(model, plan, store.as_ref(), &done);
         bar.finish_and_clear();
         found.map_err(|e| match e {
             ExperimentError::Fe(e) => unfit(&self.arguments.scene, e.to_string()),

@@ -142,11 +142,14 @@ fn subject(sweep: &Sweep, context: &Context<'_>) -> Option<Subject> {
         title: context.scene.title.clone(),
         caption: format!(
             "fidelity {}, {:.0} N·m on the sun, {:.0} to {:.0} rpm{unsettled}",
-            sweep.fidelity, context.torque_nm, first.speed_rpm, last.speed_rpm
+            sweep.fidelity,
+            context.torque_nm,
+            first.state.case.speed_rpm,
+            last.state.case.speed_rpm
         ),
         is_settled: moved == 0,
-        top_mesh_hz: last.mesh_frequency_hz,
-        rpm_per_hz: last.speed_rpm / last.mesh_frequency_hz,
+        top_mesh_hz: last.state.case.mesh_frequency_hz,
+        rpm_per_hz: last.state.case.speed_rpm / last.state.case.mesh_frequency_hz,
         natural,
     })
 }
@@ -161,7 +164,7 @@ fn branches(sweep: &Sweep) -> Vec<Vec<&SweepPoint>> {
     let mut both = vec![up, down];
     both.retain(|side| !side.is_empty());
     for side in &mut both {
-        side.sort_by(|a, b| a.speed_rpm.total_cmp(&b.speed_rpm));
+        side.sort_by(|a, b| a.state.case.speed_rpm.total_cmp(&b.state.case.speed_rpm));
     }
     both
 }
@@ -170,7 +173,8 @@ fn branches(sweep: &Sweep) -> Vec<Vec<&SweepPoint>> {
 fn quantities(sweep: &Sweep, planets: usize) -> Vec<Quantity> {
     use Coordinate::{Radial, Rotation, Tangential};
     let branches = branches(sweep);
-    let most = branches.iter().flatten().flat_map(|p| p.lines.iter().map(|l| l.harmonic)).max();
+    let most =
+        branches.iter().flatten().flat_map(|p| p.state.lines.iter().map(|l| l.harmonic)).max();
     let top = most.unwrap_or(0);
     let both: &[Coordinate] = &[Radial, Tangential];
     let mut wanted: Vec<(Part, &str, &[Coordinate])> = vec![
@@ -187,10 +191,10 @@ fn quantities(sweep: &Sweep, planets: usize) -> Vec<Quantity> {
         wanted.push((Part::Planet(0), "tangential", &[Tangential]));
     }
     let spot = |p: &SweepPoint, part: Part, coordinates: &[Coordinate], l: usize| Spot {
-        mesh_hz: p.mesh_frequency_hz,
+        mesh_hz: p.state.case.mesh_frequency_hz,
         // √(radial² + tangential²) of a translation
         amplitude: 1e6
-            * coordinates.iter().fold(0.0f64, |sum, c| sum.hypot(p.amplitude(part, *c, l))),
+            * coordinates.iter().fold(0.0f64, |sum, c| sum.hypot(p.state.amplitude(part, *c, l))),
         is_steady: p.is_steady,
     };
     let mut list: Vec<Quantity> = wanted

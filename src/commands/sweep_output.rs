@@ -131,8 +131,8 @@ impl SweepOutput {
         let points = self.chains.iter().flat_map(|chain| {
             chain.points.iter().map(|p| PointHead {
                 chain: &chain.name,
-                speed_rpm: p.speed_rpm,
-                mesh_frequency_hz: p.mesh_frequency_hz,
+                speed_rpm: p.state.case.speed_rpm,
+                mesh_frequency_hz: p.state.case.mesh_frequency_hz,
                 cycles: p.cycles,
                 residual: p.residual,
                 is_steady: p.is_steady,
@@ -151,11 +151,10 @@ impl SweepOutput {
 pub(super) fn write_csv(
     sweep: &Sweep,
     scene: &str,
-    torque_nm: f64,
     out: &mut dyn Write,
 ) -> Result<(), CommandError> {
     let mut writer = csv::Writer::from_writer(out);
-    for row in sweep.rows(scene, torque_nm) {
+    for row in sweep.rows(scene) {
         writer.serialize(row).map_err(|e| CommandError::Output(std::io::Error::other(e)))?;
     }
     Ok(writer.flush()?)
@@ -181,12 +180,13 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
     for chain in &result.chains {
         for p in &chain.points {
             let strongest = |response: Response| {
-                let of = |l: usize| (response.amplitude(p, l), l);
+                let of = |l: usize| (response.amplitude(&p.state, l), l);
                 (1..=result.harmonics).map(of).fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
             };
             let rotation = strongest(Response::Rotation(Part::Sun));
             let translation = strongest(Response::Translation(Part::Sun));
             let lost = p
+                .state
                 .lines
                 .iter()
                 .filter(|l| l.coordinate == experiments::sweep::Coordinate::ContactLoss);
@@ -195,8 +195,8 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
             beyond += usize::from(p.is_beyond_linear);
             table.add_row([
                 chain.name.clone(),
-                format!("{:.1}", p.speed_rpm),
-                format!("{:.1}", p.mesh_frequency_hz),
+                format!("{:.1}", p.state.case.speed_rpm),
+                format!("{:.1}", p.state.case.mesh_frequency_hz),
                 format!("{:.3}", 1e6 * rotation.0),
                 rotation.1.to_string(),
                 format!("{:.4}", 1e6 * translation.0),

@@ -39,8 +39,8 @@ const COLUMNS: [(&str, Column); 14] = [
 ];
 
 /// The table as one row group.
-pub(super) fn parquet(sweep: &Sweep, scene: &str, torque_nm: f64) -> Result<Vec<u8>, CommandError> {
-    let rows: Vec<TableRow> = sweep.rows(scene, torque_nm).collect();
+pub(super) fn parquet(sweep: &Sweep, scene: &str) -> Result<Vec<u8>, CommandError> {
+    let rows: Vec<TableRow> = sweep.rows(scene).collect();
     bytes(&rows).map_err(|e| CommandError::Output(std::io::Error::other(e)))
 }
 

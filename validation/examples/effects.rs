@@ -13,7 +13,8 @@ fn main() -> Result<(), ValidationError> {
     let reference = Reference::load()?;
     let four = scene(PublishedScene::Oh58FourPlanets)?;
     let bodies = Bodies::new(&four)?;
-    let preload = Preload { torque_nm: 1130.0, position: 0.0, step_s: 5e-6 };
+    let preload =
+        Preload { load: gearset::LoadCase::standing(1130.0), position: 0.0, step_s: 5e-6 };
     println!("### Rigid carrier: FE/contact against the fed lumped model\n");
     println!(
         "| planets | position | pairs off the line of action | worst of all modes, % | at, Hz | 5 to 15 kHz, % | all along the line of action, % |"

@@ -9,7 +9,7 @@
 
 use experiments::sweep::{FeModel, Part, Response, SteadySettings, SweepModel, SweepPoint, steady};
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Kinematics, MeshKinematics, Scene};
+use gearset::{LoadCase, MeshKinematics, Scene};
 use rayon::prelude::*;
 use validation::{PublishedScene, Reference, scene};
 
@@ -37,11 +37,16 @@ struct Case {
 }
 
 /// Amplitudes with exact kinematics and the cycles they took to repeat.
-fn exact(scene: &Scene, bodies: &Bodies, case: &Case, hz: f64) -> Outcome<Vec<(f64, usize)>> {
+fn exact(
+    scene: &Scene,
+    bodies: &Bodies,
+    case: &Case,
+    load: LoadCase,
+) -> Outcome<Vec<(f64, usize)>> {
     let model = |kinematics: MeshKinematics| {
         let mut own = scene.clone();
         own.dynamics.kinematics = kinematics;
-        FeModel::new(&own, bodies, Imperfections::default(), case.torque_nm)
+        FeModel::new(&own, bodies, Imperfections::default(), load)
     };
     let linear = model(MeshKinematics::AboutMean);
     let exact = model(MeshKinematics::Exact);
@@ -49,7 +54,7 @@ fn exact(scene: &Scene, bodies: &Bodies, case: &Case, hz: f64) -> Outcome<Vec<(f
         let mut state: Option<Vec<f64>> = None;
         let mut found = (f64::NAN, 0);
         for (model, tolerance) in [&linear, &exact].into_iter().zip(TOLERANCES) {
-            let mut set = model.turning(speed * hz, 0)?;
+            let mut set = model.turning(&load.at_speed(speed), 0)?;
             match &state {
                 Some(state) => set.restore(state)?,
                 None => set.rest()?,
@@ -58,8 +63,8 @@ fn exact(scene: &Scene, bodies: &Bodies, case: &Case, hz: f64) -> Outcome<Vec<(f
                 SteadySettings { tolerance, between_cycles: 0, ..SteadySettings::default() };
             let (planets, first) = (model.planets(), model.first_planet_rad());
             let march = steady(set.as_mut(), planets, first, model.steps_per_cycle(), &settings)?;
-            let point = SweepPoint::new(speed, speed * hz, &march, &settings, 0)?;
-            found = (case.response.amplitude(&point, case.harmonic), march.cycles);
+            let point = SweepPoint::new(load.at_speed(speed), &march, &settings, 0)?;
+            found = (case.response.amplitude(&point.state, case.harmonic), march.cycles);
             eprintln!("{} {} {speed} {tolerance:e}: {found:?}", case.mode, case.torque_nm);
             state = Some(set.state());
         }
@@ -71,8 +76,7 @@ fn exact(scene: &Scene, bodies: &Bodies, case: &Case, hz: f64) -> Outcome<Vec<(f
 fn main() -> Outcome<()> {
     let scene = scene(PublishedScene::Oh58FourPlanets)?;
     let bodies = Bodies::new(&scene)?;
-    let kinematics = Kinematics::from_scene(&scene)?;
-    let hz = kinematics.mesh_frequency_hz / scene.operation.ok_or("no speed")?.speed_rpm;
+    let load = LoadCase::of_scene(&scene)?;
     let kept = Reference::load()?.torque_peaks;
     let mut cases = Vec::new();
     for (mode, response) in RESONANCES {
@@ -85,8 +89,10 @@ fn main() -> Outcome<()> {
             cases.push(Case { mode, response, harmonic, torque_nm: *torque, speeds_rpm });
         }
     }
-    let found: Vec<_> =
-        cases.par_iter().map(|case| exact(&scene, &bodies, case, hz)).collect::<Outcome<_>>()?;
+    let found: Vec<_> = cases
+        .par_iter()
+        .map(|case| exact(&scene, &bodies, case, load.with_sun_torque(case.torque_nm)))
+        .collect::<Outcome<_>>()?;
     println!(
         "# Resonant peaks with exact kinematics at every step, four planets, 140 steps a cycle."
     );

@@ -13,10 +13,10 @@ use std::time::Instant;
 
 use experiments::sweep::{
     Direction, FeModel, LawModel, Marching, Memory, Part, Plan, Response, SteadySettings,
-    SweepModel, SweepPoint, run, steady, top_of_three,
+    SteadyState, SweepModel, run, steady, top_of_three,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, Kinematics, Scene};
+use gearset::{Fidelity, LoadCase, Scene};
 use validation::{FullSweep, FullSweepPoint, PublishedScene, scene};
 
 /// Speeds about the peak, rpm, as near each other as those of the truth.
@@ -65,9 +65,9 @@ fn settings(cells: u32) -> Vec<Setting> {
 }
 
 /// Place (rpm) and height (rad) of the peak of the sun's rotation in l = 2.
-fn highest(points: &[&SweepPoint]) -> Option<(f64, f64)> {
-    let rotation = |p: &SweepPoint| Response::Rotation(Part::Sun).amplitude(p, 2);
-    top_of_three(points.iter().map(|p| (p.speed_rpm, rotation(p))))
+fn highest(points: &[&SteadyState]) -> Option<(f64, f64)> {
+    let rotation = |p: &SteadyState| Response::Rotation(Part::Sun).amplitude(p, 2);
+    top_of_three(points.iter().map(|p| (p.case.speed_rpm, rotation(p))))
 }
 
 /// Mean time of a step, s, over at least `least_s`.
@@ -91,13 +91,13 @@ fn model<'s>(
     which: Model,
     truth: &FullSweep,
 ) -> Outcome<Box<dyn SweepModel + 's>> {
-    let torque = truth.torque_nm;
-    let law = || LawModel::new(scene, bodies, torque);
+    let case = LoadCase::of_scene(scene)?.with_sun_torque(truth.torque_nm);
+    let law = || LawModel::new(scene, bodies, case);
     Ok(match which {
         Model::Lumped => Box::new(law()?.lumped()),
         Model::Fidelity(Fidelity::MeshLaw) => Box::new(law()?),
         Model::Fidelity(_) => {
-            let model = FeModel::new(scene, bodies, Imperfections::default(), torque);
+            let model = FeModel::new(scene, bodies, Imperfections::default(), case);
             Box::new(model.with_tables(truth.table_size))
         }
     })
@@ -107,8 +107,7 @@ fn main() -> Outcome<()> {
     let truth = FullSweep::load()?;
     let (torque, mut scene) = (truth.torque_nm, scene(PublishedScene::Oh58FourPlanets)?);
     scene.fe_contact.flank_elements = truth.flank_elements;
-    let kinematics = Kinematics::from_scene(&scene)?;
-    let hz_per_rpm = kinematics.mesh_frequency_hz / scene.operation.ok_or("no speed")?.speed_rpm;
+    let at_timed = LoadCase::of_scene(&scene)?.with_sun_torque(torque).at_speed(TIMED_RPM);
     let peak = truth.rotational_peak().ok_or("the truth has no peak")?;
     println!("# Fidelities of the ladder by error and cost, four planets.");
     println!("# Remade by: cargo run --release -p validation --example ladder");
@@ -148,11 +147,12 @@ fn main() -> Outcome<()> {
     let mut sets = Vec::new();
     for (setting, model) in settings.iter().zip(&models) {
         let plan = Plan::new(&SPEEDS, &[Direction::Up], steady_settings.clone())?;
-        let sweep = run(model.as_ref(), &plan, hz_per_rpm, &Memory, &|_| ())?;
+        let sweep = run(model.as_ref(), &plan, &Memory, &|_| ())?;
         let points = sweep.points();
-        tops.push(highest(&points).ok_or("no peak")?);
-        let size = points.iter().find(|p| p.speed_rpm == TIMED_RPM).map_or(0, |p| p.size);
-        let mut set = model.turning(TIMED_RPM * hz_per_rpm, size)?;
+        tops.push(highest(&sweep.states()).ok_or("no peak")?);
+        let size =
+            points.iter().find(|p| p.state.case.speed_rpm == TIMED_RPM).map_or(0, |p| p.size);
+        let mut set = model.turning(&at_timed, size)?;
         set.rest()?;
         let steps = model.steps_per_cycle();
         steady(set.as_mut(), model.planets(), model.first_planet_rad(), steps, &steady_settings)?;
@@ -185,7 +185,7 @@ fn main() -> Outcome<()> {
     scene.dynamics.steps_per_cycle = 140;
     let bodies = Bodies::new(&scene)?;
     let full = model(&scene, &bodies, Model::Fidelity(Fidelity::Full), &truth)?;
-    let mut set = full.turning(TIMED_RPM * hz_per_rpm, 0)?;
+    let mut set = full.turning(&at_timed, 0)?;
     set.rest()?;
     (0..140).try_for_each(|_| set.step())?;
     let mut own = Vec::new();

@@ -42,7 +42,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("|---|---:|---:|---:|---:|");
     for (name, scene) in variants {
         let bodies = Bodies::new(&scene)?;
-        let all = lowest_series(&naturals(&scene, &bodies, 1130.0)?).ok_or("no such modes")?;
+        let all = lowest_series(&naturals(&scene, &bodies, gearset::LoadCase::standing(1130.0))?)
+            .ok_or("no such modes")?;
         let found = follow(&scene, &bodies, &TORQUES, &[all[0], all[2]], &[Part::Sun], 1e-5)?;
         let [t, r] = [&found[0].sun, &found[1].sun];
         println!(

@@ -99,7 +99,9 @@ fn cell(base: &Scene, soft: PerMesh, choice: Choice) -> Outcome<String> {
     let cycle = set.cycle(STIFFNESS_AT.0, STIFFNESS_AT.1, &ActiveSet)?;
     let [sun, ring] =
         [MeshKind::SunPlanet, MeshKind::RingPlanet].map(|k| 1e-6 * cycle.mean_secant_stiffness(k));
-    let all = lowest_series(&naturals(&scene, &bodies, STIFFNESS_AT.0)?).ok_or("no such modes")?;
+    let all =
+        lowest_series(&naturals(&scene, &bodies, gearset::LoadCase::standing(STIFFNESS_AT.0))?)
+            .ok_or("no such modes")?;
     let series: Vec<_> = [0, 2, 4].iter().map(|i| all[*i]).collect();
     let followed = follow(&scene, &bodies, &TORQUES, &series, &[Part::Sun], 1e-5)?;
     let still = static_growth(&scene, &bodies, &TORQUES)?;

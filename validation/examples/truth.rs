@@ -14,7 +14,7 @@ use experiments::sweep::{
     Coordinate, FeModel, Part, Response, SteadySettings, SweepModel, SweepPoint, steady,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, Kinematics, Scene};
+use gearset::{Fidelity, LoadCase, Scene};
 use rayon::prelude::*;
 use validation::{PublishedScene, scene};
 
@@ -57,16 +57,16 @@ fn numbers(values: impl Iterator<Item = f64>) -> String {
 }
 
 fn text(list: &str, steps: u32, point: &SweepPoint) -> String {
-    let speed = point.speed_rpm;
+    let speed = point.state.case.speed_rpm;
     let mut text = format!("\n[[{list}]]\nsteps_per_cycle = {steps}\nspeed_rpm = {speed:.1}\n");
     text += &format!("cycles = {}\nresidual = {:.1e}\n", point.cycles, point.residual);
     for part in [Part::Sun, Part::Planet(0)] {
-        let of = |response: Response| numbers((1..=5).map(|l| response.amplitude(point, l)));
+        let of = |response: Response| numbers((1..=5).map(|l| response.amplitude(&point.state, l)));
         text += &format!("{}_rotation_rad = [{}]\n", part.name(), of(Response::Rotation(part)));
         text += &format!("{}_translation_m = [{}]\n", part.name(), of(Response::Translation(part)));
     }
     for part in [Part::SunMesh(0), Part::RingMesh(0)] {
-        let force = |l| point.amplitude(part, Coordinate::Force, l);
+        let force = |l| point.state.amplitude(part, Coordinate::Force, l);
         text += &format!("{}_force_n = [{}]\n", part.name(), numbers((1..=5).map(force)));
     }
     text
@@ -80,7 +80,7 @@ fn at_speed(
     scene: &Scene,
     bodies: &Bodies,
     plan: SpeedPlan,
-    hz: f64,
+    case: LoadCase,
 ) -> Outcome<String> {
     let SpeedPlan { speed_rpm: speed, steps, tolerance } = plan;
     let settings = SteadySettings { tolerance, between_cycles: 0, ..SteadySettings::default() };
@@ -88,8 +88,8 @@ fn at_speed(
     for (k, steps) in steps.iter().copied().enumerate() {
         let mut own = scene.clone();
         own.dynamics.steps_per_cycle = steps;
-        let model = FeModel::new(&own, bodies, Imperfections::default(), TORQUE_NM);
-        let mut set = model.turning(speed * hz, TABLES)?;
+        let model = FeModel::new(&own, bodies, Imperfections::default(), case);
+        let mut set = model.turning(&case.at_speed(speed), TABLES)?;
         match &state {
             Some(state) => set.restore(state)?,
             None => set.rest()?,
@@ -97,7 +97,7 @@ fn at_speed(
         let (planets, first) = (model.planets(), model.first_planet_rad());
         let found = steady(set.as_mut(), planets, first, steps as usize, &settings)?;
         let point =
-            text(list, steps, &SweepPoint::new(speed, speed * hz, &found, &settings, TABLES)?);
+            text(list, steps, &SweepPoint::new(case.at_speed(speed), &found, &settings, TABLES)?);
         eprintln!("{point}");
         if k > 0 {
             all += &point;
@@ -112,8 +112,7 @@ fn main() -> Outcome<()> {
     scene.dynamics.fidelity = Fidelity::Full;
     scene.fe_contact.flank_elements = FLANK_ELEMENTS;
     let bodies = Bodies::new(&scene)?;
-    let kinematics = Kinematics::from_scene(&scene)?;
-    let hz = kinematics.mesh_frequency_hz / scene.operation.ok_or("no speed")?.speed_rpm;
+    let case = LoadCase::of_scene(&scene)?.with_sun_torque(TORQUE_NM);
     println!("# Harmonics 1 to 5 of steady states with every degree of freedom, four planets.");
     println!("# Remade by: cargo run --release -p validation --example truth");
     println!("source = \"own computation, fidelity full\"");
@@ -122,13 +121,13 @@ fn main() -> Outcome<()> {
     println!("table_size = {TABLES}");
     let all: Vec<String> = PLANS
         .into_par_iter()
-        .map(|plan| at_speed("point", &scene, &bodies, plan, hz))
+        .map(|plan| at_speed("point", &scene, &bodies, plan, case))
         .collect::<Outcome<_>>()?;
     all.iter().for_each(|text| print!("{text}"));
     scene.dynamics.fidelity = Fidelity::QuasiStatic;
     for speed_rpm in SPEEDS_ALONE {
         let plan = SpeedPlan { speed_rpm, ..STEPS_ALONE };
-        print!("{}", at_speed("quasi_static", &scene, &bodies, plan, hz)?);
+        print!("{}", at_speed("quasi_static", &scene, &bodies, plan, case)?);
     }
     Ok(())
 }

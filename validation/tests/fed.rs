@@ -10,7 +10,11 @@ fn where_all_pairs_press_along_the_line_of_action_the_models_are_one() {
     let mut three = scene(PublishedScene::Oh58ThreePlanets).unwrap();
     three.fe_contact.flank_elements = 10;
     let bodies = Bodies::new(&three).unwrap();
-    let at = |torque_nm| Preload { torque_nm, position: 0.0, step_s: 5e-6 };
+    let at = |torque_nm| Preload {
+        load: gearset::LoadCase::standing(torque_nm),
+        position: 0.0,
+        step_s: 5e-6,
+    };
     // The sun turning either way: the mirrored set is another with the same frequencies.
     for torque in [1130.0, -1130.0] {
         let found = agreement(&three, &bodies, &at(torque)).unwrap();

@@ -8,7 +8,7 @@ use experiments::sweep::{
     StoreError, Sweep, SweepModel, run,
 };
 use fe_contact::statics::{Bodies, Imperfections, PitchError};
-use gearset::{Kinematics, Scene};
+use gearset::{LoadCase, Scene};
 
 fn scene(steps: u32) -> Scene {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/oh58_4p.toml");
@@ -18,9 +18,8 @@ fn scene(steps: u32) -> Scene {
     scene
 }
 
-fn hz_per_rpm(scene: &Scene) -> f64 {
-    let kinematics = Kinematics::from_scene(scene).unwrap();
-    kinematics.mesh_frequency_hz / scene.operation.unwrap().speed_rpm
+fn under(scene: &Scene) -> LoadCase {
+    LoadCase::of_scene(scene).unwrap().with_sun_torque(1130.0)
 }
 
 fn settings() -> SteadySettings {
@@ -53,11 +52,11 @@ impl PointStore for Breaking {
 fn broken_off_or_on_one_thread_the_numbers_are_the_same() {
     let scene = scene(28);
     let bodies = Bodies::new(&scene).unwrap();
-    let model = FeModel::new(&scene, &bodies, Imperfections::default(), 1130.0);
+    let model = FeModel::new(&scene, &bodies, Imperfections::default(), under(&scene));
     let mut plan = Plan::new(&[900.0, 1000.0, 1100.0], &[Direction::Up], settings()).unwrap();
     plan.chains
         .extend(Plan::new(&[1500.0, 1600.0], &[Direction::Down], settings()).unwrap().chains);
-    let of = |store: &dyn PointStore| run(&model, &plan, hz_per_rpm(&scene), store, &|_| ());
+    let of = |store: &dyn PointStore| run(&model, &plan, store, &|_| ());
     let whole = of(&Memory).unwrap();
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     assert_eq!(one.install(|| of(&Memory)).unwrap(), whole);
@@ -71,9 +70,9 @@ fn broken_off_or_on_one_thread_the_numbers_are_the_same() {
     assert_eq!(serde_json::to_string(&resumed).unwrap(), serde_json::to_string(&whole).unwrap());
 }
 
-fn single(model: &dyn SweepModel, scene: &Scene, settings: SteadySettings) -> Sweep {
+fn single(model: &dyn SweepModel, settings: SteadySettings) -> Sweep {
     let plan = Plan::new(&[1600.0], &[Direction::Up], settings).unwrap();
-    run(model, &plan, hz_per_rpm(scene), &Memory, &|_| ()).unwrap()
+    run(model, &plan, &Memory, &|_| ()).unwrap()
 }
 
 /// With a tooth out of place nothing repeats before the sun's teeth do, and energy lies between mesh
@@ -82,14 +81,14 @@ fn single(model: &dyn SweepModel, scene: &Scene, settings: SteadySettings) -> Sw
 fn a_tooth_out_of_place_makes_sidebands() {
     let scene = scene(28);
     let bodies = Bodies::new(&scene).unwrap();
-    let perfect = FeModel::new(&scene, &bodies, Imperfections::default(), 1130.0);
-    let point = &single(&perfect, &scene, settings()).chains[0].1[0];
+    let perfect = FeModel::new(&scene, &bodies, Imperfections::default(), under(&scene));
+    let point = &single(&perfect, settings()).chains[0].1[0];
     assert!(point.is_steady && point.between.unwrap() < 1e-11, "{:?}", point.between);
-    assert!(point.amplitude(Part::Sun, Coordinate::Rotation, 2) > 1e-5);
+    assert!(point.state.amplitude(Part::Sun, Coordinate::Rotation, 2) > 1e-5);
     let errors = vec![PitchError { tooth: 5, amount: 10e-6 }];
     let faulty = Imperfections { pitch_errors: errors, ..Imperfections::default() };
-    let model = FeModel::new(&scene, &bodies, faulty, 1130.0);
+    let model = FeModel::new(&scene, &bodies, faulty, under(&scene));
     let settings = SteadySettings { most_cycles: 54, between_cycles: 27, ..settings() };
-    let point = &single(&model, &scene, settings).chains[0].1[0];
+    let point = &single(&model, settings).chains[0].1[0];
     assert!(!point.is_steady && point.between.unwrap() > 1e-4, "{:?}", point.between);
 }

@@ -81,12 +81,16 @@ pub fn frequency_band(
     count: usize,
     highest_hz: f64,
 ) -> Result<FrequencyBand, ExperimentError> {
-    let torques_nm: Vec<f64> = factors.iter().map(|f| f * preload.torque_nm).collect();
+    let torques_nm: Vec<f64> = factors.iter().map(|f| f * preload.load.sun_torque_nm).collect();
     let positions: Vec<f64> = (0..count).map(|i| i as f64 / count as f64).collect();
     let mut modes: Vec<ModeBand> = Vec::new();
     for (t, torque_nm) in torques_nm.iter().enumerate() {
         for (p, position) in positions.iter().enumerate() {
-            let state = Preload { torque_nm: *torque_nm, position: *position, ..*preload };
+            let state = Preload {
+                load: preload.load.with_sun_torque(*torque_nm),
+                position: *position,
+                ..*preload
+            };
             let set = preloaded(scene, bodies, &state)?;
             let mut found = linear_modes(&set, &set.linearised()?)?;
             found.retain(|m| m.frequency_hz <= highest_hz);

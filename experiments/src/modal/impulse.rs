@@ -123,7 +123,9 @@ pub fn impulse_test(
         let force_n = trial * settings.size / change.max(f64::MIN_POSITIVE);
         let (records, force_change) = decay(&mut set, settings, &pulse, force_n, steps)?;
         if force_change > PROPORTION * settings.size {
-            return Err(ExperimentError::Unsteady { torque_nm: settings.preload.torque_nm });
+            return Err(ExperimentError::Unsteady {
+                torque_nm: settings.preload.load.sun_torque_nm,
+            });
         }
         let (half, _) = decay(&mut set, settings, &pulse, 0.5 * force_n, steps.min(few))?;
         taken += (2 * steps.min(few) + steps) as u64;
@@ -157,7 +159,7 @@ fn stand_still(
     set: &mut VibratingSet<'_>,
     settings: &ImpulseSettings,
 ) -> Result<(), ExperimentError> {
-    let unsteady = || ExperimentError::Unsteady { torque_nm: settings.preload.torque_nm };
+    let unsteady = || ExperimentError::Unsteady { torque_nm: settings.preload.load.sun_torque_nm };
     let nothing = Pulse { name: String::new(), pattern: vec![0.0; set.races().count] };
     match decay(set, settings, &nothing, 0.0, STILL.0) {
         Ok((_, change)) if change <= STILL.1 * settings.size => Ok(()),
@@ -184,7 +186,7 @@ fn decay(
     force: f64,
     steps: usize,
 ) -> Result<(Vec<Vec<f64>>, f64), ExperimentError> {
-    set.rest(settings.preload.torque_nm.abs())?;
+    set.rest(settings.preload.load.sun_load_nm())?;
     let rest = set.motion().x.clone();
     let forces = mesh_forces(set);
     let size = largest(&forces);

@@ -3,7 +3,7 @@
 use fe_contact::FeError;
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{LinearSet, Loading, Motive, VibratingSet};
-use gearset::{Facing, Scene};
+use gearset::{LoadCase, Scene};
 
 use super::kinds::{RaceKinds, type_of};
 use super::mode::FeMode;
@@ -13,8 +13,8 @@ use crate::table_growth::large_enough;
 /// A standing set under torque.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Preload {
-    /// Torque on the sun, N m; clockwise if negative.
-    pub torque_nm: f64,
+    /// Torque; the set stands, whatever the speed.
+    pub load: LoadCase,
     /// Position in the mesh cycle, cycles.
     pub position: f64,
     /// Time step, s.
@@ -30,17 +30,17 @@ pub fn preloaded<'b>(
     bodies: &'b Bodies,
     preload: &Preload,
 ) -> Result<VibratingSet<'b>, FeError> {
-    let Preload { torque_nm, position, step_s } = *preload;
-    let sense = if torque_nm >= 0.0 { Facing::CounterClockwise } else { Facing::Clockwise };
+    let Preload { load, position, step_s } = *preload;
+    let (sense, torque_nm) = (load.sense(), load.sun_load_nm());
     let sun = bodies.geometry.sun.as_ref().map_or(1.0, |sun| sun.base_radius);
-    let force = (torque_nm.abs() / sun / scene.planets.psi_rad.len() as f64).max(1.0);
+    let force = (torque_nm / sun / scene.planets.psi_rad.len() as f64).max(1.0);
     let motive = Motive::Standing { position, step: step_s };
     // Relieved flanks touch on a wider patch than their force says.
     large_enough(|size| {
         let (none, mesh_force) = (Imperfections::default(), force * f64::powi(2.0, size as i32));
-        let loading = Loading { torque_nm: torque_nm.abs(), mesh_force };
+        let loading = Loading { torque_nm, mesh_force };
         let mut set = VibratingSet::new(scene, bodies, sense, none, motive, loading)?;
-        set.rest(torque_nm.abs())?;
+        set.rest(torque_nm)?;
         Ok(set)
     })
 }

@@ -2,6 +2,8 @@
 
 use dynamics::identify::Options;
 
+use gearset::LoadCase;
+
 use super::linear::Preload;
 
 /// Fewest steps in the shortest period of the band: with fewer, average acceleration lengthens that
@@ -89,9 +91,9 @@ fn shown(x: f64) -> String {
 
 impl ImpulseSettings {
     /// At a preload, with steps of 5 µs for 40 ms, between 400 and 3000 Hz.
-    pub fn at(torque_nm: f64, position: f64) -> Self {
+    pub fn at(load: LoadCase, position: f64) -> Self {
         Self {
-            preload: Preload { torque_nm, position, step_s: 5e-6 },
+            preload: Preload { load, position, step_s: 5e-6 },
             duration_s: 0.04,
             size: 2e-4,
             band_hz: (400.0, 3000.0),
@@ -101,8 +103,8 @@ impl ImpulseSettings {
     }
 
     /// The same for bodies with every degree of freedom: 10 ms, and as few pulses as reach all modes.
-    pub fn short(torque_nm: f64, position: f64) -> Self {
-        Self { duration_s: 0.01, trial_steps: 60, is_short: true, ..Self::at(torque_nm, position) }
+    pub fn short(load: LoadCase, position: f64) -> Self {
+        Self { duration_s: 0.01, trial_steps: 60, is_short: true, ..Self::at(load, position) }
     }
 
     /// Whether the pulse of this name belongs to the test.
@@ -121,7 +123,8 @@ impl ImpulseSettings {
     /// # Errors
     /// If torque, position, step or duration cannot be used.
     pub fn check(&self) -> Result<(), SettingsError> {
-        let Preload { torque_nm, position, step_s } = self.preload;
+        let Preload { load, position, step_s } = self.preload;
+        let torque_nm = load.sun_torque_nm;
         if torque_nm == 0.0 {
             return Err(SettingsError::NoTorque);
         }
@@ -168,17 +171,17 @@ mod tests {
     use super::*;
 
     fn refusal(change: impl Fn(&mut ImpulseSettings)) -> SettingsError {
-        let mut settings = ImpulseSettings::at(1130.0, 0.0);
+        let mut settings = ImpulseSettings::at(LoadCase::standing(1130.0), 0.0);
         change(&mut settings);
         settings.check().unwrap_err()
     }
 
     #[test]
     fn settings_that_make_no_sense_are_refused() {
-        assert_eq!(ImpulseSettings::at(-1130.0, 0.5).check(), Ok(()));
-        assert_eq!(refusal(|s| s.preload.torque_nm = 0.0), SettingsError::NoTorque);
+        assert_eq!(ImpulseSettings::at(LoadCase::standing(-1130.0), 0.5).check(), Ok(()));
+        assert_eq!(refusal(|s| s.preload.load = LoadCase::standing(0.0)), SettingsError::NoTorque);
         for torque in [f64::NAN, f64::INFINITY] {
-            let found = refusal(|s| s.preload.torque_nm = torque);
+            let found = refusal(|s| s.preload.load = LoadCase::standing(torque));
             assert!(matches!(found, SettingsError::Torque(_)), "{found}");
         }
         for position in [f64::NAN, -0.1, 1.1] {
@@ -206,7 +209,7 @@ mod tests {
     #[test]
     fn the_shortest_duration_named_is_allowed() {
         for step_s in [1e-6, 5e-6, 20e-6, 41e-6] {
-            let mut settings = ImpulseSettings::at(1130.0, 0.0);
+            let mut settings = ImpulseSettings::at(LoadCase::standing(1130.0), 0.0);
             (settings.preload.step_s, settings.duration_s) = (step_s, 1e-4);
             let found = settings.check().unwrap_err();
             let SettingsError::Duration { least_s, .. } = found else { panic!("{found}") };

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{Loading, Motive, Prepared, VibratingSet};
-use gearset::{Facing, Fidelity, MeshKinematics, Scene};
+use gearset::{Fidelity, LoadCase, MeshKinematics, Scene};
 
 use super::marching::{FeMarching, Marching};
 use crate::error::ExperimentError;
@@ -15,6 +15,9 @@ pub trait SweepModel: Sync {
     /// Name of the fidelity or model, as tables print it.
     fn name(&self) -> String;
 
+    /// What it is loaded with and driven by.
+    fn case(&self) -> LoadCase;
+
     /// Number of planets.
     fn planets(&self) -> usize;
 
@@ -24,21 +27,16 @@ pub trait SweepModel: Sync {
     /// Steps in a mesh cycle.
     fn steps_per_cycle(&self) -> usize;
 
-    /// The set turning at a mesh frequency (Hz). `size`: how often its tables were found too small
+    /// The set turning at the speed of a load case. `size`: how often its tables were found too small
     /// and are to be laid out for twice the load.
     ///
     /// # Errors
     /// If the set cannot be built.
     fn turning(
         &self,
-        mesh_frequency: f64,
+        case: &LoadCase,
         size: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError>;
-}
-
-/// Sense of a torque on the sun.
-pub(super) fn sense(torque_nm: f64) -> Facing {
-    if torque_nm < 0.0 { Facing::Clockwise } else { Facing::CounterClockwise }
 }
 
 /// Tables are made for this many times the even share of the load: resonance must fit.
@@ -50,22 +48,22 @@ pub struct FeModel<'s> {
     scene: Scene,
     bodies: &'s Bodies,
     imperfections: Imperfections,
-    torque_nm: f64,
+    case: LoadCase,
     table_size: usize,
     prepared: [OnceLock<Prepared<'s>>; SIZES],
 }
 
 impl<'s> FeModel<'s> {
-    /// Under a torque on the sun (N m, counter-clockwise positive).
+    /// Under the torque of a load case.
     pub fn new(
         scene: &Scene,
         bodies: &'s Bodies,
         imperfections: Imperfections,
-        torque_nm: f64,
+        case: LoadCase,
     ) -> Self {
         let prepared = [const { OnceLock::new() }; SIZES];
         let (scene, table_size) = (scene.clone(), 0);
-        Self { scene, bodies, imperfections, torque_nm, table_size, prepared }
+        Self { scene, bodies, imperfections, case, table_size, prepared }
     }
 
     /// The same with tables laid out for twice the load, as often as `size` says, before any is found too
@@ -79,7 +77,7 @@ impl<'s> FeModel<'s> {
     fn force(&self, size: usize) -> Result<f64, ExperimentError> {
         let sun = self.bodies.geometry.sun.as_ref();
         let radius = sun.ok_or(ExperimentError::Incomplete("sun"))?.base_radius;
-        let share = self.torque_nm.abs() / radius / self.planets() as f64;
+        let share = self.case.sun_load_nm() / radius / self.planets() as f64;
         Ok(HEADROOM * share.max(1.0) * f64::powi(2.0, size as i32))
     }
 }
@@ -92,6 +90,10 @@ impl SweepModel for FeModel<'_> {
             Fidelity::Full => "full".into(),
             Fidelity::MeshLaw => "mesh-law".into(),
         }
+    }
+
+    fn case(&self) -> LoadCase {
+        self.case
     }
 
     fn planets(&self) -> usize {
@@ -108,15 +110,15 @@ impl SweepModel for FeModel<'_> {
 
     fn turning(
         &self,
-        mesh_frequency: f64,
+        case: &LoadCase,
         size: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
-        let steps_per_cycle = self.steps_per_cycle();
+        let (steps_per_cycle, mesh_frequency) = (self.steps_per_cycle(), case.mesh_frequency_hz);
         let motive = Motive::Turning { mesh_frequency, steps_per_cycle };
-        let torque_nm = self.torque_nm.abs();
+        let torque_nm = self.case.sun_load_nm();
         let mesh_force = self.force(self.table_size + size)?;
         let loading = Loading { torque_nm, mesh_force };
-        let sense = sense(self.torque_nm);
+        let sense = self.case.sense();
         if self.scene.dynamics.kinematics == MeshKinematics::Exact {
             let own = self.imperfections.clone();
             let (scene, bodies) = (&self.scene, self.bodies);

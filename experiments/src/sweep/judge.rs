@@ -4,7 +4,7 @@ use gearset::ExcitationStrengths;
 use lumped::ModeType;
 
 use super::peaks::{Peak, Response, peaks};
-use super::point::{Part, SweepPoint};
+use super::state::{Part, SteadyState};
 use crate::natural_mode::NaturalMode;
 
 /// One kind of the sun's motion in one harmonic, over a whole sweep.
@@ -45,12 +45,12 @@ fn response(is_rotation: bool, part: Part) -> Response {
 }
 
 /// Largest amplitude over speed, m or rad.
-fn largest(points: &[&SweepPoint], response: Response, harmonic: usize) -> f64 {
+fn largest(points: &[&SteadyState], response: Response, harmonic: usize) -> f64 {
     points.iter().fold(0.0f64, |a, p| a.max(response.amplitude(p, harmonic)))
 }
 
 /// Largest amplitude of any body and harmonic in rotation or translation.
-fn scale(points: &[&SweepPoint], is_rotation: bool, harmonics: usize) -> f64 {
+fn scale(points: &[&SteadyState], is_rotation: bool, harmonics: usize) -> f64 {
     let mut parts: Vec<Part> =
         points.first().map_or(Vec::new(), |p| p.lines.iter().map(|line| line.part).collect());
     parts.dedup();
@@ -63,7 +63,7 @@ fn scale(points: &[&SweepPoint], is_rotation: bool, harmonics: usize) -> f64 {
 }
 
 /// The sun's rotation and translation in every harmonic.
-pub fn contents(points: &[&SweepPoint], strengths: &[ExcitationStrengths]) -> Vec<Content> {
+pub fn contents(points: &[&SteadyState], strengths: &[ExcitationStrengths]) -> Vec<Content> {
     let mut list = Vec::new();
     for is_rotation in [true, false] {
         let scale = scale(points, is_rotation, strengths.len());
@@ -84,7 +84,7 @@ pub fn contents(points: &[&SweepPoint], strengths: &[ExcitationStrengths]) -> Ve
 /// Peaks of the sun's and planet 0's motion in harmonics 1…`harmonics` that stand out by `least`;
 /// rounding has peaks too, so those below 1e-6 of the largest motion of any body do not count.
 pub(super) fn prominent(
-    points: &[&SweepPoint],
+    points: &[&SteadyState],
     harmonics: usize,
     least: f64,
 ) -> Vec<(Response, Vec<Peak>)> {
@@ -106,7 +106,7 @@ pub(super) fn prominent(
 /// shows in other harmonics too, at the same speed: of peaks of one quantity within 3 % of speed only
 /// that of the harmonic which moves most is kept.
 pub fn assigned(
-    points: &[&SweepPoint],
+    points: &[&SteadyState],
     strengths: &[ExcitationStrengths],
     naturals: &[NaturalMode],
     least: f64,

@@ -4,10 +4,10 @@
 use dynamics::CoupledState;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use fe_contact::vibration::{LawSettings, MeshLawSet, mesh_law};
-use gearset::{Fidelity, MeshLaw, Scene};
+use gearset::{Fidelity, LoadCase, MeshLaw, Scene};
 use lumped::TimeVarying;
 
-use super::feed::{SweepModel, sense};
+use super::feed::SweepModel;
 use super::marching::{Effort, Marching};
 use crate::error::ExperimentError;
 
@@ -16,25 +16,25 @@ use crate::error::ExperimentError;
 pub struct LawModel<'s> {
     scene: Scene,
     loaded: StaticSet<'s>,
-    torque_nm: f64,
+    case: LoadCase,
     law: MeshLaw,
     is_lumped: bool,
 }
 
 impl<'s> LawModel<'s> {
-    /// The FE/contact set under a torque on the sun (N m, counter-clockwise positive).
+    /// The FE/contact set under the torque of a load case.
     ///
     /// # Errors
     /// If the law cannot be made.
-    pub fn new(scene: &Scene, bodies: &'s Bodies, torque_nm: f64) -> Result<Self, ExperimentError> {
+    pub fn new(scene: &Scene, bodies: &'s Bodies, case: LoadCase) -> Result<Self, ExperimentError> {
         let mut scene = scene.clone();
         scene.dynamics.fidelity = Fidelity::MeshLaw;
         let steps = scene.dynamics.steps_per_cycle as usize;
-        let settings = LawSettings::at(torque_nm.abs());
-        let law = mesh_law(&scene, bodies, sense(torque_nm), steps, &settings)?;
-        let loaded = StaticSet::new(&scene, bodies, sense(torque_nm), Imperfections::default())?;
-        let loaded = loaded.under(torque_nm.abs())?;
-        Ok(Self { scene, loaded, torque_nm, law, is_lumped: false })
+        let settings = LawSettings::at(case.sun_load_nm());
+        let law = mesh_law(&scene, bodies, case.sense(), steps, &settings)?;
+        let loaded = StaticSet::new(&scene, bodies, case.sense(), Imperfections::default())?;
+        let loaded = loaded.under(case.sun_load_nm())?;
+        Ok(Self { scene, loaded, case, law, is_lumped: false })
     }
 
     /// The lumped model with the same law in its meshes.
@@ -42,7 +42,7 @@ impl<'s> LawModel<'s> {
         Self {
             scene: self.scene.clone(),
             loaded: self.loaded.clone(),
-            torque_nm: self.torque_nm,
+            case: self.case,
             law: self.law.clone(),
             is_lumped: true,
         }
@@ -52,6 +52,10 @@ impl<'s> LawModel<'s> {
 impl SweepModel for LawModel<'_> {
     fn name(&self) -> String {
         if self.is_lumped { "lumped".into() } else { "mesh-law".into() }
+    }
+
+    fn case(&self) -> LoadCase {
+        self.case
     }
 
     fn planets(&self) -> usize {
@@ -68,10 +72,11 @@ impl SweepModel for LawModel<'_> {
 
     fn turning(
         &self,
-        mesh_frequency: f64,
+        case: &LoadCase,
         _: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
-        let (law, sense, torque) = (self.law.clone(), sense(self.torque_nm), self.torque_nm.abs());
+        let (law, torque) = (self.law.clone(), self.case.sun_load_nm());
+        let (sense, mesh_frequency) = (self.case.sense(), case.mesh_frequency_hz);
         if self.is_lumped {
             let set = TimeVarying::new(&self.scene, sense, law, mesh_frequency)?;
             return Ok(Box::new(LumpedMarching(set, torque)));

@@ -10,6 +10,7 @@ mod plan;
 mod point;
 mod record;
 mod run;
+mod state;
 mod steady;
 
 pub use feed::{FeModel, HEADROOM, SweepModel};
@@ -19,7 +20,8 @@ pub use marching::{Effort, Marching};
 pub use naturals::naturals;
 pub use peaks::{Peak, Response, peaks, top_of_three};
 pub use plan::{Chain, Direction, Plan, PlanError, even_speeds};
-pub use point::{Coordinate, Line, Part, SweepPoint, TableRow};
+pub use point::{SweepPoint, TableRow};
 pub use record::Record;
 pub use run::{Kept, Memory, PointStore, StoreError, Sweep, run};
+pub use state::{Coordinate, Line, Part, SteadyState};
 pub use steady::{Steady, SteadySettings, steady};

@@ -1,22 +1,22 @@
 //! Natural frequencies that peaks are held against.
 
 use fe_contact::statics::Bodies;
-use gearset::Scene;
+use gearset::{LoadCase, Scene};
 
 use crate::error::ExperimentError;
 use crate::modal::{FeMode, Preload, linear_modes, preloaded};
 use crate::natural_mode::NaturalMode;
 
-/// Natural frequencies of the FE/contact set linearised at position 0 under a torque on the sun (N m).
+/// Natural frequencies of the FE/contact set linearised at position 0 under the torque of a load case.
 ///
 /// # Errors
 /// If the set has no equilibrium, or an eigenproblem fails.
 pub fn naturals(
     scene: &Scene,
     bodies: &Bodies,
-    torque_nm: f64,
+    case: LoadCase,
 ) -> Result<Vec<NaturalMode>, ExperimentError> {
-    let preload = Preload { torque_nm, position: 0.0, step_s: 5e-6 };
+    let preload = Preload { load: case, position: 0.0, step_s: 5e-6 };
     let set = preloaded(scene, bodies, &preload)?;
     let modes = linear_modes(&set, &set.linearised()?)?;
     let of = |m: &FeMode| NaturalMode { frequency_hz: m.frequency_hz, mode_type: m.mode_type };

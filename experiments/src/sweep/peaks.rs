@@ -1,6 +1,6 @@
 //! Resonant peaks of a sweep: where the amplitude of one harmonic is largest.
 
-use super::point::{Coordinate, Part, SweepPoint};
+use super::state::{Coordinate, Part, SteadyState};
 
 /// A quantity whose harmonics have peaks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,7 +13,7 @@ pub enum Response {
 
 impl Response {
     /// Amplitude of one harmonic.
-    pub fn amplitude(self, point: &SweepPoint, harmonic: usize) -> f64 {
+    pub fn amplitude(self, point: &SteadyState, harmonic: usize) -> f64 {
         match self {
             Self::Rotation(part) => point.amplitude(part, Coordinate::Rotation, harmonic),
             Self::Translation(part) => {
@@ -46,7 +46,12 @@ const HIGHEST: f64 = 0.25;
 /// Peaks of one harmonic of points in order of speed: interior maxima that stand out by `least`
 /// (ratio). Place and height are those of the parabola through three points in the logarithm of the
 /// amplitude.
-pub fn peaks(points: &[&SweepPoint], response: Response, harmonic: usize, least: f64) -> Vec<Peak> {
+pub fn peaks(
+    points: &[&SteadyState],
+    response: Response,
+    harmonic: usize,
+    least: f64,
+) -> Vec<Peak> {
     let a: Vec<f64> = points.iter().map(|p| response.amplitude(p, harmonic)).collect();
     let mut found = Vec::new();
     for i in 1..a.len().saturating_sub(1) {
@@ -62,14 +67,14 @@ pub fn peaks(points: &[&SweepPoint], response: Response, harmonic: usize, least:
         if prominence < least || prominence.is_nan() {
             continue;
         }
-        let x = [0, 1, 2].map(|k| points[i + k - 1].speed_rpm);
+        let x = [0, 1, 2].map(|k| points[i + k - 1].case.speed_rpm);
         let y = [0, 1, 2].map(|k| a[i + k - 1].max(f64::MIN_POSITIVE).ln());
         let (speed_rpm, top) = match vertex(x, y) {
             // Points that stand close by chance make steep parabolas.
             Some((speed, top)) if top - y[1] < HIGHEST => (speed, top),
             _ => (x[1], y[1]),
         };
-        let hz_per_rpm = points[i].mesh_frequency_hz / points[i].speed_rpm;
+        let hz_per_rpm = points[i].case.mesh_frequency_per_rpm_hz();
         found.push(Peak {
             harmonic,
             speed_rpm,
@@ -126,7 +131,7 @@ mod tests {
     /// |H| of one degree of freedom at 778 Hz with 2 % damping, met by the first harmonic.
     #[test]
     fn a_resonance_is_found_and_nothing_else() {
-        let points: Vec<SweepPoint> = (0..60)
+        let points: Vec<SteadyState> = (0..60)
             .map(|i| {
                 let f = 600.0 + 6.0 * f64::from(i);
                 let r = f / 778.0;
@@ -138,23 +143,13 @@ mod tests {
                     amplitude,
                     phase_rad: 0.0,
                 };
-                SweepPoint {
-                    speed_rpm: 2.0 * f,
-                    mesh_frequency_hz: f,
-                    cycles: 1,
-                    residual: 0.0,
-                    is_steady: true,
-                    between: None,
-                    back_contact: 0.0,
-                    size: 0,
-                    kinematic_rest_m: None,
-                    kinematic_rest_share: None,
-                    is_beyond_linear: false,
+                SteadyState {
+                    case: gearset::LoadCase::turning(1130.0, 2.0 * f, f),
                     lines: vec![line],
                 }
             })
             .collect();
-        let points: Vec<&SweepPoint> = points.iter().collect();
+        let points: Vec<&SteadyState> = points.iter().collect();
         let found = peaks(&points, Response::Translation(Part::Sun), 1, 1.5);
         assert_eq!(found.len(), 1);
         assert!((found[0].frequency_hz / 777.4 - 1.0).abs() < 1e-3, "{:?}", found[0]);

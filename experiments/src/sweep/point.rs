@@ -1,120 +1,19 @@
 //! One speed of a sweep: what the steady state gives, and its rows in the tidy table.
 
+use gearset::LoadCase;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::state::{Coordinate, Line, Part, SteadyState};
 use super::steady::Steady;
 use crate::error::ExperimentError;
 
-/// What a line is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Part {
-    /// Carrier.
-    Carrier,
-    /// Ring.
-    Ring,
-    /// Sun.
-    Sun,
-    /// Planet n.
-    Planet(usize),
-    /// Mesh of the sun with planet n.
-    SunMesh(usize),
-    /// Mesh of planet n with the ring.
-    RingMesh(usize),
-}
-
-impl Part {
-    /// As tables print it: `planet_0`, `sun_mesh_0`.
-    pub fn name(self) -> String {
-        match self {
-            Self::Carrier => "carrier".into(),
-            Self::Ring => "ring".into(),
-            Self::Sun => "sun".into(),
-            Self::Planet(n) => format!("planet_{n}"),
-            Self::SunMesh(n) => format!("sun_mesh_{n}"),
-            Self::RingMesh(n) => format!("ring_mesh_{n}"),
-        }
-    }
-
-    /// Body number k: carrier, ring, sun, planets.
-    pub fn body(k: usize) -> Self {
-        match k {
-            0 => Self::Carrier,
-            1 => Self::Ring,
-            2 => Self::Sun,
-            n => Self::Planet(n - 3),
-        }
-    }
-}
-
-/// Which quantity of it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Coordinate {
-    /// Displacement towards planet 0, or away from the centre for a planet, m.
-    Radial,
-    /// Displacement at right angles to it, m.
-    Tangential,
-    /// Rotation, rad.
-    Rotation,
-    /// Mesh force, N.
-    Force,
-    /// Largest share of all sun (ring) meshes' force in the cycle.
-    Share,
-    /// Part of the cycle without force.
-    ContactLoss,
-}
-
-impl Coordinate {
-    /// The displacements in order.
-    pub const DISPLACEMENTS: [Self; 3] = [Self::Radial, Self::Tangential, Self::Rotation];
-
-    /// As tables print it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Radial => "radial",
-            Self::Tangential => "tangential",
-            Self::Rotation => "rotation",
-            Self::Force => "force",
-            Self::Share => "share",
-            Self::ContactLoss => "contact_loss",
-        }
-    }
-
-    /// Unit.
-    pub fn unit(self) -> &'static str {
-        match self {
-            Self::Radial | Self::Tangential => "m",
-            Self::Rotation => "rad",
-            Self::Force => "N",
-            Self::Share | Self::ContactLoss => "1",
-        }
-    }
-}
-
-/// One harmonic of one quantity.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Line {
-    /// Body or mesh.
-    pub part: Part,
-    /// Quantity.
-    pub coordinate: Coordinate,
-    /// Harmonic l of the mesh frequency; 0 is the mean.
-    pub harmonic: usize,
-    /// Amplitude in the quantity's unit.
-    pub amplitude: f64,
-    /// Phase φ of A cos(2π l f_m t + φ), t from position 0 of the mesh cycle, rad.
-    pub phase_rad: f64,
-}
-
-/// A steady state.
+/// A steady state found by marching, and how the march went.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepPoint {
-    /// Speed of the input member, rpm.
-    pub speed_rpm: f64,
-    /// f_m, Hz.
-    pub mesh_frequency_hz: f64,
+    /// Harmonics of everything, with speed and load.
+    #[serde(flatten)]
+    pub state: SteadyState,
     /// Cycles marched.
     pub cycles: usize,
     /// Change of the last two cycles over the largest peak-to-peak vibration.
@@ -134,8 +33,6 @@ pub struct SweepPoint {
     pub kinematic_rest_share: Option<f64>,
     /// Whether that is worth a warning.
     pub is_beyond_linear: bool,
-    /// Harmonics of everything.
-    pub lines: Vec<Line>,
 }
 
 /// One row of the tidy table.
@@ -172,13 +69,12 @@ pub struct TableRow {
 }
 
 impl SweepPoint {
-    /// From a steady state at a speed (rpm) and mesh frequency (Hz).
+    /// From a march under a load case.
     ///
     /// # Errors
     /// If the record is not finite.
     pub fn new(
-        speed_rpm: f64,
-        mesh_frequency_hz: f64,
+        case: LoadCase,
         found: &Steady,
         settings: &super::SteadySettings,
         size: usize,
@@ -234,8 +130,7 @@ impl SweepPoint {
             }
         }
         Ok(Self {
-            speed_rpm,
-            mesh_frequency_hz,
+            state: SteadyState { case, lines },
             cycles: found.cycles,
             residual: found.residual,
             is_steady: found.residual <= settings.tolerance,
@@ -245,19 +140,6 @@ impl SweepPoint {
             kinematic_rest_m: found.rest.map(|rest| rest.largest),
             kinematic_rest_share: found.rest.and_then(|rest| rest.share),
             is_beyond_linear: found.rest.is_some_and(|rest| rest.is_worth_a_warning()),
-            lines,
         })
-    }
-
-    /// Amplitude of one harmonic of one quantity; 0 if it is not kept.
-    pub fn amplitude(&self, part: Part, coordinate: Coordinate, harmonic: usize) -> f64 {
-        self.line(part, coordinate, harmonic).map_or(0.0, |line| line.amplitude)
-    }
-
-    /// One harmonic of one quantity.
-    pub fn line(&self, part: Part, coordinate: Coordinate, harmonic: usize) -> Option<&Line> {
-        self.lines
-            .iter()
-            .find(|l| l.part == part && l.coordinate == coordinate && l.harmonic == harmonic)
     }
 }

@@ -10,6 +10,7 @@ use super::feed::SweepModel;
 use super::judge::prominent;
 use super::plan::{Chain, Plan};
 use super::point::{SweepPoint, TableRow};
+use super::state::SteadyState;
 use super::steady::{SteadySettings, steady};
 use crate::error::ExperimentError;
 use crate::table_growth::large_enough;
@@ -73,8 +74,13 @@ impl Sweep {
     /// All points by speed.
     pub fn points(&self) -> Vec<&SweepPoint> {
         let mut all: Vec<&SweepPoint> = self.chains.iter().flat_map(|(_, list)| list).collect();
-        all.sort_by(|a, b| a.speed_rpm.total_cmp(&b.speed_rpm));
+        all.sort_by(|a, b| a.state.case.speed_rpm.total_cmp(&b.state.case.speed_rpm));
         all
+    }
+
+    /// Harmonics of all points by speed.
+    pub fn states(&self) -> Vec<&SteadyState> {
+        self.points().into_iter().map(|p| &p.state).collect()
     }
 
     /// Chains of `count` speeds about every peak of the sun and of planet 0 that stands out by `least`,
@@ -86,7 +92,7 @@ impl Sweep {
         count: usize,
         steady: SteadySettings,
     ) -> Plan {
-        let found = prominent(&self.points(), steady.harmonics, least);
+        let found = prominent(&self.states(), steady.harmonics, least);
         let mut centres: Vec<f64> =
             found.iter().flat_map(|(_, list)| list.iter().map(|p| p.speed_rpm)).collect();
         centres.sort_by(f64::total_cmp);
@@ -95,15 +101,15 @@ impl Sweep {
     }
 
     /// The tidy table.
-    pub fn rows(&self, scene: &str, torque_nm: f64) -> impl Iterator<Item = TableRow> {
+    pub fn rows(&self, scene: &str) -> impl Iterator<Item = TableRow> {
         self.chains.iter().flat_map(move |(chain, points)| {
             points.iter().flat_map(move |p| {
-                p.lines.iter().map(move |line| TableRow {
+                p.state.lines.iter().map(move |line| TableRow {
                     scene: scene.to_owned(),
                     fidelity: self.fidelity.clone(),
-                    torque_nm,
-                    speed_rpm: p.speed_rpm,
-                    mesh_frequency_hz: p.mesh_frequency_hz,
+                    torque_nm: p.state.case.sun_torque_nm,
+                    speed_rpm: p.state.case.speed_rpm,
+                    mesh_frequency_hz: p.state.case.mesh_frequency_hz,
                     chain: chain.clone(),
                     body: line.part.name(),
                     coordinate: line.coordinate.name().to_owned(),
@@ -119,15 +125,13 @@ impl Sweep {
     }
 }
 
-/// Runs every chain of a plan; `done` hears of each point, finished now or before. `hz_per_rpm`: mesh
-/// frequency of one rpm of the input member.
+/// Runs every chain of a plan; `done` hears of each point, finished now or before.
 ///
 /// # Errors
 /// If a point fails or cannot be kept; finished points stay kept.
 pub fn run(
     model: &dyn SweepModel,
     plan: &Plan,
-    hz_per_rpm: f64,
     store: &dyn PointStore,
     done: &(dyn Fn(&SweepPoint) + Sync),
 ) -> Result<Sweep, ExperimentError> {
@@ -140,7 +144,7 @@ pub fn run(
             let kept = match store.load(chain, index)? {
                 Some(kept) => kept,
                 None => {
-                    let kept = one(model, *speed, hz_per_rpm, state.as_deref(), &plan.steady)?;
+                    let kept = one(model, *speed, state.as_deref(), &plan.steady)?;
                     store.save(chain, index, &kept)?;
                     kept
                 }
@@ -163,13 +167,12 @@ pub fn run(
 fn one(
     model: &dyn SweepModel,
     speed_rpm: f64,
-    hz_per_rpm: f64,
     state: Option<&[f64]>,
     settings: &SteadySettings,
 ) -> Result<Kept, ExperimentError> {
-    let mesh_frequency = speed_rpm * hz_per_rpm;
+    let case = model.case().at_speed(speed_rpm);
     large_enough(|size| {
-        let mut set = model.turning(mesh_frequency, size)?;
+        let mut set = model.turning(&case, size)?;
         match state {
             Some(state) => set.restore(state)?,
             None => set.rest()?,
@@ -180,7 +183,7 @@ fn one(
         if let Some(rest) = found.rest {
             rest.check()?;
         }
-        let point = SweepPoint::new(speed_rpm, mesh_frequency, &found, settings, size)?;
+        let point = SweepPoint::new(case, &found, settings, size)?;
         Ok(Kept { point, state: set.state() })
     })
 }

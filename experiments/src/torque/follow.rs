@@ -8,7 +8,7 @@ use gearset::{Facing, LoadCase, Scene};
 use super::series::Series;
 use crate::error::ExperimentError;
 use crate::sweep::{
-    FeModel, Memory, Part, Plan, Response, SteadySettings, Sweep, SweepModel, SweepPoint, run,
+    FeModel, Memory, Part, Plan, Response, SteadySettings, SteadyState, Sweep, SweepModel, run,
 };
 
 /// How far about the natural frequency a peak is looked for, in parts of it, at so many speeds; and
@@ -37,12 +37,12 @@ impl Followed {
 }
 
 /// Largest amplitude over some points; between them the parabola through three logarithms.
-fn top(points: &[&SweepPoint], response: Response, harmonic: usize) -> (f64, f64) {
+fn top(points: &[&SteadyState], response: Response, harmonic: usize) -> (f64, f64) {
     let peaks = crate::sweep::peaks(points, response, harmonic, 1.0);
     let highest = peaks.iter().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude));
     let largest = points
         .iter()
-        .map(|p| (p.speed_rpm, response.amplitude(p, harmonic)))
+        .map(|p| (p.case.speed_rpm, response.amplitude(p, harmonic)))
         .fold((0.0, 0.0), |a: (f64, f64), b| if b.1 > a.1 { b } else { a });
     highest.map_or(largest, |p| {
         if p.amplitude > largest.1 { (p.speed_rpm, p.amplitude) } else { largest }
@@ -62,36 +62,37 @@ pub fn follow(
     closer: &[Part],
     tolerance: f64,
 ) -> Result<Vec<Followed>, ExperimentError> {
-    let hz_per_rpm = LoadCase::of_scene(scene)?.mesh_frequency_per_rpm_hz();
+    let case = LoadCase::of_scene(scene)?;
     let steady = SteadySettings { tolerance, between_cycles: 0, ..SteadySettings::default() };
-    let start = |s: &Series| s.frequency_hz / s.harmonic as f64 / hz_per_rpm;
+    let start = |s: &Series| s.frequency_hz / s.harmonic as f64 / case.mesh_frequency_per_rpm_hz();
     let mut followed: Vec<Followed> = series
         .iter()
         .map(|s| Followed { series: *s, speeds_rpm: vec![], sun: vec![], planet: vec![] })
         .collect();
     for torque in torques_nm {
-        let model = FeModel::new(scene, bodies, Imperfections::default(), *torque);
+        let model =
+            FeModel::new(scene, bodies, Imperfections::default(), case.with_sun_torque(*torque));
         let model: &dyn SweepModel = &model;
         let centres: Vec<f64> = series.iter().map(start).collect();
         let search = Plan::around(&centres, SEARCH.0, SEARCH.1, steady.clone());
-        let wide = run(model, &search, hz_per_rpm, &Memory, &|_| ())?;
+        let wide = run(model, &search, &Memory, &|_| ())?;
         // Sun and planet may peak at speeds of their own.
         let mut centres = Vec::new();
         for ((_, points), s) in wide.chains.iter().zip(series) {
-            let points: Vec<&SweepPoint> = points.iter().collect();
+            let points: Vec<&SteadyState> = points.iter().map(|p| &p.state).collect();
             for part in closer {
                 centres.push(top(&points, s.response(*part), s.harmonic).0);
             }
         }
         let again = Plan::around(&centres, CLOSER.0, CLOSER.1, steady.clone());
-        let near = run(model, &again, hz_per_rpm, &Memory, &|_| ())?;
+        let near = run(model, &again, &Memory, &|_| ())?;
         for (k, own) in followed.iter_mut().enumerate() {
             let of = |part: Part| {
                 let mut chains = vec![wide.chains[k].clone()];
                 let count = closer.len();
                 chains.extend_from_slice(&near.chains[count * k..count * (k + 1)]);
                 let all = Sweep { fidelity: String::new(), chains };
-                top(&all.points(), own.series.response(part), own.series.harmonic)
+                top(&all.states(), own.series.response(part), own.series.harmonic)
             };
             let (sun, planet) = (of(Part::Sun), of(Part::Planet(0)));
             own.speeds_rpm.push(sun.0);

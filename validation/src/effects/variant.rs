@@ -2,7 +2,7 @@
 
 use experiments::modal::Preload;
 use fe_contact::statics::Bodies;
-use gearset::{PlaneState, PlanetPositions, Scene, ThicknessInput};
+use gearset::{LoadCase, PlaneState, PlanetPositions, Scene, ThicknessInput};
 use serde::Serialize;
 
 use crate::error::ValidationError;
@@ -127,7 +127,7 @@ impl Variant {
                 }
             }
             (Self::PlaneStress, _, _) => scene.fe_contact.plane = PlaneState::Stress,
-            (Self::Torque(torque), _, _) => preload.torque_nm = torque,
+            (Self::Torque(torque), _, _) => preload.load = LoadCase::standing(torque),
             (Self::Position(position), _, _) => preload.position = position,
             (Self::EqualSpacing, _, _) => {
                 scene.planets = PlanetPositions::equally_spaced(scene.planets.count());
@@ -161,7 +161,7 @@ impl Variant {
     /// # Errors
     /// If a variant cannot be meshed.
     pub fn own_bodies(scene: &Scene) -> Result<Vec<(Self, Bodies)>, ValidationError> {
-        let anywhere = Preload { torque_nm: 0.0, position: 0.0, step_s: 0.0 };
+        let anywhere = Preload { load: LoadCase::standing(0.0), position: 0.0, step_s: 0.0 };
         let own = Self::ALL.into_iter().filter(Self::needs_bodies);
         own.map(|variant| {
             let (scene, _) = variant.applied(scene, scene, anywhere);
@@ -193,7 +193,7 @@ mod tests {
         fed.overrides = (0..4).map(own).collect();
         fed.lumped.as_mut().unwrap().mass.planet = Some(0.7);
         fed.lumped.as_mut().unwrap().inertia_over_r2.sun = Some(0.5);
-        let nowhere = Preload { torque_nm: 0.0, position: 0.0, step_s: 0.0 };
+        let nowhere = Preload { load: LoadCase::standing(0.0), position: 0.0, step_s: 0.0 };
         for variant in Variant::TO_PUBLISHED {
             fed = variant.applied(&fed, &set, nowhere).0;
         }

@@ -9,6 +9,7 @@ use crate::effects::{Base, EffectStudy, Effects, Variant, effects};
 use crate::error::ValidationError;
 use crate::suites::tables::Table;
 use experiments::modal::{Agreement, Preload, agreement, agreement_after};
+use gearset::LoadCase;
 
 /// Preload of the tables, N m.
 const TORQUE: f64 = 1130.0;
@@ -27,7 +28,7 @@ const KEPT_WORST: [f64; 2] = [0.96, 0.26];
 const ROUNDING: f64 = 1e-6;
 
 fn preload(position: f64) -> Preload {
-    Preload { torque_nm: TORQUE, position, step_s: 5e-6 }
+    Preload { load: LoadCase::standing(TORQUE), position, step_s: 5e-6 }
 }
 
 pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {

@@ -1,7 +1,7 @@
 //! The fidelities of the ladder against bodies with every degree of freedom, whose transients are kept.
 
 use fe_contact::statics::Bodies;
-use gearset::Fidelity;
+use gearset::{Fidelity, LoadCase};
 
 use super::Lab;
 use crate::Profile;
@@ -21,7 +21,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
         let mut scene = scene.clone();
         scene.fe_contact.flank_elements = kept.flank_elements;
         let bodies = Bodies::new(&scene)?;
-        let settings = ImpulseSettings::short(kept.torque_nm, kept.position);
+        let settings = ImpulseSettings::short(LoadCase::standing(kept.torque_nm), kept.position);
         let fidelities = [
             ("quasi_static", Fidelity::QuasiStatic),
             ("modal_1", Fidelity::Modal(1)),

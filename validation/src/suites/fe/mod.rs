@@ -22,7 +22,7 @@ mod truth;
 
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, PairCycle, SetCycle, StaticSet, pair_cycle};
-use gearset::{Facing, MeshKind, Scene};
+use gearset::{LoadCase, MeshKind, Scene};
 
 use crate::Profile;
 use crate::catalogue::{PublishedScene, scene};
@@ -64,9 +64,9 @@ impl Lab<'_> {
         positions: usize,
         imperfections: Imperfections,
     ) -> Result<SetCycle, ValidationError> {
-        let sense = if torque_nm > 0.0 { Facing::CounterClockwise } else { Facing::Clockwise };
-        let set = StaticSet::new(scene, bodies, sense, imperfections)?;
-        Ok(set.cycle(torque_nm.abs(), positions, &ActiveSet)?)
+        let load = LoadCase::standing(torque_nm);
+        let set = StaticSet::new(scene, bodies, load.sense(), imperfections)?;
+        Ok(set.cycle(load.sun_load_nm(), positions, &ActiveSet)?)
     }
 
     /// A number that must not exceed the tolerance of its id.

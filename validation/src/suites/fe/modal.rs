@@ -2,6 +2,7 @@
 
 use fe_contact::statics::{Bodies, Races};
 use fe_contact::vibration::LinearSet;
+use gearset::LoadCase;
 use lumped::ModeType;
 
 use super::Lab;
@@ -24,7 +25,7 @@ const POSITION: f64 = 0.0;
 
 pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     let mut checks = Vec::new();
-    let settings = ImpulseSettings::at(TORQUE, POSITION);
+    let settings = ImpulseSettings::at(LoadCase::standing(TORQUE), POSITION);
     let parker = &lab.reference.parker;
     let sets = [(2, "three", &lab.three, &parker.table2), (3, "four", &lab.four, &parker.table3)];
     for (table, name, scene, printed) in sets {
@@ -41,7 +42,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
         let half = match name {
             "three" => None,
             _ => {
-                let settings = ImpulseSettings::at(TORQUE, POSITION + 0.5);
+                let settings = ImpulseSettings::at(LoadCase::standing(TORQUE), POSITION + 0.5);
                 Some(leaks(set.races(), &impulse_test(scene, &bodies, &settings)?)?)
             }
         };

@@ -4,7 +4,7 @@
 use gearset::excitation_of_scene;
 
 use super::Lab;
-use super::sweeps::{PROMINENT, TORQUE, judged, peaks_judged, speeds, swept};
+use super::sweeps::{PROMINENT, TORQUE, judged, peaks_judged, speeds, swept, under};
 use crate::Profile;
 use crate::check::Check;
 use crate::error::ValidationError;
@@ -15,14 +15,15 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     let grid = speeds(450.0, 2500.0, ratio);
     let scene = &lab.four;
     let strengths = excitation_of_scene(scene, 5).ok_or(ValidationError::Incomplete("teeth"))?;
-    let law = LawModel::new(scene, &lab.bodies, TORQUE)?;
-    let found = swept(&law, scene, &grid)?;
+    let case = under(scene, TORQUE)?;
+    let law = LawModel::new(scene, &lab.bodies, case)?;
+    let found = swept(&law, &grid)?;
     let mut checks = judged(lab, "four_mesh_law", &found.points(), &strengths)?;
-    let naturals = naturals(scene, &lab.bodies, TORQUE)?;
-    let list = assigned(&found.points(), &strengths, &naturals, PROMINENT);
+    let naturals = naturals(scene, &lab.bodies, case)?;
+    let list = assigned(&found.states(), &strengths, &naturals, PROMINENT);
     checks.push(peaks_judged(lab, "four_mesh_law", &list)?);
     // Its modes are its own: the printed masses, not those of the meshes.
-    let found = swept(&law.lumped(), scene, &grid)?;
+    let found = swept(&law.lumped(), &grid)?;
     checks.extend(judged(lab, "four_lumped", &found.points(), &strengths)?);
     Ok(checks)
 }

@@ -3,7 +3,7 @@
 use dynamics::{Window, spectrum};
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{Loading, Motive, VibratingSet};
-use gearset::{Facing, Kinematics, Scene};
+use gearset::{Facing, LoadCase, Scene};
 
 use super::Lab;
 use crate::check::Check;
@@ -18,10 +18,7 @@ fn turning<'b>(
     bodies: &'b Bodies,
     steps_per_cycle: usize,
 ) -> Result<VibratingSet<'b>, ValidationError> {
-    let missing = || ValidationError::Incomplete("numbers of teeth or operation");
-    let kinematics = Kinematics::from_scene(scene).ok().ok_or_else(missing)?;
-    let per_rpm = kinematics.mesh_frequency_hz / kinematics.speeds_rpm.sun;
-    let mesh_frequency = (per_rpm * SPEED_RPM).abs();
+    let mesh_frequency = LoadCase::of_scene(scene)?.at_speed(SPEED_RPM).mesh_frequency_hz;
     let sun = bodies.geometry.sun.as_ref().ok_or(ValidationError::Incomplete("sun"))?;
     let force = TORQUE / sun.base_radius / scene.planets.psi_rad.len() as f64;
     let motive = Motive::Turning { mesh_frequency, steps_per_cycle };

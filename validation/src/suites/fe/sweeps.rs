@@ -16,7 +16,7 @@ use crate::error::ValidationError;
 use experiments::NaturalMode;
 use experiments::sweep::{
     Assigned, Content, Coordinate, Direction, FeModel, HEADROOM, Memory, Part, Plan,
-    SteadySettings, Sweep, SweepModel, SweepPoint, assigned, contents, naturals, run,
+    SteadySettings, SteadyState, Sweep, SweepModel, SweepPoint, assigned, contents, naturals, run,
 };
 
 /// What ids of the sweeps start with.
@@ -41,9 +41,9 @@ pub(super) const PROMINENT: f64 = 1.3;
 /// The second manifest goes so far to either side of a peak, in parts of its speed.
 const SPAN: f64 = 0.015;
 
-/// Mesh frequency of one rpm of the input member, Hz.
-pub(crate) fn hz_per_rpm(scene: &Scene) -> Result<f64, ValidationError> {
-    Ok(LoadCase::of_scene(scene)?.mesh_frequency_per_rpm_hz())
+/// The load case of a scene under a torque on the sun, N m.
+pub(crate) fn under(scene: &Scene, sun_torque_nm: f64) -> Result<LoadCase, ValidationError> {
+    Ok(LoadCase::of_scene(scene)?.with_sun_torque(sun_torque_nm))
 }
 
 /// Speeds from first to last (rpm), each by the same part above the one before.
@@ -61,9 +61,9 @@ pub(crate) fn sweep_of(
     speeds_rpm: &[f64],
     steady: SteadySettings,
 ) -> Result<Sweep, ValidationError> {
-    let model = FeModel::new(scene, bodies, imperfections, torque_nm);
+    let model = FeModel::new(scene, bodies, imperfections, under(scene, torque_nm)?);
     let plan = Plan::new(speeds_rpm, &[Direction::Up], steady)?;
-    Ok(run(&model, &plan, hz_per_rpm(scene)?, &Memory, &|_| ())?)
+    Ok(run(&model, &plan, &Memory, &|_| ())?)
 }
 
 pub(crate) fn steady_settings() -> SteadySettings {
@@ -101,7 +101,11 @@ fn five(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     let points = found.points();
     let strengths = excitation_of_scene(&scene, 5).ok_or(ValidationError::Incomplete("teeth"))?;
     let mut checks = judged(lab, "five", &points, &strengths)?;
-    let off = points.iter().filter_map(|p| order_of_meshes(p, &scene)).fold(0.0f64, f64::max);
+    let off = found
+        .states()
+        .into_iter()
+        .filter_map(|p| order_of_meshes(p, &scene))
+        .fold(0.0f64, f64::max);
     let title = "five planets: mesh forces of the sun against the order that the planets' phases say, harmonics 1 to 5, in cycles";
     checks.push(lab.at_most("sweep.order.five", title, "", off)?);
     Ok(checks)
@@ -120,13 +124,14 @@ fn set(
     bodies: &Bodies,
     grid: &[f64],
 ) -> Result<Vec<Check>, ValidationError> {
-    let model = FeModel::new(scene, bodies, Imperfections::default(), TORQUE);
-    let found = swept(&model, scene, grid)?;
+    let case = under(scene, TORQUE)?;
+    let model = FeModel::new(scene, bodies, Imperfections::default(), case);
+    let found = swept(&model, grid)?;
     let points = found.points();
     let strengths = excitation_of_scene(scene, 5).ok_or(ValidationError::Incomplete("teeth"))?;
     let mut checks = judged(lab, name, &points, &strengths)?;
-    let naturals = naturals(scene, bodies, TORQUE)?;
-    let list = assigned(&points, &strengths, &naturals, PROMINENT);
+    let naturals = naturals(scene, bodies, case)?;
+    let list = assigned(&found.states(), &strengths, &naturals, PROMINENT);
     checks.push(peaks_judged(lab, name, &list)?);
     let source = "phasor sums of the planets' mesh phases";
     // The two modes the paper follows, each where its own harmonics meet it.
@@ -145,8 +150,8 @@ fn set(
                     && (p.natural.frequency_hz / mode.frequency_hz - 1.0).abs() < 0.02
             })
         };
-        let top = grid.last().copied().unwrap_or(0.0) * hz_per_rpm(scene)?;
-        let bottom = grid[0] * hz_per_rpm(scene)?;
+        let mesh_hz = |rpm: f64| case.at_speed(rpm).mesh_frequency_hz;
+        let (bottom, top) = (mesh_hz(grid[0]), mesh_hz(grid[grid.len() - 1]));
         let may = |l: &usize| {
             let allowed = strengths[l - 1].allowed();
             let is_excited = match mode.mode_type {
@@ -172,16 +177,11 @@ fn set(
 }
 
 /// A sweep over some speeds, and closer about its peaks.
-pub(super) fn swept(
-    model: &dyn SweepModel,
-    scene: &Scene,
-    grid: &[f64],
-) -> Result<Sweep, ValidationError> {
-    let hz = hz_per_rpm(scene)?;
+pub(super) fn swept(model: &dyn SweepModel, grid: &[f64]) -> Result<Sweep, ValidationError> {
     let plan = Plan::new(grid, &[Direction::Up], steady_settings())?;
-    let mut found = run(model, &plan, hz, &Memory, &|_| ())?;
+    let mut found = run(model, &plan, &Memory, &|_| ())?;
     let around = found.around_peaks(PROMINENT, SPAN, 5, steady_settings());
-    found.chains.extend(run(model, &around, hz, &Memory, &|_| ())?.chains);
+    found.chains.extend(run(model, &around, &Memory, &|_| ())?.chains);
     Ok(found)
 }
 
@@ -221,7 +221,8 @@ pub(super) fn judged(
     let unsteady = points.iter().filter(|p| !p.is_steady).count() as f64;
     let title = format!("{words}: speeds at which cycles do not come to repeat");
     checks.push(lab.at_most(&id("unsteady"), &title, "", unsteady)?);
-    let list = contents(points, strengths);
+    let states: Vec<&SteadyState> = points.iter().map(|p| &p.state).collect();
+    let list = contents(&states, strengths);
     let forbidden = forbidden(&list);
     let title = format!(
         "{words}: largest motion of the sun in a harmonic that planet phasing forbids, over the largest of its kind, {} speeds",
@@ -266,7 +267,7 @@ fn slow(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     let found = sweep_of(&lab.four, &lab.bodies, none, TORQUE, &[20.0], settings)?;
     let still = static_harmonics(lab)?;
     let mut worst = 0.0f64;
-    for point in found.points() {
+    for point in found.states() {
         for (axis, coordinate) in Coordinate::DISPLACEMENTS.into_iter().enumerate() {
             let largest = (1..=5).map(|l| still[axis][l][0].hypot(still[axis][l][1]));
             let largest = largest.fold(0.0f64, f64::max);
@@ -312,7 +313,7 @@ fn forbidden_share(
     let settings = SteadySettings { between_cycles: 0, ..steady_settings() };
     let found = sweep_of(scene, bodies, imperfections, TORQUE, &[speed_rpm], settings)?;
     let strengths = excitation_of_scene(scene, 5).ok_or(ValidationError::Incomplete("teeth"))?;
-    Ok(forbidden(&contents(&found.points(), &strengths)))
+    Ok(forbidden(&contents(&found.states(), &strengths)))
 }
 
 fn breaks(id: &str, title: &str, is_broken: bool) -> Check {
@@ -357,7 +358,8 @@ pub(crate) fn controls(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     let (torque, none) = (five_torque(&five)?, Imperfections::default());
     let found = sweep_of(&reversed, &bodies, none, torque, &[1000.0], settings)?;
     let limit = lab.reference.tolerance("sweep.order.five", 0.0)?.absolute;
-    let is_off = found.points().iter().filter_map(|p| order_of_meshes(p, &five)).any(|o| o > limit);
+    let is_off =
+        found.states().into_iter().filter_map(|p| order_of_meshes(p, &five)).any(|o| o > limit);
     let title = "five planets with their phases reversed break sweep.order.five";
     checks.push(breaks("sweep.control.phases_reversed", title, is_off));
 
@@ -379,7 +381,7 @@ pub(crate) fn controls(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
 
 /// How far the sun meshes' forces are from following one another as the planets' mesh phases say, in
 /// cycles of the harmonic: F_n(t) = F_0(t + φ_n/f_m) in sets of equally spaced planets.
-pub(crate) fn order_of_meshes(point: &SweepPoint, scene: &Scene) -> Option<f64> {
+pub(crate) fn order_of_meshes(point: &SteadyState, scene: &Scene) -> Option<f64> {
     let teeth = f64::from(scene.teeth?.sun?);
     let mut worst = 0.0f64;
     for l in 1..=5 {

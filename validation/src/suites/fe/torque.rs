@@ -5,6 +5,7 @@ use fe_contact::statics::Bodies;
 use gearset::Scene;
 
 use super::Lab;
+use super::sweeps::under;
 use crate::Profile;
 use crate::catalogue::{PublishedScene, scene};
 use crate::check::{Check, ReferenceKind, Subject, Tolerance};
@@ -45,7 +46,8 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     for (name, words, scene) in systems()? {
         let bodies = Bodies::new(&scene)?;
         let missing = ValidationError::Incomplete("modes of the kinds followed");
-        let series = lowest_series(&naturals(&scene, &bodies, 1130.0)?).ok_or(missing)?;
+        let series =
+            lowest_series(&naturals(&scene, &bodies, under(&scene, 1130.0)?)?).ok_or(missing)?;
         let system = System { name, words, scene: &scene, bodies: &bodies, series: &series };
         checks.extend(first_peaks(lab, &system)?);
         checks.extend(all_peaks(lab, &system)?);

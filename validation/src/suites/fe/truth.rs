@@ -5,13 +5,13 @@ use fe_contact::statics::{Bodies, Imperfections};
 use gearset::Fidelity;
 
 use super::Lab;
-use super::sweeps::hz_per_rpm;
+use super::sweeps::under;
 use crate::Profile;
 use crate::check::{Check, ReferenceKind, Subject};
 use crate::error::ValidationError;
 use crate::own_truth::{FullSweep, FullSweepPoint};
 use experiments::sweep::{
-    Chain, Coordinate, FeModel, Memory, Part, Plan, Response, SteadySettings, SweepPoint, run,
+    Chain, Coordinate, FeModel, Memory, Part, Plan, Response, SteadySettings, SteadyState, run,
     top_of_three,
 };
 
@@ -99,17 +99,18 @@ fn differences(
     let speeds_rpm: Vec<f64> = truth.iter().map(|p| p.speed_rpm).collect();
     let steady = SteadySettings { tolerance: 1e-7, between_cycles: 0, ..SteadySettings::default() };
     let plan = Plan { steady, chains: vec![Chain { name: "truth".into(), speeds_rpm }] };
-    let model = FeModel::new(&scene, &bodies, Imperfections::default(), kept.torque_nm);
+    let model =
+        FeModel::new(&scene, &bodies, Imperfections::default(), under(&scene, kept.torque_nm)?);
     let model = model.with_tables(kept.table_size);
-    let found = run(&model, &plan, hz_per_rpm(&scene)?, &Memory, &|_| ())?;
-    let points = found.points();
+    let found = run(&model, &plan, &Memory, &|_| ())?;
+    let points = found.states();
 
     // The peak of the sun's rotation in l = 2.
-    let near = |p: &&&SweepPoint| kept.is_about_the_peak(p.speed_rpm);
+    let near = |p: &&&SteadyState| kept.is_about_the_peak(p.case.speed_rpm);
     let incomplete = || ValidationError::Incomplete("peak between three speeds");
     let full = kept.rotational_peak().ok_or_else(incomplete)?;
-    let rotation = |p: &SweepPoint| Response::Rotation(Part::Sun).amplitude(p, 2);
-    let own = top_of_three(points.iter().filter(near).map(|p| (p.speed_rpm, rotation(p))));
+    let rotation = |p: &SteadyState| Response::Rotation(Part::Sun).amplitude(p, 2);
+    let own = top_of_three(points.iter().filter(near).map(|p| (p.case.speed_rpm, rotation(p))));
     let own = own.ok_or_else(incomplete)?;
     let percent = |own: f64, full: f64| 100.0 * (own / full - 1.0);
 

@@ -9,7 +9,7 @@ use crate::check::Check;
 use crate::error::ValidationError;
 use crate::own_truth::ExactPeak;
 use crate::suites::fe::Lab;
-use crate::suites::fe::sweeps::hz_per_rpm;
+use crate::suites::fe::sweeps::under;
 use experiments::sweep::{
     Chain, FeModel, Memory, Part, Plan, Response, SteadySettings, run, top_of_three,
 };
@@ -44,13 +44,18 @@ fn differences(lab: &Lab<'_>, kept: &ExactPeak) -> Result<[f64; 2], ValidationEr
         _ => Response::Translation(Part::Sun),
     };
     let bodies: &Bodies = &lab.bodies;
-    let model = FeModel::new(&lab.four, bodies, Imperfections::default(), kept.torque_nm);
+    let model = FeModel::new(
+        &lab.four,
+        bodies,
+        Imperfections::default(),
+        under(&lab.four, kept.torque_nm)?,
+    );
     let steady = SteadySettings { tolerance: 1e-7, between_cycles: 0, ..SteadySettings::default() };
     let speeds_rpm = kept.speeds_rpm.to_vec();
     let plan = Plan { steady, chains: vec![Chain { name: "peak".into(), speeds_rpm }] };
-    let found = run(&model, &plan, hz_per_rpm(&lab.four)?, &Memory, &|_| ())?;
-    let own = found.points().into_iter();
-    let own = top_of_three(own.map(|p| (p.speed_rpm, response.amplitude(p, kept.harmonic))));
+    let found = run(&model, &plan, &Memory, &|_| ())?;
+    let own = found.states().into_iter();
+    let own = top_of_three(own.map(|p| (p.case.speed_rpm, response.amplitude(p, kept.harmonic))));
     let exact = top_of_three(kept.speeds_rpm.into_iter().zip(kept.sun));
     let incomplete = || ValidationError::Incomplete("peak between three speeds");
     let (own, exact) = (own.ok_or_else(incomplete)?, exact.ok_or_else(incomplete)?);

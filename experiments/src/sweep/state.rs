@@ -1,0 +1,131 @@
+//! A steady state: harmonics of all bodies and mesh forces at one speed and load, whichever model it is of.
+
+use gearset::LoadCase;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What a line is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Part {
+    /// Carrier.
+    Carrier,
+    /// Ring.
+    Ring,
+    /// Sun.
+    Sun,
+    /// Planet n.
+    Planet(usize),
+    /// Mesh of the sun with planet n.
+    SunMesh(usize),
+    /// Mesh of planet n with the ring.
+    RingMesh(usize),
+}
+
+impl Part {
+    /// As tables print it: `planet_0`, `sun_mesh_0`.
+    pub fn name(self) -> String {
+        match self {
+            Self::Carrier => "carrier".into(),
+            Self::Ring => "ring".into(),
+            Self::Sun => "sun".into(),
+            Self::Planet(n) => format!("planet_{n}"),
+            Self::SunMesh(n) => format!("sun_mesh_{n}"),
+            Self::RingMesh(n) => format!("ring_mesh_{n}"),
+        }
+    }
+
+    /// Body number k: carrier, ring, sun, planets.
+    pub fn body(k: usize) -> Self {
+        match k {
+            0 => Self::Carrier,
+            1 => Self::Ring,
+            2 => Self::Sun,
+            n => Self::Planet(n - 3),
+        }
+    }
+}
+
+/// Which quantity of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Coordinate {
+    /// Displacement towards planet 0, or away from the centre for a planet, m.
+    Radial,
+    /// Displacement at right angles to it, m.
+    Tangential,
+    /// Rotation, rad.
+    Rotation,
+    /// Mesh force, N.
+    Force,
+    /// Largest share of all sun (ring) meshes' force in the cycle.
+    Share,
+    /// Part of the cycle without force.
+    ContactLoss,
+}
+
+impl Coordinate {
+    /// The displacements in order.
+    pub const DISPLACEMENTS: [Self; 3] = [Self::Radial, Self::Tangential, Self::Rotation];
+
+    /// As tables print it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Radial => "radial",
+            Self::Tangential => "tangential",
+            Self::Rotation => "rotation",
+            Self::Force => "force",
+            Self::Share => "share",
+            Self::ContactLoss => "contact_loss",
+        }
+    }
+
+    /// Unit.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Radial | Self::Tangential => "m",
+            Self::Rotation => "rad",
+            Self::Force => "N",
+            Self::Share | Self::ContactLoss => "1",
+        }
+    }
+}
+
+/// One harmonic of one quantity.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Line {
+    /// Body or mesh.
+    pub part: Part,
+    /// Quantity.
+    pub coordinate: Coordinate,
+    /// Harmonic l of the mesh frequency; 0 is the mean.
+    pub harmonic: usize,
+    /// Amplitude in the quantity's unit.
+    pub amplitude: f64,
+    /// Phase φ of A cos(2π l f_m t + φ), t from position 0 of the mesh cycle, rad.
+    pub phase_rad: f64,
+}
+
+/// A steady state, periodic in the mesh cycle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SteadyState {
+    /// Speed and load.
+    #[serde(flatten)]
+    pub case: LoadCase,
+    /// Harmonics of everything that is kept.
+    pub lines: Vec<Line>,
+}
+
+impl SteadyState {
+    /// Amplitude of one harmonic of one quantity; 0 if it is not kept.
+    pub fn amplitude(&self, part: Part, coordinate: Coordinate, harmonic: usize) -> f64 {
+        self.line(part, coordinate, harmonic).map_or(0.0, |line| line.amplitude)
+    }
+
+    /// One harmonic of one quantity.
+    pub fn line(&self, part: Part, coordinate: Coordinate, harmonic: usize) -> Option<&Line> {
+        self.lines
+            .iter()
+            .find(|l| l.part == part && l.coordinate == coordinate && l.harmonic == harmonic)
+    }
+}
