@@ -1,13 +1,20 @@
 //! Virtual experiments: what can be asked of a model of a planetary gear set, as functions of the model and a
 //! load case.
 
+mod bodies_cache;
 mod error;
+mod mesh_cycle;
 pub mod modal;
+mod model;
+pub mod models;
 mod natural_mode;
 pub mod sweep;
 mod table_growth;
 pub mod torque;
 
+pub use bodies_cache::BodiesCache;
 pub use error::ExperimentError;
+pub use mesh_cycle::{MeshCycle, RestState, SunRms};
+pub use model::{ModalModel, ModelError, SpeedRequest, StaticModel, SteadyStateModel};
 pub use natural_mode::NaturalMode;
 pub use table_growth::{Outgrown, SIZES, large_enough};

@@ -35,6 +35,20 @@ impl Part {
         }
     }
 
+    /// The part that tables call so.
+    pub fn named(name: &str) -> Option<Self> {
+        let numbered = |prefix: &str| name.strip_prefix(prefix)?.parse::<usize>().ok();
+        match name {
+            "carrier" => Some(Self::Carrier),
+            "ring" => Some(Self::Ring),
+            "sun" => Some(Self::Sun),
+            _ => numbered("planet_")
+                .map(Self::Planet)
+                .or_else(|| numbered("sun_mesh_").map(Self::SunMesh))
+                .or_else(|| numbered("ring_mesh_").map(Self::RingMesh)),
+        }
+    }
+
     /// Body number k: carrier, ring, sun, planets.
     pub fn body(k: usize) -> Self {
         match k {
@@ -65,6 +79,21 @@ pub enum Coordinate {
 }
 
 impl Coordinate {
+    /// All of them.
+    const ALL: [Self; 6] = [
+        Self::Radial,
+        Self::Tangential,
+        Self::Rotation,
+        Self::Force,
+        Self::Share,
+        Self::ContactLoss,
+    ];
+
+    /// The quantity that tables call so.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|c| c.name() == name)
+    }
+
     /// The displacements in order.
     pub const DISPLACEMENTS: [Self; 3] = [Self::Radial, Self::Tangential, Self::Rotation];
 

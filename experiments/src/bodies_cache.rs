@@ -1,0 +1,41 @@
+//! Meshed and factorised gears, made once for all scenes that share them.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use fe_contact::FeError;
+use fe_contact::statics::Bodies;
+use gearset::Scene;
+
+/// Gears by what they are made of: scenes that differ in planets, supports or load share theirs.
+#[derive(Debug, Default)]
+pub struct BodiesCache {
+    known: Mutex<HashMap<String, Arc<Bodies>>>,
+}
+
+impl BodiesCache {
+    /// The gears of a scene, made if they are not known.
+    ///
+    /// # Errors
+    /// As [`Bodies::new`].
+    pub fn of(&self, scene: &Scene) -> Result<Arc<Bodies>, FeError> {
+        // All that Bodies::new reads; numbers are printed to their last digit.
+        let key = format!(
+            "{:?} {:?} {:?} {:?} {:?}",
+            scene.teeth, scene.geometry, scene.material, scene.fe_contact, scene.pair
+        );
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(bodies) = known.get(&key) {
+            return Ok(Arc::clone(bodies));
+        }
+        let bodies = Arc::new(Bodies::new(scene)?);
+        known.insert(key, Arc::clone(&bodies));
+        Ok(bodies)
+    }
+
+    /// Forgets gears that nobody holds.
+    pub fn drop_unused(&self) {
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        known.retain(|_, bodies| Arc::strong_count(bodies) > 1);
+    }
+}

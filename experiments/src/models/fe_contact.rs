@@ -1,0 +1,140 @@
+//! The FE/contact model, at the fidelity of the scene it is asked about.
+
+use std::sync::Arc;
+
+use fe_contact::FeError;
+use fe_contact::complementarity::ActiveSet;
+use fe_contact::statics::{Bodies, Imperfections, SUN, SetState, StaticSet};
+use gearset::{Fidelity, LoadCase, MeshKind, Scene};
+
+use crate::bodies_cache::BodiesCache;
+use crate::error::ExperimentError;
+use crate::mesh_cycle::{MeshCycle, RestState};
+use crate::modal::{FeMode, ImpulseSettings, Preload, impulse_test, linear_modes, preloaded};
+use crate::model::{ModalModel, ModelError, SpeedRequest, StaticModel, SteadyStateModel};
+use crate::natural_mode::NaturalMode;
+use crate::sweep::{
+    Direction, FeModel, LawModel, Memory, Plan, SteadySettings, SteadyState, SweepModel, run,
+};
+
+/// How natural modes are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ModalRoute {
+    /// Eigenvalues of the set linearised at position 0 of the mesh cycle.
+    #[default]
+    Linearised,
+    /// A virtual impulse test at position 0: modes in its band only.
+    ImpulseTest,
+}
+
+/// The FE/contact model with the gears of every scene it was asked about.
+#[derive(Debug, Default)]
+pub struct FeContact {
+    bodies: Arc<BodiesCache>,
+    imperfections: Imperfections,
+    route: ModalRoute,
+}
+
+impl FeContact {
+    /// With gears shared with others.
+    pub fn sharing(bodies: Arc<BodiesCache>) -> Self {
+        Self { bodies, ..Self::default() }
+    }
+
+    /// The same with imperfect gears; natural modes stay those of perfect ones.
+    pub fn with_imperfections(self, imperfections: Imperfections) -> Self {
+        Self { imperfections, ..self }
+    }
+
+    /// The same with natural modes found another way.
+    pub fn by(self, route: ModalRoute) -> Self {
+        Self { route, ..self }
+    }
+
+    /// The gears of a scene.
+    ///
+    /// # Errors
+    /// If they cannot be meshed.
+    pub fn bodies(&self, scene: &Scene) -> Result<Arc<Bodies>, FeError> {
+        self.bodies.of(scene)
+    }
+}
+
+impl ModalModel for FeContact {
+    fn natural_modes(
+        &self,
+        scene: &Scene,
+        case: &LoadCase,
+    ) -> Result<Vec<NaturalMode>, ModelError> {
+        let bodies = self.bodies(scene)?;
+        let modes: Vec<FeMode> = match self.route {
+            ModalRoute::Linearised => {
+                let preload = Preload { load: *case, position: 0.0, step_s: 5e-6 };
+                let set = preloaded(scene, &bodies, &preload)?;
+                linear_modes(&set, &set.linearised()?)?
+            }
+            ModalRoute::ImpulseTest => {
+                impulse_test(scene, &bodies, &ImpulseSettings::at(*case, 0.0))?.modes
+            }
+        };
+        Ok(modes.iter().map(NaturalMode::from).collect())
+    }
+}
+
+impl StaticModel for FeContact {
+    fn mesh_cycle(
+        &self,
+        scene: &Scene,
+        case: &LoadCase,
+        positions: usize,
+    ) -> Result<MeshCycle, ModelError> {
+        let bodies = self.bodies(scene)?;
+        let set = StaticSet::new(scene, &bodies, case.sense(), self.imperfections.clone())?;
+        let cycle = set.cycle(case.sun_load_nm(), positions, &ActiveSet)?;
+        Ok(MeshCycle { case: *case, states: cycle.states.iter().map(RestState::from).collect() })
+    }
+}
+
+impl From<&SetState> for RestState {
+    fn from(state: &SetState) -> Self {
+        let forces = |kind: MeshKind| {
+            state.meshes.iter().filter(|m| m.kind == kind).map(|m| m.force).collect()
+        };
+        Self {
+            position: state.position,
+            sun: state.central[SUN],
+            sun_mesh_n: forces(MeshKind::SunPlanet),
+            ring_mesh_n: forces(MeshKind::RingPlanet),
+        }
+    }
+}
+
+impl SteadyStateModel for FeContact {
+    fn steady_states(
+        &self,
+        scene: &Scene,
+        case: &LoadCase,
+        request: &SpeedRequest<'_>,
+    ) -> Result<Vec<SteadyState>, ModelError> {
+        let bodies = self.bodies(scene)?;
+        let found = if scene.dynamics.fidelity == Fidelity::MeshLaw {
+            march(&LawModel::new(scene, &bodies, *case)?, request)?
+        } else {
+            march(&FeModel::new(scene, &bodies, self.imperfections.clone(), *case), request)?
+        };
+        Ok(found)
+    }
+}
+
+/// Steady states of a model that is marched, ascending in speed.
+pub(super) fn march(
+    model: &dyn SweepModel,
+    request: &SpeedRequest<'_>,
+) -> Result<Vec<SteadyState>, ExperimentError> {
+    let SpeedRequest { speeds_rpm, harmonics, tolerance } = *request;
+    let settings =
+        SteadySettings { tolerance, harmonics, between_cycles: 0, ..SteadySettings::default() };
+    let plan = Plan::new(speeds_rpm, &[Direction::Up], settings)?;
+    let sweep = run(model, &plan, &Memory, &|_| ())?;
+    Ok(sweep.states().into_iter().cloned().collect())
+}
