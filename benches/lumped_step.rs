@@ -17,7 +17,7 @@ use std::time::Instant;
 
 use beside::{Beside, Outcome, csv, quartiles};
 use gearset::{
-    Facing, Geometry, LawPlan, MeshCurve, MeshLaw, MeshStart, PairSprings, Phasing, Scene,
+    Facing, Geometry, MeshCurve, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing, Scene,
 };
 use lumped::{Axis, Body, LumpedModel, SpringId, TimeVarying};
 
@@ -37,7 +37,7 @@ const TEETH: PairSprings =
 const REACH: f64 = 60e-6;
 const NODES: usize = 64;
 
-/// How far the back flanks stand off, m.
+/// How far the backside flanks stand off, m.
 const BACKLASH: f64 = 90e-6;
 
 fn main() -> ExitCode {
@@ -50,32 +50,32 @@ fn scene() -> Outcome<Scene> {
     Ok(Scene::from_file(&path)?)
 }
 
-fn law(scene: &Scene, backs: bool) -> Outcome<MeshLaw> {
+fn law(scene: &Scene, backside: bool) -> Outcome<MeshLaw> {
     let geometry = Geometry::from_scene(scene).map_err(|e| e.to_string())?;
     let phasing = Phasing::new(&geometry, &scene.planets).ok_or("no whole set")?;
     let mut starts = MeshStart::of_set(&phasing);
     for start in &mut starts {
-        start.back = backs.then_some(-start.front);
+        start.backside = backside.then_some(-start.front);
     }
-    let plan = LawPlan::new(&starts, STEPS)?;
+    let plan = MeshLawPlan::new(&starts, STEPS)?;
     let curve = |key: &gearset::CurveKey| -> Outcome<MeshCurve> {
         let curve = TEETH.curve(key.phase, REACH, NODES)?;
-        Ok(if key.side == gearset::FlankSide::Back { curve.moved(BACKLASH) } else { curve })
+        Ok(if key.side == gearset::FlankSide::Backside { curve.moved(BACKLASH) } else { curve })
     };
     let curves = plan.curves.iter().map(curve).collect::<Outcome<Vec<_>>>()?;
     Ok(plan.law(curves)?)
 }
 
-fn set(scene: &Scene, backs: bool) -> Outcome<TimeVarying> {
-    let law = law(scene, backs)?;
+fn set(scene: &Scene, backside: bool) -> Outcome<TimeVarying> {
+    let law = law(scene, backside)?;
     let mut set = TimeVarying::new(scene, Facing::CounterClockwise, law, FREQUENCY_HZ)?;
     set.rest(TORQUE_NM)?;
     Ok(set)
 }
 
 /// Mean time of one step over a batch, ns, the first cycles left out; mean iterations of a step.
-fn marched(backs: bool, count: u32) -> Outcome<(f64, f64)> {
-    let mut set = set(&scene()?, backs)?;
+fn marched(backside: bool, count: u32) -> Outcome<(f64, f64)> {
+    let mut set = set(&scene()?, backside)?;
     for _ in 0..DUMPED_CYCLES * STEPS {
         set.step()?;
     }
@@ -87,14 +87,14 @@ fn marched(backs: bool, count: u32) -> Outcome<(f64, f64)> {
 }
 
 fn summary() -> Outcome<()> {
-    for backs in [false, true] {
+    for backside in [false, true] {
         let mut iterations = 0.0;
         let [low, median, high] = quartiles(|| {
-            let (time, counted) = marched(backs, BATCH)?;
+            let (time, counted) = marched(backside, BATCH)?;
             iterations = counted;
             Ok(time)
         })?;
-        let with = if backs { "with back flanks in reach" } else { "front flanks" };
+        let with = if backside { "with backside flanks in reach" } else { "front flanks" };
         println!(
             "{with}: {median:.0} ns a step [{low:.0}, {high:.0}], {iterations:.2} iterations each"
         );

@@ -7,7 +7,7 @@ use std::path::Path;
 use criterion::{Criterion, criterion_group, criterion_main};
 
 use fe_contact::statics::{Bodies, Imperfections};
-use fe_contact::vibration::{Loading, Motive, VibratingSet};
+use fe_contact::vibration::{Loading, NominalRotation, VibratingSet};
 use gearset::{Facing, Fidelity, Scene};
 
 const STEPS: usize = 140;
@@ -31,13 +31,13 @@ fn steps(c: &mut Criterion) {
     for (name, fidelity, cycles) in fidelities {
         scene.dynamics.fidelity = fidelity;
         // Every position of a turning `full` costs a solution for each port; standing has one.
-        let motive = match cycles {
-            Some(_) => Motive::Turning { mesh_frequency: 565.714, steps_per_cycle: STEPS },
-            None => Motive::Standing { position: 0.0, step: 12.6e-6 },
+        let rotation = match cycles {
+            Some(_) => NominalRotation::Turning { mesh_frequency: 565.714, steps_per_cycle: STEPS },
+            None => NominalRotation::Standing { position: 0.0, step: 12.6e-6 },
         };
         let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
         let loading = Loading { torque_nm: TORQUE, mesh_force: force };
-        let mut set = VibratingSet::new(&scene, &bodies, sense, none, motive, loading).unwrap();
+        let mut set = VibratingSet::new(&scene, &bodies, sense, none, rotation, loading).unwrap();
         set.rest(TORQUE).unwrap();
         for _ in 0..cycles.map_or(2, |c| c * STEPS) {
             set.step().unwrap();

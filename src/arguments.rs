@@ -45,9 +45,19 @@ pub enum Format {
 
 #[derive(Debug, Args)]
 pub struct Validate {
-    /// Also write the verdict and the mode tables to this folder (Markdown, JSON, SVG).
+    /// Also write the verdict and the mode tables to this folder (Markdown, JSON) and draw figures.
     #[arg(long, value_name = "DIR")]
     pub report: Option<PathBuf>,
+    /// List every check instead of a line a suite.
+    #[arg(long)]
+    pub details: bool,
+    /// List the suites with what they ask of a model and their negative controls; run nothing.
+    #[arg(long, conflicts_with_all = ["report", "details", "profile", "recorded"])]
+    pub controls: bool,
+    /// Judge somebody's results instead of our own models: a folder with any of modes.csv, mesh_cycle.csv and
+    /// steady_states.csv (columns in README.md).
+    #[arg(long, value_name = "DIR", conflicts_with = "profile")]
+    pub recorded: Option<PathBuf>,
     /// How much to run; checks left out are listed as not run.
     #[arg(long, value_enum, default_value_t = Profile::Quick)]
     pub profile: Profile,
@@ -108,6 +118,7 @@ pub enum ContactSolver {
     /// Lemke's pivoting, the paper's family.
     Lemke,
     /// Interior-point method at 1e-12; slow.
+    #[cfg(feature = "interior_point")]
     InteriorPoint,
 }
 
@@ -127,12 +138,13 @@ pub struct Static {
     /// Solver of the contact problem.
     #[arg(long, value_enum, default_value_t = ContactSolver::ActiveSet)]
     pub solver: ContactSolver,
-    /// Also draw figures into this folder (SVG).
-    #[arg(long, value_name = "DIR")]
+    /// Also draw figures into this folder (SVG, PNG).
+    #[cfg(feature = "charts")]
+    #[arg(long, value_name = "DIR", conflicts_with = "approach_um")]
     pub figures: Option<PathBuf>,
     /// Of a gear pair: turn the driving gear's race by this approach over its base radius instead of
     /// loading it, at one phase; µm.
-    #[arg(long, value_name = "UM", conflicts_with_all = ["normal_force_n", "torque_nm", "figures"])]
+    #[arg(long, value_name = "UM", conflicts_with_all = ["normal_force_n", "torque_nm"])]
     pub approach_um: Option<f64>,
     /// Phase of that approach, cycles.
     #[arg(long, value_name = "CYCLES", requires = "approach_um", allow_negative_numbers = true)]
@@ -173,7 +185,8 @@ pub struct Impulse {
     /// Also linearise over the mesh cycle at half, once and one and a half times the torque.
     #[arg(long)]
     pub band: bool,
-    /// Also draw figures into this folder (SVG).
+    /// Also draw figures into this folder (SVG, PNG).
+    #[cfg(feature = "charts")]
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
     #[arg(long, value_enum, default_value_t = TableFormat::Text)]
@@ -225,7 +238,8 @@ pub struct Sweep {
     /// from what it finds.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Also draw figures into this folder (SVG): waterfalls, harmonics over frequency and apart.
+    /// Also draw figures into this folder (SVG, PNG): waterfalls, harmonics over frequency and apart.
+    #[cfg(feature = "charts")]
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
     #[arg(long, value_enum, default_value_t = TableFormat::Text)]
@@ -237,6 +251,7 @@ pub struct MeshVerb {
     /// Scene file.
     pub scene: PathBuf,
     /// Draw the assembled meshes into this file (SVG).
+    #[cfg(feature = "charts")]
     #[arg(long, value_name = "FILE")]
     pub svg: Option<PathBuf>,
     /// Write each body's mesh into this folder (VTU, for ParaView).

@@ -59,9 +59,24 @@ pub enum CommandError {
     /// The models or the reference data could not be used.
     #[error(transparent)]
     Validation(#[from] validation::ValidationError),
+    /// A figure could not be saved.
+    #[cfg(feature = "charts")]
+    #[error(transparent)]
+    Figure(#[from] crate::figures::FigureError),
     /// An experiment could not be made.
     #[error(transparent)]
     Experiment(#[from] experiments::ExperimentError),
+}
+
+impl From<csv::Error> for CommandError {
+    fn from(error: csv::Error) -> Self {
+        let text = error.to_string();
+        // What the operating system said is kept: a reader that went away is no fault.
+        Self::Output(match error.into_kind() {
+            csv::ErrorKind::Io(error) => error,
+            _ => std::io::Error::other(text),
+        })
+    }
 }
 
 impl CommandError {

@@ -1,9 +1,26 @@
-//! The `epicyclic` command, and the facade over the crates that do the work:
-//! [`gearset`], [`dynamics`], [`lumped`], [`fe_contact`] and [`validation`].
+//! Verification and benchmark suite for planetary gear dynamics: the crates that do the work, under one
+//! name, and with the feature `command` the `epicyclic` command.
+//!
+//! | module | what it holds |
+//! |---|---|
+//! | [`gearset`] | scene files, involute geometry, planet phasing, kinematics, excitation rules |
+//! | [`dynamics`] | eigenproblems, time steps, spectra and identification; knows no gears |
+//! | [`lumped`] | the lumped-parameter model of Lin and Parker |
+//! | [`fe_contact`] | finite-element/contact model: meshes, contact, statics, vibration |
+//! | [`experiments`] | natural modes, impulse tests, speed sweeps on either model |
+//! | [`validation`] | checks against published numbers, theorems and each other |
+//!
+//! With `default-features = false` nothing else is built.
 
+#[cfg(feature = "command")]
 mod arguments;
+#[cfg(feature = "command")]
 mod commands;
+#[cfg(feature = "command")]
 mod error;
+#[cfg(feature = "charts")]
+pub mod figures;
+#[cfg(feature = "command")]
 mod output;
 
 pub use dynamics;
@@ -13,38 +30,12 @@ pub use gearset;
 pub use lumped;
 pub use validation;
 
-use std::ffi::OsString;
-use std::io::Write;
-
-use clap::Parser;
-
-pub use commands::schemas;
+#[cfg(feature = "command")]
+pub use commands::{run, schemas};
+#[cfg(feature = "command")]
 pub use error::CommandError;
 
-/// Runs the command: results to `out`, everything else to `err`. Returns the exit code: 0 ran and
-/// every check passed, 1 ran and a check failed, 2 bad input.
-pub fn run<I, T>(arguments: I, out: &mut dyn Write, err: &mut dyn Write) -> u8
-where
-    I: IntoIterator<Item = T>,
-    T: Into<OsString> + Clone,
-{
-    let parsed = match arguments::Arguments::try_parse_from(arguments) {
-        Ok(parsed) => parsed,
-        Err(refusal) => {
-            let asked_for_help = !refusal.use_stderr();
-            let styled = refusal.render().ansi().to_string();
-            // Nothing sensible is left to do if even this cannot be written.
-            let _ = if asked_for_help { write!(out, "{styled}") } else { write!(err, "{styled}") };
-            return if asked_for_help { 0 } else { 2 };
-        }
-    };
-    match commands::dispatch(parsed, out) {
-        Ok(true) => 0,
-        Ok(false) => 1,
-        Err(error) if error.is_closed_pipe() => 0,
-        Err(error) => {
-            let _ = write!(err, "{}", error.rendered());
-            2
-        }
-    }
-}
+/// The README's Rust sections, which are compiled and run as tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct ReadmeExamples;

@@ -1,4 +1,4 @@
-//! Tables and JSON, written the same way by every verb.
+//! Tables, CSV and JSON, written the same way by every verb.
 
 use std::io::Write;
 
@@ -29,6 +29,20 @@ pub(crate) fn json(out: &mut dyn Write, value: &impl Serialize) -> Result<(), Co
     serde_json::to_writer_pretty(&mut *out, value)?;
     writeln!(out)?;
     Ok(())
+}
+
+/// Writes rows of cells below a header as CSV.
+pub(crate) fn csv(
+    out: &mut dyn Write,
+    header: &[&str],
+    rows: impl IntoIterator<Item = Vec<String>>,
+) -> Result<(), CommandError> {
+    let mut writer = csv::Writer::from_writer(out);
+    writer.write_record(header)?;
+    for row in rows {
+        writer.write_record(row)?;
+    }
+    Ok(writer.flush()?)
 }
 
 /// A strength or share for people: `–` where it is nil.

@@ -1,6 +1,7 @@
 //! Undamped systems with gyroscopic terms: (s² M + s G + K) φ = 0.
 
 use faer::Mat;
+use nalgebra::DMatrix;
 
 use crate::error::EigenError;
 use crate::state_space::complex_eigen;
@@ -28,14 +29,14 @@ pub struct GyroscopicMode {
 /// For unusable input, no convergence, or ‖(s²M̃ + sG̃ + K̃)q‖ above 1e-10 (M̃ = I, time scaled).
 pub fn gyroscopic_modes(
     mass: &[f64],
-    g: &Mat<f64>,
-    k: &Mat<f64>,
+    g: &DMatrix<f64>,
+    k: &DMatrix<f64>,
 ) -> Result<Vec<GyroscopicMode>, EigenError> {
     check_input(k, mass)?;
     check_input(g, mass)?;
     let n = mass.len();
     let root: Vec<f64> = mass.iter().map(|m| m.sqrt()).collect();
-    let scaled = |a: &Mat<f64>, i: usize, j: usize| a[(i, j)] / (root[i] * root[j]);
+    let scaled = |a: &DMatrix<f64>, i: usize, j: usize| a[(i, j)] / (root[i] * root[j]);
     let largest = (0..n).map(|i| scaled(k, i, i).abs()).fold(0.0f64, f64::max);
     let reference = if largest > 0.0 { largest.sqrt() } else { 1.0 };
     // d/dτ [q; q'] = [0 I; −K̃ −G̃] [q; q'], τ = t·ω_ref
@@ -92,8 +93,8 @@ mod tests {
     /// Two equal unit masses on springs k, coupled by ±g: s² ± i g s + k = 0, so
     /// s = ∓i g/2 ± i √(g²/4 + k).
     fn gyroscope(g: f64, k: f64) -> Vec<GyroscopicMode> {
-        let gg = Mat::from_fn(2, 2, |i, j| g * (i as f64 - j as f64));
-        let kk = Mat::from_fn(2, 2, |i, j| if i == j { k } else { 0.0 });
+        let gg = DMatrix::from_fn(2, 2, |i, j| g * (i as f64 - j as f64));
+        let kk = DMatrix::from_fn(2, 2, |i, j| if i == j { k } else { 0.0 });
         gyroscopic_modes(&[1.0, 1.0], &gg, &kk).unwrap()
     }
 
@@ -129,8 +130,8 @@ mod tests {
     fn drifting_and_swinging_modes_keep_their_number() {
         // One diverges, one drifts, one swings: s = ±2; 0, 0; ±3i.
         let k = [-4.0, 0.0, 9.0];
-        let kk = Mat::from_fn(3, 3, |i, j| if i == j { k[i] } else { 0.0 });
-        let mut found = gyroscopic_modes(&[1.0; 3], &Mat::zeros(3, 3), &kk).unwrap();
+        let kk = DMatrix::from_fn(3, 3, |i, j| if i == j { k[i] } else { 0.0 });
+        let mut found = gyroscopic_modes(&[1.0; 3], &DMatrix::zeros(3, 3), &kk).unwrap();
         found.sort_by(|a, b| a.omega.total_cmp(&b.omega).then(a.growth.total_cmp(&b.growth)));
         assert_modes(&found, &[(0.0, 0.0), (0.0, 2.0), (3.0, 0.0)], 1e-7);
         // M-normalised shape of the swinging one.
@@ -151,13 +152,13 @@ mod tests {
     #[test]
     fn isotropic_oscillator_in_a_turning_frame() {
         let (m, k, speed) = (2.0, 8e6, 300.0);
-        let g = Mat::from_fn(2, 2, |i, j| match (i, j) {
+        let g = DMatrix::from_fn(2, 2, |i, j| match (i, j) {
             (0, 1) => -2.0 * m * speed,
             (1, 0) => 2.0 * m * speed,
             _ => 0.0,
         });
         let stiffness = k - m * speed * speed;
-        let kk = Mat::from_fn(2, 2, |i, j| if i == j { stiffness } else { 0.0 });
+        let kk = DMatrix::from_fn(2, 2, |i, j| if i == j { stiffness } else { 0.0 });
         let modes = gyroscopic_modes(&[m, m], &g, &kk).unwrap();
         let natural = (k / m).sqrt();
         assert!((modes[0].omega - (natural - speed)).abs() < 1e-10 * natural);
@@ -171,19 +172,19 @@ mod tests {
         let (spin, k) = (1.3, 2.0);
         let (s, c) = 0.7f64.sin_cos();
         // Coordinates 0, 1 are one gyroscope, 2, 3 the other; rows 0 and 2, 1 and 3 are turned.
-        let turn = Mat::from_fn(4, 4, |i, j| match (i % 2 == j % 2, i / 2, j / 2) {
+        let turn = DMatrix::from_fn(4, 4, |i, j| match (i % 2 == j % 2, i / 2, j / 2) {
             (true, a, b) if a == b => c,
             (true, 0, _) => -s,
             (true, _, _) => s,
             _ => 0.0,
         });
-        let pure = Mat::from_fn(4, 4, |i, j| match i / 2 == j / 2 {
+        let pure = DMatrix::from_fn(4, 4, |i, j| match i / 2 == j / 2 {
             true => spin * (i as f64 - j as f64),
             false => 0.0,
         });
         let g = &turn * &pure * turn.transpose();
-        let g = Mat::from_fn(4, 4, |i, j| 0.5 * (g[(i, j)] - g[(j, i)]));
-        let kk = Mat::from_fn(4, 4, |i, j| if i == j { k } else { 0.0 });
+        let g = DMatrix::from_fn(4, 4, |i, j| 0.5 * (g[(i, j)] - g[(j, i)]));
+        let kk = DMatrix::from_fn(4, 4, |i, j| if i == j { k } else { 0.0 });
         let modes = gyroscopic_modes(&[1.0; 4], &g, &kk).unwrap();
         let root = (0.25f64 * spin * spin + k).sqrt();
         for (mode, exact) in modes.iter().zip([
@@ -198,8 +199,8 @@ mod tests {
 
     #[test]
     fn divergence_is_reported_not_dropped() {
-        let g = Mat::zeros(1, 1);
-        let k = Mat::from_fn(1, 1, |_, _| -4.0);
+        let g = DMatrix::zeros(1, 1);
+        let k = DMatrix::from_fn(1, 1, |_, _| -4.0);
         let modes = gyroscopic_modes(&[1.0], &g, &k).unwrap();
         assert_eq!(modes.len(), 1);
         assert!(modes[0].omega == 0.0 && (modes[0].growth - 2.0).abs() < 1e-12);

@@ -1,24 +1,31 @@
 //! Numerics that know no gears: eigenproblems of vibrating systems and their subspaces, time steps,
-//! spectra of records, and the modes identified from them.
+//! spectra of records, the modes identified from them, and how far a grid is from its limit.
 
 mod coupled;
 mod error;
+mod extrapolate;
+mod grid_convergence;
 mod gyroscopic;
 pub mod identify;
 mod lowest_modes;
+mod matrix;
 mod newmark;
+mod rotating_frame;
 mod spectrum;
 mod state_space;
 mod subspace;
 mod symmetric;
 
-pub use coupled::{Coupled, CoupledError, CoupledState, Coupling, CouplingLaw, LinearPart};
+pub use coupled::{Coupled, CoupledError, CoupledState, Coupling, CouplingForce, LinearPart};
 pub use error::{EigenError, SpectrumError};
+pub use extrapolate::extrapolation_weights;
 pub use faer::c64;
+pub use grid_convergence::{GridConvergence, grid_convergence_index};
 pub use gyroscopic::{GyroscopicMode, gyroscopic_modes};
 pub use lowest_modes::{LowMode, ModalOperator, lowest_modes};
 pub use newmark::{AverageAcceleration, Motion, StepError};
+pub use rotating_frame::RotatingFrame;
 pub use spectrum::{Spectrum, Window, spectrum};
 pub use state_space::{StateMode, state_modes};
-pub use subspace::{Direction, group_equal, orthonormal_basis, split};
+pub use subspace::{SubspaceDirection, group_equal, orthonormal_basis, split};
 pub use symmetric::{SymmetricModes, generalized_symmetric};

@@ -3,8 +3,10 @@
 use faer::linalg::evd::EvdError;
 use faer::linalg::solvers::Eigen;
 use faer::{Mat, c64};
+use nalgebra::DMatrix;
 
 use crate::error::EigenError;
+use crate::matrix::to_faer;
 use crate::symmetric::check_residual;
 
 /// One mode e^{st} of ẏ = A y.
@@ -35,7 +37,7 @@ impl StateMode {
 /// # Errors
 /// If an entry is not finite, the iteration does not converge, or ‖A y − s y‖ exceeds 1e-10 of the
 /// largest |s|.
-pub fn state_modes(a: &Mat<f64>) -> Result<Vec<StateMode>, EigenError> {
+pub fn state_modes(a: &DMatrix<f64>) -> Result<Vec<StateMode>, EigenError> {
     let n = a.nrows();
     for column in 0..n {
         for row in 0..n {
@@ -44,7 +46,7 @@ pub fn state_modes(a: &Mat<f64>) -> Result<Vec<StateMode>, EigenError> {
             }
         }
     }
-    let solution = complex_eigen(a).map_err(|_| EigenError::NoConvergence { size: n })?;
+    let solution = complex_eigen(&to_faer(a)).map_err(|_| EigenError::NoConvergence { size: n })?;
     let (values, vectors) = (solution.S(), solution.U());
     let largest = (0..n).map(|j| values[j].re.hypot(values[j].im)).fold(0.0f64, f64::max);
     let mut modes = Vec::new();
@@ -93,14 +95,14 @@ mod tests {
         let (omega, zeta) = (3.0, 0.02);
         let turn = |angle: f64| {
             let (s, c) = angle.sin_cos();
-            Mat::from_fn(4, 4, |i, j| match (i % 2, j % 2, i / 2 == j / 2) {
+            DMatrix::from_fn(4, 4, |i, j| match (i % 2, j % 2, i / 2 == j / 2) {
                 (a, b, true) if a == b => c,
                 (0, 1, true) => -s,
                 (1, 0, true) => s,
                 _ => 0.0,
             })
         };
-        let pure = Mat::from_fn(4, 4, |i, j| match (i < 2, j < 2) {
+        let pure = DMatrix::from_fn(4, 4, |i, j| match (i < 2, j < 2) {
             (true, false) => f64::from(u8::from(j - 2 == i)),
             (false, true) if i - 2 == j => -omega * omega,
             (false, false) if i == j => -2.0 * zeta * omega,
@@ -117,11 +119,11 @@ mod tests {
         // ẍ + 2ζω ẋ + ω² x = 0 with ω = 3, ζ = 0.1; ż = −5 z.
         let (omega, zeta) = (3.0, 0.1);
         let rows = [[0.0, 1.0, 0.0], [-omega * omega, -2.0 * zeta * omega, 0.0], [0.0, 0.0, -5.0]];
-        let modes = state_modes(&Mat::from_fn(3, 3, |i, j| rows[i][j])).unwrap();
+        let modes = state_modes(&DMatrix::from_fn(3, 3, |i, j| rows[i][j])).unwrap();
         assert_eq!(modes.len(), 2);
         assert!((modes[0].natural_frequency() - omega).abs() < 1e-12);
         assert!((modes[0].damping_ratio() - zeta).abs() < 1e-12);
         assert!((modes[1].damping_ratio() - 1.0).abs() < 1e-12);
-        assert!(state_modes(&Mat::from_fn(1, 1, |_, _| f64::NAN)).is_err());
+        assert!(state_modes(&DMatrix::from_fn(1, 1, |_, _| f64::NAN)).is_err());
     }
 }

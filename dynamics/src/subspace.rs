@@ -55,7 +55,7 @@ fn norm(v: &[f64]) -> f64 {
 
 /// One direction of a group's subspace after splitting.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Direction {
+pub struct SubspaceDirection {
     /// Coefficients on the group's basis (length m, unit length).
     pub coefficients: Vec<f64>,
     /// Index of the kind it belongs to; the kind after the last basis is "the rest". `None`: mixed.
@@ -72,7 +72,10 @@ pub struct Direction {
 ///
 /// # Errors
 /// If a small eigenproblem does not converge.
-pub fn split(m: usize, projections: &[Vec<Vec<f64>>]) -> Result<Vec<Direction>, EigenError> {
+pub fn split(
+    m: usize,
+    projections: &[Vec<Vec<f64>>],
+) -> Result<Vec<SubspaceDirection>, EigenError> {
     let along = |row: &Vec<f64>, c: &[f64]| row.iter().zip(c).map(|(p, x)| p * x).sum::<f64>();
     let shares_of = |c: &[f64]| {
         let share =
@@ -84,7 +87,7 @@ pub fn split(m: usize, projections: &[Vec<Vec<f64>>]) -> Result<Vec<Direction>, 
     if m == 1 {
         let shares = shares_of(&[1.0]);
         let kind = shares.iter().position(|s| *s >= 1.0 - IMPURE);
-        return Ok(vec![Direction { coefficients: vec![1.0], kind, shares }]);
+        return Ok(vec![SubspaceDirection { coefficients: vec![1.0], kind, shares }]);
     }
     // A kind's pure directions are the eigenvectors of G_k = Qᵀ Π_k Q with eigenvalue one.
     let gram = |k: usize, i: usize, j: usize| -> f64 {
@@ -94,7 +97,7 @@ pub fn split(m: usize, projections: &[Vec<Vec<f64>>]) -> Result<Vec<Direction>, 
             None => f64::from(u8::from(i == j)) - projections.iter().map(of).sum::<f64>(),
         }
     };
-    let mut directions: Vec<Direction> = Vec::with_capacity(m);
+    let mut directions: Vec<SubspaceDirection> = Vec::with_capacity(m);
     for kind in 0..=projections.len() {
         let trace: f64 = (0..m).map(|i| gram(kind, i, i)).sum();
         if trace < 1.0 - IMPURE {
@@ -104,7 +107,7 @@ pub fn split(m: usize, projections: &[Vec<Vec<f64>>]) -> Result<Vec<Direction>, 
         for j in (0..m).filter(|&j| values[j] >= 1.0 - IMPURE) {
             let coefficients: Vec<f64> = (0..m).map(|i| vectors[(i, j)]).collect();
             let shares = shares_of(&coefficients);
-            directions.push(Direction { coefficients, kind: Some(kind), shares });
+            directions.push(SubspaceDirection { coefficients, kind: Some(kind), shares });
         }
     }
     if directions.len() < m {
@@ -114,7 +117,7 @@ pub fn split(m: usize, projections: &[Vec<Vec<f64>>]) -> Result<Vec<Direction>, 
         let found = orthonormal_basis(&pure, &[]);
         for coefficients in orthonormal_basis(&units, &found) {
             let shares = shares_of(&coefficients);
-            directions.push(Direction { kind: None, coefficients, shares });
+            directions.push(SubspaceDirection { kind: None, coefficients, shares });
         }
     }
     Ok(directions)

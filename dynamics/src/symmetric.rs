@@ -4,6 +4,7 @@ use faer::Mat;
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use crate::error::EigenError;
+use crate::matrix::from_faer;
 
 /// Residuals above this are refused. Sound solutions stay below 1e-13.
 const RESIDUAL_LIMIT: f64 = 1e-10;
@@ -14,7 +15,7 @@ pub struct SymmetricModes {
     /// Eigenvalues λ = ω², ascending, (rad/s)².
     pub lambda: Vec<f64>,
     /// M-orthonormal eigenvectors, one a column (n×n).
-    pub vectors: Mat<f64>,
+    pub vectors: DMatrix<f64>,
     /// max ‖K̃q − λq‖ / max |λ| with K̃ = M^-½ K M^-½, q = M^½ φ.
     pub residual: f64,
 }
@@ -23,7 +24,7 @@ pub struct SymmetricModes {
 ///
 /// # Errors
 /// For unusable input, no convergence, or a residual above 1e-10.
-pub fn generalized_symmetric(k: &Mat<f64>, mass: &[f64]) -> Result<SymmetricModes, EigenError> {
+pub fn generalized_symmetric(k: &DMatrix<f64>, mass: &[f64]) -> Result<SymmetricModes, EigenError> {
     let n = mass.len();
     check_input(k, mass)?;
     let root: Vec<f64> = mass.iter().map(|m| m.sqrt()).collect();
@@ -45,7 +46,7 @@ pub fn generalized_symmetric(k: &Mat<f64>, mass: &[f64]) -> Result<SymmetricMode
             vectors[(i, j)] *= sign / root[i];
         }
     }
-    Ok(SymmetricModes { lambda, vectors, residual })
+    Ok(SymmetricModes { lambda, vectors: from_faer(&vectors), residual })
 }
 
 /// Eigenvalues (ascending) and orthonormal eigenvectors (columns) of a symmetric matrix.
@@ -80,7 +81,7 @@ pub(crate) fn check_residual(residual: f64, size: usize) -> Result<(), EigenErro
     }
 }
 
-pub(crate) fn check_input(k: &Mat<f64>, mass: &[f64]) -> Result<(), EigenError> {
+pub(crate) fn check_input(k: &DMatrix<f64>, mass: &[f64]) -> Result<(), EigenError> {
     let (rows, columns, masses) = (k.nrows(), k.ncols(), mass.len());
     if rows != masses || columns != masses {
         return Err(EigenError::Size { rows, columns, masses });
@@ -120,7 +121,7 @@ mod tests {
     fn chain_of_masses_has_its_closed_form_frequencies() {
         for n in [1, 2, 17, 150, 201] {
             let (stiffness, mass) = (3e8, 0.7);
-            let k = Mat::from_fn(n, n, |i, j| match i.abs_diff(j) {
+            let k = DMatrix::from_fn(n, n, |i, j| match i.abs_diff(j) {
                 0 if i + 1 == n => stiffness,
                 0 => 2.0 * stiffness,
                 1 => -stiffness,
@@ -138,10 +139,10 @@ mod tests {
 
     #[test]
     fn bad_input_is_refused() {
-        let k = Mat::from_fn(2, 2, |i, j| if i == j { 1.0 } else { 0.0 });
+        let k = DMatrix::from_fn(2, 2, |i, j| if i == j { 1.0 } else { 0.0 });
         assert!(matches!(generalized_symmetric(&k, &[1.0]), Err(EigenError::Size { .. })));
         assert!(matches!(generalized_symmetric(&k, &[1.0, 0.0]), Err(EigenError::Mass { .. })));
-        let nan = Mat::from_fn(2, 2, |_, _| f64::NAN);
+        let nan = DMatrix::from_fn(2, 2, |_, _| f64::NAN);
         let refused = generalized_symmetric(&nan, &[1.0, 1.0]);
         assert!(matches!(refused, Err(EigenError::NotFinite { .. })));
     }
@@ -152,7 +153,7 @@ mod tests {
             let grade = |i: usize| 10f64.powf(8.0 * ((7 * i) % n) as f64 / n as f64);
             let mass: Vec<f64> = (0..n).map(|i| grade((3 * i + 1) % n) * 1e-4).collect();
             // Springs to ground and to the next coordinate.
-            let mut k = Mat::zeros(n, n);
+            let mut k = DMatrix::zeros(n, n);
             for i in 0..n {
                 k[(i, i)] += grade(i);
                 if i + 1 < n {
@@ -180,7 +181,7 @@ mod tests {
     #[test]
     fn the_largest_component_is_positive_and_the_first_of_equals_counts() {
         // Two equal masses on a spring: φ = (1, 1)/√2 and (1, −1)/√2.
-        let k = Mat::from_fn(2, 2, |i, j| if i == j { 1.0 } else { -1.0 });
+        let k = DMatrix::from_fn(2, 2, |i, j| if i == j { 1.0 } else { -1.0 });
         let modes = generalized_symmetric(&k, &[1.0, 1.0]).unwrap();
         assert!((0..2).all(|j| modes.vectors[(0, j)] > 0.7) && modes.vectors[(1, 1)] < -0.7);
     }
@@ -188,7 +189,7 @@ mod tests {
     /// Finite entries whose mass-normalised form overflows: no mode may come out of that.
     #[test]
     fn an_overflow_is_an_error_and_not_a_mode() {
-        let k = Mat::from_fn(2, 2, |i, j| if i == j { 1e200 } else { 0.5e200 });
+        let k = DMatrix::from_fn(2, 2, |i, j| if i == j { 1e200 } else { 0.5e200 });
         assert!(generalized_symmetric(&k, &[1e-200, 1e-200]).is_err());
     }
 

@@ -1,7 +1,7 @@
 //! The coupled stepper against closed forms: order, energy, the linear limit, separation.
 
-use dynamics::{AverageAcceleration, Coupled, CoupledError, Coupling, CouplingLaw, LinearPart};
-use faer::Mat;
+use dynamics::{AverageAcceleration, Coupled, CoupledError, Coupling, CouplingForce, LinearPart};
+use nalgebra::DMatrix;
 
 /// k δ, from contact on: with a one-sided spring nil below δ = 0.
 #[derive(Debug, Clone)]
@@ -12,7 +12,7 @@ struct Spring {
     cubic: f64,
 }
 
-impl CouplingLaw for Spring {
+impl CouplingForce for Spring {
     fn answer(&self, _: usize, _: usize, delta: f64) -> (f64, f64) {
         if self.is_one_sided && delta <= 0.0 {
             return (0.0, 0.0);
@@ -26,10 +26,10 @@ impl CouplingLaw for Spring {
     }
 }
 
-fn linear(mass: &[f64], damping: f64, stiffness: Mat<f64>) -> LinearPart {
+fn linear(mass: &[f64], damping: f64, stiffness: DMatrix<f64>) -> LinearPart {
     let n = mass.len();
     let of = |i: usize, j: usize| if i == j { damping * mass[i] } else { 0.0 };
-    LinearPart { mass: mass.to_vec(), damping: Mat::from_fn(n, n, of), stiffness }
+    LinearPart { mass: mass.to_vec(), damping: DMatrix::from_fn(n, n, of), stiffness }
 }
 
 fn rule(step: f64) -> AverageAcceleration {
@@ -54,7 +54,7 @@ fn the_linear_limit_is_the_closed_form_at_second_order() {
     let exact = force / k * (1.0 + decay * swing);
     let error = |steps: usize| {
         let law = Spring { stiffness: k, is_one_sided: true, cubic: 0.0 };
-        let part = linear(&[m], 0.0, Mat::zeros(1, 1));
+        let part = linear(&[m], 0.0, DMatrix::zeros(1, 1));
         let one = [coupling(&[1.0], 0.0, tau)];
         let mut set = Coupled::new(&part, &one, &[], law, rule(end / steps as f64), steps).unwrap();
         set.set_external(&[force]).unwrap();
@@ -72,7 +72,7 @@ fn the_linear_limit_is_the_closed_form_at_second_order() {
 fn a_coupling_of_constant_stiffness_is_a_spring() {
     let (mass, k) = ([1.0, 2.0, 0.5], 4e7);
     let chain = |last: f64| {
-        let mut s = Mat::<f64>::zeros(3, 3);
+        let mut s = DMatrix::<f64>::zeros(3, 3);
         for (i, j, k) in [(0, 0, 2.0 * k), (1, 1, k + last), (0, 1, -k), (1, 2, -last)] {
             s[(i, j)] = k;
             s[(j, i)] = k;
@@ -106,7 +106,7 @@ fn energy_is_kept_to_second_order_and_a_lag_takes_it() {
     let cubic = 3e9;
     let spread = |steps: usize, lag: f64| {
         let law = Spring { stiffness: 5e7, is_one_sided: false, cubic };
-        let mut ground = Mat::zeros(2, 2);
+        let mut ground = DMatrix::zeros(2, 2);
         ground[(0, 0)] = 2e7;
         let part = linear(&[1.0, 0.4], 0.0, ground);
         let one = [coupling(&[1.0, -1.0], 0.0, lag)];
@@ -156,7 +156,7 @@ fn a_bouncing_mass_follows_the_piecewise_solution() {
     for is_rare in [false, true] {
         let worst = |steps: usize| {
             let law = Spring { stiffness: k, is_one_sided: true, cubic: 0.0 };
-            let part = linear(&[m], 0.0, Mat::zeros(1, 1));
+            let part = linear(&[m], 0.0, DMatrix::zeros(1, 1));
             let one = [coupling(&[1.0], 0.0, 0.0)];
             let (usual, rare): (&[Coupling], &[Coupling]) =
                 if is_rare { (&[], &one) } else { (&one, &[]) };
@@ -183,7 +183,7 @@ fn a_bouncing_mass_follows_the_piecewise_solution() {
 fn rest_is_the_static_solution_and_stays() {
     // Two masses in a row pressed onto a support through a one-sided coupling with a gap.
     let law = Spring { stiffness: 3e7, is_one_sided: true, cubic: 0.0 };
-    let mut ground = Mat::zeros(2, 2);
+    let mut ground = DMatrix::zeros(2, 2);
     ground[(1, 1)] = 2e7;
     let part = linear(&[1.0, 2.0], 5.0, ground);
     let one = [coupling(&[1.0, -1.0], 4e-6, 2e-6)];
@@ -207,9 +207,9 @@ fn rest_is_the_static_solution_and_stays() {
 #[test]
 fn unsymmetric_damping_is_solved_in_full() {
     let (h, m, k, g) = (3e-5, [1.0, 1.0], 6e7, 900.0);
-    let mut c = Mat::zeros(2, 2);
+    let mut c = DMatrix::zeros(2, 2);
     (c[(0, 1)], c[(1, 0)]) = (-g, g);
-    let mut stiffness = Mat::zeros(2, 2);
+    let mut stiffness = DMatrix::zeros(2, 2);
     (stiffness[(0, 0)], stiffness[(1, 1)]) = (k, k);
     let part = LinearPart { mass: m.to_vec(), damping: c, stiffness };
     let law = Spring { stiffness: 2e7, is_one_sided: false, cubic: 0.0 };
@@ -234,7 +234,8 @@ fn unsymmetric_damping_is_solved_in_full() {
 #[test]
 fn states_resume_bit_by_bit() {
     let law = Spring { stiffness: 5e7, is_one_sided: true, cubic: 1e9 };
-    let part = linear(&[1.0, 0.4], 20.0, Mat::from_fn(2, 2, |i, j| if i == j { 2e7 } else { 0.0 }));
+    let part =
+        linear(&[1.0, 0.4], 20.0, DMatrix::from_fn(2, 2, |i, j| if i == j { 2e7 } else { 0.0 }));
     let one = [coupling(&[1.0, -1.0], 1e-6, 2e-6)];
     let mut set = Coupled::new(&part, &one, &[], law, rule(2e-5), 5).unwrap();
     set.set_motion(3, &[2e-5, -1e-5], &[0.0, 0.5]).unwrap();
@@ -250,7 +251,7 @@ fn states_resume_bit_by_bit() {
 #[test]
 fn divergence_and_unfit_input_are_named() {
     let law = Spring { stiffness: 5e7, is_one_sided: true, cubic: 0.0 };
-    let part = linear(&[1.0, 2.0], 0.0, Mat::zeros(2, 2));
+    let part = linear(&[1.0, 2.0], 0.0, DMatrix::zeros(2, 2));
     let make = |row: &[f64], lag| {
         Coupled::new(&part, &[coupling(row, 0.0, lag)], &[], law.clone(), rule(1e-5), 4)
     };

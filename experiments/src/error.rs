@@ -9,6 +9,9 @@ pub enum ExperimentError {
     /// The scene has no operating point, or no motion follows from it.
     #[error(transparent)]
     Kinematics(#[from] gearset::KinematicsError),
+    /// A model that was asked, in its own words.
+    #[error("the model: {0}")]
+    Model(#[source] crate::model::ModelError),
     /// The FE/contact model.
     #[error(transparent)]
     Fe(#[from] fe_contact::FeError),

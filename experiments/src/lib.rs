@@ -15,6 +15,6 @@ pub mod torque;
 pub use bodies_cache::BodiesCache;
 pub use error::ExperimentError;
 pub use mesh_cycle::{MeshCycle, RestState, SunRms};
-pub use model::{ModalModel, ModelError, SpeedRequest, StaticModel, SteadyStateModel};
-pub use natural_mode::NaturalMode;
+pub use model::{ModalModel, ModelError, NextSpeeds, SpeedRequest, StaticModel, SteadyStateModel};
+pub use natural_mode::{DistinctMode, NaturalMode, distinct, frequencies_of};
 pub use table_growth::{Outgrown, SIZES, large_enough};

@@ -51,6 +51,9 @@ pub struct SpeedRequest<'a> {
     pub tolerance: f64,
 }
 
+/// Speeds to be asked for next, rpm, ascending, after all answers so far; `None` ends the questions.
+pub type NextSpeeds<'a> = &'a mut dyn FnMut(&[SteadyState]) -> Option<Vec<f64>>;
+
 /// A model that has steady states in time.
 pub trait SteadyStateModel {
     /// Steady states under the torque of the load case, ascending in speed. A model that has speeds of its own
@@ -64,4 +67,41 @@ pub trait SteadyStateModel {
         case: &LoadCase,
         request: &SpeedRequest<'_>,
     ) -> Result<Vec<SteadyState>, ModelError>;
+
+    /// Several requests under one load case, each following from the answers before: all answers, ascending in
+    /// speed. A model that prepares something for a load case does so once here.
+    ///
+    /// # Errors
+    /// As [`SteadyStateModel::steady_states`].
+    fn explore(
+        &self,
+        scene: &Scene,
+        case: &LoadCase,
+        (harmonics, tolerance): (usize, f64),
+        next: NextSpeeds<'_>,
+    ) -> Result<Vec<SteadyState>, ModelError> {
+        gather(next, |speeds_rpm| {
+            let request = SpeedRequest { speeds_rpm, harmonics, tolerance };
+            self.steady_states(scene, case, &request)
+        })
+    }
+}
+
+/// Asks for speeds until none are left, each once; all answers, ascending in speed.
+pub(crate) fn gather<E>(
+    next: NextSpeeds<'_>,
+    ask: impl Fn(&[f64]) -> Result<Vec<SteadyState>, E>,
+) -> Result<Vec<SteadyState>, E> {
+    let mut all: Vec<SteadyState> = Vec::new();
+    while let Some(mut speeds) = next(&all) {
+        speeds.sort_by(f64::total_cmp);
+        speeds.dedup();
+        if speeds.is_empty() {
+            break;
+        }
+        all.extend(ask(&speeds)?);
+        all.sort_by(|a, b| a.case.speed_rpm.total_cmp(&b.case.speed_rpm));
+        all.dedup_by(|b, a| a.case.speed_rpm == b.case.speed_rpm);
+    }
+    Ok(all)
 }

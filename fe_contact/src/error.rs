@@ -149,7 +149,7 @@ pub enum FeError {
     },
     /// Tables of mesh force do not go together.
     #[error(transparent)]
-    Law(#[from] gearset::LawError),
+    Law(#[from] gearset::MeshLawError),
     /// A set with tabulated mesh forces does not move on.
     #[error(transparent)]
     Coupled(#[from] dynamics::CoupledError),

@@ -1,7 +1,9 @@
 //! The time step allocates nothing once its maps are known.
 
 use fe_contact::statics::{Bodies, Imperfections};
-use fe_contact::vibration::{LawSettings, Loading, MeshLawSet, Motive, VibratingSet, mesh_law};
+use fe_contact::vibration::{
+    Loading, MeshLawSet, MeshLawSettings, NominalRotation, VibratingSet, mesh_law,
+};
 use gearset::{Facing, Fidelity, Scene};
 
 #[test]
@@ -12,10 +14,10 @@ fn a_warm_step_allocates_nothing() {
         scene.fe_contact.flank_elements = 8;
         scene.dynamics.fidelity = fidelity;
         let bodies = Bodies::new(&scene).unwrap();
-        let motive = Motive::Turning { mesh_frequency: 500.0, steps_per_cycle: 28 };
+        let rotation = NominalRotation::Turning { mesh_frequency: 500.0, steps_per_cycle: 28 };
         let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
         let loading = Loading { torque_nm: 1130.0, mesh_force: 8000.0 };
-        let mut set = VibratingSet::new(&scene, &bodies, sense, none, motive, loading).unwrap();
+        let mut set = VibratingSet::new(&scene, &bodies, sense, none, rotation, loading).unwrap();
         set.rest(1130.0).unwrap();
         let cold = allocation_counter::measure(|| set.step().unwrap());
         assert!(cold.count_total > 0, "the first step builds its maps");
@@ -38,7 +40,7 @@ fn a_step_on_tabulated_forces_never_allocates() {
     scene.fe_contact.flank_elements = 8;
     let bodies = Bodies::new(&scene).unwrap();
     let sense = Facing::CounterClockwise;
-    let settings = LawSettings { nodes: 16, ..LawSettings::at(1130.0) };
+    let settings = MeshLawSettings { nodes: 16, ..MeshLawSettings::at(1130.0) };
     let law = mesh_law(&scene, &bodies, sense, 28, &settings).unwrap();
     let mut set = MeshLawSet::new(&scene, &bodies, sense, 500.0, 1130.0, law).unwrap();
     set.rest(1130.0).unwrap();

@@ -1,6 +1,5 @@
 //! Patch tests, rigid motions, orders of convergence, bending.
 
-use faer::Mat;
 use fe_contact::Elastic;
 use fe_contact::body::Triplets;
 use fe_contact::element::{Edge, Shape, matrices};
@@ -119,12 +118,12 @@ impl Grid {
                 }
             }
         }
-        let mut right = Mat::zeros(next, 1);
+        let mut right = vec![0.0; next];
         for (node, first) in number.iter().enumerate() {
             if let Some(first) = first {
                 let f = load(node);
-                right[(*first, 0)] += f[0];
-                right[(first + 1, 0)] += f[1];
+                right[*first] += f[0];
+                right[first + 1] += f[1];
             }
         }
         let mut triplets = Triplets::default();
@@ -139,17 +138,17 @@ impl Grid {
                             let value = k[(2 * a + r, 2 * b + c)];
                             match number[q] {
                                 Some(column) => triplets.add(row + r, column + c, value),
-                                None => right[(row + r, 0)] -= value * u[q][c],
+                                None => right[row + r] -= value * u[q][c],
                             }
                         }
                     }
                 }
             }
         }
-        triplets.matrix(next, "test").unwrap().factorise("test").unwrap().solve(&mut right);
+        triplets.matrix(next, "test").unwrap().factorise("test").unwrap().solve_one(&mut right);
         for (node, first) in number.iter().enumerate() {
             if let Some(first) = first {
-                u[node] = [right[(*first, 0)], right[(first + 1, 0)]];
+                u[node] = [right[*first], right[first + 1]];
             }
         }
         u

@@ -2,8 +2,8 @@
 
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-use fe_contact::vibration::{Loading, Motive, VibratingSet};
-use gearset::{Facing, Fidelity, Kinematics, Motion, Scene, Torsional};
+use fe_contact::vibration::{Loading, NominalRotation, VibratingSet};
+use gearset::{Facing, Fidelity, Freedom, Kinematics, Scene, Torsional};
 
 const TORQUE: f64 = 1130.0;
 
@@ -20,10 +20,10 @@ fn turning<'b>(scene: &Scene, bodies: &'b Bodies, steps_per_cycle: usize) -> Vib
     let sun = bodies.geometry.sun.as_ref().unwrap();
     let force = TORQUE / scene.planets.count() as f64 / sun.base_radius;
     let mesh_frequency = Kinematics::from_scene(scene).unwrap().mesh_frequency_hz;
-    let motive = Motive::Turning { mesh_frequency, steps_per_cycle };
+    let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle };
     let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
     let loading = Loading { torque_nm: TORQUE, mesh_force: force };
-    let mut set = VibratingSet::new(scene, bodies, sense, none, motive, loading).unwrap();
+    let mut set = VibratingSet::new(scene, bodies, sense, none, rotation, loading).unwrap();
     set.rest(TORQUE).unwrap();
     set
 }
@@ -39,7 +39,7 @@ fn every_fidelity_turns(mut scene: Scene) {
         let mut set = turning(&scene, &bodies, 16);
         assert_eq!(set.elastic_unknowns() == 0, fidelity == Fidelity::QuasiStatic);
         set.mesh_forces(&mut forces);
-        // Corner pairs press with an arm of their own: 0.09 % seen with four planets.
+        // Corner contacts press with an arm of their own: 0.09 % seen with four planets.
         let carried = radius * forces[..planets].iter().sum::<f64>();
         assert!((carried - TORQUE).abs() < 2e-3 * TORQUE, "{fidelity:?}: {carried} N m");
         for step in 1..=3 {
@@ -48,7 +48,7 @@ fn every_fidelity_turns(mut scene: Scene) {
             let mut moves = central.iter().chain(&planet).flatten();
             assert!(moves.all(|x| x.is_finite()), "{fidelity:?}, step {step}");
             set.mesh_forces(&mut forces);
-            assert_eq!(forces.len(), 2 * planets, "{fidelity:?}, step {step}: back flanks");
+            assert_eq!(forces.len(), 2 * planets, "{fidelity:?}, step {step}: backside flanks");
             assert!(forces.iter().all(|p| *p > 0.0), "{fidelity:?}, step {step}: {forces:?}");
         }
     }
@@ -73,7 +73,7 @@ fn four_planets_of_best_thickness() {
 fn a_ring_on_springs_and_a_rigid_carrier() {
     let mut scene = scene("oh58_3p", 6);
     let ring = &mut scene.supports.ring;
-    ring.motion = Motion::Free;
+    ring.motion = Freedom::Free;
     ring.bearing = 200e6;
     ring.torsional = Torsional::PerLength(500e6);
     scene.geometry.as_mut().unwrap().carrier.as_mut().unwrap().is_rigid = true;

@@ -6,7 +6,9 @@ use std::time::Instant;
 use fe_contact::FeError;
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-use fe_contact::vibration::{LawSettings, Loading, MeshLawSet, Motive, VibratingSet, mesh_law};
+use fe_contact::vibration::{
+    Loading, MeshLawSet, MeshLawSettings, NominalRotation, VibratingSet, mesh_law,
+};
 use gearset::{Facing, Fidelity, FlankSide, Scene};
 
 const TORQUE: f64 = 1413.0;
@@ -68,7 +70,7 @@ fn harmonics_are_those_of_the_quasi_static_fidelity() {
     let bodies = Bodies::new(&scene).unwrap();
     let (sense, force) = (Facing::CounterClockwise, force(&scene, &bodies));
     let start = Instant::now();
-    let law = mesh_law(&scene, &bodies, sense, STEPS, &LawSettings::at(TORQUE)).unwrap();
+    let law = mesh_law(&scene, &bodies, sense, STEPS, &MeshLawSettings::at(TORQUE)).unwrap();
     println!(
         "law: {} curves, {:.1} kB, damped shares {:.4} and {:.4}, made in {:.2} s",
         law.curves().len(),
@@ -79,9 +81,10 @@ fn harmonics_are_those_of_the_quasi_static_fidelity() {
     );
     let mut fast = MeshLawSet::new(&scene, &bodies, sense, FREQUENCY, TORQUE, law).unwrap();
     fast.rest(TORQUE).unwrap();
-    let motive = Motive::Turning { mesh_frequency: FREQUENCY, steps_per_cycle: STEPS };
+    let rotation = NominalRotation::Turning { mesh_frequency: FREQUENCY, steps_per_cycle: STEPS };
     let none = Imperfections::default();
-    let mut full = VibratingSet::new(&scene, &bodies, sense, none, motive, loading(force)).unwrap();
+    let mut full =
+        VibratingSet::new(&scene, &bodies, sense, none, rotation, loading(force)).unwrap();
     full.rest(TORQUE).unwrap();
     // At rest alike.
     let (a, b) = (fast.displacements().0[2][2], full.displacements().0[2][2]);
@@ -144,16 +147,16 @@ fn harmonics_are_those_of_the_quasi_static_fidelity() {
 fn laws_are_deterministic_and_have_both_flanks() {
     let scene = scene("oh58_3p");
     let bodies = Bodies::new(&scene).unwrap();
-    let settings = LawSettings { nodes: 8, ..LawSettings::at(TORQUE) };
+    let settings = MeshLawSettings { nodes: 8, ..MeshLawSettings::at(TORQUE) };
     let make = || mesh_law(&scene, &bodies, Facing::CounterClockwise, 28, &settings).unwrap();
     let law = make();
     assert_eq!(law, make());
     for mesh in 0..6 {
         let front = law.first_contact_m(mesh, FlankSide::Front).unwrap();
-        let back = law.first_contact_m(mesh, FlankSide::Back).unwrap();
+        let backside = law.first_contact_m(mesh, FlankSide::Backside).unwrap();
         // Pairs whose corners approach ahead of the mesh touch early.
         assert!((-6e-6..0.2e-6).contains(&front), "{front:e}");
-        assert!((70e-6..100e-6).contains(&back), "{back:e}");
+        assert!((70e-6..100e-6).contains(&backside), "{backside:e}");
         assert!((0.3..1.0).contains(&law.damping_share(mesh)));
         // The largest force is held.
         for step in 0..28 {
@@ -170,7 +173,7 @@ fn laws_are_deterministic_and_have_both_flanks() {
 fn both_senses_and_resumed_runs_agree() {
     let scene = scene("oh58_3p");
     let bodies = Bodies::new(&scene).unwrap();
-    let settings = LawSettings { nodes: 16, ..LawSettings::at(TORQUE) };
+    let settings = MeshLawSettings { nodes: 16, ..MeshLawSettings::at(TORQUE) };
     let run = |sense| {
         let law = mesh_law(&scene, &bodies, sense, 28, &settings).unwrap();
         let mut set = MeshLawSet::new(&scene, &bodies, sense, FREQUENCY, TORQUE, law).unwrap();
@@ -193,11 +196,11 @@ fn contact_is_not_solved_on_this_fidelity() {
     let mut scene = scene("oh58_3p");
     scene.dynamics.fidelity = Fidelity::MeshLaw;
     let bodies = Bodies::new(&scene).unwrap();
-    let motive = Motive::Standing { position: 0.0, step: 1e-5 };
+    let rotation = NominalRotation::Standing { position: 0.0, step: 1e-5 };
     let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
-    let set = VibratingSet::new(&scene, &bodies, sense, none, motive, loading(1e4));
+    let set = VibratingSet::new(&scene, &bodies, sense, none, rotation, loading(1e4));
     assert!(matches!(set.map(|_| ()), Err(FeError::NoContact)));
-    let unfit = LawSettings::at(-1.0);
+    let unfit = MeshLawSettings::at(-1.0);
     let law = mesh_law(&scene, &bodies, sense, 28, &unfit);
     assert!(matches!(law, Err(FeError::Unfit { .. })));
 }
@@ -209,7 +212,7 @@ fn statics_are_those_of_contact() {
     let bodies = Bodies::new(&scene).unwrap();
     let sense = Facing::CounterClockwise;
     // Grids as large as those of the contact it is held against: larger ones are coarser.
-    let settings = LawSettings { reach: 1.3, ..LawSettings::at(TORQUE) };
+    let settings = MeshLawSettings { reach: 1.3, ..MeshLawSettings::at(TORQUE) };
     let law = mesh_law(&scene, &bodies, sense, 28, &settings).unwrap();
     let mut fast = MeshLawSet::new(&scene, &bodies, sense, FREQUENCY, TORQUE, law).unwrap();
     let statics = StaticSet::new(&scene, &bodies, sense, Imperfections::default()).unwrap();

@@ -36,8 +36,9 @@ fn the_result_does_not_depend_on_which_flank_is_the_reference() {
     let settings = b.cells(FORCE);
     let [on_sun, on_planet] = b.pair(MeshKind::SunPlanet).unwrap();
     for phase in [0.0, 0.13, 0.5, 0.7, 0.93] {
-        let string = mesh.path_start + phase * mesh.base_pitch;
-        let mirrored = (mesh.driven_string(string) - swapped.path_start) / swapped.base_pitch;
+        let roll_length = mesh.path_start + phase * mesh.base_pitch;
+        let mirrored =
+            (mesh.driven_roll_length(roll_length) - swapped.path_start) / swapped.base_pitch;
         let one = MeshTable::new(mesh, [on_sun, on_planet], phase, &settings).unwrap();
         let two = MeshTable::new(&swapped, [on_planet, on_sun], mirrored, &settings).unwrap();
         // The same approach of every pair: torques would differ, as the two gears' arms do at a
@@ -164,7 +165,7 @@ fn a_grid_too_coarse_for_the_load_is_refused_with_its_remedy() {
 #[test]
 fn a_set_that_nothing_holds_is_refused() {
     let mut free = scene("oh58_4p.toml");
-    free.supports.carrier.motion = gearset::Motion::Free;
+    free.supports.carrier.motion = gearset::Freedom::Free;
     let set = StaticSet::new(&free, bodies(), Facing::CounterClockwise, Imperfections::default());
     let refused = set.unwrap().cycle(1000.0, 1, &ActiveSet);
     let error = refused.map(|_| ()).unwrap_err();
@@ -187,7 +188,7 @@ fn coupling_through_the_rim_dies_out() {
     let b = bodies();
     let depth = b.settings.matching.depth;
     for body in [b.sun.as_ref().unwrap(), &b.planet, b.ring.as_ref().unwrap()] {
-        for side in [fe_contact::mesh::Side::Ccw, fe_contact::mesh::Side::Cw] {
+        for side in [fe_contact::fe_mesh::Side::Ccw, fe_contact::fe_mesh::Side::Cw] {
             let at = |offset: i64| body.mid_flank_flexibility(side, depth, offset);
             let own = at(0);
             for sign in [-1, 1] {
@@ -217,7 +218,7 @@ fn a_ring_of_material_weighs_what_it_should() {
 /// A planet pressed 300 µm into the sun meets it on both flanks, whose backlash is 91 µm; one left in
 /// its place meets it on the loaded flanks alone.
 #[test]
-fn back_flanks_press_where_the_backlash_is_used_up() {
+fn backside_flanks_press_where_the_backlash_is_used_up() {
     let scene = scene("oh58_3p.toml");
     let run = |shift: f64| {
         let imperfections =
@@ -226,11 +227,11 @@ fn back_flanks_press_where_the_backlash_is_used_up() {
         set.unwrap().cycle(200.0, 3, &ActiveSet).unwrap()
     };
     for state in &run(0.0).states {
-        assert!(state.backs.is_empty());
+        assert!(state.backside.is_empty());
     }
     for state in &run(-300e-6).states {
         assert!(state.residual < 1e-9);
-        let jammed: Vec<_> = state.backs.iter().filter(|m| m.force > 0.0).collect();
+        let jammed: Vec<_> = state.backside.iter().filter(|m| m.force > 0.0).collect();
         assert!(jammed.iter().any(|m| m.kind == MeshKind::SunPlanet && m.planet == 1));
         // Opposite flanks press against each other: both carry more than the torque asks for.
         let front = state.meshes.iter().find(|m| m.kind == MeshKind::SunPlanet && m.planet == 1);
@@ -238,10 +239,10 @@ fn back_flanks_press_where_the_backlash_is_used_up() {
     }
 }
 
-/// Sun and ring with no backlash at all: in the nominal place every back flank touches as well, and a
+/// Sun and ring with no backlash at all: in the nominal place every backside flank touches as well, and a
 /// load opens them.
 #[test]
-fn without_backlash_the_load_opens_the_back_flanks() {
+fn without_backlash_the_load_opens_the_backside_flanks() {
     let mut tight = scene("oh58_3p.toml");
     let geometry = tight.geometry.as_mut().unwrap();
     geometry.thickness =
@@ -251,9 +252,9 @@ fn without_backlash_the_load_opens_the_back_flanks() {
     let set = StaticSet::new(&tight, &b, Facing::CounterClockwise, Imperfections::default());
     for state in &set.unwrap().cycle(1130.0, 4, &ActiveSet).unwrap().states {
         assert!(state.residual < 1e-9);
-        let back: f64 = state.backs.iter().map(|m| m.force).sum();
+        let backside: f64 = state.backside.iter().map(|m| m.force).sum();
         let front: f64 = state.meshes.iter().map(|m| m.force).sum();
-        assert!(back < 0.2 * front, "{back} {front}");
+        assert!(backside < 0.2 * front, "{backside} {front}");
     }
 }
 
@@ -298,4 +299,51 @@ fn a_factor_that_is_no_flexibility_is_refused() {
         let refused = Bodies::new(&soft).unwrap_err().to_string();
         assert!(refused.contains("fe_contact.flexibility_factor.ring_planet"), "{refused}");
     }
+}
+
+/// What figures show of one mesh comes from its cells: pressures add up to the pair's force, and the way of
+/// one tooth pair holds the forces of all pairs.
+#[test]
+fn pressures_and_loads_of_tooth_pairs_add_up() {
+    let cycle = pair_cycle(bodies(), MeshKind::SunPlanet, FORCE, 8, &ActiveSet).unwrap();
+    let (p, k) = cycle.heaviest_pair().unwrap();
+    let profile = p.pressure_profile(k).unwrap();
+    let cells = &p.table.pairs[k];
+    let force = profile.pressures.iter().sum::<f64>() * cells.width * p.table.face_width;
+    assert!((force / p.answer.pair_forces[k] - 1.0).abs() < 1e-12);
+    let peak = profile.pressures.iter().copied().fold(0.0, f64::max);
+    let load = p.pairs.iter().find(|l| l.index == profile.index).unwrap();
+    assert!((peak / load.peak_pressure - 1.0).abs() < 1e-12);
+    assert!(profile.places.iter().all(|x| x.abs() < profile.half_length));
+    assert!((profile.ellipse.unwrap().peak_pressure / peak - 1.0).abs() < 0.1);
+    assert!(p.pressure_profile(p.table.pairs.len()).is_none());
+
+    let way = cycle.load_of_one_pair();
+    assert!(way.windows(2).all(|w| w[0].0 <= w[1].0));
+    let total: f64 = cycle.positions.iter().flat_map(|p| &p.pairs).map(|l| l.force).sum();
+    assert!((way.iter().map(|w| w.1).sum::<f64>() / total - 1.0).abs() < 1e-12);
+    assert!(way.iter().all(|w| w.1 <= load.force));
+    let secants = cycle.positions.iter().map(|p| cycle.secant_stiffness(p)).sum::<f64>();
+    assert!((secants / 8.0 / cycle.mean_secant_stiffness() - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn ranges_over_the_cycle_of_a_set_hold_its_positions() {
+    let scene = scene("oh58_4p.toml");
+    let perfect = Imperfections::default();
+    let set = StaticSet::new(&scene, bodies(), Facing::CounterClockwise, perfect).unwrap();
+    let cycle = set.cycle(1130.0, 4, &ActiveSet).unwrap();
+    let radius = bodies().geometry.sun.as_ref().unwrap().base_radius;
+    let error = cycle.transmission_error(radius);
+    let list: Vec<f64> = cycle.states.iter().map(|s| s.transmission_error(radius)).collect();
+    assert!(list.contains(&error.least) && list.contains(&error.largest));
+    assert!(error.least < error.mean && error.mean < error.largest);
+    assert_eq!(error.peak_to_peak(), error.largest - error.least);
+    // Even sharing: the mean over planets of either kind of mesh is that of the set.
+    let own = (0..4).map(|mesh| cycle.mesh_secant_stiffness(mesh).mean).sum::<f64>() / 4.0;
+    assert!((own / cycle.mean_secant_stiffness(MeshKind::SunPlanet) - 1.0).abs() < 1e-12);
+    let force = cycle.mesh_force(0);
+    assert!((force.mean / (1130.0 / 4.0 / radius) - 1.0).abs() < 1e-2);
+    let tangent = cycle.mesh_tangent_stiffness(0);
+    assert!(tangent.least > 0.0 && tangent.mean > cycle.mesh_secant_stiffness(0).mean);
 }

@@ -2,7 +2,7 @@
 
 use fe_contact::body::BodyMatrices;
 use fe_contact::statics::{Bodies, Imperfections};
-use fe_contact::vibration::{LinearSet, Loading, Motive, VibratingSet, fixed_race_modes};
+use fe_contact::vibration::{LinearSet, Loading, NominalRotation, VibratingSet, fixed_race_modes};
 use gearset::{Facing, Fidelity, Scene};
 
 const TORQUE: f64 = 1130.0;
@@ -21,22 +21,22 @@ fn force(scene: &Scene, bodies: &Bodies) -> f64 {
     TORQUE / scene.planets.psi_rad.len() as f64 / sun.base_radius
 }
 
-fn set<'b>(scene: &Scene, bodies: &'b Bodies, motive: Motive) -> VibratingSet<'b> {
+fn set<'b>(scene: &Scene, bodies: &'b Bodies, rotation: NominalRotation) -> VibratingSet<'b> {
     let sense = Facing::CounterClockwise;
     let loading = Loading { torque_nm: TORQUE, mesh_force: force(scene, bodies) };
-    VibratingSet::new(scene, bodies, sense, Imperfections::default(), motive, loading).unwrap()
+    VibratingSet::new(scene, bodies, sense, Imperfections::default(), rotation, loading).unwrap()
 }
 
 fn loading(mesh_force: f64) -> Loading {
     Loading { torque_nm: TORQUE, mesh_force }
 }
 
-fn standing(step: f64) -> Motive {
-    Motive::Standing { position: 0.3, step }
+fn standing(step: f64) -> NominalRotation {
+    NominalRotation::Standing { position: 0.3, step }
 }
 
-fn turning(steps_per_cycle: usize) -> Motive {
-    Motive::Turning { mesh_frequency: 500.0, steps_per_cycle }
+fn turning(steps_per_cycle: usize) -> NominalRotation {
+    NominalRotation::Turning { mesh_frequency: 500.0, steps_per_cycle }
 }
 
 /// Every fidelity stays at rest in its own equilibrium.
@@ -268,15 +268,15 @@ fn divergence_names_time_body_and_quantity() {
 fn what_cannot_run_is_refused_with_its_key() {
     let mut scene = scene("oh58_3p", Fidelity::QuasiStatic);
     let bodies = Bodies::new(&scene).unwrap();
-    let refused = |scene: &Scene, motive| {
+    let refused = |scene: &Scene, rotation| {
         let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
-        let made = VibratingSet::new(scene, &bodies, sense, none, motive, loading(1e4));
+        let made = VibratingSet::new(scene, &bodies, sense, none, rotation, loading(1e4));
         made.err().map(|e| e.to_string()).unwrap_or_default()
     };
     assert!(refused(&scene, turning(7)).contains("dynamics.steps_per_cycle"));
     assert!(refused(&scene, standing(0.0)).contains("step"));
     assert!(refused(&scene, standing(f64::NAN)).contains("step"));
-    let still = Motive::Turning { mesh_frequency: 0.0, steps_per_cycle: 140 };
+    let still = NominalRotation::Turning { mesh_frequency: 0.0, steps_per_cycle: 140 };
     assert!(refused(&scene, still).contains("operation.speed_rpm"));
     for bad in [f64::NAN, f64::INFINITY, -1.0] {
         scene.damping.stiffness_proportional_s = bad;
@@ -322,7 +322,7 @@ fn a_sun_thrown_back_meets_the_other_flanks() {
             set.motion().x[turning]
         })
         .collect();
-    assert!(set.counts.with_backs > 0);
+    assert!(set.counts.with_backside > 0);
     // It swings about where the reversed torque holds it, across both backlashes (0.2 mm along the
     // line of action), and is thrown back.
     let backlash = 2.0 * bodies.geometry.normal_backlash(gearset::MeshKind::SunPlanet).unwrap();
@@ -341,8 +341,9 @@ fn a_mirrored_set_under_reversed_torque_moves_as_the_mirror() {
     let bodies = Bodies::new(&scene).unwrap();
     let run = |scene: &Scene, sense| {
         let none = Imperfections::default();
-        let motive = turning(28);
-        let mut set = VibratingSet::new(scene, &bodies, sense, none, motive, loading(8e3)).unwrap();
+        let rotation = turning(28);
+        let mut set =
+            VibratingSet::new(scene, &bodies, sense, none, rotation, loading(8e3)).unwrap();
         set.rest(TORQUE).unwrap();
         for _ in 0..56 {
             set.step().unwrap();

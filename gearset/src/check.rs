@@ -3,7 +3,8 @@
 use crate::assembly;
 use crate::gear::Gear;
 use crate::geometry::{Geometry, GeometryError};
-use crate::mesh::{Mesh, MeshKind, MeshMember};
+use crate::mesh::Mesh;
+use crate::mesh_kind::{MeshKind, MeshMember};
 use crate::reader::Document;
 use crate::scene::{Fidelity, Scene};
 

@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! cos α' = R/a',  L = a' sin α' = √(a'² − R²)                    operating angle, length between tangent points
-//! s₁ = string of the driver, s₂ = string of the driven gear, each counted from its own tangent point
+//! s₁ = roll length of the driver, s₂ = roll length of the driven gear, each counted from its own tangent point
 //! external: tangent points at λ − α' and λ + π − α',  δ = s₁ + s₂ − L
 //! internal: tangent points at λ + α' on both gears,   δ = s₁ − s₂ + L
 //! ```
@@ -17,7 +17,8 @@
 //! [`Mesh`] (nominal line of centres along x) with displacements (x, y, θ) of driver, then driven.
 
 use crate::gear::Flank;
-use crate::mesh::{Mesh, MeshKind, MeshMember, NoMesh};
+use crate::mesh::{Mesh, NoMesh};
+use crate::mesh_kind::{MeshKind, MeshMember};
 
 /// Displacements (x, y, m; θ, rad) of driver and driven in the nominal mesh frame.
 pub type Displacements = [f64; 6];
@@ -46,12 +47,12 @@ pub struct DisplacedMesh {
     /// δ, positive into each other, m.
     pub approach: f64,
     /// s₁ of pair 0, m.
-    pub driver_string: f64,
+    pub driver_roll_length: f64,
     /// s₂ of pair 0, m.
-    pub driven_string: f64,
+    pub driven_roll_length: f64,
     base_radii: [f64; 2],
     base_pitch: f64,
-    tip_strings: [f64; 2],
+    tip_roll_lengths: [f64; 2],
 }
 
 /// First derivatives with respect to the six displacements.
@@ -60,7 +61,7 @@ pub struct MeshGradients {
     /// ∂δ, m/m and m/rad.
     pub approach: [f64; 6],
     /// ∂σ.
-    pub string: [f64; 6],
+    pub roll_length: [f64; 6],
     /// ∂a'.
     pub center_distance: [f64; 6],
 }
@@ -71,7 +72,7 @@ pub struct MeshHessians {
     /// ∂²δ, 1/m.
     pub approach: [[f64; 6]; 6],
     /// ∂²σ, 1/m.
-    pub string: [[f64; 6]; 6],
+    pub roll_length: [[f64; 6]; 6],
     /// ∂²a', 1/m.
     pub center_distance: [[f64; 6]; 6],
 }
@@ -102,7 +103,7 @@ impl Mesh {
     /// # Errors
     /// If the base circles leave no operating angle at the displaced centre distance.
     pub fn displaced(&self, phase: f64, x: &Displacements) -> Result<DisplacedMesh, NoMesh> {
-        let string = self.path_start + phase * self.base_pitch;
+        let roll_length = self.path_start + phase * self.base_pitch;
         let (driver, driven) = (self.gear(MeshMember::Driver), self.gear(MeshMember::Driven));
         let (r1, r2) = (driver.base_radius, driven.base_radius);
         // From the central gear to the planet.
@@ -119,15 +120,15 @@ impl Mesh {
         let reach = ((a - radii) * (a + radii)).sqrt();
         let pressure_angle = (reach / radii).atan();
         let opened = pressure_angle - self.pressure_angle;
-        let mate = self.driven_string(string);
-        let (driver_string, driven_string, approach) = match self.kind {
+        let mate = self.driven_roll_length(roll_length);
+        let (driver_roll_length, driven_roll_length, approach) = match self.kind {
             MeshKind::SunPlanet => {
-                let s1 = string + r1 * (x[2] - line_of_centres + opened);
+                let s1 = roll_length + r1 * (x[2] - line_of_centres + opened);
                 let s2 = mate + r2 * (x[5] - line_of_centres + opened);
                 (s1, s2, s1 + s2 - reach)
             }
             MeshKind::RingPlanet => {
-                let s1 = string + r1 * (line_of_centres + opened - x[2]);
+                let s1 = roll_length + r1 * (line_of_centres + opened - x[2]);
                 let s2 = mate + r2 * (line_of_centres + opened - x[5]);
                 (s1, s2, s1 - s2 + reach)
             }
@@ -138,11 +139,11 @@ impl Mesh {
             line_of_centres,
             pressure_angle,
             approach,
-            driver_string,
-            driven_string,
+            driver_roll_length,
+            driven_roll_length,
             base_radii: [r1, r2],
             base_pitch: self.base_pitch,
-            tip_strings: [driver.tip_string(), driven.tip_string()],
+            tip_roll_lengths: [driver.tip_roll_length(), driven.tip_roll_length()],
         })
     }
 }
@@ -156,8 +157,8 @@ impl DisplacedMesh {
             MeshKind::RingPlanet => along,
         };
         Self {
-            driver_string: self.driver_string + along,
-            driven_string: self.driven_string + mate,
+            driver_roll_length: self.driver_roll_length + along,
+            driven_roll_length: self.driven_roll_length + mate,
             ..*self
         }
     }
@@ -176,14 +177,14 @@ impl DisplacedMesh {
         }
     }
 
-    /// σ: string of the driver once each gear is turned back by half the approach, m.
-    pub fn touching_string(&self) -> f64 {
-        self.driver_string - 0.5 * self.approach
+    /// σ: roll length of the driver once each gear is turned back by half the approach, m.
+    pub fn touching_roll_length(&self) -> f64 {
+        self.driver_roll_length - 0.5 * self.approach
     }
 
-    /// Driver's string lengths at the actual ends of the path, m.
+    /// Driver's roll lengths at the actual ends of the path, m.
     pub fn path(&self) -> [f64; 2] {
-        let [own, mate] = self.tip_strings;
+        let [own, mate] = self.tip_roll_lengths;
         match self.kind {
             MeshKind::SunPlanet => [self.reach() - mate, own],
             MeshKind::RingPlanet => [mate - self.reach(), own],
@@ -192,18 +193,18 @@ impl DisplacedMesh {
 
     /// Phase: where pair 0 stands on the actual path, in cycles from its start.
     pub fn phase(&self) -> f64 {
-        (self.touching_string() - self.path()[0]) / self.base_pitch
+        (self.touching_roll_length() - self.path()[0]) / self.base_pitch
     }
 
     /// How far pair `index` has its driver's tip corner beyond the end of the path, and its driven
     /// gear's beyond the start, m; negative inside. Each is measured on the corner's own gear.
     pub fn beyond(&self, index: i64) -> [f64; 2] {
         let along = index as f64 * self.base_pitch;
-        let end = self.driver_string + along - self.tip_strings[0];
+        let end = self.driver_roll_length + along - self.tip_roll_lengths[0];
         let start = match self.kind {
-            MeshKind::SunPlanet => self.driven_string - along - self.tip_strings[1],
-            // The ring's tip is at its shortest string.
-            MeshKind::RingPlanet => self.tip_strings[1] - self.driven_string - along,
+            MeshKind::SunPlanet => self.driven_roll_length - along - self.tip_roll_lengths[1],
+            // The ring's tip is at its shortest roll length.
+            MeshKind::RingPlanet => self.tip_roll_lengths[1] - self.driven_roll_length - along,
         };
         [end, start]
     }
@@ -226,10 +227,10 @@ impl DisplacedMesh {
         let planet = [self.center_distance, 0.0];
         let [r1, r2] = self.base_radii;
         let (driver, driven) = (mesh.gear(MeshMember::Driver), mesh.gear(MeshMember::Driven));
-        let s1 = self.driver_string + along;
+        let s1 = self.driver_roll_length + along;
         match self.kind {
             MeshKind::SunPlanet => {
-                let s2 = self.driven_string - along;
+                let s2 = self.driven_roll_length - along;
                 let origin = std::f64::consts::PI - alpha + s2 / r2;
                 let facing = Facing::CounterClockwise;
                 (
@@ -238,7 +239,7 @@ impl DisplacedMesh {
                 )
             }
             MeshKind::RingPlanet => {
-                let s2 = self.driven_string + along;
+                let s2 = self.driven_roll_length + along;
                 let facing = Facing::Clockwise;
                 (
                     Flank { gear: driver, centre: planet, origin_angle: alpha - s1 / r1, facing },
@@ -249,17 +250,17 @@ impl DisplacedMesh {
     }
 
     /// Clearance of pair `index` as it stands, without relief, m: −δ on the path, at a corner the gap
-    /// from the mating flank to the corner along that flank's string. `None` if the corner is inside the
+    /// from the mating flank to the corner along that flank's base tangent. `None` if the corner is inside the
     /// mate's base circle.
     pub fn clearance(&self, mesh: &Mesh, index: i64) -> Option<f64> {
         let (driver, driven) = self.flanks(mesh, index);
         match self.location(index) {
             PairLocation::Path => Some(-self.approach),
             PairLocation::Corner(MeshMember::Driver) => {
-                driven.gap_to(driver.point(driver.gear.tip_string()))
+                driven.gap_to(driver.point(driver.gear.tip_roll_length()))
             }
             PairLocation::Corner(MeshMember::Driven) => {
-                driver.gap_to(driven.point(driven.gear.tip_string()))
+                driver.gap_to(driven.point(driven.gear.tip_roll_length()))
             }
         }
     }
@@ -345,7 +346,7 @@ impl DisplacedMesh {
         let distance = OfCentres { by_distance: 1.0, by_direction: 0.0, by_distance_twice: 0.0 };
         MeshGradients {
             approach,
-            string: std::array::from_fn(|i| driver[i] - 0.5 * approach[i]),
+            roll_length: std::array::from_fn(|i| driver[i] - 0.5 * approach[i]),
             center_distance: of(distance, [0.0; 2]),
         }
     }
@@ -377,9 +378,9 @@ impl DisplacedMesh {
         };
         let [approach, driver] = self.of_centres();
         let (approach, driver) = (of(approach), of(driver));
-        let string =
+        let roll_length =
             std::array::from_fn(|i| std::array::from_fn(|j| driver[i][j] - 0.5 * approach[i][j]));
         let distance = OfCentres { by_distance: 1.0, by_direction: 0.0, by_distance_twice: 0.0 };
-        MeshHessians { approach, string, center_distance: of(distance) }
+        MeshHessians { approach, roll_length, center_distance: of(distance) }
     }
 }

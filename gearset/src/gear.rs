@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use serde::Serialize;
 
-use crate::involute::{inv, pressure_angle_at, radius_at, string_at};
+use crate::involute::{inv, pressure_angle_at, radius_at, roll_length_at};
 use crate::scene::{ReliefShape, TipRelief};
 
 /// Which side the teeth are on.
@@ -69,30 +69,32 @@ impl Gear {
         radius * self.pitch_angle() - self.tooth_thickness(radius)
     }
 
-    /// String length at the tip.
-    pub fn tip_string(&self) -> f64 {
-        string_at(self.base_radius, self.tip_radius)
+    /// Roll length at the tip.
+    pub fn tip_roll_length(&self) -> f64 {
+        roll_length_at(self.base_radius, self.tip_radius)
     }
 
-    /// String length where the fillet, tangent to flank and root circle, leaves the flank.
+    /// Roll length where the fillet, tangent to flank and root circle, leaves the flank.
     ///
-    /// The fillet's centre lies on the string through that point, ρ beyond the flank, and at
+    /// The fillet's centre lies on the base tangent through that point, ρ beyond the flank, and at
     /// r_f ± ρ from the gear's centre; hence s = √((r_f ± ρ)² − r_b²) ∓ ρ (upper sign external).
     /// `None` if an external fillet ends on the radial line below the base circle.
-    pub fn form_string(&self) -> Option<f64> {
+    pub fn form_roll_length(&self) -> Option<f64> {
         let rho = self.fillet_radius;
         match self.side {
             ToothSide::External => {
-                let s = string_at(self.base_radius, self.root_radius + rho) - rho;
+                let s = roll_length_at(self.base_radius, self.root_radius + rho) - rho;
                 (s >= 0.0).then_some(s)
             }
-            ToothSide::Internal => Some(string_at(self.base_radius, self.root_radius - rho) + rho),
+            ToothSide::Internal => {
+                Some(roll_length_at(self.base_radius, self.root_radius - rho) + rho)
+            }
         }
     }
 
     /// Form radius: the flank is an involute from here to the tip.
     pub fn form_radius(&self) -> f64 {
-        self.form_string().map_or(self.base_radius, |s| radius_at(self.base_radius, s))
+        self.form_roll_length().map_or(self.base_radius, |s| radius_at(self.base_radius, s))
     }
 
     /// Angle left on the root circle between the two fillets of one tooth space; negative if the
@@ -100,7 +102,7 @@ impl Gear {
     pub fn root_land_angle(&self) -> f64 {
         let rho = self.fillet_radius;
         let half_pitch = PI / f64::from(self.teeth);
-        let half = match (self.side, self.form_string()) {
+        let half = match (self.side, self.form_roll_length()) {
             // The centre lies on the involute offset by ρ: origin moved by ρ/r_b.
             (ToothSide::External, Some(s)) => {
                 let alpha = ((s + rho) / self.base_radius).atan();
@@ -118,14 +120,14 @@ impl Gear {
         2.0 * half
     }
 
-    /// Tip relief at string length `s`, measured along the line of action; zero without relief.
-    pub fn relief_at(&self, string: f64) -> f64 {
+    /// Tip relief at roll length `s`, measured along the line of action; zero without relief.
+    pub fn relief_at(&self, roll_length: f64) -> f64 {
         let Some(relief) = self.tip_relief else {
             return 0.0;
         };
-        let start = string_at(self.base_radius, relief.start_radius);
-        // Towards the tip the string grows on an external gear and shrinks on an internal one.
-        let x = (string - start) / (self.tip_string() - start);
+        let start = roll_length_at(self.base_radius, relief.start_radius);
+        // Towards the tip the roll length grows on an external gear and shrinks on an internal one.
+        let x = (roll_length - start) / (self.tip_roll_length() - start);
         match relief.shape {
             _ if x <= 0.0 => 0.0,
             ReliefShape::Linear => relief.amount * x,
@@ -189,15 +191,15 @@ impl<'g> Flank<'g> {
         Self { gear, centre, origin_angle, facing }
     }
 
-    /// Point of the unrelieved flank at string length `s`, m.
-    pub fn point(&self, string: f64) -> [f64; 2] {
-        let r = radius_at(self.gear.base_radius, string);
-        let alpha = (string / self.gear.base_radius).atan();
+    /// Point of the unrelieved flank at roll length `s`, m.
+    pub fn point(&self, roll_length: f64) -> [f64; 2] {
+        let r = radius_at(self.gear.base_radius, roll_length);
+        let alpha = (roll_length / self.gear.base_radius).atan();
         let angle = self.origin_angle - self.facing.sign() * inv(alpha);
         [self.centre[0] + r * angle.cos(), self.centre[1] + r * angle.sin()]
     }
 
-    /// Gap from the unrelieved flank to a point, measured along the string through the point,
+    /// Gap from the unrelieved flank to a point, measured along the base tangent through the point,
     /// positive on the free side, m. `None` inside the base circle.
     ///
     /// The point lies on an involute with origin θ₀'; the two are r_b (θ₀' − θ₀) apart everywhere.

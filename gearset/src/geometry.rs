@@ -6,7 +6,8 @@ use serde::Serialize;
 
 use crate::gear::{Gear, ToothSide};
 use crate::involute::inv;
-use crate::mesh::{Mesh, MeshKind, MeshMember, NoMesh};
+use crate::mesh::{Mesh, NoMesh};
+use crate::mesh_kind::{MeshKind, MeshMember};
 use crate::scene::{GearInput, GeometryInput, Scene, Teeth, ThicknessInput};
 
 /// Gears and meshes of a set. Lengths in m.

@@ -10,17 +10,17 @@ pub fn inv(alpha: f64) -> f64 {
 /// Zero at and inside the base circle.
 pub fn pressure_angle_at(base_radius: f64, radius: f64) -> f64 {
     // α = atan(√(r² − r_b²) / r_b) keeps its digits near the base circle, where acos does not.
-    (string_at(base_radius, radius) / base_radius).atan()
+    (roll_length_at(base_radius, radius) / base_radius).atan()
 }
 
-/// Length of the taut string (radius of curvature) at `radius`: s = √(r² − r_b²).
-pub fn string_at(base_radius: f64, radius: f64) -> f64 {
+/// Roll length at `radius`, the flank's radius of curvature: s = √(r² − r_b²).
+pub fn roll_length_at(base_radius: f64, radius: f64) -> f64 {
     ((radius - base_radius) * (radius + base_radius)).max(0.0).sqrt()
 }
 
-/// Radius at string length `s`.
-pub fn radius_at(base_radius: f64, string: f64) -> f64 {
-    base_radius.hypot(string)
+/// Radius at roll length `s`.
+pub fn radius_at(base_radius: f64, roll_length: f64) -> f64 {
+    base_radius.hypot(roll_length)
 }
 
 #[cfg(test)]
@@ -28,10 +28,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn string_and_radius_are_inverse() {
+    fn roll_length_and_radius_are_inverse() {
         let r_b = 35.2e-3;
         for r in [35.2e-3, 36.0e-3, 42.0e-3] {
-            assert!((radius_at(r_b, string_at(r_b, r)) - r).abs() < 1e-17);
+            assert!((radius_at(r_b, roll_length_at(r_b, r)) - r).abs() < 1e-17);
         }
     }
 

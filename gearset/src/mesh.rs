@@ -3,36 +3,8 @@
 use serde::Serialize;
 
 use crate::gear::{Facing, Flank, Gear, ToothSide};
-use crate::involute::{radius_at, string_at};
-
-/// Which mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum MeshKind {
-    /// Sun drives planet.
-    SunPlanet,
-    /// Planet drives ring.
-    RingPlanet,
-}
-
-impl MeshKind {
-    /// Name as used in scene files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::SunPlanet => "sun_planet",
-            Self::RingPlanet => "ring_planet",
-        }
-    }
-}
-
-/// Which member of a mesh: the one nearer the power input (sun driving) or the other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MeshMember {
-    /// Sun in the sun–planet mesh, planet in the ring–planet mesh.
-    Driver,
-    /// Planet in the sun–planet mesh, ring in the ring–planet mesh.
-    Driven,
-}
+use crate::involute::{radius_at, roll_length_at};
+use crate::mesh_kind::{MeshKind, MeshMember};
 
 /// One involute mesh with the central gear at the origin and the planet at (a, 0); the central
 /// input turns counter-clockwise. Lengths in m, angles in rad.
@@ -48,9 +20,9 @@ pub struct Mesh {
     pub center_distance: f64,
     /// p_b.
     pub base_pitch: f64,
-    /// Driver's string length where a pair starts the theoretical path of contact.
+    /// Driver's roll length where a pair starts the theoretical path of contact.
     pub path_start: f64,
-    /// Driver's string length where it ends.
+    /// Driver's roll length where it ends.
     pub path_end: f64,
     /// ε = (path_end − path_start) / p_b.
     pub contact_ratio: f64,
@@ -80,7 +52,7 @@ impl Mesh {
         // cos α_s = (r_bs + r_bp) / a
         let pressure_angle = operating_angle(kind, least, a)?;
         let reach = a * pressure_angle.sin();
-        let (path_start, path_end) = (reach - planet.tip_string(), sun.tip_string());
+        let (path_start, path_end) = (reach - planet.tip_roll_length(), sun.tip_roll_length());
         Ok(Self::new(kind, pressure_angle, a, path_start, path_end, sun, planet))
     }
 
@@ -91,7 +63,7 @@ impl Mesh {
         // cos α_r = (r_br − r_bp) / a
         let pressure_angle = operating_angle(kind, least, a)?;
         let reach = a * pressure_angle.sin();
-        let (path_start, path_end) = (ring.tip_string() - reach, planet.tip_string());
+        let (path_start, path_end) = (ring.tip_roll_length() - reach, planet.tip_roll_length());
         Ok(Self::new(kind, pressure_angle, a, path_start, path_end, planet, ring))
     }
 
@@ -134,30 +106,30 @@ impl Mesh {
         self.gear(member).base_radius / self.pressure_angle.cos()
     }
 
-    /// Driven gear's string length where the driver's is `string`.
-    pub fn driven_string(&self, string: f64) -> f64 {
+    /// Driven gear's roll length where the driver's is `roll_length`.
+    pub fn driven_roll_length(&self, roll_length: f64) -> f64 {
         let reach = self.center_distance * self.pressure_angle.sin();
         match self.kind {
-            MeshKind::SunPlanet => reach - string, // between two tangent points
-            MeshKind::RingPlanet => reach + string, // both on the same side
+            MeshKind::SunPlanet => reach - roll_length, // between two tangent points
+            MeshKind::RingPlanet => reach + roll_length, // both on the same side
         }
     }
 
-    /// Driver and driven flank of the pair that touches where the driver's string is `string`.
+    /// Driver and driven flank of the pair that touches where the driver's roll length is `roll_length`.
     ///
     /// Beyond the theoretical path the flanks are the ones that *would* touch there.
-    pub fn flanks(&self, string: f64) -> (Flank<'_>, Flank<'_>) {
+    pub fn flanks(&self, roll_length: f64) -> (Flank<'_>, Flank<'_>) {
         let alpha = self.pressure_angle;
-        let mate = self.driven_string(string);
+        let mate = self.driven_roll_length(roll_length);
         let planet_centre = [self.center_distance, 0.0];
         match self.kind {
-            // Tangent points at −α on the sun and π − α on the planet; both strings unwind
+            // Tangent points at −α on the sun and π − α on the planet; both involutes unwind
             // counter-clockwise: s = r_b (θ₀ − θ_T).
             MeshKind::SunPlanet => (
                 Flank {
                     gear: &self.driver,
                     centre: [0.0, 0.0],
-                    origin_angle: -alpha + string / self.driver.base_radius,
+                    origin_angle: -alpha + roll_length / self.driver.base_radius,
                     facing: Facing::CounterClockwise,
                 },
                 Flank {
@@ -167,12 +139,12 @@ impl Mesh {
                     facing: Facing::CounterClockwise,
                 },
             ),
-            // Tangent points at +α on both; strings unwind clockwise: s = r_b (θ_T − θ₀).
+            // Tangent points at +α on both; involutes unwind clockwise: s = r_b (θ_T − θ₀).
             MeshKind::RingPlanet => (
                 Flank {
                     gear: &self.driver,
                     centre: planet_centre,
-                    origin_angle: alpha - string / self.driver.base_radius,
+                    origin_angle: alpha - roll_length / self.driver.base_radius,
                     facing: Facing::Clockwise,
                 },
                 Flank {
@@ -192,22 +164,22 @@ impl Mesh {
     /// Negative `outside` is inside the path: the flanks then touch elsewhere and the corner is
     /// clear of the mate by the same measure. `None` if the corner is inside the mate's base circle.
     pub fn tip_gap(&self, tip: MeshMember, outside: f64) -> Option<f64> {
-        let string = match tip {
+        let roll_length = match tip {
             MeshMember::Driven => self.path_start - outside,
             MeshMember::Driver => self.path_end + outside,
         };
-        let (driver, driven) = self.flanks(string);
+        let (driver, driven) = self.flanks(roll_length);
         let (own, mate) = match tip {
             MeshMember::Driver => (driver, driven),
             MeshMember::Driven => (driven, driver),
         };
-        mate.gap_to(own.point(own.gear.tip_string()))
+        mate.gap_to(own.point(own.gear.tip_roll_length()))
     }
 
     /// Radii between which the driver and the driven flank touch: `[[low, high]; 2]`.
     pub fn active_radii(&self) -> [[f64; 2]; 2] {
         let own = |s: f64| radius_at(self.driver.base_radius, s.max(0.0));
-        let mate = |s: f64| radius_at(self.driven.base_radius, self.driven_string(s).max(0.0));
+        let mate = |s: f64| radius_at(self.driven.base_radius, self.driven_roll_length(s).max(0.0));
         let sorted = |a: f64, b: f64| [a.min(b), a.max(b)];
         [
             sorted(own(self.path_start), own(self.path_end)),
@@ -219,12 +191,12 @@ impl Mesh {
     /// positive if the mate's tip digs below the member's form circle (for the ring: beyond it).
     pub fn interference(&self, member: MeshMember) -> f64 {
         let gear = self.gear(member);
-        let form = gear.form_string().unwrap_or(0.0);
+        let form = gear.form_roll_length().unwrap_or(0.0);
         let (start, end) = (self.path_start, self.path_end);
         match (self.kind, member) {
             (_, MeshMember::Driver) => form - start,
-            (MeshKind::SunPlanet, MeshMember::Driven) => form - self.driven_string(end),
-            (MeshKind::RingPlanet, MeshMember::Driven) => self.driven_string(end) - form,
+            (MeshKind::SunPlanet, MeshMember::Driven) => form - self.driven_roll_length(end),
+            (MeshKind::RingPlanet, MeshMember::Driven) => self.driven_roll_length(end) - form,
         }
     }
 
@@ -258,7 +230,7 @@ impl Mesh {
         let (rp, rr) = (planet.tip_radius, ring.tip_radius);
         // Crossing of |Q| = r_ar with |Q − (a, 0)| = r_ap.
         let x = (rr * rr - rp * rp + a * a) / (2.0 * a);
-        let y = string_at(x.abs(), rr);
+        let y = roll_length_at(x.abs(), rr);
         let (xi_r, xi_p) = (y.atan2(x), y.atan2(x - a));
         let ratio = f64::from(planet.teeth) / f64::from(ring.teeth);
         let mouth = ring.half_angle(rr);
@@ -272,5 +244,5 @@ fn operating_angle(kind: MeshKind, least: f64, a: f64) -> Result<f64, NoMesh> {
     if !(least > 0.0 && a > least) {
         return Err(NoMesh { kind, least });
     }
-    Ok((string_at(least, a) / least).atan())
+    Ok((roll_length_at(least, a) / least).atan())
 }

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use serde::{Deserialize, Serialize};
 
 use crate::gear::Facing;
-use crate::mesh::MeshKind;
 use crate::mesh_curve::MeshCurve;
+use crate::mesh_kind::MeshKind;
 use crate::phasing::Phasing;
 
 /// Phases nearer than this part of a cycle are the same phase, rounded differently.
@@ -19,7 +19,7 @@ pub enum FlankSide {
     /// Those that the torque presses.
     Front,
     /// Those behind them, a backlash away.
-    Back,
+    Backside,
 }
 
 /// One curve that a law needs.
@@ -29,7 +29,7 @@ pub struct CurveKey {
     pub kind: MeshKind,
     /// Flank.
     pub side: FlankSide,
-    /// Phase in [0, 1), cycles; of a back flank, that of the mirrored mesh.
+    /// Phase in [0, 1), cycles; of a backside flank, that of the mirrored mesh.
     pub phase: f64,
 }
 
@@ -40,8 +40,8 @@ pub struct MeshStart {
     pub kind: MeshKind,
     /// Phase of the front flanks, which runs on with the position, cycles.
     pub front: f64,
-    /// Phase of the back flanks, which runs back, cycles; `None` leaves them out.
-    pub back: Option<f64>,
+    /// Phase of the backside flanks, which runs back, cycles; `None` leaves them out.
+    pub backside: Option<f64>,
 }
 
 impl MeshStart {
@@ -51,7 +51,7 @@ impl MeshStart {
         let phases = phasing.phases(0.0, Facing::CounterClockwise);
         let first = phases.sun_planet.first().copied().unwrap_or(0.0);
         let list = |kind, phases: Vec<f64>| {
-            phases.into_iter().map(move |phase| Self { kind, front: phase - first, back: None })
+            phases.into_iter().map(move |phase| Self { kind, front: phase - first, backside: None })
         };
         let sun = list(MeshKind::SunPlanet, phases.sun_planet);
         sun.chain(list(MeshKind::RingPlanet, phases.ring_planet)).collect()
@@ -62,18 +62,18 @@ impl MeshStart {
 ///
 /// Every (mesh, step) has the curve of its exact phase: nothing is interpolated in phase.
 #[derive(Debug, Clone, PartialEq)]
-pub struct LawPlan {
+pub struct MeshLawPlan {
     /// Distinct curves, in order of first use.
     pub curves: Vec<CurveKey>,
     meshes: usize,
     /// By step, then mesh.
     front: Vec<u32>,
-    back: Vec<u32>,
+    backside: Vec<u32>,
 }
 
 /// Why curves make no law.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum LawError {
+pub enum MeshLawError {
     /// Nothing to tabulate.
     #[error("a mesh law of {meshes} meshes and {steps} steps: each must be at least 1")]
     Empty {
@@ -82,9 +82,9 @@ pub enum LawError {
         /// Steps a cycle.
         steps: usize,
     },
-    /// Back flanks of some meshes only.
-    #[error("a mesh law holds the back flanks of all meshes or of none")]
-    SomeBacks,
+    /// Backside flanks of some meshes only.
+    #[error("a mesh law holds the backside flanks of all meshes or of none")]
+    SomeBackside,
     /// Not one curve for each key.
     #[error("{got} curves for a mesh law that needs {wanted}")]
     Curves {
@@ -106,21 +106,25 @@ pub enum LawError {
     Places,
 }
 
-impl LawPlan {
+impl MeshLawPlan {
     /// Plan for meshes (sun meshes by planet, then ring meshes) at `steps` even positions.
     ///
     /// # Errors
-    /// Without meshes or steps, or if only some meshes have back flanks.
-    pub fn new(meshes: &[MeshStart], steps: usize) -> Result<Self, LawError> {
+    /// Without meshes or steps, or if only some meshes have backside flanks.
+    pub fn new(meshes: &[MeshStart], steps: usize) -> Result<Self, MeshLawError> {
         if meshes.is_empty() || steps == 0 {
-            return Err(LawError::Empty { meshes: meshes.len(), steps });
+            return Err(MeshLawError::Empty { meshes: meshes.len(), steps });
         }
-        let with_backs = meshes.iter().filter(|m| m.back.is_some()).count();
-        if with_backs != 0 && with_backs != meshes.len() {
-            return Err(LawError::SomeBacks);
+        let with_backside = meshes.iter().filter(|m| m.backside.is_some()).count();
+        if with_backside != 0 && with_backside != meshes.len() {
+            return Err(MeshLawError::SomeBackside);
         }
-        let mut plan =
-            Self { curves: Vec::new(), meshes: meshes.len(), front: Vec::new(), back: Vec::new() };
+        let mut plan = Self {
+            curves: Vec::new(),
+            meshes: meshes.len(),
+            front: Vec::new(),
+            backside: Vec::new(),
+        };
         let mut known = HashMap::new();
         for step in 0..steps {
             let position = step as f64 / steps as f64;
@@ -134,8 +138,8 @@ impl LawPlan {
                     })
                 };
                 plan.front.push(place(FlankSide::Front, mesh.front + position));
-                if let Some(back) = mesh.back {
-                    plan.back.push(place(FlankSide::Back, back - position));
+                if let Some(backside) = mesh.backside {
+                    plan.backside.push(place(FlankSide::Backside, backside - position));
                 }
             }
         }
@@ -146,13 +150,13 @@ impl LawPlan {
     ///
     /// # Errors
     /// If there are more or fewer curves than keys.
-    pub fn law(self, curves: Vec<MeshCurve>) -> Result<MeshLaw, LawError> {
+    pub fn law(self, curves: Vec<MeshCurve>) -> Result<MeshLaw, MeshLawError> {
         if curves.len() != self.curves.len() {
-            return Err(LawError::Curves { got: curves.len(), wanted: self.curves.len() });
+            return Err(MeshLawError::Curves { got: curves.len(), wanted: self.curves.len() });
         }
-        let Self { meshes, front, back, .. } = self;
+        let Self { meshes, front, backside, .. } = self;
         let (damping_share, side_loads) = (vec![1.0; meshes], Vec::new());
-        Ok(MeshLaw { meshes, curves, front, back, damping_share, side_loads })
+        Ok(MeshLaw { meshes, curves, front, backside, damping_share, side_loads })
     }
 }
 
@@ -165,14 +169,14 @@ fn cycle(phase: f64) -> f64 {
 /// Mesh forces of a set over (deflection, step of the mesh cycle, flank). Meshes count as everywhere:
 /// sun meshes by planet, then ring meshes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Tables")]
+#[serde(try_from = "StoredMeshLaw")]
 pub struct MeshLaw {
     meshes: usize,
     curves: Vec<MeshCurve>,
     /// Curve of each mesh, by step, then mesh.
     front: Vec<u32>,
-    /// The same of the back flanks; empty if they are left out.
-    back: Vec<u32>,
+    /// The same of the backside flanks; empty if they are left out.
+    backside: Vec<u32>,
     /// Share of each mesh's flexibility that is damped.
     damping_share: Vec<f64>,
     /// By curve; empty if there are none.
@@ -181,33 +185,33 @@ pub struct MeshLaw {
 
 /// A law as files hold it.
 #[derive(Deserialize)]
-struct Tables {
+struct StoredMeshLaw {
     meshes: usize,
     curves: Vec<MeshCurve>,
     front: Vec<u32>,
-    back: Vec<u32>,
+    backside: Vec<u32>,
     damping_share: Vec<f64>,
     side_loads: Vec<[f64; 6]>,
 }
 
-impl TryFrom<Tables> for MeshLaw {
-    type Error = LawError;
+impl TryFrom<StoredMeshLaw> for MeshLaw {
+    type Error = MeshLawError;
 
-    fn try_from(tables: Tables) -> Result<Self, LawError> {
-        let Tables { meshes, curves, front, back, damping_share, side_loads } = tables;
+    fn try_from(tables: StoredMeshLaw) -> Result<Self, MeshLawError> {
+        let StoredMeshLaw { meshes, curves, front, backside, damping_share, side_loads } = tables;
         let is_place = |place: &u32| (*place as usize) < curves.len();
         let steps = front.len().checked_div(meshes).unwrap_or(0);
         let fits = steps > 0
             && front.len() == steps * meshes
-            && (back.is_empty() || back.len() == front.len())
-            && front.iter().chain(&back).all(is_place)
+            && (backside.is_empty() || backside.len() == front.len())
+            && front.iter().chain(&backside).all(is_place)
             && damping_share.len() == meshes;
         if !fits {
-            return Err(LawError::Places);
+            return Err(MeshLawError::Places);
         }
         let given = vec![1.0; meshes];
         let law =
-            Self { meshes, curves, front, back, damping_share: given, side_loads: Vec::new() };
+            Self { meshes, curves, front, backside, damping_share: given, side_loads: Vec::new() };
         let law = law.with_damping_share(&damping_share)?;
         if side_loads.is_empty() { Ok(law) } else { law.with_side_loads(side_loads) }
     }
@@ -219,12 +223,12 @@ impl MeshLaw {
     ///
     /// # Errors
     /// If a share is outside [0, 1], or there is not one for each mesh.
-    pub fn with_damping_share(mut self, share: &[f64]) -> Result<Self, LawError> {
+    pub fn with_damping_share(mut self, share: &[f64]) -> Result<Self, MeshLawError> {
         if share.len() != self.meshes {
-            return Err(LawError::Places);
+            return Err(MeshLawError::Places);
         }
         if let Some(mesh) = share.iter().position(|s| !(0.0..=1.0).contains(s)) {
-            return Err(LawError::Share { mesh, value: share[mesh] });
+            return Err(MeshLawError::Share { mesh, value: share[mesh] });
         }
         self.damping_share = share.to_vec();
         Ok(self)
@@ -238,10 +242,10 @@ impl MeshLaw {
     ///
     /// # Errors
     /// If there is not one finite load for each curve.
-    pub fn with_side_loads(mut self, loads: Vec<[f64; 6]>) -> Result<Self, LawError> {
+    pub fn with_side_loads(mut self, loads: Vec<[f64; 6]>) -> Result<Self, MeshLawError> {
         let is_sound = loads.iter().flatten().all(|f| f.is_finite());
         if loads.len() != self.curves.len() || !is_sound {
-            return Err(LawError::Places);
+            return Err(MeshLawError::Places);
         }
         self.side_loads = loads;
         Ok(self)
@@ -263,9 +267,9 @@ impl MeshLaw {
         self.front.len() / self.meshes
     }
 
-    /// Whether the back flanks are there.
-    pub fn has_backs(&self) -> bool {
-        !self.back.is_empty()
+    /// Whether the backside flanks are there.
+    pub fn has_backside(&self) -> bool {
+        !self.backside.is_empty()
     }
 
     /// Share of a mesh's flexibility that stiffness-proportional damping acts on.
@@ -284,20 +288,20 @@ impl MeshLaw {
         &self.curves[self.front[step_in_cycle * self.meshes + mesh] as usize]
     }
 
-    /// Curve of a mesh's back flanks, over how far they approach each other; `None` if left out.
+    /// Curve of a mesh's backside flanks, over how far they approach each other; `None` if left out.
     #[inline]
-    pub fn back(&self, mesh: usize, step_in_cycle: usize) -> Option<&MeshCurve> {
-        let place = self.back.get(step_in_cycle * self.meshes + mesh)?;
+    pub fn backside(&self, mesh: usize, step_in_cycle: usize) -> Option<&MeshCurve> {
+        let place = self.backside.get(step_in_cycle * self.meshes + mesh)?;
         self.curves.get(*place as usize)
     }
 
-    /// Curve of a flank at a step of the cycle, front flanks of all meshes counted first, then back
+    /// Curve of a flank at a step of the cycle, front flanks of all meshes counted first, then backside
     /// flanks; `None` if left out.
     #[inline]
     pub fn curve(&self, flank: usize, step_in_cycle: usize) -> Option<&MeshCurve> {
         match flank.checked_sub(self.meshes) {
             None => Some(self.front(flank, step_in_cycle)),
-            Some(mesh) => self.back(mesh, step_in_cycle),
+            Some(mesh) => self.backside(mesh, step_in_cycle),
         }
     }
 
@@ -311,7 +315,7 @@ impl MeshLaw {
     pub fn silent_up_to_m(&self, flank: usize) -> f64 {
         let (mesh, side) = match flank.checked_sub(self.meshes) {
             None => (flank, FlankSide::Front),
-            Some(mesh) => (mesh, FlankSide::Back),
+            Some(mesh) => (mesh, FlankSide::Backside),
         };
         self.first_contact_m(mesh, side).unwrap_or(f64::INFINITY)
     }
@@ -320,7 +324,7 @@ impl MeshLaw {
     pub fn first_contact_m(&self, mesh: usize, side: FlankSide) -> Option<f64> {
         let starts = (0..self.steps()).map(|step| match side {
             FlankSide::Front => Some(self.front(mesh, step).start_m()),
-            FlankSide::Back => self.back(mesh, step).map(MeshCurve::start_m),
+            FlankSide::Backside => self.backside(mesh, step).map(MeshCurve::start_m),
         });
         starts.flatten().reduce(f64::min)
     }
@@ -328,7 +332,7 @@ impl MeshLaw {
     /// Memory of the tables, bytes.
     pub fn bytes(&self) -> usize {
         let nodes: usize = self.curves.iter().map(|c| c.nodes().len()).sum();
-        16 * nodes + 4 * (self.front.len() + self.back.len())
+        16 * nodes + 4 * (self.front.len() + self.backside.len())
     }
 }
 
@@ -336,20 +340,20 @@ impl MeshLaw {
 mod tests {
     use super::*;
 
-    fn starts(backs: bool) -> Vec<MeshStart> {
+    fn starts(backside: bool) -> Vec<MeshStart> {
         let one = |kind| {
             move |n: u32| MeshStart {
                 kind,
                 // Seventh parts of a cycle: shared on a grid they divide, exact on any other.
                 front: f64::from(n) * 3.0 / 7.0,
-                back: backs.then_some(-f64::from(n) * 3.0 / 7.0),
+                backside: backside.then_some(-f64::from(n) * 3.0 / 7.0),
             }
         };
         let sun = (0..3).map(one(MeshKind::SunPlanet));
         sun.chain((0..3).map(one(MeshKind::RingPlanet))).collect()
     }
 
-    fn law(plan: LawPlan) -> MeshLaw {
+    fn law(plan: MeshLawPlan) -> MeshLaw {
         let curve = |key: &CurveKey| MeshCurve::new(key.phase, 1.0, &[0.0, 1.0], &[1.0, 1.0]);
         let curves = plan.curves.iter().map(|key| curve(key).unwrap()).collect();
         plan.law(curves).unwrap()
@@ -358,7 +362,7 @@ mod tests {
     #[test]
     fn every_mesh_and_step_has_the_curve_of_its_exact_phase() {
         for (steps, shared) in [(140, true), (141, false)] {
-            let plan = LawPlan::new(&starts(true), steps).unwrap();
+            let plan = MeshLawPlan::new(&starts(true), steps).unwrap();
             let distinct = 4 * steps * if shared { 1 } else { 3 };
             assert_eq!(plan.curves.len(), distinct);
             let law = law(plan);
@@ -369,8 +373,8 @@ mod tests {
                         |found: f64, exact: f64| (found - exact + 0.5).rem_euclid(1.0) - 0.5;
                     let front = law.front(mesh, step).start_m();
                     assert!(apart(front, start.front + position).abs() < 1e-12);
-                    let back = law.back(mesh, step).unwrap().start_m();
-                    assert!(apart(back, start.back.unwrap() - position).abs() < 1e-12);
+                    let backside = law.backside(mesh, step).unwrap().start_m();
+                    assert!(apart(backside, start.backside.unwrap() - position).abs() < 1e-12);
                 }
             }
             assert_eq!((law.steps(), law.meshes()), (steps, 6));
@@ -379,14 +383,14 @@ mod tests {
 
     #[test]
     fn what_makes_no_law_is_refused() {
-        assert!(LawPlan::new(&[], 10).is_err());
-        assert!(LawPlan::new(&starts(false), 0).is_err());
+        assert!(MeshLawPlan::new(&[], 10).is_err());
+        assert!(MeshLawPlan::new(&starts(false), 0).is_err());
         let mut some = starts(true);
-        some[2].back = None;
-        assert_eq!(LawPlan::new(&some, 4), Err(LawError::SomeBacks));
-        assert!(LawPlan::new(&starts(false), 4).unwrap().law(Vec::new()).is_err());
-        let law = law(LawPlan::new(&starts(false), 4).unwrap());
-        assert!(!law.has_backs() && law.back(0, 0).is_none());
+        some[2].backside = None;
+        assert_eq!(MeshLawPlan::new(&some, 4), Err(MeshLawError::SomeBackside));
+        assert!(MeshLawPlan::new(&starts(false), 4).unwrap().law(Vec::new()).is_err());
+        let law = law(MeshLawPlan::new(&starts(false), 4).unwrap());
+        assert!(!law.has_backside() && law.backside(0, 0).is_none());
         assert!(law.clone().with_damping_share(&[1.0; 5]).is_err());
         assert!(law.with_damping_share(&[1.0, 0.5, 0.0, 1.5, 1.0, 1.0]).is_err());
     }

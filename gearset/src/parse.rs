@@ -6,7 +6,7 @@ use crate::assembly;
 use crate::check;
 use crate::fault::{Fault, SceneError};
 use crate::geometry::Geometry;
-use crate::mesh::MeshKind;
+use crate::mesh_kind::MeshKind;
 use crate::parse_dynamics::dynamics;
 use crate::parse_fe_contact::fe_contact;
 use crate::parse_geometry::geometry;
@@ -310,7 +310,8 @@ fn material(s: Option<Section<'_, '_>>) -> Material {
 }
 
 fn supports(root: &Section<'_, '_>, is_pair: bool) -> Option<Supports> {
-    let free = Support { motion: Motion::Free, bearing: 0.0, torsional: Torsional::PerLength(0.0) };
+    let free =
+        Support { motion: Freedom::Free, bearing: 0.0, torsional: Torsional::PerLength(0.0) };
     let central = |key: &'static str| match root.section(key) {
         Some(_) if is_pair => {
             root.fault(key, "nothing here", "races of a gear pair are rigid");
@@ -349,10 +350,13 @@ fn supports(root: &Section<'_, '_>, is_pair: bool) -> Option<Supports> {
 }
 
 fn support(s: Section<'_, '_>) -> Support {
-    let motions =
-        [("free", Motion::Free), ("rotation_held", Motion::RotationHeld), ("held", Motion::Held)];
+    let motions = [
+        ("free", Freedom::Free),
+        ("rotation_held", Freedom::RotationHeld),
+        ("held", Freedom::Held),
+    ];
     let motion = s.choice("motion", &motions, "which coordinates the member has");
-    let motion = motion.unwrap_or(Motion::Free);
+    let motion = motion.unwrap_or(Freedom::Free);
     let why = "stiffness to ground, equal in both directions";
     let bearing = s.number("bearing_n_per_m", Bound::NonNegative, why);
     let per_length = s.number(
@@ -371,11 +375,11 @@ fn support(s: Section<'_, '_>) -> Support {
             s.fault(key, "nothing here", why);
         }
     };
-    if motion != Motion::Free {
+    if motion != Freedom::Free {
         idle("torsional_n_per_m", "a held rotation has no torsional spring");
         idle("torsional_nm_per_rad", "a held rotation has no torsional spring");
     }
-    if motion == Motion::Held {
+    if motion == Freedom::Held {
         idle("bearing_n_per_m", "a held member has no bearing that could yield");
     }
     s.finish();

@@ -74,8 +74,8 @@ pub(crate) fn lumped(
     };
     let mut inertia_over_r2 = over_r2;
     if let Some(supports) = supports {
-        let free = Motion::Free;
-        let bodies: [(&str, Motion, Entry); 4] = [
+        let free = Freedom::Free;
+        let bodies: [(&str, Freedom, Entry); 4] = [
             ("carrier", supports.carrier.motion, |p| &mut p.carrier),
             ("ring", supports.ring.motion, |p| &mut p.ring),
             ("sun", supports.sun.motion, |p| &mut p.sun),
@@ -83,7 +83,7 @@ pub(crate) fn lumped(
         ];
         let (mut mass, mut inertia, mut over_r2, mut radius) = (mass, inertia, over_r2, radius);
         for (name, motion, of) in bodies {
-            if motion != Motion::Held && of(&mut mass).is_none() {
+            if motion != Freedom::Held && of(&mut mass).is_none() {
                 let why = format!("the {name} can move");
                 fault_in(&s, "mass_kg", name, "a mass above 0", &why);
             }

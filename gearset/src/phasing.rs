@@ -17,7 +17,8 @@ use serde::Serialize;
 
 use crate::gear::{Facing, Gear};
 use crate::geometry::Geometry;
-use crate::mesh::{Mesh, MeshKind, MeshMember};
+use crate::mesh::Mesh;
+use crate::mesh_kind::{MeshKind, MeshMember};
 use crate::scene::PlanetPositions;
 
 /// Phases of all meshes at one sun angle, in cycles, each in [0, 1).
@@ -131,16 +132,16 @@ impl<'g> Phasing<'g> {
         let mirrored = |n: usize| sign * self.positions.psi_rad[n];
         // s' = r_bp (θ₀ − (ψ_n + π − α_s)), θ₀ = θ_p + β_p, in the frame mirrored by `sign`.
         let planet_angle = |n: usize| {
-            let string = mesh.path_start + phases.sun_planet[n] * mesh.base_pitch;
+            let roll_length = mesh.path_start + phases.sun_planet[n] * mesh.base_pitch;
             let tangent = mirrored(n) + PI - mesh.pressure_angle;
-            let origin = tangent + mesh.driven_string(string) / self.planet.base_radius;
+            let origin = tangent + mesh.driven_roll_length(roll_length) / self.planet.base_radius;
             sign * (origin - self.planet.half_angle_base)
         };
         // s_r = r_br (ψ_0 + α_r − θ₀), θ₀ = θ_r − β_r.
         let mesh = self.ring_planet;
-        let string = mesh.path_start + phases.ring_planet[0] * mesh.base_pitch;
+        let roll_length = mesh.path_start + phases.ring_planet[0] * mesh.base_pitch;
         let tangent = mirrored(0) + mesh.pressure_angle;
-        let origin = tangent - mesh.driven_string(string) / self.ring.base_radius;
+        let origin = tangent - mesh.driven_roll_length(roll_length) / self.ring.base_radius;
         GearAngles {
             sun: sun_angle,
             ring: sign * (origin + self.ring.half_angle_base),
@@ -151,7 +152,7 @@ impl<'g> Phasing<'g> {
     /// Normal gaps of planet n's mesh along the two lines of action, m: on the flanks loaded when
     /// those that face `loaded` on the sun are, and on the others. Reduced to ± half a base pitch.
     ///
-    /// On a line of action the two strings must add up (sun) or differ (ring) by a sin α.
+    /// On a line of action the two roll lengths must add up (sun) or differ (ring) by a sin α.
     pub fn normal_gaps(
         &self,
         angles: &GearAngles,

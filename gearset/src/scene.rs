@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::mesh::MeshKind;
+use crate::mesh_kind::MeshKind;
 
 /// What the scene describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -313,7 +313,7 @@ pub struct Material {
 /// How a central member may move.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Motion {
+pub enum Freedom {
     /// Translates and rotates.
     Free,
     /// Translates; its rotation is held.
@@ -326,7 +326,7 @@ pub enum Motion {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Support {
     /// Which coordinates exist.
-    pub motion: Motion,
+    pub motion: Freedom,
     /// Bearing stiffness, equal in both directions, N/m.
     pub bearing: f64,
     /// Torsional stiffness, if any.
@@ -479,6 +479,12 @@ pub struct Operation {
 }
 
 impl Scene {
+    /// A copy to be changed, whose title says in what: results that are kept by title are not those of another
+    /// set.
+    pub fn variant(&self, what: &str) -> Self {
+        Self { title: format!("{}: {what}", self.title), ..self.clone() }
+    }
+
     /// What this scene lacks and therefore cannot be used for, one sentence each.
     pub fn limits(&self) -> Vec<String> {
         let mut limits = Vec::new();

@@ -1,5 +1,5 @@
 //! Displaced meshes pinned by flanks placed explicitly and measured as plain polylines, and by
-//! difference quotients: neither knows of operating angles, strings or ends of the path.
+//! difference quotients: neither knows of operating angles, roll lengths or ends of the path.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -11,7 +11,7 @@ use gearset::{
 
 const MESHES: [MeshKind; 2] = [MeshKind::SunPlanet, MeshKind::RingPlanet];
 
-/// How far beyond the ends of the path corner pairs are followed, m.
+/// How far beyond the ends of the path corner contacts are followed, m.
 const CORNER_REACH: f64 = 0.6e-3;
 
 fn oh58() -> Geometry {
@@ -52,20 +52,25 @@ fn moved<'g>(flank: Flank<'g>, x: &[f64]) -> Flank<'g> {
     Flank { centre, origin_angle: flank.origin_angle + x[2], ..flank }
 }
 
-/// The pair that touches nominally at the driver's string length, its gears displaced rigidly.
-fn front_flanks<'m>(mesh: &'m Mesh, string: f64, x: &Displacements) -> [Flank<'m>; 2] {
-    let (driver, driven) = mesh.flanks(string);
+/// The pair that touches nominally at the driver's roll length, its gears displaced rigidly.
+fn front_flanks<'m>(mesh: &'m Mesh, roll_length: f64, x: &Displacements) -> [Flank<'m>; 2] {
+    let (driver, driven) = mesh.flanks(roll_length);
     [moved(driver, &x[..3]), moved(driven, &x[3..])]
 }
 
-/// The pair of back flanks, of the very teeth whose working flanks touch, that a mirror (y → −y)
-/// would show at the driver's string length; gears displaced to the mirror image of `x`, except
-/// that the driven gear's rotation counts from where the back flanks, not the working ones, touch.
-fn back_flanks<'m>(mesh: &'m Mesh, gap: f64, string: f64, x: &Displacements) -> [Flank<'m>; 2] {
+/// The pair of backside flanks, of the very teeth whose working flanks touch, that a mirror (y → −y)
+/// would show at the driver's roll length; gears displaced to the mirror image of `x`, except
+/// that the driven gear's rotation counts from where the backside flanks, not the working ones, touch.
+fn backside_flanks<'m>(
+    mesh: &'m Mesh,
+    gap: f64,
+    roll_length: f64,
+    x: &Displacements,
+) -> [Flank<'m>; 2] {
     let driver = mesh.gear(MeshMember::Driver);
     // Both flanks of the driver's lobe: −α + s/r_b and α − s'/r_b, two half angles apart.
     let lobe = 2.0 * driver.base_radius * (mesh.pressure_angle + driver.half_angle_base);
-    let (driver, driven) = mesh.flanks(lobe - string);
+    let (driver, driven) = mesh.flanks(lobe - roll_length);
     let other = |f: Flank<'m>| Flank {
         origin_angle: f.origin_angle - 2.0 * f.facing.sign() * f.gear.half_angle_base,
         facing: f.facing.opposite(),
@@ -73,7 +78,7 @@ fn back_flanks<'m>(mesh: &'m Mesh, gap: f64, string: f64, x: &Displacements) -> 
     };
     let (driver, mut driven) = (other(driver), other(driven));
     if driven.gear.side == ToothSide::External {
-        // The driver's tooth stands in a space: its back flank faces the next tooth.
+        // The driver's tooth stands in a space: its backside flank faces the next tooth.
         driven.origin_angle += driven.gear.pitch_angle();
     }
     let slack = gap / driven.gear.base_radius;
@@ -82,7 +87,7 @@ fn back_flanks<'m>(mesh: &'m Mesh, gap: f64, string: f64, x: &Displacements) -> 
 
 /// Turns one flank until it touches the other: smallest angle, about its centre, between points at
 /// the same radius; polylines refined about the place found. Turn times base radius (positive if
-/// the flanks stood clear), string lengths touching; `None` if that is at a form circle.
+/// the flanks stood clear), roll lengths touching; `None` if that is at a form circle.
 fn touch(still: &Flank<'_>, turned: &Flank<'_>) -> Option<(f64, [f64; 2])> {
     let polar = |p: [f64; 2]| {
         let [x, y] = [p[0] - turned.centre[0], p[1] - turned.centre[1]];
@@ -91,18 +96,18 @@ fn touch(still: &Flank<'_>, turned: &Flank<'_>) -> Option<(f64, [f64; 2])> {
     let wrapped = |angle: f64| angle - TAU * (angle / TAU).round();
     let outside = turned.gear.side == ToothSide::External;
     let free_side = if outside { 1.0 } else { -1.0 } * turned.facing.sign();
-    let forms = [still, turned].map(|f| f.gear.form_string().unwrap());
-    let tips = [still, turned].map(|f| f.gear.tip_string());
+    let forms = [still, turned].map(|f| f.gear.form_roll_length().unwrap());
+    let tips = [still, turned].map(|f| f.gear.tip_roll_length());
     let whole = [0, 1].map(|i| [forms[i].min(tips[i]), forms[i].max(tips[i])]);
     let (mut parts, mut best) = (whole, None);
     for _ in 0..7 {
-        let [strings, on_turned] = parts.map(|[low, high]| {
+        let [roll_lengths, on_turned] = parts.map(|[low, high]| {
             (0..=80).map(|i| low + (high - low) * f64::from(i) / 80.0).collect::<Vec<_>>()
         });
         let at = |s: f64| [s, polar(turned.point(s))[0], polar(turned.point(s))[1]];
         let line: Vec<_> = on_turned.into_iter().map(at).collect();
         best = None;
-        for s in strings {
+        for s in roll_lengths {
             let [r, angle] = polar(still.point(s));
             let segment = line.windows(2).find(|w| (w[0][1]..w[1][1]).contains(&r));
             let Some(&[[s0, r0, a0], [s1, r1, a1]]) = segment else { continue };
@@ -118,29 +123,29 @@ fn touch(still: &Flank<'_>, turned: &Flank<'_>) -> Option<(f64, [f64; 2])> {
             [(at[i] - wide).max(whole[i][0]), (at[i] + wide).min(whole[i][1])]
         });
     }
-    let (gap, strings) = best?;
-    let on_flank = (0..2).all(|i| (strings[i] - forms[i]).abs() > 1e-5);
-    on_flank.then_some((gap * turned.gear.base_radius, strings))
+    let (gap, roll_lengths) = best?;
+    let on_flank = (0..2).all(|i| (roll_lengths[i] - forms[i]).abs() > 1e-5);
+    on_flank.then_some((gap * turned.gear.base_radius, roll_lengths))
 }
 
-/// Deviations of one pair from its polylines: clearance and string length where the flanks touch.
+/// Deviations of one pair from its polylines: clearance and roll length where the flanks touch.
 fn deviations(mesh: &Mesh, d: &DisplacedMesh, k: i64, flanks: &[Flank<'_>; 2]) -> Option<[f64; 2]> {
     let [driver, driven] = flanks;
     let turns = [touch(driver, driven)?, touch(driven, driver)?];
     let [end, start] = d.beyond(k);
     // The nearer corner's gear is left as it stands; its mate is turned.
     let standing = usize::from(start > end);
-    let (clearance, strings) = turns[standing];
-    let string = match end.max(start) {
-        past if past > 0.0 => strings[0] - flanks[standing].gear.tip_string(),
+    let (clearance, roll_lengths) = turns[standing];
+    let roll_length = match end.max(start) {
+        past if past > 0.0 => roll_lengths[0] - flanks[standing].gear.tip_roll_length(),
         past if past > -0.1e-3 => 0.0,
         // Half-way between turning one gear and turning the other.
         _ => {
-            let expected = d.touching_string() + k as f64 * mesh.base_pitch;
+            let expected = d.touching_roll_length() + k as f64 * mesh.base_pitch;
             0.5 * (turns[0].1[0] + turns[1].1[1]) - expected
         }
     };
-    Some([clearance - d.clearance(mesh, k).unwrap(), string])
+    Some([clearance - d.clearance(mesh, k).unwrap(), roll_length])
 }
 
 /// Checks one mesh at many random places.
@@ -153,8 +158,8 @@ fn agrees_with_polylines(
         let (phase, x) = random.place(mesh);
         let d = mesh.displaced(phase, &x).unwrap();
         for k in (-2..=3).filter(|&k| d.beyond(k).iter().all(|&b| b < CORNER_REACH)) {
-            let string = mesh.path_start + (phase + k as f64) * mesh.base_pitch;
-            let off = deviations(mesh, &d, k, &place(mesh, string, &x));
+            let roll_length = mesh.path_start + (phase + k as f64) * mesh.base_pitch;
+            let off = deviations(mesh, &d, k, &place(mesh, roll_length, &x));
             off_flank += usize::from(off.is_none());
             let Some(off) = off else { continue };
             met[match d.location(k) {
@@ -179,20 +184,20 @@ fn clearances_are_those_of_displaced_polylines() {
     }
 }
 
-/// The back flanks of the same teeth, a backlash away, have the clearances of the mesh at mirrored
+/// The backside flanks of the same teeth, a backlash away, have the clearances of the mesh at mirrored
 /// displacements.
 #[test]
-fn back_flanks_are_the_mirror_image() {
+fn backside_flanks_are_the_mirror_image() {
     let geometry = oh58();
     for kind in MESHES {
         let backlash = geometry.normal_backlash(kind).unwrap();
-        agrees_with_polylines(geometry.mesh(kind).unwrap(), |mesh, string, x| {
-            back_flanks(mesh, backlash, string, x)
+        agrees_with_polylines(geometry.mesh(kind).unwrap(), |mesh, roll_length, x| {
+            backside_flanks(mesh, backlash, roll_length, x)
         });
     }
 }
 
-/// First derivatives of approach, touching string and centre distance are the difference quotients
+/// First derivatives of approach, touching roll length and centre distance are the difference quotients
 /// of the displaced mesh, second derivatives those of the first.
 #[test]
 fn derivatives_are_difference_quotients() {
@@ -207,10 +212,10 @@ fn derivatives_are_difference_quotients() {
                 x[i] += step;
                 let d = mesh.displaced(phase, &x).unwrap();
                 let g = d.gradients();
-                let string = d.touching_string();
+                let roll_length = d.touching_roll_length();
                 [
                     (d.approach, g.approach),
-                    (string, g.string),
+                    (roll_length, g.roll_length),
                     (d.center_distance, g.center_distance),
                 ]
             };
@@ -220,7 +225,7 @@ fn derivatives_are_difference_quotients() {
                 (4.0 * quotient(1e-5) - quotient(2e-5)) / 3.0
             };
             let h = mesh.displaced(phase, &x).unwrap().hessians();
-            for (q, second) in [h.approach, h.string, h.center_distance].iter().enumerate() {
+            for (q, second) in [h.approach, h.roll_length, h.center_distance].iter().enumerate() {
                 for (i, row) in second.iter().enumerate() {
                     let off = slope(i, &|all| all[q].0) - at(0, 0.0)[q].1[i];
                     worst[0] = worst[0].max(off.abs());
@@ -267,7 +272,7 @@ fn rolling_moves_the_phase_only() {
 }
 
 /// The same gears mounted at the displaced centre distance have the same path, and touch at the
-/// touching string; centres too close are refused.
+/// touching roll length; centres too close are refused.
 #[test]
 fn mounting_at_the_displaced_centre_distance_gives_the_same_path() {
     let geometry = oh58();
@@ -281,15 +286,16 @@ fn mounting_at_the_displaced_centre_distance_gives_the_same_path() {
             for (one, other) in [
                 (d.path()[0], there.path_start),
                 (d.path()[1], there.path_end),
-                (d.touching_string(), again.driver_string),
+                (d.touching_roll_length(), again.driver_roll_length),
                 (0.0, again.approach),
             ] {
                 assert!((one - other).abs() < 1e-15, "{one} {other}");
             }
             // The driver stands where it would at s₁, the driven gear where it would at s₁ − δ.
             let (driver, driven) = d.flanks(mesh, 1);
-            let string = d.driver_string + mesh.base_pitch;
-            let (own, mate) = (there.flanks(string).0, there.flanks(string - d.approach).1);
+            let roll_length = d.driver_roll_length + mesh.base_pitch;
+            let (own, mate) =
+                (there.flanks(roll_length).0, there.flanks(roll_length - d.approach).1);
             for (one, other) in [(driver, own), (driven, mate)] {
                 assert!((one.origin_angle - other.origin_angle).abs() < 1e-14);
                 assert!(one.centre == other.centre && one.facing == other.facing);
@@ -329,8 +335,8 @@ fn linear_kinematics_misses_the_corners_of_a_wound_up_mesh() {
                 if !(0.4e-3..CORNER_REACH).contains(&d.beyond(k)[tip as usize]) {
                     continue;
                 }
-                let string = mesh.path_start + (phase + k as f64) * mesh.base_pitch;
-                let mut flanks = front_flanks(mesh, string, &x);
+                let roll_length = mesh.path_start + (phase + k as f64) * mesh.base_pitch;
+                let mut flanks = front_flanks(mesh, roll_length, &x);
                 if tip == MeshMember::Driven {
                     flanks.reverse();
                 }

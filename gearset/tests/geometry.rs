@@ -88,7 +88,7 @@ fn fillets_land_where_a_drawn_circle_touches() {
     let (_, g) = oh58();
     // The sun's by hand: s = √((35.275 + 0.8)² − 35.2003²) − 0.8 = 7.096 mm.
     let sun = g.sun.as_ref().unwrap();
-    assert!((sun.form_string().unwrap() - 7.0963e-3).abs() < 2e-6);
+    assert!((sun.form_roll_length().unwrap() - 7.0963e-3).abs() < 2e-6);
     for gear in [g.sun.as_ref().unwrap(), &g.planet, g.ring.as_ref().unwrap()] {
         assert!(gear.root_land_angle() > 0.0);
         let form = gear.form_radius();

@@ -1,5 +1,5 @@
 //! γ, the phases and their senses, pinned by rigid polygons: gears placed from the phases alone,
-//! then measured as plain polylines that know nothing of phases, strings or base pitch.
+//! then measured as plain polylines that know nothing of phases, roll lengths or base pitch.
 
 use std::path::Path;
 
@@ -31,7 +31,7 @@ impl<'g> Placed<'g> {
     }
 }
 
-/// Flank points from form circle to tip, the string length between two limits.
+/// Flank points from form circle to tip, the roll length between two limits.
 fn polyline(flank: &Flank<'_>, low: f64, high: f64, count: usize) -> Vec<(f64, Point)> {
     (0..=count)
         .map(|i| low + (high - low) * i as f64 / count as f64)
@@ -58,8 +58,8 @@ fn distance(point: Point, line: &[(f64, Point)]) -> (f64, f64) {
 /// Smallest distance between two flanks: polylines refined about their closest points.
 fn flank_distance(a: &Flank<'_>, b: &Flank<'_>) -> f64 {
     let limits = |f: &Flank<'_>| {
-        let form = f.gear.form_string().unwrap();
-        let tip = f.gear.tip_string();
+        let form = f.gear.form_roll_length().unwrap();
+        let tip = f.gear.tip_roll_length();
         (form.min(tip), form.max(tip))
     };
     let ((mut a0, mut a1), (mut b0, mut b1)) = (limits(a), limits(b));
@@ -96,8 +96,8 @@ fn mesh_gap(a: &Placed<'_>, b: &Placed<'_>, facing: Facing, towards: [f64; 2]) -
 }
 
 fn screen(a: &Flank<'_>, b: &Flank<'_>) -> f64 {
-    let line = polyline(b, b.gear.form_string().unwrap(), b.gear.tip_string(), 8);
-    polyline(a, a.gear.form_string().unwrap(), a.gear.tip_string(), 8)
+    let line = polyline(b, b.gear.form_roll_length().unwrap(), b.gear.tip_roll_length(), 8);
+    polyline(a, a.gear.form_roll_length().unwrap(), a.gear.tip_roll_length(), 8)
         .iter()
         .map(|&(_, p)| distance(p, &line).0)
         .fold(f64::INFINITY, f64::min)
@@ -214,7 +214,7 @@ fn phases_follow_their_closed_form_and_start_the_path() {
     // At phase 0 the driven tip corner touches the driver's flank: path start by polygons.
     let mesh = geometry.sun_planet.as_ref().unwrap();
     let (driver, driven) = mesh.flanks(mesh.path_start);
-    let corner = driven.point(driven.gear.tip_string());
+    let corner = driven.point(driven.gear.tip_roll_length());
     let line = polyline(&driver, mesh.path_start - 1e-5, mesh.path_start + 1e-5, 400);
     assert!(distance(corner, &line).0 < 1e-12);
 }
@@ -225,15 +225,15 @@ fn tip_gaps_are_distances_from_corner_to_polygon() {
     let (_, geometry) = oh58("oh58_4p.toml");
     for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
         let mesh = geometry.mesh(kind).unwrap();
-        for (tip, string) in [
+        for (tip, roll_length) in [
             (Driven, mesh.path_start - 0.1 * mesh.base_pitch),
             (Driver, mesh.path_end + 0.1 * mesh.base_pitch),
         ] {
-            let (driver, driven) = mesh.flanks(string);
+            let (driver, driven) = mesh.flanks(roll_length);
             let (own, mate) = if tip == Driver { (driver, driven) } else { (driven, driver) };
-            let corner = own.point(own.gear.tip_string());
-            let form = mate.gear.form_string().unwrap();
-            let line = polyline(&mate, form, mate.gear.tip_string(), 20_000);
+            let corner = own.point(own.gear.tip_roll_length());
+            let form = mate.gear.form_roll_length().unwrap();
+            let line = polyline(&mate, form, mate.gear.tip_roll_length(), 20_000);
             let gap = mesh.tip_gap(tip, 0.1 * mesh.base_pitch).unwrap();
             assert!((distance(corner, &line).0 - gap).abs() < 1e-10, "{kind:?} {tip:?}");
         }

@@ -3,7 +3,6 @@
 
 mod dsygv;
 
-use faer::MatRef;
 use nalgebra::{Cholesky, DMatrix};
 use nalgebra_lapack::SymmetricEigen;
 
@@ -62,11 +61,6 @@ pub fn lapack_generalized(
     };
     values.sort_by(f64::total_cmp);
     Ok(values)
-}
-
-/// nalgebra's matrix from faer's.
-pub fn from_faer(matrix: MatRef<'_, f64>) -> DMatrix<f64> {
-    DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)])
 }
 
 /// Refuses what a driver would stumble over.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use lapack_route::{Driver, LapackError, dsygv_pairs, from_faer, lapack_generalized};
+use lapack_route::{Driver, LapackError, dsygv_pairs, lapack_generalized};
 use nalgebra::DMatrix;
 
 /// Chain of n equal masses and n + 1 equal springs between two walls, and its eigenvalues
@@ -82,11 +82,4 @@ fn unfit_matrices_are_refused() {
         assert_eq!(solve(&k, &DMatrix::zeros(3, 3)), Err(LapackError::MassNotPositive));
         assert_eq!(solve(&DMatrix::zeros(0, 0), &DMatrix::zeros(0, 0)), Ok(vec![]));
     }
-}
-
-#[test]
-fn faer_matrices_keep_their_places() {
-    let faer = faer::Mat::from_fn(2, 3, |i, j| (10 * i + j) as f64);
-    let ours = from_faer(faer.as_ref());
-    assert_eq!(ours, DMatrix::from_row_slice(2, 3, &[0.0, 1.0, 2.0, 10.0, 11.0, 12.0]));
 }

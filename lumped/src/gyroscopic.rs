@@ -1,7 +1,6 @@
 //! Gyroscopic terms: modes in the frame that turns with the carrier, over carrier speed.
 //!
-//! In a frame turning at Ω a body's translation has the kinetic energy
-//! ½ m [(ẋ − Ωy)² + (ẏ + Ωx)²], hence
+//! With the terms of each body's translation ([`RotatingFrame`]),
 //!
 //! ```text
 //! M q̈ + Ω G q̇ + (K − Ω² K_Ω) q = 0,   G_xy = −2m, G_yx = +2m, K_Ω = diag(m, m, 0)
@@ -12,10 +11,10 @@
 
 use std::f64::consts::TAU;
 
-use faer::Mat;
+use nalgebra::DMatrix;
 use serde::Serialize;
 
-use dynamics::gyroscopic_modes;
+use dynamics::{RotatingFrame, gyroscopic_modes};
 
 use crate::coordinates::{Axis, Body};
 use crate::error::LumpedError;
@@ -55,21 +54,23 @@ pub fn campbell(model: &LumpedModel, speeds: &[f64]) -> Result<Vec<SpeedModes>, 
 
 fn at_speed(
     model: &LumpedModel,
-    k: &Mat<f64>,
+    k: &DMatrix<f64>,
     kinds: &Kinds,
     speed: f64,
 ) -> Result<SpeedModes, LumpedError> {
     let n = model.mass.len();
-    let mut g = Mat::zeros(n, n);
+    let frame = RotatingFrame { speed };
+    let mut g = DMatrix::zeros(n, n);
     let mut k = k.clone();
     for body in Body::all(model.psi.len()) {
         let translation = [Axis::First, Axis::Second].map(|axis| model.coordinates.of(body, axis));
         if let [Some(x), Some(y)] = translation {
             let m = model.mass[x];
-            g[(x, y)] = -2.0 * m * speed;
-            g[(y, x)] = 2.0 * m * speed;
-            k[(x, x)] -= m * speed * speed;
-            k[(y, y)] -= m * speed * speed;
+            let [[_, of_y], [of_x, _]] = frame.gyroscopic(m);
+            g[(x, y)] = of_y;
+            g[(y, x)] = of_x;
+            k[(x, x)] += frame.centripetal(m);
+            k[(y, y)] += frame.centripetal(m);
         }
     }
     let modes = gyroscopic_modes(&model.mass, &g, &k)?;

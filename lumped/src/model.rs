@@ -1,8 +1,8 @@
 //! Assembly of the model from a scene.
 
-use faer::Mat;
+use nalgebra::DMatrix;
 
-use gearset::{Motion, PerBody, Scene, Support, Torsional};
+use gearset::{Freedom, PerBody, Scene, Support, Torsional};
 
 use crate::coordinates::{Axis, Body, Coordinates};
 use crate::error::LumpedError;
@@ -37,9 +37,9 @@ impl LumpedModel {
         let special = |n: usize| scene.overrides.iter().find(|o| o.planet == n);
         let coordinates = Coordinates::new(count, |body, axis| {
             match (support(scene, body).map(|s| s.motion), axis) {
-                (None | Some(Motion::Free), _) => true,
-                (Some(Motion::RotationHeld), axis) => axis != Axis::Rotation,
-                (Some(Motion::Held), _) => false,
+                (None | Some(Freedom::Free), _) => true,
+                (Some(Freedom::RotationHeld), axis) => axis != Axis::Rotation,
+                (Some(Freedom::Held), _) => false,
             }
         });
         // Fixed to every planet, whatever its own mass.
@@ -74,12 +74,12 @@ impl LumpedModel {
         let mut springs = Vec::with_capacity(3 * count + 6);
         for body in [Body::Carrier, Body::Ring, Body::Sun] {
             let Some(support) = support(scene, body) else { continue };
-            if support.motion != Motion::Held && support.bearing != 0.0 {
+            if support.motion != Freedom::Held && support.bearing != 0.0 {
                 let rows = rows.central_bearing(body);
                 let id = SpringId::CentralBearing(body);
                 springs.push(Spring { id, stiffness: support.bearing, rows });
             }
-            if support.motion == Motion::Free {
+            if support.motion == Freedom::Free {
                 let stiffness = torsional(&support, of(&lumped.radius, body), body)?;
                 if stiffness != 0.0 {
                     let id = SpringId::Torsional(body);
@@ -116,9 +116,9 @@ impl LumpedModel {
     }
 
     /// K = Σ k b bᵀ, n×n, N/m.
-    pub fn stiffness(&self) -> Mat<f64> {
+    pub fn stiffness(&self) -> DMatrix<f64> {
         let n = self.coordinates.count();
-        let mut matrix = Mat::zeros(n, n);
+        let mut matrix = DMatrix::zeros(n, n);
         for spring in &self.springs {
             for row in &spring.rows {
                 for &(i, bi) in row {

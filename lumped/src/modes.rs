@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use faer::Mat;
+use nalgebra::DMatrix;
 use serde::Serialize;
 
 use dynamics::{generalized_symmetric, group_equal, split};
@@ -36,7 +36,7 @@ pub struct ModeGroup {
     /// Shares in the kinds, averaged over the group.
     pub participation: Participation,
     /// M-orthonormal mode shapes, one a column (n×multiplicity).
-    pub vectors: Mat<f64>,
+    pub vectors: DMatrix<f64>,
 }
 
 /// All modes of a model, ascending.
@@ -63,7 +63,7 @@ impl NaturalModes {
     ///
     /// # Errors
     /// As [`NaturalModes::of`].
-    pub fn with_stiffness(model: &LumpedModel, k: &Mat<f64>) -> Result<Self, LumpedError> {
+    pub fn with_stiffness(model: &LumpedModel, k: &DMatrix<f64>) -> Result<Self, LumpedError> {
         let solution = generalized_symmetric(k, &model.mass)?;
         let n = model.mass.len();
         let root: Vec<f64> = model.mass.iter().map(|m| m.sqrt()).collect();
@@ -89,7 +89,7 @@ impl NaturalModes {
                 }
                 let share =
                     |k: usize| own.iter().map(|d| d.shares[k]).sum::<f64>() / own.len() as f64;
-                let vectors = Mat::from_fn(n, own.len(), |i, j| {
+                let vectors = DMatrix::from_fn(n, own.len(), |i, j| {
                     (0..m).map(|c| phi(i, c) * own[j].coefficients[c]).sum::<f64>()
                 });
                 groups.push(ModeGroup {

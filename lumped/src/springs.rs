@@ -93,14 +93,14 @@ impl Rows<'_> {
         ])
     }
 
-    /// How far the back flanks of a sun mesh approach each other: the mesh seen in the mirror along the
+    /// How far the backside flanks of a sun mesh approach each other: the mesh seen in the mirror along the
     /// line of centres, where y, u and η turn round.
-    pub(crate) fn sun_back(&self, n: usize, psi: f64, alpha: f64) -> Vec<(usize, f64)> {
+    pub(crate) fn sun_backside(&self, n: usize, psi: f64, alpha: f64) -> Vec<(usize, f64)> {
         turned(self.sun_mesh(n, psi, -alpha))
     }
 
     /// The same of a ring mesh.
-    pub(crate) fn ring_back(&self, n: usize, psi: f64, alpha: f64) -> Vec<(usize, f64)> {
+    pub(crate) fn ring_backside(&self, n: usize, psi: f64, alpha: f64) -> Vec<(usize, f64)> {
         turned(self.ring_mesh(n, psi, -alpha))
     }
 

@@ -11,10 +11,10 @@
 //! Everything is seen so that the torque on the sun is counter-clockwise: for the other sense the set is
 //! mirrored, and displacements are mirrored back.
 
-use faer::Mat;
+use nalgebra::DMatrix;
 
 use dynamics::{
-    AverageAcceleration, Coupled, CoupledState, Coupling, CouplingLaw, LinearPart, Motion,
+    AverageAcceleration, Coupled, CoupledState, Coupling, CouplingForce, LinearPart, Motion,
 };
 use gearset::{Facing, MeshLaw, Scene};
 
@@ -23,11 +23,11 @@ use crate::error::LumpedError;
 use crate::model::LumpedModel;
 use crate::springs::{Rows, SpringId};
 
-/// Front flanks, then back flanks, as couplings.
+/// Front flanks, then backside flanks, as couplings.
 #[derive(Debug, Clone)]
-struct Tables(MeshLaw);
+struct MeshLawCouplings(MeshLaw);
 
-impl CouplingLaw for Tables {
+impl CouplingForce for MeshLawCouplings {
     #[inline]
     fn answer(&self, coupling: usize, step_in_cycle: usize, deflection: f64) -> (f64, f64) {
         self.0.force(coupling, step_in_cycle, deflection)
@@ -42,7 +42,7 @@ impl CouplingLaw for Tables {
 #[derive(Debug, Clone)]
 pub struct TimeVarying {
     coordinates: Coordinates,
-    system: Coupled<Tables>,
+    system: Coupled<MeshLawCouplings>,
     /// r in u = r θ by the body order, one for all planets, m.
     radii: [f64; 4],
     sign: f64,
@@ -98,7 +98,7 @@ impl TimeVarying {
             radius(Body::Planet(0), lumped.radius.planet)?,
         ];
         let n = model.coordinates.count();
-        let mut stiffness = Mat::zeros(n, n);
+        let mut stiffness = DMatrix::zeros(n, n);
         let is_mesh = |id| matches!(id, SpringId::SunMesh(_) | SpringId::RingMesh(_));
         for spring in model.springs.iter().filter(|s| !is_mesh(s.id)) {
             for row in &spring.rows {
@@ -110,17 +110,18 @@ impl TimeVarying {
             }
         }
         // C = α M + β_b K_s
-        let damping = Mat::from_fn(n, n, |i, j| {
+        let damping = DMatrix::from_fn(n, n, |i, j| {
             let own = if i == j { d.mass_proportional_per_s * model.mass[i] } else { 0.0 };
             own + d.bearing_s * stiffness[(i, j)]
         });
-        let [front, back] = couplings(&model, lumped, d.stiffness_proportional_s, &law);
+        let [front, backside] = couplings(&model, lumped, d.stiffness_proportional_s, &law);
         let steps = law.steps();
         let rule = AverageAcceleration::new(1.0 / (mesh_frequency_hz * steps as f64))
             .map_err(|_| LumpedError::Frequency(mesh_frequency_hz))?;
         let part = LinearPart { mass: model.mass.clone(), damping, stiffness };
         let side_loads = side_loads(&model, &law);
-        let mut system = Coupled::new(&part, &front, &back, Tables(law), rule, steps)?;
+        let mut system =
+            Coupled::new(&part, &front, &backside, MeshLawCouplings(law), rule, steps)?;
         for (step, load) in side_loads.iter().enumerate() {
             system.add_in_cycle(step, load)?;
         }
@@ -164,13 +165,13 @@ impl TimeVarying {
         (central, (0..self.planets).map(|n| of(Body::Planet(n), planet)).collect())
     }
 
-    /// Force of each mesh: sun meshes, ring meshes, then their back flanks if the law has them, N.
+    /// Force of each mesh: sun meshes, ring meshes, then their backside flanks if the law has them, N.
     pub fn mesh_forces(&self, out: &mut Vec<f64>) {
         out.clear();
         out.extend_from_slice(self.system.forces());
     }
 
-    /// Deflections in the same order, m; of back flanks, how far they approach each other.
+    /// Deflections in the same order, m; of backside flanks, how far they approach each other.
     pub fn mesh_deflections(&self) -> Vec<f64> {
         self.system.deflections()
     }
@@ -230,7 +231,7 @@ impl TimeVarying {
         &self.coordinates
     }
 
-    /// Mean iterations of a step so far, and steps in which back flanks took part.
+    /// Mean iterations of a step so far, and steps in which backside flanks took part.
     pub fn counts(&self) -> (f64, u64) {
         let steps = self.system.state().steps.max(1) as f64;
         (self.system.iterations as f64 / steps, self.system.with_rare)
@@ -261,7 +262,7 @@ fn side_loads(model: &LumpedModel, law: &MeshLaw) -> Vec<Vec<f64>> {
     (0..law.steps()).map(of_step).collect()
 }
 
-/// Front and back flanks of all meshes as couplings, the lag of each its damped share of β.
+/// Front and backside flanks of all meshes as couplings, the lag of each its damped share of β.
 fn couplings(
     model: &LumpedModel,
     lumped: &gearset::LumpedInput,
@@ -277,17 +278,17 @@ fn couplings(
         Coupling { row, offset: 0.0, lag: beta * law.damping_share(mesh) }
     };
     let mut front = Vec::with_capacity(2 * planets);
-    let mut back = Vec::with_capacity(2 * planets);
+    let mut backside = Vec::with_capacity(2 * planets);
     for (n, &psi) in model.psi.iter().enumerate() {
         front.push(coupling(n, rows.sun_mesh(n, psi, angle.sun_planet)));
-        back.push(coupling(n, rows.sun_back(n, psi, angle.sun_planet)));
+        backside.push(coupling(n, rows.sun_backside(n, psi, angle.sun_planet)));
     }
     for (n, &psi) in model.psi.iter().enumerate() {
         front.push(coupling(planets + n, rows.ring_mesh(n, psi, angle.ring_planet)));
-        back.push(coupling(planets + n, rows.ring_back(n, psi, angle.ring_planet)));
+        backside.push(coupling(planets + n, rows.ring_backside(n, psi, angle.ring_planet)));
     }
-    if !law.has_backs() {
-        back.clear();
+    if !law.has_backside() {
+        backside.clear();
     }
-    [front, back]
+    [front, backside]
 }

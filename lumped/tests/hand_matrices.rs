@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use gearset::{AddedMass, Motion, PlanetPositions, Scene, Torsional};
+use gearset::{AddedMass, Freedom, PlanetPositions, Scene, Torsional};
 use lumped::{Axis, Body, LumpedError, LumpedModel};
 
 /// The Lin & Parker set.
@@ -130,8 +130,8 @@ fn what_is_fixed_to_the_planets_adds_to_their_mass_and_to_nothing_else() {
 fn held_members_leave_and_take_nothing_else_with_them() {
     let mut scene = lin_parker();
     let whole = LumpedModel::from_scene(&scene).unwrap().stiffness();
-    scene.supports.ring.motion = Motion::Held;
-    scene.supports.carrier.motion = Motion::RotationHeld;
+    scene.supports.ring.motion = Freedom::Held;
+    scene.supports.carrier.motion = Freedom::RotationHeld;
     let model = LumpedModel::from_scene(&scene).unwrap();
     let part = model.stiffness();
     let kept: Vec<usize> = (0..18).filter(|i| ![2, 3, 4, 5].contains(i)).collect();

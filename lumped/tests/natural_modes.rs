@@ -82,7 +82,7 @@ fn exact_rotational(scene: &Scene) -> f64 {
     for axis in Axis::ALL {
         coordinates.push((0..n).map(|p| index(Body::Planet(p), axis)).collect());
     }
-    let reduced = faer::Mat::from_fn(4, 4, |i, j| {
+    let reduced = nalgebra::DMatrix::from_fn(4, 4, |i, j| {
         let sum: f64 = coordinates[i]
             .iter()
             .flat_map(|&p| coordinates[j].iter().map(move |&q| (p, q)))

@@ -10,6 +10,8 @@ use experiments::modal::{
 use fe_contact::FeError;
 use fe_contact::statics::{Bodies, Races};
 use gearset::{Fidelity, LoadCase, Scene, SceneKind};
+#[cfg(feature = "charts")]
+use validation::ValidationError;
 
 use crate::arguments::{Impulse, TableFormat};
 use crate::error::CommandError;
@@ -17,7 +19,7 @@ use crate::output;
 
 use super::impulse_output::ImpulseOutput;
 use super::statics::{operating_torque, refused};
-use super::{fe_refused, impulse_figures, impulse_text, read_scene, unfit};
+use super::{fe_refused, impulse_text, read_scene, unfit};
 
 /// Parts of the torque for which `--band` linearises.
 const BAND_TORQUES: [f64; 3] = [0.5, 1.0, 1.5];
@@ -31,6 +33,7 @@ const BAND_HIGHEST_HZ: f64 = 16e3;
 /// All that was found.
 pub(super) struct Found {
     pub(super) scene: Scene,
+    #[cfg_attr(not(feature = "charts"), expect(dead_code, reason = "figures show its gears"))]
     pub(super) bodies: Bodies,
     pub(super) races: Races,
     pub(super) test: ImpulseTest,
@@ -44,15 +47,25 @@ pub(super) fn run(arguments: &Impulse, out: &mut dyn Write) -> Result<(), Comman
     let scene = read_scene(&arguments.scene)?;
     let settings = settings(arguments, &scene)?;
     let found = find(arguments, scene, &settings)?;
+    #[cfg(feature = "charts")]
     if let Some(folder) = &arguments.figures {
-        impulse_figures::draw(&found, folder)?;
+        draw(&found, folder)?;
     }
     let result = ImpulseOutput::new(&found);
     match arguments.format {
         TableFormat::Json => output::json(out, &result),
-        TableFormat::Csv => Ok(impulse_text::csv(&result, out)?),
+        TableFormat::Csv => impulse_text::csv(&result, out),
         TableFormat::Text => Ok(impulse_text::text(&found.scene.title, &result, out)?),
     }
+}
+
+#[cfg(feature = "charts")]
+fn draw(found: &Found, folder: &std::path::Path) -> Result<(), CommandError> {
+    use crate::figures::{ModalTest, of_impulse_test, save};
+    let Found { scene, bodies, races, test, band, .. } = found;
+    let geometry = &bodies.geometry;
+    let figures = of_impulse_test(&ModalTest { scene, geometry, races, test, band: band.as_ref() });
+    Ok(save(&figures.map_err(ValidationError::from)?, folder)?)
 }
 
 /// What is asked for, if it makes sense.
@@ -81,7 +94,11 @@ fn settings(arguments: &Impulse, scene: &Scene) -> Result<ImpulseSettings, Comma
         let reason = "`dynamics.fidelity` = \"full\" has no small linearisation: take \"modal\"";
         return Err(refused("--band", reason));
     }
-    if arguments.band && arguments.format == TableFormat::Csv && arguments.figures.is_none() {
+    #[cfg(feature = "charts")]
+    let is_drawn = arguments.figures.is_some();
+    #[cfg(not(feature = "charts"))]
+    let is_drawn = false;
+    if arguments.band && arguments.format == TableFormat::Csv && !is_drawn {
         let reason = "CSV has one row a mode and no place for it: take text, json or --figures";
         return Err(refused("--band", reason));
     }

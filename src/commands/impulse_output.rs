@@ -1,8 +1,7 @@
 //! JSON of `impulse`.
 
-use experiments::modal::{Decay, FeMode, FrequencyBand, ModeBand, Preload, Spread};
+use experiments::modal::{Decay, FeMode, FrequencyBand, ModeBand, Preload, Spread, beside};
 use gearset::Fidelity;
-use lumped::ModeType;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -170,33 +169,13 @@ impl ImpulseOutput {
     }
 }
 
-/// Modes of both routes beside each other: within a type by order if there are as many of both, else
-/// each identified one beside the nearest linearised one that is left.
+/// Modes of both routes beside each other.
 fn modes(identified: &[FeMode], linear: &[(FeMode, f64)]) -> Vec<ModeEntry> {
-    let mut left: Vec<&(FeMode, f64)> = linear.iter().collect();
-    let count = |t: ModeType| {
-        let own = linear.iter().filter(|(m, _)| m.mode_type == t).count();
-        (identified.iter().filter(|m| m.mode_type == t).count(), own)
-    };
-    let mut entries = Vec::new();
-    for mode in identified {
-        let (ours, theirs) = count(mode.mode_type);
-        let off = |j: usize| (left[j].0.frequency_hz - mode.frequency_hz).abs();
-        let mut own = (0..left.len()).filter(|j| left[*j].0.mode_type == mode.mode_type);
-        let beside = match ours == theirs {
-            true => own.next(),
-            false => own.min_by(|a, b| off(*a).total_cmp(&off(*b))),
-        };
-        entries.push((mode.mode_type, Some(mode), beside.map(|j| left.remove(j))));
-    }
-    entries.extend(left.into_iter().map(|l| (l.0.mode_type, None, Some(l))));
-    let frequency = |e: &(ModeType, Option<&FeMode>, Option<&(FeMode, f64)>)| {
-        e.1.or(e.2.map(|l| &l.0)).map_or(0.0, |m| m.frequency_hz)
-    };
-    entries.sort_by(|a, b| frequency(a).total_cmp(&frequency(b)));
-    let entry = |(mode_type, ours, theirs): (ModeType, Option<&FeMode>, Option<&(FeMode, f64)>)| {
-        let both = ours.zip(theirs);
-        ModeEntry {
+    let linearised: Vec<&FeMode> = linear.iter().map(|(mode, _)| mode).collect();
+    let entry = |(i, j): (Option<usize>, Option<usize>)| {
+        let (ours, theirs) = (i.map(|i| &identified[i]), j.map(|j| &linear[j]));
+        let mode_type = ours.or(theirs.map(|l| &l.0))?.mode_type;
+        Some(ModeEntry {
             mode_type: mode_type.name().into(),
             identified: ours.map(|m| IdentifiedMode {
                 frequency_hz: m.frequency_hz,
@@ -209,11 +188,12 @@ fn modes(identified: &[FeMode], linear: &[(FeMode, f64)]) -> Vec<ModeEntry> {
                 shares: shares(m),
                 mesh_sensitivity: *influence,
             }),
-            difference_percent: both
+            difference_percent: ours
+                .zip(theirs)
                 .map(|(a, (b, _))| 100.0 * (a.frequency_hz / b.frequency_hz - 1.0)),
-        }
+        })
     };
-    entries.into_iter().map(entry).collect()
+    beside(identified, &linearised).into_iter().filter_map(entry).collect()
 }
 
 fn shares(mode: &FeMode) -> KindShares {

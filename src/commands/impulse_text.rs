@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use crate::error::CommandError;
 use crate::output::{self, share};
 
 use super::impulse_output::{BandMode, BandOutput, ImpulseOutput, ModeEntry, PulseEntry};
@@ -154,14 +155,9 @@ fn band(band: &BandOutput, out: &mut dyn Write) -> std::io::Result<()> {
     }
 }
 
-pub(super) fn csv(result: &ImpulseOutput, out: &mut dyn Write) -> std::io::Result<()> {
-    writeln!(
-        out,
-        "mode_type,frequency_hz,damping_ratio,rotational,translational,planet,linearised_hz,linearised_damping_ratio,difference_percent,mesh_sensitivity"
-    )?;
-    for m in &result.modes {
-        let ModeEntry { mode_type, identified, linearised, difference_percent } = m;
-        let (ours, theirs) = (identified.as_ref(), linearised.as_ref());
+pub(super) fn csv(result: &ImpulseOutput, out: &mut dyn Write) -> Result<(), CommandError> {
+    let row = |m: &ModeEntry| {
+        let (ours, theirs) = (m.identified.as_ref(), m.linearised.as_ref());
         let cells = [
             ours.map(|i| i.frequency_hz),
             ours.map(|i| i.damping_ratio),
@@ -170,11 +166,23 @@ pub(super) fn csv(result: &ImpulseOutput, out: &mut dyn Write) -> std::io::Resul
             ours.map(|i| i.shares.planet),
             theirs.map(|l| l.frequency_hz),
             theirs.map(|l| l.damping_ratio),
-            *difference_percent,
+            m.difference_percent,
             theirs.map(|l| l.mesh_sensitivity),
         ];
         let cells = cells.map(|x| x.map_or_else(String::new, |x| x.to_string()));
-        writeln!(out, "{mode_type},{}", cells.join(","))?;
-    }
-    Ok(())
+        std::iter::once(m.mode_type.clone()).chain(cells).collect()
+    };
+    let header = [
+        "mode_type",
+        "frequency_hz",
+        "damping_ratio",
+        "rotational",
+        "translational",
+        "planet",
+        "linearised_hz",
+        "linearised_damping_ratio",
+        "difference_percent",
+        "mesh_sensitivity",
+    ];
+    output::csv(out, &header, result.modes.iter().map(row))
 }

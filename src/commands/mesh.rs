@@ -4,7 +4,7 @@ use std::io::Write;
 
 use fe_contact::body::{CarrierBody, GearBody};
 use fe_contact::export::{Drawn, vtu};
-use fe_contact::mesh::Side;
+use fe_contact::fe_mesh::Side;
 use fe_contact::statics::Bodies;
 use gearset::{LumpedInput, Scene, SceneKind};
 use schemars::JsonSchema;
@@ -14,7 +14,6 @@ use crate::arguments::{Format, MeshVerb};
 use crate::error::CommandError;
 use crate::output;
 
-use super::mesh_picture::assembled;
 use super::{fe_refused, read_scene, save};
 
 /// `mesh --format json`.
@@ -67,8 +66,9 @@ pub(crate) fn run(arguments: &MeshVerb, out: &mut dyn Write) -> Result<(), Comma
     let scene = read_scene(path)?;
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let carrier = carrier(&scene, &bodies).transpose().map_err(fe_refused(path))?;
+    #[cfg(feature = "charts")]
     if let Some(file) = &arguments.svg {
-        save(file, &assembled(&scene, &bodies, carrier.as_ref()))?;
+        save(file, &crate::figures::meshes(&scene, &bodies, carrier.as_ref()).svg())?;
     }
     let gears = [bodies.sun.as_ref(), Some(&bodies.planet), bodies.ring.as_ref()];
     let gears: Vec<&GearBody> = gears.into_iter().flatten().collect();
@@ -83,7 +83,6 @@ pub(crate) fn run(arguments: &MeshVerb, out: &mut dyn Write) -> Result<(), Comma
     let mut list: Vec<BodyOutput> =
         gears.iter().map(|body| gear(body, &bodies, scene.lumped.as_ref())).collect();
     if let Some(body) = &carrier {
-        let n = body.flexibility.nrows();
         let lumped = scene.lumped.as_ref();
         list.push(BodyOutput {
             body: "carrier".into(),
@@ -96,7 +95,7 @@ pub(crate) fn run(arguments: &MeshVerb, out: &mut dyn Write) -> Result<(), Comma
                 Some(l.inertia_over_r2.carrier? * bodies.geometry.center_distance.powi(2))
             }),
             teeth: None,
-            seat_flexibility_m_per_n: Some(body.flexibility.trace() / n as f64),
+            seat_flexibility_m_per_n: Some(body.mean_seat_flexibility()),
         });
     }
     let result = MeshOutput { bodies: list };

@@ -1,18 +1,11 @@
 //! One module a verb.
 
-mod chart;
 mod compare;
-mod fidelity_chart;
-mod figure;
 mod impulse;
-mod impulse_figures;
 mod impulse_output;
 mod impulse_text;
 mod mesh;
-mod mesh_picture;
-mod mode_shapes;
 mod modes;
-mod picture;
 mod report;
 mod rules;
 mod scene;
@@ -21,37 +14,64 @@ mod static_approach;
 mod static_pair;
 mod static_set;
 mod statics;
+mod suite_progress;
 mod sweep;
 mod sweep_output;
 #[cfg(feature = "parquet")]
 mod sweep_parquet;
 mod sweep_store;
 mod validate;
-
-// Pictures of sweeps and of what is kept, and what they are drawn with.
-mod axes;
-mod canvas;
-mod cost_chart;
-mod harmonic_column;
-mod sweep_figures;
-mod torque_figures;
-mod torque_map;
-mod waterfall;
+mod verdict_table;
+mod verdict_text;
 
 pub use schema::schemas;
 
+use std::ffi::OsString;
 use std::io::Write;
 use std::path::Path;
 
+use clap::Parser;
 use gearset::Scene;
 
 use crate::arguments::{Arguments, Verb};
 use crate::error::CommandError;
 
+/// Runs the command: results to `out`, everything else to `err`. Returns the exit code: 0 ran and
+/// every check passed, 1 ran and a check failed, 2 bad input.
+pub fn run<I, T>(arguments: I, out: &mut dyn Write, err: &mut (dyn Write + Send)) -> u8
+where
+    I: IntoIterator<Item = T>,
+    T: Into<OsString> + Clone,
+{
+    let parsed = match Arguments::try_parse_from(arguments) {
+        Ok(parsed) => parsed,
+        Err(refusal) => {
+            let asked_for_help = !refusal.use_stderr();
+            let styled = refusal.render().ansi().to_string();
+            // Nothing sensible is left to do if even this cannot be written.
+            let _ = if asked_for_help { write!(out, "{styled}") } else { write!(err, "{styled}") };
+            return if asked_for_help { 0 } else { 2 };
+        }
+    };
+    match dispatch(parsed, out, err) {
+        Ok(true) => 0,
+        Ok(false) => 1,
+        Err(error) if error.is_closed_pipe() => 0,
+        Err(error) => {
+            let _ = write!(err, "{}", error.rendered());
+            2
+        }
+    }
+}
+
 /// Runs one verb; whether every check passed.
-pub(crate) fn dispatch(arguments: Arguments, out: &mut dyn Write) -> Result<bool, CommandError> {
+fn dispatch(
+    arguments: Arguments,
+    out: &mut dyn Write,
+    err: &mut (dyn Write + Send),
+) -> Result<bool, CommandError> {
     match arguments.verb {
-        Verb::Validate(arguments) => validate::run(&arguments, out),
+        Verb::Validate(arguments) => validate::run(&arguments, out, err),
         Verb::Modes(arguments) => modes::run(&arguments, out).map(|()| true),
         Verb::Rules(arguments) => rules::run(&arguments, out).map(|()| true),
         Verb::Static(arguments) => statics::run(&arguments, out).map(|()| true),
@@ -70,15 +90,11 @@ fn read_scene(path: &Path) -> Result<Scene, CommandError> {
 
 /// Writes a file, creating its folder if need be.
 fn save(path: &Path, text: &str) -> Result<(), CommandError> {
-    save_bytes(path, text.as_bytes())
-}
-
-fn save_bytes(path: &Path, bytes: &[u8]) -> Result<(), CommandError> {
     let failed = |source| CommandError::File { what: "cannot write", path: path.into(), source };
     if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
         std::fs::create_dir_all(folder).map_err(failed)?;
     }
-    std::fs::write(path, bytes).map_err(failed)
+    std::fs::write(path, text).map_err(failed)
 }
 
 /// A scene that FE/contact cannot work with, or cannot be solved.

@@ -5,17 +5,11 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use gearset::{Geometry, Phasing};
-use validation::{PublishedScene, Reference, Status, ValidationError, Verdict, scene, steps};
+use validation::{Reference, Status, ValidationError, Verdict, steps};
 
 use crate::error::CommandError;
 
-use super::chart::campbell;
-use super::cost_chart::cost_chart;
-use super::fidelity_chart::fidelity_chart;
-use super::torque_figures::kept_peaks;
-use super::torque_map::torque_map;
-use super::validate::{cells, status_word};
+use super::verdict_table::{cells, status_word};
 
 /// Writes the folder, creating it if need be.
 pub(crate) fn write(verdict: &Verdict, folder: &Path) -> Result<(), CommandError> {
@@ -29,6 +23,15 @@ pub(crate) fn write(verdict: &Verdict, folder: &Path) -> Result<(), CommandError
     };
     save("verdict.json", serde_json::to_string_pretty(verdict)? + "\n")?;
     save("verdict.md", markdown(verdict)?)?;
+    #[cfg(feature = "charts")]
+    draw(verdict, folder)?;
+    Ok(())
+}
+
+#[cfg(feature = "charts")]
+fn draw(verdict: &Verdict, folder: &Path) -> Result<(), CommandError> {
+    use crate::figures;
+    use validation::{PublishedScene, scene};
     let sets = [
         ("campbell_4p", PublishedScene::Oh58FourPlanets),
         ("campbell_3p", PublishedScene::Oh58ThreePlanets),
@@ -37,28 +40,31 @@ pub(crate) fn write(verdict: &Verdict, folder: &Path) -> Result<(), CommandError
         let scene = scene(which).map_err(ValidationError::from)?;
         let (_, modes) =
             super::modes::solve(&scene).map_err(|_| ValidationError::Incomplete("lumped model"))?;
-        if let Some(picture) = campbell(&scene, &modes) {
+        if let Some(picture) = figures::campbell(&scene, &modes) {
             picture.save(folder, name)?;
         }
     }
     let reference = Reference::load().map_err(ValidationError::from)?;
-    if let Some(picture) = fidelity_chart(verdict, &reference.ladder) {
+    if let Some(picture) = figures::fidelities(verdict, &reference.ladder) {
         picture.save(folder, "fidelities")?;
     }
-    cost_chart(&reference.ladder).save(folder, "cost")?;
-    torque_map(&reference.torque_map, paper_gamma()?).save(folder, "torque_map")?;
+    figures::cost(&reference.ladder).save(folder, "cost")?;
+    figures::torque_map(&reference.torque_map, paper_gamma()?).save(folder, "torque_map")?;
     let kept = reference.torque_peaks;
     let mut systems: Vec<&str> = kept.peak.iter().map(|p| p.system.as_str()).collect();
     systems.dedup();
     for system in systems {
         let name = format!("torque_{}", system.replace(' ', "_"));
-        kept_peaks(&kept, system).save(folder, &name)?;
+        figures::torque_peaks(&kept, system).save(folder, &name)?;
     }
     Ok(())
 }
 
+#[cfg(feature = "charts")]
 /// γ of the published four-planet set, cycles.
 fn paper_gamma() -> Result<f64, ValidationError> {
+    use gearset::{Geometry, Phasing};
+    use validation::{PublishedScene, scene};
     let scene = scene(PublishedScene::Oh58FourPlanets)?;
     let incomplete = || ValidationError::Incomplete("geometry");
     let geometry = Geometry::from_scene(&scene).ok().ok_or_else(incomplete)?;

@@ -80,12 +80,11 @@ pub(super) fn run(
     match arguments.format {
         TableFormat::Json => output::json(out, &result),
         TableFormat::Csv => {
-            writeln!(out, "pair,force_n,peak_pressure_pa")?;
-            for p in &result.pairs {
+            let rows = result.pairs.iter().map(|p| {
                 let peak = p.peak_pressure_pa.map_or(String::new(), |p| p.to_string());
-                writeln!(out, "{},{},{peak}", p.index, p.force_n)?;
-            }
-            Ok(())
+                vec![p.index.to_string(), p.force_n.to_string(), peak]
+            });
+            output::csv(out, &["pair", "force_n", "peak_pressure_pa"], rows)
         }
         TableFormat::Text => {
             let (name, force) = (kind.name(), result.force_n);

@@ -1,20 +1,18 @@
 //! `static` of one mesh alone.
 
 use std::io::Write;
-use std::path::Path;
 
-use fe_contact::contact::hertz;
-use fe_contact::statics::{Bodies, PairAtPhase, PairCycle, pair_cycle};
+use fe_contact::statics::{Bodies, PairAtPhase, PairCycle, ToothPairLoad, pair_cycle};
 use gearset::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::arguments::{Static, TableFormat};
 use crate::error::CommandError;
+#[cfg(feature = "charts")]
+use crate::figures;
 use crate::output;
 
-use super::figure::{Curve, Labels, chart};
-use super::picture::Picture;
 use super::{fe_refused, statics, unfit};
 
 /// `static --format json` of a gear pair. δ = r_b · elastic rotation of the driving gear, the driven
@@ -57,6 +55,13 @@ pub(super) struct PairLoad {
     pub(super) peak_pressure_pa: f64,
 }
 
+impl PairLoad {
+    pub(super) fn of(load: &ToothPairLoad) -> Self {
+        let ToothPairLoad { index, force, peak_pressure } = *load;
+        Self { index, force_n: force, peak_pressure_pa: peak_pressure }
+    }
+}
+
 pub(super) fn run(
     arguments: &Static,
     scene: &Scene,
@@ -69,12 +74,13 @@ pub(super) fn run(
     let solver = statics::solver(arguments.solver);
     let positions = arguments.positions as usize;
     let cycle = pair_cycle(&bodies, kind, force, positions, solver).map_err(fe_refused(path))?;
+    #[cfg(feature = "charts")]
     if let Some(folder) = &arguments.figures {
-        draw(scene, &cycle, folder)?;
+        figures::save(&figures::of_pair_cycle(&scene.title, &cycle), folder)?;
     }
     match arguments.format {
         TableFormat::Json => output::json(out, &describe(&cycle)),
-        TableFormat::Csv => Ok(csv(&cycle, out)?),
+        TableFormat::Csv => csv(&cycle, out),
         TableFormat::Text => Ok(text(scene, &bodies, &cycle, out)?),
     }
 }
@@ -84,15 +90,7 @@ fn describe(cycle: &PairCycle) -> PairOutput {
         phase: p.phase,
         transmission_error_um: p.deflection * 1e6,
         tangent_stiffness_n_per_m: p.step_tangent,
-        pairs: p
-            .pairs
-            .iter()
-            .map(|l| PairLoad {
-                index: l.index,
-                force_n: l.force,
-                peak_pressure_pa: l.peak_pressure,
-            })
-            .collect(),
+        pairs: p.pairs.iter().map(PairLoad::of).collect(),
     };
     PairOutput {
         mesh: cycle.kind.name().into(),
@@ -106,18 +104,23 @@ fn describe(cycle: &PairCycle) -> PairOutput {
     }
 }
 
-fn csv(cycle: &PairCycle, out: &mut dyn Write) -> std::io::Result<()> {
-    writeln!(
-        out,
-        "phase,transmission_error_um,tangent_stiffness_n_per_m,pair,force_n,peak_pressure_pa"
-    )?;
-    for p in &cycle.positions {
-        for l in &p.pairs {
-            let (te, k) = (p.deflection * 1e6, p.step_tangent);
-            writeln!(out, "{},{te},{k},{},{},{}", p.phase, l.index, l.force, l.peak_pressure)?;
-        }
-    }
-    Ok(())
+fn csv(cycle: &PairCycle, out: &mut dyn Write) -> Result<(), CommandError> {
+    let row = |p: &PairAtPhase, l: &ToothPairLoad| {
+        let own = [p.phase, p.deflection * 1e6, p.step_tangent].map(|x| x.to_string());
+        let mut row = Vec::from(own);
+        row.extend([l.index.to_string(), l.force.to_string(), l.peak_pressure.to_string()]);
+        row
+    };
+    let rows = cycle.positions.iter().flat_map(|p| p.pairs.iter().map(move |l| row(p, l)));
+    let header = [
+        "phase",
+        "transmission_error_um",
+        "tangent_stiffness_n_per_m",
+        "pair",
+        "force_n",
+        "peak_pressure_pa",
+    ];
+    output::csv(out, &header, rows)
 }
 
 fn text(
@@ -130,6 +133,7 @@ fn text(
     let name = cycle.kind.name();
     let (count, force) = (cycle.positions.len(), cycle.force);
     writeln!(out, "{name} mesh under {force:.2} N, {count} positions of the mesh cycle")?;
+    // N/(mm µm)
     let per_width = |k: f64| k / bodies.geometry.face_width * 1e-9;
     for (what, k) in [
         ("mean secant stiffness F/δ", cycle.mean_secant_stiffness()),
@@ -158,94 +162,5 @@ fn text(
         ]);
     }
     writeln!(out, "{table}")?;
-    let factorisations: usize = cycle.positions.iter().map(|p| p.iterations).sum();
-    writeln!(out, "contact iterations: {factorisations}")
-}
-
-/// Stiffness and load sharing over the cycle, pressure where one pair stands mid-path.
-fn draw(scene: &Scene, cycle: &PairCycle, folder: &Path) -> Result<(), CommandError> {
-    let about = format!("{}, {} mesh, {:.0} N", scene.title, cycle.kind.name(), cycle.force);
-    let over = |f: &dyn Fn(&PairAtPhase) -> f64| -> Vec<(f64, f64)> {
-        cycle.positions.iter().map(|p| (p.phase, f(p))).collect()
-    };
-    let stiffness = chart(
-        &Labels {
-            title: "Mesh stiffness over the mesh cycle",
-            subtitle: about.clone(),
-            x: "phase, mesh cycles",
-            y: "stiffness, 1e6 N/m",
-        },
-        &[
-            Curve::new("secant F/δ", over(&|p| cycle.force / p.deflection * 1e-6)),
-            Curve::new("tangent ΔF/Δδ", over(&|p| p.step_tangent * 1e-6)).dashed(),
-        ],
-    );
-    stiffness.save(folder, "mesh_stiffness")?;
-    let error = chart(
-        &Labels {
-            title: "Transmission error",
-            subtitle: about.clone(),
-            x: "phase, mesh cycles",
-            y: "δ, µm",
-        },
-        &[Curve::new("", over(&|p| p.deflection * 1e6))],
-    );
-    error.save(folder, "transmission_error")?;
-    // One tooth pair followed from its first to its last touch.
-    let mut shares: Vec<(f64, f64)> = Vec::new();
-    for p in &cycle.positions {
-        for l in &p.pairs {
-            shares.push((p.phase + l.index as f64, l.force * 1e-3));
-        }
-    }
-    shares.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let sharing = chart(
-        &Labels {
-            title: "Load of one tooth pair on its way",
-            subtitle: about.clone(),
-            x: "base pitches from the start of the path of contact",
-            y: "force, kN",
-        },
-        &[Curve::new("", shares)],
-    );
-    sharing.save(folder, "load_sharing")?;
-    let heaviest = cycle.positions.iter().max_by(|a, b| largest(a).total_cmp(&largest(b)));
-    if let Some(p) = heaviest {
-        pressure(p, about).save(folder, "pressure")?;
-    }
-    Ok(())
-}
-
-fn largest(p: &PairAtPhase) -> f64 {
-    p.pairs.iter().map(|l| l.force).fold(0.0, f64::max)
-}
-
-/// Pressure of the heaviest pair with its fitted ellipse.
-fn pressure(p: &PairAtPhase, about: String) -> Picture {
-    let forces = &p.answer.pair_forces;
-    let k = (0..forces.len()).max_by(|a, b| forces[*a].total_cmp(&forces[*b])).unwrap_or(0);
-    let cells = &p.table.pairs[k];
-    let own = &p.answer.cell_forces[cells.first..cells.first + cells.x.len()];
-    let area = cells.width * p.table.face_width;
-    let pressures: Vec<f64> = own.iter().map(|f| f / area).collect();
-    let points = cells.x.iter().zip(&pressures).map(|(x, p)| (x * 1e3, p * 1e-6)).collect();
-    let mut curves = vec![Curve::new("cells", points)];
-    if let Some(fit) = hertz::fit(&cells.x, &pressures) {
-        let reach = 0.5 * cells.width * cells.x.len() as f64;
-        let ellipse = (0..=200)
-            .map(|i| -reach + 2.0 * reach * f64::from(i) / 200.0)
-            .map(|x| (x * 1e3, fit.pressure(x) * 1e-6))
-            .collect();
-        curves.push(Curve::new("ellipse fitted to p²", ellipse).dashed());
-    }
-    let (phase, index) = (p.phase, cells.index);
-    chart(
-        &Labels {
-            title: "Contact pressure",
-            subtitle: format!("{about}; pair {index} at phase {phase:.3}"),
-            x: "along the flank, mm",
-            y: "pressure, MPa",
-        },
-        &curves,
-    )
+    writeln!(out, "contact iterations: {}", cycle.iterations())
 }

@@ -1,7 +1,6 @@
 //! `static` of a whole set.
 
 use std::io::Write;
-use std::path::Path;
 
 use fe_contact::statics::{Bodies, Imperfections, MeshState, SetCycle, SetState, StaticSet};
 use gearset::{LoadCase, Scene};
@@ -10,9 +9,10 @@ use serde::Serialize;
 
 use crate::arguments::{Static, TableFormat};
 use crate::error::CommandError;
+#[cfg(feature = "charts")]
+use crate::figures;
 use crate::output;
 
-use super::figure::{Curve, Labels, chart};
 use super::static_pair::PairLoad;
 use super::{fe_refused, statics, unfit};
 
@@ -68,8 +68,8 @@ struct SetPosition {
     /// x radial, y tangential.
     planets: Vec<Displacement>,
     meshes: Vec<MeshPosition>,
-    /// Meshes whose back flanks touch; phases count in the mirrored mesh.
-    back_flanks: Vec<MeshPosition>,
+    /// Meshes whose backside flanks touch; phases count in the mirrored mesh.
+    backside_flanks: Vec<MeshPosition>,
 }
 
 /// Displacement of a race.
@@ -126,43 +126,33 @@ pub(super) fn run(
     }
     let radius = bodies.geometry.sun.as_ref().map(|sun| sun.base_radius);
     let radius = radius.ok_or_else(|| unfit(path, "`geometry.sun` is absent"))?;
+    #[cfg(feature = "charts")]
     if let Some(folder) = &arguments.figures {
-        draw(scene, &cycles, radius, folder)?;
+        figures::save(&figures::of_set_cycles(&scene.title, &cycles, radius), folder)?;
     }
     match arguments.format {
         TableFormat::Json => {
             let torques = cycles.iter().map(|c| describe(c, radius)).collect();
             output::json(out, &SetOutput { torques })
         }
-        TableFormat::Csv => Ok(csv(&cycles, out)?),
+        TableFormat::Csv => csv(&cycles, out),
         TableFormat::Text => Ok(text(scene, &cycles, radius, out)?),
     }
 }
 
-/// Mean, least and largest of a quantity over a cycle.
-fn spread(cycle: &SetCycle, of: impl Fn(&SetState) -> f64) -> (f64, f64, f64) {
-    let values: Vec<f64> = cycle.states.iter().map(of).collect();
-    let mean = values.iter().sum::<f64>() / values.len() as f64;
-    let least = values.iter().fold(f64::INFINITY, |a, v| a.min(*v));
-    (mean, least, values.iter().fold(f64::NEG_INFINITY, |a, v| a.max(*v)))
-}
-
 fn describe(cycle: &SetCycle, radius: f64) -> TorqueOutput {
     let (rotation, translation) = cycle.sun_rms();
-    let (mean, least, largest) = spread(cycle, |s| s.transmission_error(radius));
+    let error = cycle.transmission_error(radius);
     let summary = |(i, m): (usize, &MeshState)| {
-        let (mean_force_n, least_force_n, largest_force_n) = spread(cycle, |s| s.meshes[i].force);
+        let force = cycle.mesh_force(i);
         MeshSummary {
             mesh: m.kind.name().into(),
             planet: m.planet,
-            mean_force_n,
-            least_force_n,
-            largest_force_n,
-            mean_secant_stiffness_n_per_m: spread(cycle, |s| {
-                s.meshes[i].force / s.meshes[i].approach
-            })
-            .0,
-            mean_tangent_stiffness_n_per_m: spread(cycle, |s| s.meshes[i].tangent).0,
+            mean_force_n: force.mean,
+            least_force_n: force.least,
+            largest_force_n: force.largest,
+            mean_secant_stiffness_n_per_m: cycle.mesh_secant_stiffness(i).mean,
+            mean_tangent_stiffness_n_per_m: cycle.mesh_tangent_stiffness(i).mean,
         }
     };
     let displacement = |[x, y, theta]: [f64; 3]| Displacement {
@@ -177,15 +167,7 @@ fn describe(cycle: &SetCycle, radius: f64) -> TorqueOutput {
         force_n: m.force,
         approach_um: m.approach * 1e6,
         tangent_stiffness_n_per_m: m.tangent,
-        pairs: m
-            .pairs
-            .iter()
-            .map(|l| PairLoad {
-                index: l.index,
-                force_n: l.force,
-                peak_pressure_pa: l.peak_pressure,
-            })
-            .collect(),
+        pairs: m.pairs.iter().map(PairLoad::of).collect(),
     };
     let position = |s: &SetState| SetPosition {
         position: s.position,
@@ -194,56 +176,68 @@ fn describe(cycle: &SetCycle, radius: f64) -> TorqueOutput {
         sun: displacement(s.central[2]),
         planets: s.planets.iter().map(|p| displacement(*p)).collect(),
         meshes: s.meshes.iter().map(mesh).collect(),
-        back_flanks: s.backs.iter().filter(|m| m.force > 0.0).map(mesh).collect(),
+        backside_flanks: s.backside.iter().filter(|m| m.force > 0.0).map(mesh).collect(),
     };
     let rest = cycle.kinematic_rest(radius);
+    let (equilibrium_iterations, contact_iterations) = cycle.iterations();
     TorqueOutput {
         torque_nm: cycle.torque_nm,
         loaded_phase_shift_cycles: cycle.lead,
         sun_rotation_rms_urad: rotation * 1e6,
         sun_translation_rms_um: translation * 1e6,
-        transmission_error_mean_um: mean * 1e6,
-        transmission_error_peak_to_peak_um: (largest - least) * 1e6,
+        transmission_error_mean_um: error.mean * 1e6,
+        transmission_error_peak_to_peak_um: error.peak_to_peak() * 1e6,
         meshes: cycle.states[0].meshes.iter().enumerate().map(summary).collect(),
         positions: cycle.states.iter().map(position).collect(),
         work: Work {
-            equilibrium_iterations: cycle.states.iter().map(|s| s.iterations).sum(),
-            contact_iterations: cycle.states.iter().map(|s| s.contact_iterations).sum(),
-            worst_residual: cycle.states.iter().fold(0.0, |a, s| a.max(s.residual)),
+            equilibrium_iterations,
+            contact_iterations,
+            worst_residual: cycle.worst_residual(),
             kinematic_rest_um: 1e6 * rest.largest,
             kinematic_rest_share: rest.share,
         },
     }
 }
 
-fn csv(cycles: &[SetCycle], out: &mut dyn Write) -> std::io::Result<()> {
-    writeln!(
-        out,
-        "torque_nm,position,mesh,planet,phase,mesh_force_n,pair,force_n,peak_pressure_pa,sun_x_um,sun_y_um,sun_rotation_urad"
-    )?;
+fn csv(cycles: &[SetCycle], out: &mut dyn Write) -> Result<(), CommandError> {
+    let mut rows = Vec::new();
     for cycle in cycles {
         for s in &cycle.states {
-            let [x, y, theta] = s.central[2].map(|v| v * 1e6);
+            let sun = s.central[2].map(|v| v * 1e6);
             for m in &s.meshes {
                 for l in &m.pairs {
-                    writeln!(
-                        out,
-                        "{},{},{},{},{},{},{},{},{},{x},{y},{theta}",
-                        cycle.torque_nm,
-                        s.position,
-                        m.kind.name(),
-                        m.planet,
-                        m.phase,
-                        m.force,
-                        l.index,
-                        l.force,
-                        l.peak_pressure
-                    )?;
+                    let mut row = vec![
+                        cycle.torque_nm.to_string(),
+                        s.position.to_string(),
+                        m.kind.name().to_owned(),
+                        m.planet.to_string(),
+                        m.phase.to_string(),
+                        m.force.to_string(),
+                        l.index.to_string(),
+                        l.force.to_string(),
+                        l.peak_pressure.to_string(),
+                    ];
+                    row.extend(sun.map(|v| v.to_string()));
+                    rows.push(row);
                 }
             }
         }
     }
-    Ok(())
+    let header = [
+        "torque_nm",
+        "position",
+        "mesh",
+        "planet",
+        "phase",
+        "mesh_force_n",
+        "pair",
+        "force_n",
+        "peak_pressure_pa",
+        "sun_x_um",
+        "sun_y_um",
+        "sun_rotation_urad",
+    ];
+    output::csv(out, &header, rows)
 }
 
 fn text(
@@ -335,90 +329,6 @@ fn text(
             ]);
         }
         writeln!(out, "{table}")?;
-    }
-    Ok(())
-}
-
-fn draw(
-    scene: &Scene,
-    cycles: &[SetCycle],
-    radius: f64,
-    folder: &Path,
-) -> Result<(), CommandError> {
-    let Some(cycle) = cycles.last() else { return Ok(()) };
-    let about = format!("{}, {} N·m on the sun", scene.title, cycle.torque_nm);
-    let error = cycle.states.iter().map(|s| (s.position, s.transmission_error(radius) * 1e6));
-    let picture = chart(
-        &Labels {
-            title: "Transmission error of the set",
-            subtitle: about.clone(),
-            x: "mesh cycle",
-            y: "r_b θ of the sun, µm",
-        },
-        &[Curve::new("", error.collect())],
-    );
-    picture.save(folder, "transmission_error")?;
-    let curves: Vec<Curve> = cycle.states[0]
-        .meshes
-        .iter()
-        .enumerate()
-        .map(|(i, m)| {
-            let forces = cycle.states.iter().map(|s| (s.position, s.meshes[i].force * 1e-3));
-            let curve = Curve::new(format!("{} {}", m.kind.name(), m.planet), forces.collect());
-            if m.kind == gearset::MeshKind::RingPlanet { curve.dashed() } else { curve }
-        })
-        .collect();
-    let picture = chart(
-        &Labels {
-            title: "Load sharing between the planets",
-            subtitle: about.clone(),
-            x: "mesh cycle",
-            y: "mesh force, kN",
-        },
-        &curves,
-    );
-    picture.save(folder, "load_sharing")?;
-    let stiffness: Vec<Curve> = cycle.states[0]
-        .meshes
-        .iter()
-        .enumerate()
-        .filter(|(_, m)| m.planet == 0)
-        .map(|(i, m)| {
-            let values = cycle.states.iter().map(|s| (s.position, s.meshes[i].tangent * 1e-6));
-            Curve::new(m.kind.name(), values.collect())
-        })
-        .collect();
-    let picture = chart(
-        &Labels {
-            title: "Tangent mesh stiffness, planet 0",
-            subtitle: about,
-            x: "mesh cycle",
-            y: "∂F/∂δ, 1e6 N/m",
-        },
-        &stiffness,
-    );
-    picture.save(folder, "mesh_stiffness")?;
-    if cycles.len() > 1 {
-        let (r0, t0) = cycles[0].sun_rms();
-        let over = |of: &dyn Fn(&SetCycle) -> f64| -> Vec<(f64, f64)> {
-            cycles.iter().map(|c| (c.torque_nm.abs(), of(c))).collect()
-        };
-        let picture = chart(
-            &Labels {
-                title: "Static deflection of the sun against torque",
-                subtitle: format!(
-                    "{}, RMS about the mean, over that at the first torque",
-                    scene.title
-                ),
-                x: "sun torque, N·m",
-                y: "normalised RMS",
-            },
-            &[
-                Curve::new("rotation", over(&|c| c.sun_rms().0 / r0)),
-                Curve::new("translation", over(&|c| c.sun_rms().1 / t0)).dashed(),
-            ],
-        );
-        picture.save(folder, "rms_against_torque")?;
     }
     Ok(())
 }

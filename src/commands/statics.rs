@@ -3,7 +3,9 @@
 use std::io::Write;
 use std::path::Path;
 
-use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, InteriorPoint, Lemke};
+#[cfg(feature = "interior_point")]
+use fe_contact::complementarity::InteriorPoint;
+use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, Lemke};
 use gearset::{LoadCase, Scene, SceneKind};
 
 use crate::arguments::{ContactSolver, Static};
@@ -40,6 +42,7 @@ pub(super) fn solver(which: ContactSolver) -> &'static (dyn ComplementaritySolve
     match which {
         ContactSolver::ActiveSet => &ActiveSet,
         ContactSolver::Lemke => &Lemke,
+        #[cfg(feature = "interior_point")]
         ContactSolver::InteriorPoint => &InteriorPoint,
     }
 }

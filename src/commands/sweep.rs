@@ -5,8 +5,8 @@ use std::path::Path;
 
 use experiments::ExperimentError;
 use experiments::sweep::{
-    Direction, FeModel, LawModel, Memory, Plan, PlanError, PointStore, SteadySettings, Sweep,
-    SweepModel, even_speeds, naturals, run as run_plan,
+    Direction, FeModel, Memory, MeshLawModel, Plan, PlanError, PointStore, SteadySettings, Sweep,
+    SweepModel, even_speeds, run as run_plan,
 };
 use fe_contact::statics::{Bodies, Imperfections};
 use gearset::{Fidelity, LoadCase, Scene, SceneKind};
@@ -17,7 +17,6 @@ use crate::error::CommandError;
 use crate::output;
 
 use super::statics::{operating_torque, refused};
-use super::sweep_figures::{self, Context};
 use super::sweep_output::{SweepOutput, text, write_csv};
 use super::sweep_store::{Folder, Manifest, write_whole};
 use super::{fe_refused, read_scene, unfit};
@@ -35,12 +34,12 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let model: Box<dyn SweepModel> = match (arguments.model, scene.dynamics.fidelity) {
         (Model::FeContact, Fidelity::MeshLaw) => {
-            Box::new(LawModel::new(&scene, &bodies, task.case)?)
+            Box::new(MeshLawModel::new(&scene, &bodies, task.case)?)
         }
         (Model::FeContact, _) => {
             Box::new(FeModel::new(&scene, &bodies, Imperfections::default(), task.case))
         }
-        (Model::Lumped, _) => Box::new(LawModel::new(&scene, &bodies, task.case)?.lumped()),
+        (Model::Lumped, _) => Box::new(MeshLawModel::new(&scene, &bodies, task.case)?.lumped()),
     };
     let model = model.as_ref();
     let mut sweep = task.march(model, &task.plan, "plan.json")?;
@@ -52,18 +51,9 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
             sweep.chains.extend(more.chains);
         }
     }
+    #[cfg(feature = "charts")]
     if let Some(folder) = &arguments.figures {
-        let found = match scene.dynamics.fidelity {
-            // No small linearisation: the quasi-static one stands in for lines in a picture.
-            Fidelity::Full | Fidelity::MeshLaw => {
-                naturals(&quasi_static(&scene), &bodies, task.case)?
-            }
-            _ => naturals(&scene, &bodies, task.case)?,
-        };
-        let natural: Vec<_> = found.iter().map(|n| (n.frequency_hz, n.mode_type)).collect();
-        let context =
-            Context { scene: &scene, torque_nm: task.case.sun_torque_nm, natural: &natural };
-        sweep_figures::draw(&sweep, &context, folder)?;
+        draw(&scene, &bodies, task.case, &sweep, folder)?;
     }
     let result = SweepOutput::new(&scene, task.case.sun_torque_nm, &task.plan.steady, &sweep);
     if let Some(folder) = &arguments.out {
@@ -92,10 +82,24 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
     }
 }
 
-fn quasi_static(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
-    scene.dynamics.fidelity = Fidelity::QuasiStatic;
-    scene
+#[cfg(feature = "charts")]
+fn draw(
+    scene: &Scene,
+    bodies: &Bodies,
+    case: LoadCase,
+    sweep: &Sweep,
+    folder: &Path,
+) -> Result<(), CommandError> {
+    use crate::figures::{SweepContext, of_sweep, save};
+    let mut linear = scene.clone();
+    if matches!(scene.dynamics.fidelity, Fidelity::Full | Fidelity::MeshLaw) {
+        // No small linearisation: the quasi-static one stands in for lines in a picture.
+        linear.dynamics.fidelity = Fidelity::QuasiStatic;
+    }
+    let found = experiments::sweep::naturals(&linear, bodies, case)?;
+    let natural: Vec<_> = found.iter().map(|n| (n.frequency_hz, n.mode_type)).collect();
+    let context = SweepContext { scene, torque_nm: case.sun_torque_nm, natural: &natural };
+    Ok(save(&of_sweep(sweep, &context), folder)?)
 }
 
 /// What is asked for.

@@ -65,7 +65,7 @@ struct PointHead<'a> {
     residual: f64,
     is_steady: bool,
     between_harmonics: Option<f64>,
-    back_contact: f64,
+    backside_contact: f64,
     times_load_doubled: usize,
     kinematic_rest_m: Option<f64>,
     kinematic_rest_share: Option<f64>,
@@ -137,7 +137,7 @@ impl SweepOutput {
                 residual: p.residual,
                 is_steady: p.is_steady,
                 between_harmonics: p.between,
-                back_contact: p.back_contact,
+                backside_contact: p.backside_contact,
                 times_load_doubled: p.size,
                 kinematic_rest_m: p.kinematic_rest_m,
                 kinematic_rest_share: p.kinematic_rest_share,
@@ -155,7 +155,7 @@ pub(super) fn write_csv(
 ) -> Result<(), CommandError> {
     let mut writer = csv::Writer::from_writer(out);
     for row in sweep.rows(scene) {
-        writer.serialize(row).map_err(|e| CommandError::Output(std::io::Error::other(e)))?;
+        writer.serialize(row)?;
     }
     Ok(writer.flush()?)
 }
@@ -179,18 +179,9 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
     let (mut unsteady, mut beyond) = (0, 0);
     for chain in &result.chains {
         for p in &chain.points {
-            let strongest = |response: Response| {
-                let of = |l: usize| (response.amplitude(&p.state, l), l);
-                (1..=result.harmonics).map(of).fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
-            };
-            let rotation = strongest(Response::Rotation(Part::Sun));
-            let translation = strongest(Response::Translation(Part::Sun));
-            let lost = p
-                .state
-                .lines
-                .iter()
-                .filter(|l| l.coordinate == experiments::sweep::Coordinate::ContactLoss);
-            let lost = lost.fold(0.0f64, |a, l| a.max(l.amplitude));
+            let rotation = Response::Rotation(Part::Sun).strongest(&p.state, result.harmonics);
+            let translation =
+                Response::Translation(Part::Sun).strongest(&p.state, result.harmonics);
             unsteady += usize::from(!p.is_steady);
             beyond += usize::from(p.is_beyond_linear);
             table.add_row([
@@ -201,7 +192,7 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
                 rotation.1.to_string(),
                 format!("{:.4}", 1e6 * translation.0),
                 if translation.0 > 1e-12 { translation.1.to_string() } else { "–".into() },
-                output::share(lost),
+                output::share(p.state.largest_contact_loss()),
                 p.cycles.to_string(),
                 format!("{:.0e}", p.residual),
             ]);

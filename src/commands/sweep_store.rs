@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use crate::error::CommandError;
 
 /// Format of the folder; another one is refused.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// What a folder holds points of.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -2,23 +2,52 @@
 
 use std::io::Write;
 
-use anstyle::{AnsiColor, Style};
-use comfy_table::Cell;
-use validation::{Check, Status, Value, Verdict};
+use std::path::Path;
+
+use serde::Serialize;
+use validation::{
+    Asks, Models, Reference, Registry, ValidationError, Verdict, judge_model, validate_with,
+};
+
+use experiments::models::Recorded;
 
 use crate::arguments::{Format, Profile, Validate};
 use crate::error::CommandError;
 use crate::output;
 
-use super::report;
+use super::suite_progress::SuiteProgress;
+use super::{report, verdict_table, verdict_text};
 
-pub(crate) fn run(arguments: &Validate, out: &mut dyn Write) -> Result<bool, CommandError> {
+pub(crate) fn run(
+    arguments: &Validate,
+    out: &mut dyn Write,
+    err: &mut (dyn Write + Send),
+) -> Result<bool, CommandError> {
     let profile = match arguments.profile {
         Profile::Quick => validation::Profile::Quick,
         Profile::Full => validation::Profile::Full,
     };
-    let verdict = validation::validate(profile, &arguments.only)?;
+    if arguments.controls {
+        return suites(arguments, out).map(|()| true);
+    }
+    let verdict = match &arguments.recorded {
+        Some(folder) => recorded(folder, &arguments.only)?,
+        None => {
+            let shown = SuiteProgress::new(err);
+            let verdict = validate_with(profile, &arguments.only, &|progress| shown.tell(progress));
+            shown.finish();
+            verdict?
+        }
+    };
     if verdict.checks.is_empty() {
+        if let Some(folder) = &arguments.recorded {
+            let reason = format!(
+                "{}: no suite of `{}` finds the scenes it asks about in these tables; `scene` is the title of a scene file",
+                folder.display(),
+                arguments.only
+            );
+            return Err(CommandError::Argument { argument: "--recorded", reason });
+        }
         let reason = format!("`{}`: no check's id starts so", arguments.only);
         return Err(CommandError::Argument { argument: "--only", reason });
     }
@@ -28,7 +57,12 @@ pub(crate) fn run(arguments: &Validate, out: &mut dyn Write) -> Result<bool, Com
     match arguments.format {
         Format::Json => output::json(out, &verdict)?,
         Format::Text => {
-            write_text(&verdict, out)?;
+            if arguments.details {
+                verdict_table::write(&verdict, out)?;
+            } else {
+                let reference = Reference::load().map_err(ValidationError::from)?;
+                verdict_text::write(&verdict, &reference.misses, out)?;
+            }
             if let Some(folder) = &arguments.report {
                 writeln!(out, "report in {}", folder.display())?;
             }
@@ -37,108 +71,66 @@ pub(crate) fn run(arguments: &Validate, out: &mut dyn Write) -> Result<bool, Com
     Ok(verdict.is_sound())
 }
 
-fn write_text(verdict: &Verdict, out: &mut dyn Write) -> std::io::Result<()> {
-    let header = ["check", "expected", "actual", "unit", "difference %", "tolerance", "verdict"];
-    let mut table = output::table(&header, &[1, 2, 4, 5]);
-    for check in &verdict.checks {
-        let [expected, actual, difference, tolerance] = cells(check);
-        table.add_row(vec![
-            Cell::new(&check.id),
-            Cell::new(expected),
-            Cell::new(actual),
-            Cell::new(&check.unit),
-            Cell::new(difference),
-            Cell::new(tolerance),
-            Cell::new(status_word(check.status)),
-        ]);
-    }
-    for line in table.lines() {
-        writeln!(out, "{}", coloured(&line))?;
-    }
-    for check in verdict.checks.iter().filter(|c| c.status == Status::Fail) {
-        writeln!(out, "FAILED {}: {} (source: {})", check.id, check.title, check.source)?;
-        let (expected, actual) = (&check.expected, &check.actual);
-        writeln!(out, "  expected {expected:?}, actual {actual:?}")?;
-    }
-    if verdict.missed > 0 {
-        writeln!(out, "misses are analysed in checks/misses.toml")?;
-    }
-    let Verdict { passed, missed, failed, .. } = verdict;
-    writeln!(out, "{passed} passed, {missed} missed, {failed} failed")
+/// Tables of somebody's results, asked every question that they answer.
+fn recorded(folder: &Path, only: &str) -> Result<Verdict, CommandError> {
+    let refused = |reason: String| CommandError::Argument { argument: "--recorded", reason };
+    let tables = Recorded::read(folder).map_err(|e| refused(e.to_string()))?;
+    let models = Models {
+        modal: (!tables.modes.is_empty()).then_some(&tables),
+        at_rest: (!tables.mesh_cycles.is_empty()).then_some(&tables),
+        in_time: (!tables.steady_states.is_empty()).then_some(&tables),
+    };
+    judge_model(&models, only).map_err(|e| refused(e.to_string()))
 }
 
-/// Colours the verdict at the end of a table line; the stream drops colour off a terminal.
-fn coloured(line: &str) -> String {
-    let line = line.trim_end();
-    let colours = [
-        (Status::Pass, AnsiColor::Green),
-        (Status::Miss, AnsiColor::Yellow),
-        (Status::Fail, AnsiColor::Red),
-    ];
-    for (status, colour) in colours {
-        if let Some(front) = line.strip_suffix(status_word(status)) {
-            let style = Style::new().fg_color(Some(colour.into()));
-            return format!("{front}{style}{}{style:#}", status_word(status));
-        }
-    }
-    line.to_owned()
+/// One suite with its negative controls.
+#[derive(Serialize)]
+struct SuiteControls {
+    suite: String,
+    asks: Asks,
+    about: String,
+    controls: Vec<ControlOutput>,
 }
 
-/// Expected, actual, difference and tolerance for people.
-pub(crate) fn cells(check: &Check) -> [String; 4] {
-    let digits = if check.tolerance.absolute > 0.0 {
-        (1.0 - check.tolerance.absolute.log10()).ceil().clamp(0.0, 4.0) as usize
-    } else {
-        0
-    };
-    let is_tiny = check.tolerance.absolute > 0.0 && check.tolerance.absolute < 1e-4;
-    let number = |x: f64| match is_tiny && x != 0.0 {
-        true => format!("{x:.1e}"),
-        false => format!("{x:.digits$}"),
-    };
-    let shown = |value: &Value| match value {
-        Value::Number(x) => number(*x),
-        Value::Text(text) => text.clone(),
-        Value::List(list) => summary(list),
-    };
-    let tolerance = match check.tolerance.absolute {
-        0.0 => "exact".to_owned(),
-        t if t < 1e-4 => format!("{t:.0e}"),
-        t => format!("{t:.4}").trim_end_matches('0').trim_end_matches('.').to_owned(),
-    };
-    [
-        shown(&check.expected),
-        check.actual.as_ref().map_or("–".into(), shown),
-        check.difference_percent.map_or("–".into(), |d| format!("{d:+.3}")),
-        tolerance,
-    ]
+/// What is spoilt, and the check that must fail for it.
+#[derive(Serialize)]
+struct ControlOutput {
+    id: String,
+    spoils: String,
+    breaks: String,
 }
 
-/// A list for a table cell: equal neighbours counted, long lists cut.
-fn summary(list: &[Value]) -> String {
-    let words: Vec<String> = list
-        .iter()
-        .map(|v| match v {
-            Value::Number(x) => format!("{x}"),
-            Value::Text(t) => t.clone(),
-            Value::List(l) => summary(l),
+/// Lists the suites whose names begin with `--only`, with their negative controls.
+fn suites(arguments: &Validate, out: &mut dyn Write) -> Result<(), CommandError> {
+    let registry = Registry::load().map_err(ValidationError::from)?;
+    let own = registry.suite.into_iter().filter(|s| s.name.starts_with(&arguments.only));
+    let list: Vec<SuiteControls> = own
+        .map(|suite| SuiteControls {
+            suite: suite.name,
+            asks: suite.asks,
+            about: suite.about,
+            controls: suite
+                .control
+                .into_iter()
+                .map(|c| ControlOutput { id: c.id, spoils: c.spoils, breaks: c.breaks })
+                .collect(),
         })
         .collect();
-    if words.len() > 1 && words.iter().all(|w| *w == words[0]) {
-        return format!("{} × ({})", words.len(), words[0]);
+    if let Format::Json = arguments.format {
+        return output::json(out, &list);
     }
-    if words.len() > 2 {
-        return format!("{} entries", words.len());
+    for suite in &list {
+        let asks = match suite.asks {
+            Asks::NaturalModes => "natural modes of any model",
+            Asks::MeshCycle => "mesh cycles at rest of any model",
+            Asks::SteadyStates => "steady states of any model",
+            Asks::OwnNumerics => "our own models",
+        };
+        writeln!(out, "{} ({asks}): {}", suite.suite, suite.about)?;
+        for control in &suite.controls {
+            writeln!(out, "  {}", control.id)?;
+            writeln!(out, "    {}: {} must fail", control.spoils, control.breaks)?;
+        }
     }
-    words.join("; ")
-}
-
-/// Word shown for a status.
-pub(crate) fn status_word(status: Status) -> &'static str {
-    match status {
-        Status::Pass => "pass",
-        Status::Fail => "FAIL",
-        Status::Miss => "miss",
-        Status::NotRun => "not run",
-    }
+    Ok(())
 }

@@ -1,10 +1,10 @@
 //! One checked number or statement, with everything a reader needs to judge it.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What a value is held against.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ReferenceKind {
     /// A closed form or a theorem.
@@ -13,26 +13,31 @@ pub enum ReferenceKind {
     Published,
     /// The same quantity from another program.
     OtherCode,
+    /// Worked out by hand from published numbers.
+    HandCalculation,
+    /// Two of our own routes to one number, convergence, or symmetry of our own output.
+    Consistency,
     /// An earlier value of our own: only drift is judged.
     OwnRegression,
 }
 
 /// What became of a check.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// Within tolerance.
     Pass,
     /// Outside tolerance.
     Fail,
-    /// A published value that the sound model does not reproduce, listed with its analysis.
+    /// A published value that the sound model does not reproduce, or a limit of our own that it misses, listed
+    /// with its analysis.
     Miss,
     /// Not part of the profile that ran.
     NotRun,
 }
 
 /// A checked value.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Value {
     /// A number.
@@ -68,10 +73,13 @@ impl<T: Into<Value>> From<Vec<T>> for Value {
 }
 
 /// How far a value may be off, and why so far.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Tolerance {
     /// Largest |actual − expected| in the unit of the check; 0 for statements and counts.
     pub absolute: f64,
+    /// Range of actual − expected in the unit of the check, where it is not the same to both sides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub band: Option<[f64; 2]>,
     /// Reason for the figure.
     pub reason: String,
 }
@@ -79,12 +87,24 @@ pub struct Tolerance {
 impl Tolerance {
     /// For statements, words and counts.
     pub fn exact() -> Self {
-        Self { absolute: 0.0, reason: "a statement or a count: it holds or it does not".into() }
+        Self {
+            absolute: 0.0,
+            band: None,
+            reason: "a statement or a count: it holds or it does not".into(),
+        }
+    }
+
+    /// Whether a difference is within it; one that is not finite never is.
+    pub fn allows(&self, difference: f64) -> bool {
+        match self.band {
+            Some([low, high]) => difference >= low && difference <= high,
+            None => difference.abs() <= self.absolute,
+        }
     }
 }
 
 /// One check.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Check {
     /// Stable id, e.g. `table2.lumped.1`.
     pub id: String,
@@ -100,6 +120,9 @@ pub struct Check {
     pub actual: Option<Value>,
     /// Unit of both.
     pub unit: String,
+    /// What else came out, for people; nothing is judged by it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
     /// 100 (actual − expected)/expected, for numbers with a non-zero expectation.
     pub difference_percent: Option<f64>,
     /// Tolerance.
@@ -126,7 +149,7 @@ pub struct Subject<'a> {
 impl Check {
     /// A number against a number. A non-finite actual value fails.
     pub fn number(subject: Subject<'_>, expected: f64, actual: f64, tolerance: Tolerance) -> Self {
-        let within = (actual - expected).abs() <= tolerance.absolute;
+        let within = tolerance.allows(actual - expected);
         let difference_percent =
             (expected != 0.0 && actual.is_finite()).then(|| 100.0 * (actual - expected) / expected);
         Self::assemble(subject, expected, actual, difference_percent, tolerance, within)
@@ -166,6 +189,7 @@ impl Check {
             expected: expected.into(),
             actual: Some(actual.into()),
             unit: subject.unit.to_owned(),
+            note: None,
             difference_percent,
             tolerance,
             status: if within { Status::Pass } else { Status::Fail },
@@ -184,7 +208,7 @@ mod tests {
 
     #[test]
     fn a_number_outside_its_tolerance_fails_and_so_does_nan() {
-        let tolerance = || Tolerance { absolute: 0.5, reason: String::new() };
+        let tolerance = || Tolerance { absolute: 0.5, band: None, reason: String::new() };
         let status = |actual| Check::number(subject(), 100.0, actual, tolerance()).status;
         assert_eq!(status(100.5), Status::Pass);
         assert_eq!(status(100.6), Status::Fail);

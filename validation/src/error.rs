@@ -15,6 +15,9 @@ pub enum ValidationError {
     /// A scene of the catalogue has no operating point.
     #[error(transparent)]
     Kinematics(#[from] gearset::KinematicsError),
+    /// A model that was asked, in its own words.
+    #[error("the model: {0}")]
+    Model(#[source] experiments::ModelError),
     /// A plan of a sweep.
     #[error(transparent)]
     Plan(#[from] experiments::sweep::PlanError),
@@ -36,4 +39,17 @@ pub enum ValidationError {
     /// A lumped model.
     #[error(transparent)]
     Lumped(#[from] lumped::LumpedError),
+}
+
+impl ValidationError {
+    /// Whether a table was asked for what it does not hold.
+    pub(crate) fn is_not_recorded(&self) -> bool {
+        let source = match self {
+            Self::Model(source) | Self::Experiment(experiments::ExperimentError::Model(source)) => {
+                source
+            }
+            _ => return false,
+        };
+        source.is::<experiments::models::NotRecorded>()
+    }
 }

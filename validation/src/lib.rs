@@ -5,31 +5,44 @@ mod check;
 mod compare;
 pub mod effects;
 mod error;
+mod glob;
+mod judged;
 mod ledger;
 mod own_truth;
+pub mod parameter_bands;
+mod progress;
 mod reference;
+mod registry;
 mod suites;
 mod verdict;
+mod worst;
 
 pub use catalogue::{PublishedScene, scene};
 pub use check::{Check, ReferenceKind, Status, Subject, Tolerance, Value};
 pub use compare::{Comparison, ListedMode, Match, ModelMode, compare};
 pub use error::ValidationError;
+pub use judged::Judged;
 pub use ledger::{Assumption, Figure, Ledger};
 pub use own_truth::{
     ExactPeak, ExactPeaks, FullSweep, FullSweepPoint, Ladder, LadderFidelity, MapCell,
     RotationalPeak, TorqueMap, TorquePeak, TorquePeaks,
 };
+pub use progress::Progress;
 pub use reference::{Frequencies, Miss, ModeTable, Reference, ReferenceError};
+pub use registry::{Asks, CheckEntry, ControlEntry, Registry, SuiteEntry};
+pub use suites::Models;
 pub use suites::explained::{Step, steps};
 pub use suites::statements::{Statement, judge};
 pub use suites::tables::Table;
 pub use verdict::Verdict;
+pub use worst::{paired, peak_to_peak, worst};
 
 /// How much to run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Profile {
     /// What a minute or two allows; the other checks are listed as not run.
+    #[default]
     Quick,
     /// Everything.
     Full,
@@ -41,9 +54,32 @@ pub enum Profile {
 /// If the reference data, a scene of the catalogue or a model cannot be used: a defect of the
 /// program, not a failed check.
 pub fn validate(profile: Profile, only: &str) -> Result<Verdict, ValidationError> {
+    validate_with(profile, only, &|_| ())
+}
+
+/// The same; `progress` hears of every suite that is begun and finished.
+///
+/// # Errors
+/// As [`validate`].
+pub fn validate_with(
+    profile: Profile,
+    only: &str,
+    progress: &(dyn Fn(Progress<'_>) + Sync),
+) -> Result<Verdict, ValidationError> {
     let reference = Reference::load()?;
-    let checks = suites::all(&reference, profile, only)?;
+    let checks = suites::all(&reference, profile, only, progress)?;
     let concerned: Vec<Miss> =
         reference.misses.iter().filter(|m| m.id.starts_with(only)).cloned().collect();
     Ok(Verdict::new(checks, &concerned))
+}
+
+/// Asks a foreign model every question of the suites that it can answer, and judges the answers as our own:
+/// by the same functions, the same reference data and the same tolerances. Misses of our own models are no
+/// excuse for others.
+///
+/// # Errors
+/// [`ValidationError::Model`] with the model's own error if it fails at a question that it takes.
+pub fn judge_model(models: &Models<'_>, only: &str) -> Result<Verdict, ValidationError> {
+    let reference = Reference::load()?;
+    Ok(Verdict::new(suites::foreign(&reference, models, only)?, &[]))
 }

@@ -19,7 +19,7 @@ pub struct FullImpulse {
 }
 
 /// Modes of one set, ascending.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 #[allow(missing_docs)] // the keys say it all, units included
 pub struct FullImpulseSet {
@@ -211,6 +211,25 @@ pub struct MapCell {
     pub third_below_rotation: bool,
 }
 
+impl MapCell {
+    /// Least growth of any of the three peaks from one torque to the next, a ratio: 1 or more if every peak
+    /// grows with torque.
+    pub fn least_growth_of_a_step(&self) -> f64 {
+        let of = |list: &[f64]| list.windows(2).map(|w| w[1] / w[0]).fold(f64::INFINITY, f64::min);
+        of(&self.translational).min(of(&self.rotational)).min(of(&self.third))
+    }
+
+    /// Whether the sun's rotation has outgrown its translation at rest at the same torques as in
+    /// resonance.
+    pub fn keeps_static_order(&self) -> bool {
+        let is_above = |rotation: &[f64], translation: &[f64]| -> Vec<bool> {
+            rotation.iter().zip(translation).skip(1).map(|(r, t)| r > t).collect()
+        };
+        is_above(&self.rotational_static, &self.translational_static)
+            == is_above(&self.rotational, &self.translational)
+    }
+}
+
 /// `ladder.toml`: error against cost.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -267,6 +286,20 @@ impl LadderFidelity {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn growth_of_every_step_says_what_the_map_says_and_the_static_order_need_not_hold() {
+        let map = crate::Reference::load().unwrap().torque_map;
+        for cell in &map.cell {
+            assert_eq!(cell.least_growth_of_a_step() > 1.0, cell.monotonic, "{cell:?}");
+        }
+        let kept = map.cell.iter().filter(|cell| cell.keeps_static_order()).count();
+        assert!(0 < kept && kept < map.cell.len());
+        let mut cell = map.cell[0].clone();
+        (cell.rotational_static, cell.translational_static) =
+            (cell.rotational.clone(), cell.translational.clone());
+        assert!(cell.keeps_static_order());
+    }
 
     /// A truth that was remade asks for the ladder to be.
     #[test]

@@ -2,8 +2,11 @@
 
 use serde::Deserialize;
 
-use crate::check::Tolerance;
+use crate::check::{Check, ReferenceKind, Status, Subject, Tolerance};
+use crate::judged::Judged;
 use crate::own_truth::{ExactPeaks, FullImpulse, FullSweep, Ladder, TorqueMap, TorquePeaks};
+use crate::parameter_bands::ParameterBands;
+use crate::registry::{ControlEntry, Registry};
 
 /// Why the reference data could not be used.
 #[derive(Debug, thiserror::Error)]
@@ -17,9 +20,12 @@ pub enum ReferenceError {
         #[source]
         cause: Box<toml::de::Error>,
     },
-    /// A check has no tolerance.
-    #[error("checks/tolerances.toml has no entry for the check `{0}`")]
-    NoTolerance(String),
+    /// A check or control that is declared nowhere.
+    #[error("checks/registry.toml declares no check or control `{0}`")]
+    Undeclared(String),
+    /// A check that is judged by a band of parameters which is not kept.
+    #[error("kept/parameter_bands.toml has no band for `{0}`")]
+    NoBand(String),
 }
 
 /// All reference data.
@@ -45,7 +51,10 @@ pub struct Reference {
     pub ladder: Ladder,
     /// Listed misses.
     pub misses: Vec<Miss>,
-    tolerances: Vec<ToleranceEntry>,
+    /// How far open parameters move what is held against the paper.
+    pub parameter_bands: ParameterBands,
+    /// Every check, declared once.
+    pub registry: Registry,
 }
 
 /// Frequencies by type, Hz.
@@ -169,7 +178,7 @@ pub struct Calculix {
 }
 
 /// One mesh at one phase and approach.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[allow(missing_docs)] // the keys say it all, units included
 pub struct CalculixCase {
     pub id: String,
@@ -183,7 +192,7 @@ pub struct CalculixCase {
 }
 
 /// One tooth pair of it.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[allow(missing_docs)] // the keys say it all, units included
 pub struct CalculixPair {
     pub index: i64,
@@ -203,21 +212,6 @@ pub struct Miss {
     pub tolerance: f64,
     /// Why the published value is not reproduced.
     pub analysis: String,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ToleranceEntry {
-    checks: String,
-    absolute: Option<f64>,
-    percent: Option<f64>,
-    reason: String,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct ToleranceFile {
-    tolerance: Vec<ToleranceEntry>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -245,7 +239,6 @@ impl Reference {
                 parse($name, include_str!(concat!("../", $name)))?
             };
         }
-        let tolerances: ToleranceFile = file!("checks/tolerances.toml");
         let misses: MissFile = file!("checks/misses.toml");
         Ok(Self {
             lin_parker: file!("reference/lin_parker_1999.toml"),
@@ -258,27 +251,82 @@ impl Reference {
             full_sweep: FullSweep::load()?,
             ladder: file!("kept/ladder.toml"),
             misses: misses.miss,
-            tolerances: tolerances.tolerance,
+            parameter_bands: ParameterBands::load()?,
+            registry: Registry::load()?,
         })
     }
 
-    /// Tolerance of the check `id`, whose expected value is `expected`.
+    /// A check that is about to be judged.
     ///
     /// # Errors
-    /// If no entry matches.
-    pub fn tolerance(&self, id: &str, expected: f64) -> Result<Tolerance, ReferenceError> {
-        let matches = |entry: &&ToleranceEntry| match entry.checks.strip_suffix('*') {
-            Some(prefix) => id.starts_with(prefix),
-            None => id == entry.checks,
+    /// [`ReferenceError::Undeclared`] if the registry does not declare it, [`ReferenceError::NoBand`] if it is to
+    /// be judged by a band that is not kept.
+    pub fn about<'a>(&'a self, id: &'a str, title: &'a str) -> Result<Judged<'a>, ReferenceError> {
+        let entry = self.registry.check(id)?;
+        let band = match entry.parameter_band {
+            true => {
+                let undeclared = || ReferenceError::NoBand(id.to_owned());
+                Some(self.parameter_bands.band(id).ok_or_else(undeclared)?)
+            }
+            false => None,
         };
-        let entry = self
-            .tolerances
-            .iter()
-            .filter(matches)
-            .max_by_key(|entry| entry.checks.len())
-            .ok_or_else(|| ReferenceError::NoTolerance(id.to_owned()))?;
-        let of_percent = entry.percent.map(|p| 0.01 * p * expected.abs());
-        let absolute = entry.absolute.or(of_percent).unwrap_or(0.0);
-        Ok(Tolerance { absolute, reason: entry.reason.clone() })
+        Ok(Judged::new(entry, band, id, title))
+    }
+
+    /// Tolerance of a check, whose expected value is `expected`.
+    ///
+    /// # Errors
+    /// [`ReferenceError::Undeclared`] if the registry does not declare it.
+    pub fn tolerance(&self, id: &str, expected: f64) -> Result<Tolerance, ReferenceError> {
+        Ok(self.registry.check(id)?.tolerance(expected))
+    }
+
+    /// A negative control: passes if, of the checks that were run on what it spoils, the one it names failed.
+    ///
+    /// # Errors
+    /// [`ReferenceError::Undeclared`] if the registry does not declare it.
+    pub fn control(&self, id: &str, judged: &[Check]) -> Result<Check, ReferenceError> {
+        let ControlEntry { spoils, breaks, .. } = self.registry.control(id)?;
+        let found = judged.iter().find(|c| c.id == *breaks).map(|c| c.status);
+        let word = match found {
+            Some(Status::Fail) => "fails",
+            Some(_) => "passes",
+            None => "is not there",
+        };
+        let title = format!("{spoils}: {breaks} must fail");
+        let subject = Subject {
+            id,
+            title: &title,
+            kind: ReferenceKind::Consistency,
+            source: "a check that cannot fail shows nothing",
+            unit: "",
+        };
+        Ok(Check::equal(subject, "fails", word))
+    }
+}
+
+impl ModeTable {
+    /// Type and lumped frequency (Hz) of each row; rows without either compare nothing.
+    pub fn lumped_rows(&self) -> impl Iterator<Item = (&str, &f64)> {
+        self.rows(&self.lumped_hz)
+    }
+
+    /// Type and FE/contact frequency (Hz) of each row.
+    pub fn fe_contact_rows(&self) -> impl Iterator<Item = (&str, &f64)> {
+        self.rows(&self.fe_contact_hz)
+    }
+
+    fn rows<'t>(&'t self, column: &'t [f64]) -> impl Iterator<Item = (&'t str, &'t f64)> {
+        // A column that is too short must not shorten the table.
+        let padded = column.iter().chain(std::iter::repeat(&f64::NAN));
+        self.mode_type.iter().map(String::as_str).zip(padded)
+    }
+}
+
+impl Strengths {
+    /// Harmonic and strength.
+    pub fn rows(&self) -> impl Iterator<Item = (u32, f64)> {
+        let padded = self.values.iter().copied().chain(std::iter::repeat(f64::NAN));
+        self.harmonics.iter().copied().zip(padded)
     }
 }

@@ -1,6 +1,8 @@
 //! What others rely on: ids, prefixes, profiles. The whole verdict is run by the snapshot tests.
 
-use validation::{Profile, Status, validate};
+use std::sync::Mutex;
+
+use validation::{Profile, Progress, Status, validate, validate_with};
 
 #[test]
 fn the_promised_rows_are_there_and_sound() {
@@ -29,4 +31,22 @@ fn what_the_quick_profile_leaves_out_is_listed_as_not_run() {
     let left_out = quick.checks.iter().filter(|c| c.status == Status::NotRun).count();
     assert_eq!((left_out, quick.passed, quick.failed), (3, 0, 0));
     assert!(quick.checks.iter().all(|c| c.actual.is_none()));
+}
+
+#[test]
+fn who_waits_is_told_of_every_suite_in_turn() {
+    let told = Mutex::new(Vec::new());
+    let listen = |progress: Progress<'_>| {
+        let (name, is_over) = match progress {
+            Progress::SuiteStarted(name) => (name, false),
+            Progress::SuiteEnded { name, seconds, checks } => {
+                assert!(seconds >= 0.0 && checks > 0, "{name}");
+                (name, true)
+            }
+        };
+        told.lock().unwrap().push((name.to_owned(), is_over));
+    };
+    validate_with(Profile::Quick, "table1.", &listen).unwrap();
+    let expected = [("table1".to_owned(), false), ("table1".to_owned(), true)];
+    assert_eq!(*told.lock().unwrap(), expected);
 }

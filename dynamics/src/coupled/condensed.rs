@@ -1,6 +1,6 @@
 //! A group of couplings with the rest of the system condensed out.
 
-use super::law::Coupling;
+use super::coupling::Coupling;
 use super::linear::{LANES, Modes};
 
 /// Sizes that the solver is made for.

@@ -2,8 +2,10 @@
 
 use faer::Mat;
 use faer::prelude::Solve;
+use nalgebra::DMatrix;
 
 use super::error::CoupledError;
+use crate::matrix::to_faer;
 use crate::newmark::AverageAcceleration;
 use crate::symmetric::generalized_symmetric;
 
@@ -13,9 +15,9 @@ pub struct LinearPart {
     /// Diagonal of M, kg.
     pub mass: Vec<f64>,
     /// C, n×n, N s/m.
-    pub damping: Mat<f64>,
+    pub damping: DMatrix<f64>,
     /// K, n×n, N/m.
-    pub stiffness: Mat<f64>,
+    pub stiffness: DMatrix<f64>,
 }
 
 /// Off-diagonal modal damping below this part of the largest entry is rounding.
@@ -58,8 +60,8 @@ impl Modes {
                 return Err(CoupledError::Size { what: "the damping", got, wanted: n });
             }
         }
-        let shapes = modes.vectors;
-        let damping = shapes.transpose() * c * &shapes;
+        let shapes = to_faer(&modes.vectors);
+        let damping = shapes.transpose() * to_faer(c) * &shapes;
         let (mut largest, mut across) = (0.0f64, 0.0f64);
         for j in 0..n {
             for i in 0..n {

@@ -19,15 +19,15 @@
 //! proportional, so a step costs little more than the couplings' laws.
 
 mod condensed;
+mod coupling;
 mod error;
-mod law;
 mod linear;
 mod newton;
 mod rest;
 mod state;
 mod system;
 
+pub use coupling::{Coupling, CouplingForce};
 pub use error::CoupledError;
-pub use law::{Coupling, CouplingLaw};
 pub use linear::LinearPart;
 pub use system::{Coupled, CoupledState};

@@ -1,7 +1,7 @@
 //! Newton's method for δ = b − Y P(δ), of fixed width.
 
 use super::condensed::Condensed;
-use super::law::CouplingLaw;
+use super::coupling::CouplingForce;
 
 /// Iterations before a step is given up.
 const MOST_ITERATIONS: usize = 60;
@@ -33,7 +33,7 @@ pub(super) type Left = (usize, usize, f64);
 
 /// Solves, from forces guessed in `forces`, which takes the answer; iterations it took.
 #[inline]
-pub(super) fn solve<const W: usize, L: CouplingLaw>(
+pub(super) fn solve<const W: usize, L: CouplingForce>(
     group: &Condensed,
     law: &L,
     start: &Start<'_>,

@@ -5,8 +5,8 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
+use super::coupling::CouplingForce;
 use super::error::CoupledError;
-use super::law::CouplingLaw;
 use super::system::Coupled;
 
 /// Iterations before equilibrium is given up.
@@ -15,7 +15,7 @@ const MOST_ITERATIONS: usize = 200;
 /// Imbalance over the load that counts as nil.
 const NIL: f64 = 1e-12;
 
-impl<L: CouplingLaw> Coupled<L> {
+impl<L: CouplingForce> Coupled<L> {
     /// Puts the system to rest under its external forces, at its current step of the cycle.
     ///
     /// # Errors

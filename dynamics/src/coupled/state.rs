@@ -1,11 +1,11 @@
 //! What a coupled system is doing, and how to make it do something else.
 
+use super::coupling::CouplingForce;
 use super::error::CoupledError;
-use super::law::CouplingLaw;
 use super::system::{Coupled, CoupledState};
 use crate::newmark::Motion;
 
-impl<L: CouplingLaw> Coupled<L> {
+impl<L: CouplingForce> Coupled<L> {
     /// Number of coordinates.
     pub fn count(&self) -> usize {
         self.modes.count

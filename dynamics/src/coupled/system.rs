@@ -1,8 +1,8 @@
 //! A coupled system in time.
 
 use super::condensed::{Condensed, WIDTHS};
+use super::coupling::{Coupling, CouplingForce};
 use super::error::CoupledError;
-use super::law::{Coupling, CouplingLaw};
 use super::linear::{LANES, LinearPart, Modes};
 use super::newton::{self, Left, Start};
 use crate::newmark::{AverageAcceleration, Motion};
@@ -12,7 +12,7 @@ const BOUND: f64 = 1e-2;
 
 /// A linear system with couplings, stepped by Newmark's average acceleration.
 ///
-/// Couplings come in two groups: those that usually act, and those that rarely do (back flanks, stops),
+/// Couplings come in two groups: those that usually act, and those that rarely do (backside flanks, stops),
 /// which cost a look at their deflections until they touch. The law counts them through.
 #[derive(Debug, Clone)]
 pub struct Coupled<L> {
@@ -64,7 +64,7 @@ struct Work {
     next: Vec<f64>,
 }
 
-impl<L: CouplingLaw> Coupled<L> {
+impl<L: CouplingForce> Coupled<L> {
     /// A system at rest at the origin, at step 0 of a cycle.
     ///
     /// # Errors
@@ -377,7 +377,7 @@ impl<L: CouplingLaw> Coupled<L> {
 
 /// Solves a group of couplings at its width.
 #[inline]
-fn solve<L: CouplingLaw>(
+fn solve<L: CouplingForce>(
     group: &Condensed,
     law: &L,
     step_in_cycle: usize,

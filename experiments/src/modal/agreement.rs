@@ -1,4 +1,4 @@
-//! The linearised FE/contact set with a rigid carrier against the lumped model fed from it.
+//! The linearised FE/contact set with a rigid carrier against the lumped model with parameters from it.
 //!
 //! Both approach along the same line of action as long as every pressing pair stands on the
 //! theoretical path: n = (sin α, cos α) in the mesh frame of a sun mesh, (sin α, −cos α) in that of a
@@ -11,14 +11,14 @@ use fe_contact::vibration::LinearSet;
 use gearset::Scene;
 use lumped::{LumpedModel, NaturalModes, SpringId};
 
-use super::fed::fed_from;
 use super::linear::{Preload, preloaded};
+use super::lumped_from_fe::lumped_from_tangents;
 use crate::error::ExperimentError;
 
 /// Differences between the two models over all modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Agreement {
-    /// Largest, of FE/contact against fed lumped, with its sign, percent.
+    /// Largest, of FE/contact against the lumped model with parameters from FE, with its sign, percent.
     pub worst_percent: f64,
     /// Frequency where that is, Hz.
     pub at_hz: f64,
@@ -50,7 +50,7 @@ pub fn agreement(
     agreement_after(scene, bodies, preload, |_| {})
 }
 
-/// The same with the fed lumped scene changed by `spoil` first: a control, which must not agree.
+/// The same with the lumped scene changed by `spoil` first: a control, which must not agree.
 ///
 /// # Errors
 /// As [`agreement`].
@@ -63,15 +63,15 @@ pub fn agreement_after(
     let rigid = with_rigid_carrier(scene);
     let set = preloaded(&rigid, bodies, preload)?;
     let linear = set.linearised()?;
-    let mut fed = fed_from(
+    let mut from_fe = lumped_from_tangents(
         &rigid,
         bodies,
         set.races(),
         &set.reference().pressure_angles(),
         &linear.mesh_tangents,
     )?;
-    spoil(&mut fed);
-    compare(&linear, set.races(), &LumpedModel::from_scene(&fed)?)
+    spoil(&mut from_fe);
+    compare(&linear, set.races(), &LumpedModel::from_scene(&from_fe)?)
 }
 
 /// The scene with a carrier that does not give way.

@@ -2,7 +2,7 @@
 
 use fe_contact::FeError;
 use fe_contact::statics::{Bodies, Imperfections};
-use fe_contact::vibration::{LinearSet, Loading, Motive, VibratingSet};
+use fe_contact::vibration::{LinearSet, Loading, NominalRotation, VibratingSet};
 use gearset::{LoadCase, Scene};
 
 use super::kinds::{RaceKinds, type_of};
@@ -34,12 +34,12 @@ pub fn preloaded<'b>(
     let (sense, torque_nm) = (load.sense(), load.sun_load_nm());
     let sun = bodies.geometry.sun.as_ref().map_or(1.0, |sun| sun.base_radius);
     let force = (torque_nm / sun / scene.planets.psi_rad.len() as f64).max(1.0);
-    let motive = Motive::Standing { position, step: step_s };
+    let rotation = NominalRotation::Standing { position, step: step_s };
     // Relieved flanks touch on a wider patch than their force says.
     large_enough(|size| {
         let (none, mesh_force) = (Imperfections::default(), force * f64::powi(2.0, size as i32));
         let loading = Loading { torque_nm, mesh_force };
-        let mut set = VibratingSet::new(scene, bodies, sense, none, motive, loading)?;
+        let mut set = VibratingSet::new(scene, bodies, sense, none, rotation, loading)?;
         set.rest(torque_nm)?;
         Ok(set)
     })

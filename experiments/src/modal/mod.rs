@@ -2,17 +2,19 @@
 
 mod agreement;
 mod band;
-mod fed;
+mod beside;
 mod impulse;
 mod kinds;
 mod linear;
+mod lumped_from_fe;
 mod mode;
 mod settings;
 
 pub use agreement::{Agreement, agreement, agreement_after, with_rigid_carrier};
 pub use band::{FrequencyBand, ModeBand, Spread, frequency_band};
-pub use fed::{fed_from, fed_lumped, lumped_frequencies, majority};
+pub use beside::beside;
 pub use impulse::{Contents, Decay, ImpulseTest, Pulse, impulse_test, pulses};
 pub use linear::{MeshInfluence, Preload, linear_modes, mesh_influence, preloaded};
+pub use lumped_from_fe::{lumped_frequencies, lumped_from_fe, lumped_from_tangents, majority};
 pub use mode::{FeMode, of_type};
 pub use settings::{ImpulseSettings, SettingsError};

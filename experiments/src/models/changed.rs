@@ -3,7 +3,9 @@
 use gearset::{LoadCase, Scene};
 
 use crate::mesh_cycle::MeshCycle;
-use crate::model::{ModalModel, ModelError, SpeedRequest, StaticModel, SteadyStateModel};
+use crate::model::{
+    ModalModel, ModelError, NextSpeeds, SpeedRequest, StaticModel, SteadyStateModel,
+};
 use crate::natural_mode::NaturalMode;
 use crate::sweep::SteadyState;
 
@@ -21,7 +23,7 @@ impl<'m, M: ?Sized, F: Fn(&mut Scene)> Changed<'m, M, F> {
     }
 
     fn changed(&self, scene: &Scene) -> Scene {
-        let mut scene = scene.clone();
+        let mut scene = scene.variant("changed");
         (self.change)(&mut scene);
         scene
     }
@@ -56,5 +58,15 @@ impl<M: SteadyStateModel + ?Sized, F: Fn(&mut Scene)> SteadyStateModel for Chang
         request: &SpeedRequest<'_>,
     ) -> Result<Vec<SteadyState>, ModelError> {
         self.model.steady_states(&self.changed(scene), case, request)
+    }
+
+    fn explore(
+        &self,
+        scene: &Scene,
+        case: &LoadCase,
+        accuracy: (usize, f64),
+        next: NextSpeeds<'_>,
+    ) -> Result<Vec<SteadyState>, ModelError> {
+        self.model.explore(&self.changed(scene), case, accuracy, next)
     }
 }

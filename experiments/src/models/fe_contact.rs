@@ -11,10 +11,12 @@ use crate::bodies_cache::BodiesCache;
 use crate::error::ExperimentError;
 use crate::mesh_cycle::{MeshCycle, RestState};
 use crate::modal::{FeMode, ImpulseSettings, Preload, impulse_test, linear_modes, preloaded};
-use crate::model::{ModalModel, ModelError, SpeedRequest, StaticModel, SteadyStateModel};
+use crate::model::{
+    ModalModel, ModelError, NextSpeeds, SpeedRequest, StaticModel, SteadyStateModel, gather,
+};
 use crate::natural_mode::NaturalMode;
 use crate::sweep::{
-    Direction, FeModel, LawModel, Memory, Plan, SteadySettings, SteadyState, SweepModel, run,
+    Direction, FeModel, Memory, MeshLawModel, Plan, SteadySettings, SteadyState, SweepModel, run,
 };
 
 /// How natural modes are found.
@@ -116,11 +118,24 @@ impl SteadyStateModel for FeContact {
         case: &LoadCase,
         request: &SpeedRequest<'_>,
     ) -> Result<Vec<SteadyState>, ModelError> {
+        let mut speeds = Some(request.speeds_rpm.to_vec());
+        let SpeedRequest { harmonics, tolerance, .. } = *request;
+        self.explore(scene, case, (harmonics, tolerance), &mut |_| speeds.take())
+    }
+
+    fn explore(
+        &self,
+        scene: &Scene,
+        case: &LoadCase,
+        accuracy: (usize, f64),
+        next: NextSpeeds<'_>,
+    ) -> Result<Vec<SteadyState>, ModelError> {
         let bodies = self.bodies(scene)?;
         let found = if scene.dynamics.fidelity == Fidelity::MeshLaw {
-            march(&LawModel::new(scene, &bodies, *case)?, request)?
+            march(&MeshLawModel::new(scene, &bodies, *case)?, accuracy, next)?
         } else {
-            march(&FeModel::new(scene, &bodies, self.imperfections.clone(), *case), request)?
+            let own = self.imperfections.clone();
+            march(&FeModel::new(scene, &bodies, own, *case), accuracy, next)?
         };
         Ok(found)
     }
@@ -129,12 +144,14 @@ impl SteadyStateModel for FeContact {
 /// Steady states of a model that is marched, ascending in speed.
 pub(super) fn march(
     model: &dyn SweepModel,
-    request: &SpeedRequest<'_>,
+    (harmonics, tolerance): (usize, f64),
+    next: NextSpeeds<'_>,
 ) -> Result<Vec<SteadyState>, ExperimentError> {
-    let SpeedRequest { speeds_rpm, harmonics, tolerance } = *request;
     let settings =
         SteadySettings { tolerance, harmonics, between_cycles: 0, ..SteadySettings::default() };
-    let plan = Plan::new(speeds_rpm, &[Direction::Up], settings)?;
-    let sweep = run(model, &plan, &Memory, &|_| ())?;
-    Ok(sweep.states().into_iter().cloned().collect())
+    gather(next, |speeds| {
+        let plan = Plan::new(speeds, &[Direction::Up], settings.clone())?;
+        let sweep = run(model, &plan, &Memory, &|_| ())?;
+        Ok(sweep.states().into_iter().cloned().collect())
+    })
 }

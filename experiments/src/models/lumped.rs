@@ -1,11 +1,14 @@
 //! The Lin–Parker lumped-parameter model.
 
+use std::sync::Arc;
+
 use gearset::{LoadCase, Scene};
 use lumped::{LumpedModel, NaturalModes};
 
-use crate::model::{ModalModel, ModelError, SpeedRequest, SteadyStateModel};
+use crate::bodies_cache::BodiesCache;
+use crate::model::{ModalModel, ModelError, NextSpeeds, SpeedRequest, SteadyStateModel};
 use crate::natural_mode::NaturalMode;
-use crate::sweep::{LawModel, SteadyState};
+use crate::sweep::{MeshLawModel, SteadyState};
 
 use super::fe_contact::{FeContact, march};
 
@@ -13,6 +16,13 @@ use super::fe_contact::{FeContact, march};
 #[derive(Debug, Default)]
 pub struct Lumped {
     fe: FeContact,
+}
+
+impl Lumped {
+    /// With gears shared with others.
+    pub fn sharing(bodies: Arc<BodiesCache>) -> Self {
+        Self { fe: FeContact::sharing(bodies) }
+    }
 }
 
 impl ModalModel for Lumped {
@@ -33,7 +43,20 @@ impl SteadyStateModel for Lumped {
         case: &LoadCase,
         request: &SpeedRequest<'_>,
     ) -> Result<Vec<SteadyState>, ModelError> {
+        let mut speeds = Some(request.speeds_rpm.to_vec());
+        let SpeedRequest { harmonics, tolerance, .. } = *request;
+        self.explore(scene, case, (harmonics, tolerance), &mut |_| speeds.take())
+    }
+
+    fn explore(
+        &self,
+        scene: &Scene,
+        case: &LoadCase,
+        accuracy: (usize, f64),
+        next: NextSpeeds<'_>,
+    ) -> Result<Vec<SteadyState>, ModelError> {
         let bodies = self.fe.bodies(scene)?;
-        Ok(march(&LawModel::new(scene, &bodies, *case)?.lumped(), request)?)
+        let model = MeshLawModel::new(scene, &bodies, *case)?.lumped();
+        Ok(march(&model, accuracy, next)?)
     }
 }

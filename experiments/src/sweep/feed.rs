@@ -3,8 +3,8 @@
 use std::sync::OnceLock;
 
 use fe_contact::statics::{Bodies, Imperfections};
-use fe_contact::vibration::{Loading, Motive, Prepared, VibratingSet};
-use gearset::{Fidelity, LoadCase, MeshKinematics, Scene};
+use fe_contact::vibration::{Loading, NominalRotation, Prepared, VibratingSet};
+use gearset::{Fidelity, LoadCase, Scene};
 
 use super::marching::{FeMarching, Marching};
 use crate::error::ExperimentError;
@@ -114,28 +114,21 @@ impl SweepModel for FeModel<'_> {
         size: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
         let (steps_per_cycle, mesh_frequency) = (self.steps_per_cycle(), case.mesh_frequency_hz);
-        let motive = Motive::Turning { mesh_frequency, steps_per_cycle };
+        let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle };
         let torque_nm = self.case.sun_load_nm();
         let mesh_force = self.force(self.table_size + size)?;
         let loading = Loading { torque_nm, mesh_force };
         let sense = self.case.sense();
-        if self.scene.dynamics.kinematics == MeshKinematics::Exact {
-            let own = self.imperfections.clone();
-            let (scene, bodies) = (&self.scene, self.bodies);
-            let set = VibratingSet::exact(scene, bodies, sense, own, motive, loading)?;
-            return Ok(Box::new(FeMarching { set, torque_nm }));
-        }
         let slot = &self.prepared[size.min(SIZES - 1)];
         let prepared = match slot.get() {
             Some(prepared) => prepared,
             None => {
                 let own = self.imperfections.clone();
-                let made =
-                    VibratingSet::prepare(&self.scene, self.bodies, sense, own, motive, loading)?;
+                let made = Prepared::new(&self.scene, self.bodies, sense, own, rotation, loading)?;
                 slot.get_or_init(|| made)
             }
         };
-        let set = VibratingSet::on(&self.scene, prepared, motive)?;
+        let set = VibratingSet::on(&self.scene, prepared, rotation)?;
         Ok(Box::new(FeMarching { set, torque_nm }))
     }
 }

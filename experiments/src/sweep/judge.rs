@@ -83,11 +83,7 @@ pub fn contents(points: &[&SteadyState], strengths: &[ExcitationStrengths]) -> V
 
 /// Peaks of the sun's and planet 0's motion in harmonics 1…`harmonics` that stand out by `least`;
 /// rounding has peaks too, so those below 1e-6 of the largest motion of any body do not count.
-pub(super) fn prominent(
-    points: &[&SteadyState],
-    harmonics: usize,
-    least: f64,
-) -> Vec<(Response, Vec<Peak>)> {
+fn prominent(points: &[&SteadyState], harmonics: usize, least: f64) -> Vec<(Response, Vec<Peak>)> {
     let mut list = Vec::new();
     for is_rotation in [true, false] {
         let scale = scale(points, is_rotation, harmonics);
@@ -98,6 +94,40 @@ pub(super) fn prominent(
         }
     }
     list
+}
+
+/// Speeds about every peak of the sun and of planet 0 that stands out by `least` (ratio), ascending: `count` even
+/// ones to either side, up to `span` (parts of the speed). Peaks nearer than that share theirs.
+pub fn peak_speeds(
+    points: &[&SteadyState],
+    harmonics: usize,
+    least: f64,
+    span: f64,
+    count: usize,
+) -> Vec<f64> {
+    let around = |centre: &f64| {
+        let at = |i: usize| 2.0 * i as f64 / (count.max(2) - 1) as f64 - 1.0;
+        (0..count).map(|i| centre * (1.0 + span * at(i))).collect::<Vec<f64>>()
+    };
+    let centres = peak_centres(points, harmonics, least, span);
+    let mut speeds: Vec<f64> = centres.iter().flat_map(around).collect();
+    speeds.sort_by(f64::total_cmp);
+    speeds
+}
+
+/// Speeds of those peaks themselves.
+pub(super) fn peak_centres(
+    points: &[&SteadyState],
+    harmonics: usize,
+    least: f64,
+    span: f64,
+) -> Vec<f64> {
+    let found = prominent(points, harmonics, least);
+    let mut centres: Vec<f64> =
+        found.iter().flat_map(|(_, list)| list.iter().map(|p| p.speed_rpm)).collect();
+    centres.sort_by(f64::total_cmp);
+    centres.dedup_by(|b, a| *b < *a * (1.0 + span));
+    centres
 }
 
 /// Peaks of the sun and of planet 0 that stand out by `least`, each with the mode its harmonic meets.

@@ -3,7 +3,7 @@
 
 use dynamics::CoupledState;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-use fe_contact::vibration::{LawSettings, MeshLawSet, mesh_law};
+use fe_contact::vibration::{MeshLawSet, MeshLawSettings, mesh_law};
 use gearset::{Fidelity, LoadCase, MeshLaw, Scene};
 use lumped::TimeVarying;
 
@@ -13,7 +13,7 @@ use crate::error::ExperimentError;
 
 /// A set whose meshes follow a law made under the torque of the sweep.
 #[derive(Debug)]
-pub struct LawModel<'s> {
+pub struct MeshLawModel<'s> {
     scene: Scene,
     loaded: StaticSet<'s>,
     case: LoadCase,
@@ -21,7 +21,7 @@ pub struct LawModel<'s> {
     is_lumped: bool,
 }
 
-impl<'s> LawModel<'s> {
+impl<'s> MeshLawModel<'s> {
     /// The FE/contact set under the torque of a load case.
     ///
     /// # Errors
@@ -30,7 +30,7 @@ impl<'s> LawModel<'s> {
         let mut scene = scene.clone();
         scene.dynamics.fidelity = Fidelity::MeshLaw;
         let steps = scene.dynamics.steps_per_cycle as usize;
-        let settings = LawSettings::at(case.sun_load_nm());
+        let settings = MeshLawSettings::at(case.sun_load_nm());
         let law = mesh_law(&scene, bodies, case.sense(), steps, &settings)?;
         let loaded = StaticSet::new(&scene, bodies, case.sense(), Imperfections::default())?;
         let loaded = loaded.under(case.sun_load_nm())?;
@@ -49,7 +49,7 @@ impl<'s> LawModel<'s> {
     }
 }
 
-impl SweepModel for LawModel<'_> {
+impl SweepModel for MeshLawModel<'_> {
     fn name(&self) -> String {
         if self.is_lumped { "lumped".into() } else { "mesh-law".into() }
     }
@@ -145,6 +145,10 @@ macro_rules! marching {
 
             fn state(&mut self) -> Vec<f64> {
                 flat(self.0.state())
+            }
+
+            fn counters(&self) -> usize {
+                2
             }
 
             fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError> {

@@ -32,7 +32,7 @@ pub trait Marching {
     /// carrier frame, counter-clockwise.
     fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>);
 
-    /// Force of each mesh: sun meshes, ring meshes, then back flanks if any touch, N.
+    /// Force of each mesh: sun meshes, ring meshes, then backside flanks if any touch, N.
     fn mesh_forces(&self, out: &mut Vec<f64>);
 
     /// What approaches of tooth pairs are off their linear form at most, and the sun's base radius, m;
@@ -44,8 +44,12 @@ pub trait Marching {
     /// What its steps took.
     fn effort(&self) -> Effort;
 
-    /// All the next step starts from, after whole mesh cycles.
+    /// All the next step starts from, after whole mesh cycles: [`counters`](Self::counters) whole numbers, then
+    /// continuous quantities.
     fn state(&mut self) -> Vec<f64>;
+
+    /// How many numbers of a state count cycles or steps.
+    fn counters(&self) -> usize;
 
     /// Goes on from a state.
     ///
@@ -92,6 +96,10 @@ impl Marching for FeMarching<'_> {
 
     fn state(&mut self) -> Vec<f64> {
         self.set.state()
+    }
+
+    fn counters(&self) -> usize {
+        1
     }
 
     fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError> {

@@ -1,5 +1,6 @@
 //! Speed sweeps: steady states of a turning set by marching, their harmonics, as fixed plans.
 
+mod extrapolation;
 mod feed;
 mod judge;
 mod law_feed;
@@ -14,8 +15,8 @@ mod state;
 mod steady;
 
 pub use feed::{FeModel, HEADROOM, SweepModel};
-pub use judge::{Assigned, Content, assigned, contents};
-pub use law_feed::LawModel;
+pub use judge::{Assigned, Content, assigned, contents, peak_speeds};
+pub use law_feed::MeshLawModel;
 pub use marching::{Effort, Marching};
 pub use naturals::naturals;
 pub use peaks::{Peak, Response, peaks, top_of_three};

@@ -24,6 +24,15 @@ impl Response {
     }
 }
 
+impl Response {
+    /// Amplitude and number of the strongest of harmonics 1 to `harmonics`, the lowest of equals; zeros if
+    /// none moves.
+    pub fn strongest(self, point: &SteadyState, harmonics: usize) -> (f64, usize) {
+        let of = |l: usize| (self.amplitude(point, l), l);
+        (1..=harmonics).map(of).fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
+    }
+}
+
 /// A maximum of one harmonic over speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {

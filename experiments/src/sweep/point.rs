@@ -22,8 +22,8 @@ pub struct SweepPoint {
     pub is_steady: bool,
     /// Energy between mesh harmonics over all vibration.
     pub between: Option<f64>,
-    /// Part of the cycle in which back flanks press.
-    pub back_contact: f64,
+    /// Part of the cycle in which backside flanks press.
+    pub backside_contact: f64,
     /// How often the load the tables are made for was doubled.
     pub size: usize,
     /// What approaches of tooth pairs are off their linear form about the mean loaded configuration at
@@ -135,7 +135,7 @@ impl SweepPoint {
             residual: found.residual,
             is_steady: found.residual <= settings.tolerance,
             between: found.between,
-            back_contact: record.with_backs as f64 / steps,
+            backside_contact: record.with_backside as f64 / steps,
             size,
             kinematic_rest_m: found.rest.map(|rest| rest.largest),
             kinematic_rest_share: found.rest.and_then(|rest| rest.share),

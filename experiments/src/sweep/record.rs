@@ -14,8 +14,8 @@ pub struct Record {
     planets: usize,
     samples: Vec<f64>,
     forces: Vec<f64>,
-    /// Steps in which back flanks pressed.
-    pub with_backs: usize,
+    /// Steps in which backside flanks pressed.
+    pub with_backside: usize,
 }
 
 /// Channels of the sun: x, y, rotation.
@@ -63,7 +63,7 @@ impl Record {
         set.mesh_forces(&mut self.forces);
         let fronts = 2 * self.planets;
         self.samples.extend(self.forces.iter().take(fronts));
-        self.with_backs += usize::from(self.forces.iter().skip(fronts).any(|f| *f > 0.0));
+        self.with_backside += usize::from(self.forces.iter().skip(fronts).any(|f| *f > 0.0));
     }
 
     /// Records `cycles` mesh cycles of `steps` steps each, from the present state on.
@@ -77,7 +77,7 @@ impl Record {
         steps: usize,
     ) -> Result<(), ExperimentError> {
         self.samples.clear();
-        self.with_backs = 0;
+        self.with_backside = 0;
         for _ in 0..steps {
             self.take(set, first_planet_rad);
             set.step()?;
@@ -119,6 +119,26 @@ impl Record {
         }
         let ratio = |(change, size): (f64, f64)| if change == 0.0 { 0.0 } else { change / size };
         ratio(kinds[0]).max(ratio(kinds[1]))
+    }
+
+    /// Displacements less those of an earlier record of the same length, translations and rotations each in parts
+    /// of their largest peak-to-peak value; empty if the lengths differ.
+    pub fn scaled_difference(&self, before: &Record) -> Vec<f64> {
+        if before.len() != self.len() {
+            return Vec::new();
+        }
+        let mut size = [0.0f64; 2];
+        for channel in 0..self.displacements() {
+            let kind = &mut size[usize::from(channel % 3 == 2)];
+            *kind = kind.max(self.range(channel));
+        }
+        let (width, displacements) = (self.width(), self.displacements());
+        let own = self.samples.iter().zip(&before.samples).enumerate();
+        own.filter(|(i, _)| i % width < displacements)
+            .map(|(i, (a, b))| {
+                (a - b) / size[usize::from(i % width % 3 == 2)].max(f64::MIN_POSITIVE)
+            })
+            .collect()
     }
 
     /// Complex amplitudes of harmonics 0…l of one channel: x(t) ≈ Re Σ X_l e^{i 2π l f_m t}, by

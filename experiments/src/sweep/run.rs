@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::feed::SweepModel;
-use super::judge::prominent;
+use super::judge::peak_centres;
 use super::plan::{Chain, Plan};
 use super::point::{SweepPoint, TableRow};
 use super::state::SteadyState;
@@ -92,11 +92,7 @@ impl Sweep {
         count: usize,
         steady: SteadySettings,
     ) -> Plan {
-        let found = prominent(&self.states(), steady.harmonics, least);
-        let mut centres: Vec<f64> =
-            found.iter().flat_map(|(_, list)| list.iter().map(|p| p.speed_rpm)).collect();
-        centres.sort_by(f64::total_cmp);
-        centres.dedup_by(|b, a| *b < *a * (1.0 + span));
+        let centres = peak_centres(&self.states(), steady.harmonics, least, span);
         Plan::around(&centres, span, count, steady)
     }
 

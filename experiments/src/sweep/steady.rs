@@ -3,6 +3,7 @@
 use fe_contact::statics::KinematicRest;
 use serde::{Deserialize, Serialize};
 
+use super::extrapolation::Extrapolation;
 use super::marching::Marching;
 use super::record::{Record, SUN};
 use crate::error::ExperimentError;
@@ -58,11 +59,16 @@ pub fn steady(
 ) -> Result<Steady, ExperimentError> {
     let (mut now, mut before) = (Record::new(planets), Record::new(planets));
     let (mut cycles, mut residual) = (0, f64::INFINITY);
+    let mut ahead = Extrapolation::default();
     while residual > settings.tolerance && cycles < settings.most_cycles.max(2) {
         std::mem::swap(&mut now, &mut before);
+        let start = set.state();
         now.march(set, first_planet_rad, steps)?;
         cycles += 1;
         residual = now.change_from(&before);
+        if residual > settings.tolerance {
+            ahead.take(set, start, &now, &before, residual)?;
+        }
     }
     let between = match settings.between_cycles {
         0 => None,

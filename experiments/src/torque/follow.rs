@@ -7,9 +7,8 @@ use gearset::{Facing, LoadCase, Scene};
 
 use super::series::Series;
 use crate::error::ExperimentError;
-use crate::sweep::{
-    FeModel, Memory, Part, Plan, Response, SteadySettings, SteadyState, Sweep, SweepModel, run,
-};
+use crate::model::SteadyStateModel;
+use crate::sweep::{Part, Response, SteadySettings, SteadyState};
 
 /// How far about the natural frequency a peak is looked for, in parts of it, at so many speeds; and
 /// how far about the highest of those.
@@ -49,51 +48,69 @@ fn top(points: &[&SteadyState], response: Response, harmonic: usize) -> (f64, f6
     })
 }
 
+/// `count` even speeds about a centre, `span` (parts of it) to either side, rpm.
+fn about(centre: f64, (span, count): (f64, usize)) -> impl Iterator<Item = f64> {
+    let at = move |i: usize| 2.0 * i as f64 / (count - 1) as f64 - 1.0;
+    (0..count).map(move |i| centre * (1.0 + span * at(i)))
+}
+
 /// Follows some series over torques (N m on the sun); after a search about the natural frequency the
 /// peaks of the parts in `closer` are looked at more closely.
 ///
 /// # Errors
-/// If a point fails.
+/// [`ExperimentError::Model`] if the model has no answer.
 pub fn follow(
+    model: &dyn SteadyStateModel,
     scene: &Scene,
-    bodies: &Bodies,
     torques_nm: &[f64],
     series: &[Series],
     closer: &[Part],
     tolerance: f64,
 ) -> Result<Vec<Followed>, ExperimentError> {
     let case = LoadCase::of_scene(scene)?;
-    let steady = SteadySettings { tolerance, between_cycles: 0, ..SteadySettings::default() };
+    let harmonics = SteadySettings::default().harmonics;
     let start = |s: &Series| s.frequency_hz / s.harmonic as f64 / case.mesh_frequency_per_rpm_hz();
     let mut followed: Vec<Followed> = series
         .iter()
         .map(|s| Followed { series: *s, speeds_rpm: vec![], sun: vec![], planet: vec![] })
         .collect();
     for torque in torques_nm {
-        let model =
-            FeModel::new(scene, bodies, Imperfections::default(), case.with_sun_torque(*torque));
-        let model: &dyn SweepModel = &model;
-        let centres: Vec<f64> = series.iter().map(start).collect();
-        let search = Plan::around(&centres, SEARCH.0, SEARCH.1, steady.clone());
-        let wide = run(model, &search, &Memory, &|_| ())?;
-        // Sun and planet may peak at speeds of their own.
-        let mut centres = Vec::new();
-        for ((_, points), s) in wide.chains.iter().zip(series) {
-            let points: Vec<&SteadyState> = points.iter().map(|p| &p.state).collect();
-            for part in closer {
-                centres.push(top(&points, s.response(*part), s.harmonic).0);
-            }
-        }
-        let again = Plan::around(&centres, CLOSER.0, CLOSER.1, steady.clone());
-        let near = run(model, &again, &Memory, &|_| ())?;
-        for (k, own) in followed.iter_mut().enumerate() {
-            let of = |part: Part| {
-                let mut chains = vec![wide.chains[k].clone()];
-                let count = closer.len();
-                chains.extend_from_slice(&near.chains[count * k..count * (k + 1)]);
-                let all = Sweep { fidelity: String::new(), chains };
-                top(&all.states(), own.series.response(part), own.series.harmonic)
+        let case = case.with_sun_torque(*torque);
+        let within = |s: &Series, states: &[SteadyState]| -> Vec<SteadyState> {
+            let centre = start(s);
+            let is_near = |p: &&SteadyState| {
+                (p.case.speed_rpm / centre - 1.0).abs() <= SEARCH.0 + CLOSER.0 + 1e-9
             };
+            states.iter().filter(is_near).cloned().collect()
+        };
+        let mut asked = 0;
+        let mut next = |found: &[SteadyState]| -> Option<Vec<f64>> {
+            asked += 1;
+            match asked {
+                // All series at once: a model may go through their speeds side by side.
+                1 => Some(series.iter().flat_map(|s| about(start(s), SEARCH)).collect()),
+                2 => {
+                    // Sun and planet may peak at speeds of their own.
+                    let mut again = Vec::new();
+                    for s in series {
+                        let own = within(s, found);
+                        let own: Vec<&SteadyState> = own.iter().collect();
+                        for part in closer {
+                            again.extend(about(top(&own, s.response(*part), s.harmonic).0, CLOSER));
+                        }
+                    }
+                    Some(again)
+                }
+                _ => None,
+            }
+        };
+        let all = model
+            .explore(scene, &case, (harmonics, tolerance), &mut next)
+            .map_err(ExperimentError::Model)?;
+        for own in &mut followed {
+            let states = within(&own.series, &all);
+            let states: Vec<&SteadyState> = states.iter().collect();
+            let of = |part| top(&states, own.series.response(part), own.series.harmonic);
             let (sun, planet) = (of(Part::Sun), of(Part::Planet(0)));
             own.speeds_rpm.push(sun.0);
             own.sun.push(sun.1);

@@ -109,7 +109,7 @@ pub struct Factor {
 
 impl Factor {
     /// Solves for all columns of `right`, in place.
-    pub fn solve(&self, right: &mut Mat<f64>) {
+    pub(crate) fn solve(&self, right: &mut Mat<f64>) {
         self.llt.solve_in_place(right.as_mut());
     }
 

@@ -9,14 +9,14 @@ use super::assembly::Triplets;
 use super::matrices::BodyMatrices;
 use crate::element::matrices;
 use crate::error::FeError;
+use crate::fe_mesh::{FeCarrierMesh, Hold};
 use crate::material::Elastic;
-use crate::mesh::{CarrierMesh, Hold};
 
 /// Finite-element body of the carrier whose bore stands still.
 #[derive(Debug, Clone)]
 pub struct CarrierBody {
     /// Its mesh.
-    pub mesh: CarrierMesh,
+    pub mesh: FeCarrierMesh,
     /// Mass, the seats filled with material, kg.
     pub mass: f64,
     /// Polar inertia about the centre, kg m².
@@ -40,6 +40,12 @@ pub struct CarrierBody {
 type Terms = Vec<(usize, f64)>;
 
 impl CarrierBody {
+    /// Displacement of a seat along a unit force on it, mean over seats and their radial and tangential
+    /// directions, m/N.
+    pub fn mean_seat_flexibility(&self) -> f64 {
+        self.flexibility.trace() / self.flexibility.nrows() as f64
+    }
+
     /// Meshes and solves the carrier for planets at ψ (rad).
     ///
     /// # Errors
@@ -51,7 +57,7 @@ impl CarrierBody {
         material: &Elastic,
         face_width: f64,
     ) -> Result<Self, FeError> {
-        let mesh = CarrierMesh::new(input, center_distance, psi);
+        let mesh = FeCarrierMesh::new(input, center_distance, psi);
         let mut next = 0;
         let mut take = |count: usize| {
             next += count;
@@ -78,7 +84,7 @@ impl CarrierBody {
                 }
             })
             .collect();
-        let shape = CarrierMesh::shape();
+        let shape = FeCarrierMesh::shape();
         let (mut stiffness, mut masses) = (Triplets::default(), Triplets::default());
         let mut coupling = [(); 3].map(|()| vec![0.0; next]);
         for (i, nodes) in mesh.elements.iter().enumerate() {

@@ -5,11 +5,14 @@ use nalgebra::DMatrix;
 
 use super::matrices::{BodyMatrices, number_unknowns};
 use crate::error::FeError;
+use crate::fe_mesh::{FeGearMesh, Side};
 use crate::material::Elastic;
-use crate::mesh::{GearMesh, Side};
 
 /// Neighbouring teeth on either side whose response to a loaded tooth is kept.
 const REACH: i64 = 4;
+
+/// Loads that a body is solved for at once.
+const AT_ONCE: usize = 16;
 
 /// A point of a flank: the load it takes, spread work-equivalently over the flank's functions.
 #[derive(Debug, Clone, Copy)]
@@ -37,7 +40,7 @@ pub struct Deep {
 #[derive(Debug, Clone)]
 pub struct GearBody {
     /// Its mesh.
-    pub mesh: GearMesh,
+    pub mesh: FeGearMesh,
     /// Material.
     pub material: Elastic,
     /// Face width, m.
@@ -66,7 +69,7 @@ impl GearBody {
     ///
     /// # Errors
     /// If the mesh is unsound or the matrix is not positive definite.
-    pub fn new(mesh: GearMesh, material: Elastic, face_width: f64) -> Result<Self, FeError> {
+    pub fn new(mesh: FeGearMesh, material: Elastic, face_width: f64) -> Result<Self, FeError> {
         let (mass, inertia) = mesh.mass_properties(&material, face_width)?;
         let unknown_of = number_unknowns(&mesh);
         let matrices = BodyMatrices::of_gear(&mesh, &material, face_width)?;
@@ -82,41 +85,50 @@ impl GearBody {
                 }
             }
         }
-        let mut right = Mat::zeros(factor.size, 2 * load_nodes.len());
-        for (c, node) in load_nodes.iter().enumerate() {
-            let unknown = unknown_of[mesh.nodes[0][*node]];
-            right[(unknown, 2 * c)] = 1.0;
-            right[(unknown + 1, 2 * c + 1)] = 1.0;
-        }
-        factor.solve(&mut right);
+        let columns = 2 * load_nodes.len();
         let teeth = mesh.outline.gear().teeth as i64;
         let reach = REACH.min((teeth - 1) / 2);
-        // Displacements in the tooth's own frame at some nodes of its sector.
-        let seen = |tooth: usize, locals: &[usize]| {
-            let (sin, cos) = mesh.tooth_angle(tooth).sin_cos();
-            let mut response = DMatrix::zeros(2 * locals.len(), right.ncols());
-            for (row, local) in locals.iter().enumerate() {
-                let unknown = unknown_of[mesh.nodes[tooth][*local]];
-                if unknown == usize::MAX {
-                    continue;
-                }
-                for c in 0..right.ncols() {
-                    let (x, y) = (right[(unknown, c)], right[(unknown + 1, c)]);
-                    response[(2 * row, c)] = cos * x + sin * y;
-                    response[(2 * row + 1, c)] = -sin * x + cos * y;
-                }
-            }
-            response
+        // What is seen of the displacements: a tooth, nodes of its sector, their displacements in its own frame.
+        let seen = |tooth: usize, locals: Vec<usize>| {
+            let response = DMatrix::zeros(2 * locals.len(), columns);
+            (tooth, locals, response)
         };
-        let responses = (-reach..=reach)
+        let mut near: Vec<_> = (-reach..=reach)
             .map(|offset| {
                 let tooth = offset.rem_euclid(teeth) as usize;
-                let all: Vec<usize> = (0..mesh.nodes[tooth].len()).collect();
-                seen(tooth, &all)
+                seen(tooth, (0..mesh.nodes[tooth].len()).collect())
             })
             .collect();
         let alike = if mesh.sectors.len() > 1 { 1 } else { teeth as usize };
-        let around = (0..alike).map(|tooth| seen(tooth, &load_nodes)).collect();
+        let mut ring: Vec<_> = (0..alike).map(|tooth| seen(tooth, load_nodes.clone())).collect();
+        // All displacements of a body under all loads at once would be the largest thing there is.
+        for first in (0..columns).step_by(AT_ONCE) {
+            let count = AT_ONCE.min(columns - first);
+            let mut right = Mat::zeros(factor.size, count);
+            for c in 0..count {
+                let (node, axis) = (load_nodes[(first + c) / 2], (first + c) % 2);
+                right[(unknown_of[mesh.nodes[0][node]] + axis, c)] = 1.0;
+            }
+            factor.solve(&mut right);
+            for (tooth, locals, response) in near.iter_mut().chain(&mut ring) {
+                let (sin, cos) = mesh.tooth_angle(*tooth).sin_cos();
+                for (row, local) in locals.iter().enumerate() {
+                    let unknown = unknown_of[mesh.nodes[*tooth][*local]];
+                    if unknown == usize::MAX {
+                        continue;
+                    }
+                    for c in 0..count {
+                        let (x, y) = (right[(unknown, c)], right[(unknown + 1, c)]);
+                        response[(2 * row, first + c)] = cos * x + sin * y;
+                        response[(2 * row + 1, first + c)] = -sin * x + cos * y;
+                    }
+                }
+            }
+        }
+        let kept = |list: Vec<(usize, Vec<usize>, DMatrix<f64>)>| {
+            list.into_iter().map(|(_, _, response)| response).collect::<Vec<_>>()
+        };
+        let (responses, around) = (kept(near), kept(ring));
         let boxes = sector.elements.iter().map(|e| {
             let mut b = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
             // Corners bound the element but for the bulge of its edges.
@@ -158,7 +170,7 @@ impl GearBody {
         let t = ((l - stretch.from) / half - 1.0).clamp(-1.0, 1.0);
         FlankPoint {
             columns: stretch.nodes.map(|n| self.column_of[n]),
-            weights: crate::mesh::hermite(t, half),
+            weights: crate::fe_mesh::hermite(t, half),
         }
     }
 

@@ -3,8 +3,8 @@
 use super::assembly::{Sparse, Triplets};
 use crate::element::matrices;
 use crate::error::FeError;
+use crate::fe_mesh::FeGearMesh;
 use crate::material::Elastic;
-use crate::mesh::GearMesh;
 
 /// Stiffness and consistent mass of a body, the race's rigid motion split off.
 ///
@@ -33,7 +33,11 @@ impl BodyMatrices {
     ///
     /// # Errors
     /// If an element is distorted.
-    pub fn of_gear(mesh: &GearMesh, material: &Elastic, face_width: f64) -> Result<Self, FeError> {
+    pub fn of_gear(
+        mesh: &FeGearMesh,
+        material: &Elastic,
+        face_width: f64,
+    ) -> Result<Self, FeError> {
         let unknown_of = number_unknowns(mesh);
         let incompatible = mesh.family == gearset::ElementFamily::Incompatible;
         let mut of_sectors = Vec::new();
@@ -95,7 +99,7 @@ impl BodyMatrices {
 }
 
 /// Unknown number (of x; y is the next) of each node; `usize::MAX` on the race.
-pub fn number_unknowns(mesh: &GearMesh) -> Vec<usize> {
+pub fn number_unknowns(mesh: &FeGearMesh) -> Vec<usize> {
     let mut next = 0;
     let number = |held: &bool| {
         if *held {

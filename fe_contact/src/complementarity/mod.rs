@@ -11,13 +11,16 @@
 //! solution exists, and p too if C is definite (Cottle, Pang & Stone, *The Linear Complementarity
 //! Problem*, Academic Press 1992, ch. 3).
 //!
-//! Three independent routes to it: [`ActiveSet`] (the default), [`Lemke`] and [`InteriorPoint`].
+//! Three independent routes to it: [`ActiveSet`] (the default), [`Lemke`] and, with the feature
+//! `interior_point`, `InteriorPoint`.
 
 mod active_set;
+#[cfg(feature = "interior_point")]
 mod interior_point;
 mod lemke;
 
 pub use active_set::ActiveSet;
+#[cfg(feature = "interior_point")]
 pub use interior_point::InteriorPoint;
 pub use lemke::Lemke;
 
@@ -44,7 +47,7 @@ pub struct Solution {
     /// value may come.
     pub active: Vec<bool>,
     /// Pivots ([`Lemke`]), factorisations ([`ActiveSet`], plus pivots if it had to fall back) or
-    /// interior-point iterations ([`InteriorPoint`]).
+    /// interior-point iterations (`InteriorPoint`).
     pub iterations: usize,
 }
 

@@ -3,10 +3,10 @@
 //! Everything is taken in the mesh frame of [`Mesh`]: central gear at the origin, planet at (a, 0),
 //! the central input turning counter-clockwise.
 
-use gearset::involute::{radius_at, string_at};
+use gearset::involute::{radius_at, roll_length_at};
 use gearset::{Facing, Flank, Mesh, MeshKind, MeshMember, ToothSide};
 
-use crate::mesh::Side;
+use crate::fe_mesh::Side;
 
 /// Where the point of contact lies with respect to the theoretical path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,25 +51,25 @@ impl<'m> PairFrame<'m> {
     ///
     /// Beyond the path the force follows the normal of the flank the corner presses on.
     pub fn new(mesh: &'m Mesh, phase: f64, index: i64) -> Option<Self> {
-        let string = mesh.path_start + (phase + index as f64) * mesh.base_pitch;
-        let (driver, driven) = mesh.flanks(string);
+        let roll_length = mesh.path_start + (phase + index as f64) * mesh.base_pitch;
+        let (driver, driven) = mesh.flanks(roll_length);
         let on_driver = |flank: &Flank<'_>, angle: f64| outward(flank, angle);
         let at = |location, origin, normal, gap| {
             Some(Self { index, location, origin, normal, gap, driver, driven })
         };
-        if string < mesh.path_start {
-            let tip = driven.point(driven.gear.tip_string());
+        if roll_length < mesh.path_start {
+            let tip = driven.point(driven.gear.tip_roll_length());
             let (angle, gap) = foot(&driver, tip)?;
             at(Location::Corner(MeshMember::Driven), tip, on_driver(&driver, angle), gap)
-        } else if string > mesh.path_end {
-            let tip = driver.point(driver.gear.tip_string());
+        } else if roll_length > mesh.path_end {
+            let tip = driver.point(driver.gear.tip_roll_length());
             let (angle, gap) = foot(&driven, tip)?;
             let [x, y] = outward(&driven, angle);
             at(Location::Corner(MeshMember::Driver), tip, [-x, -y], gap)
         } else {
             let angle =
-                driver.origin_angle - driver.facing.sign() * string / driver.gear.base_radius;
-            at(Location::Path, driver.point(string), outward(&driver, angle), 0.0)
+                driver.origin_angle - driver.facing.sign() * roll_length / driver.gear.base_radius;
+            at(Location::Path, driver.point(roll_length), outward(&driver, angle), 0.0)
         }
         .map(|mut pair: Self| {
             pair.gap += pair.relief_at_origin();
@@ -120,12 +120,12 @@ impl<'m> PairFrame<'m> {
 
     /// What tip relief opens the pair by at its reference point, m.
     pub(crate) fn relief_at_origin(&self) -> f64 {
-        let string = |flank: &Flank<'_>| {
+        let roll_length = |flank: &Flank<'_>| {
             let [x, y] = [self.origin[0] - flank.centre[0], self.origin[1] - flank.centre[1]];
-            string_at(flank.gear.base_radius, x.hypot(y))
+            roll_length_at(flank.gear.base_radius, x.hypot(y))
         };
-        self.driver.gear.relief_at(string(&self.driver))
-            + self.driven.gear.relief_at(string(&self.driven))
+        self.driver.gear.relief_at(roll_length(&self.driver))
+            + self.driven.gear.relief_at(roll_length(&self.driven))
     }
 
     /// Tangent: the normal turned counter-clockwise by 90°.
@@ -174,7 +174,7 @@ impl<'m> PairFrame<'m> {
     /// Tangential range in which both flanks exist, form circle to tip.
     pub fn extent(&self) -> [f64; 2] {
         let of = |flank: &Flank<'_>| {
-            let ends = [flank.gear.form_string().unwrap_or(0.0), flank.gear.tip_string()]
+            let ends = [flank.gear.form_roll_length().unwrap_or(0.0), flank.gear.tip_roll_length()]
                 .map(|s| self.across(flank.point(s)));
             [ends[0].min(ends[1]), ends[0].max(ends[1])]
         };
@@ -182,26 +182,26 @@ impl<'m> PairFrame<'m> {
         [a[0].max(b[0]), a[1].min(b[1])]
     }
 
-    /// 1/R = 1/ρ₁ ± 1/ρ₂ at the reference point, from the string lengths there, m.
+    /// 1/R = 1/ρ₁ ± 1/ρ₂ at the reference point, from the roll lengths there, m.
     pub fn radius(&self) -> f64 {
         let curvature = |flank: &Flank<'_>| {
             let [x, y] = [self.origin[0] - flank.centre[0], self.origin[1] - flank.centre[1]];
-            let s = string_at(flank.gear.base_radius, x.hypot(y));
+            let s = roll_length_at(flank.gear.base_radius, x.hypot(y));
             let sign = if flank.gear.side == ToothSide::External { 1.0 } else { -1.0 };
             sign / s.max(1e-3 * flank.gear.base_radius)
         };
         1.0 / (curvature(&self.driver) + curvature(&self.driven))
     }
 
-    /// String length of one flank where its tangential coordinate is `x`.
-    pub fn string_at(&self, member: MeshMember, x: f64) -> f64 {
+    /// Roll length of one flank where its tangential coordinate is `x`.
+    pub fn roll_length_at(&self, member: MeshMember, x: f64) -> f64 {
         let flank = self.flank(member);
         let [ox, oy] = [self.origin[0] - flank.centre[0], self.origin[1] - flank.centre[1]];
         let r_b = flank.gear.base_radius;
-        let mut s = string_at(r_b, ox.hypot(oy));
+        let mut s = roll_length_at(r_b, ox.hypot(oy));
         for _ in 0..20 {
             let p = flank.point(s);
-            // dP/ds = (s/r_b) · unit radius where the string leaves the base circle.
+            // dP/ds = (s/r_b) · unit radius where the base tangent leaves the base circle.
             let angle = flank.origin_angle - flank.facing.sign() * s / r_b;
             let t = self.tangent();
             let slope = s / r_b * (angle.cos() * t[0] + angle.sin() * t[1]);
@@ -217,9 +217,9 @@ impl<'m> PairFrame<'m> {
         s
     }
 
-    /// Point of one flank at tangential coordinate `x`, mesh frame, m, with its string length.
+    /// Point of one flank at tangential coordinate `x`, mesh frame, m, with its roll length.
     pub fn flank_point(&self, member: MeshMember, x: f64) -> ([f64; 2], f64) {
-        let s = self.string_at(member, x);
+        let s = self.roll_length_at(member, x);
         (self.flank(member).point(s), s)
     }
 
@@ -235,9 +235,9 @@ impl<'m> PairFrame<'m> {
     }
 }
 
-/// Outward normal of a flank's material where its string leaves the base circle at `angle`.
+/// Outward normal of a flank's material where its base tangent leaves the base circle at `angle`.
 fn outward(flank: &Flank<'_>, angle: f64) -> [f64; 2] {
-    // The string runs along the tangent, away from the lobe; the ring's lobe is its space.
+    // The base tangent runs away from the lobe; the ring's lobe is its space.
     let mut sign = flank.facing.sign();
     if flank.gear.side == ToothSide::Internal {
         sign = -sign;
@@ -245,14 +245,14 @@ fn outward(flank: &Flank<'_>, angle: f64) -> [f64; 2] {
     [-sign * angle.sin(), sign * angle.cos()]
 }
 
-/// Angle where the string through `point` leaves the flank's base circle, and the gap from flank to
+/// Angle where the base tangent through `point` leaves the flank's base circle, and the gap from flank to
 /// point along it.
 fn foot(flank: &Flank<'_>, point: [f64; 2]) -> Option<(f64, f64)> {
     let gap = flank.gap_to(point)?;
     let [x, y] = [point[0] - flank.centre[0], point[1] - flank.centre[1]];
     let r_b = flank.gear.base_radius;
     let r = x.hypot(y);
-    let alpha = (string_at(r_b, r) / r_b).atan();
+    let alpha = (roll_length_at(r_b, r) / r_b).atan();
     debug_assert!((radius_at(r_b, r_b * alpha.tan()) - r).abs() < 1e-9);
     // P stands α on from the tangent point, towards the lobe's end that the flank is.
     Some((y.atan2(x) - flank.facing.sign() * alpha, gap))

@@ -216,12 +216,12 @@ fn see(
     matching: &Matching,
 ) -> Option<Vec<Seen>> {
     let tooth = frame.tooth(member);
-    let into = |v: [f64; 2]| crate::mesh::rotated(v, -tooth.axis);
+    let into = |v: [f64; 2]| crate::fe_mesh::rotated(v, -tooth.axis);
     let normal = into(frame.normal);
     // The driver's material lies behind the normal, the driven gear's ahead of it.
     let inwards = if member == MeshMember::Driver { -1.0 } else { 1.0 };
     let one = |x: &f64| {
-        let (p, string) = frame.flank_point(member, *x);
+        let (p, roll_length) = frame.flank_point(member, *x);
         let at = into([p[0] - tooth.centre[0], p[1] - tooth.centre[1]]);
         let weighted = matching.weights().iter().enumerate();
         let deep = weighted.map(|(i, weight)| {
@@ -230,7 +230,7 @@ fn see(
             Some((q, *weight))
         });
         let deep = deep.collect::<Option<Vec<_>>>()?;
-        let load = body.flank_point(tooth.side, body.mesh.outline.flank_parameter(string));
+        let load = body.flank_point(tooth.side, body.mesh.outline.flank_parameter(roll_length));
         Some(Seen { load, deep, normal })
     };
     cells.x.iter().map(one).collect()

@@ -18,7 +18,7 @@ use crate::contact::hertz::Hertz;
 use crate::contact::{Location, PairFrame, candidates, members};
 use crate::element::Edge;
 use crate::error::FeError;
-use crate::mesh::{GearMesh, Outline, RefinedTooth, Refinement, Side, rotated};
+use crate::fe_mesh::{FeGearMesh, Outline, RefinedTooth, Refinement, Side, rotated};
 use crate::statics::{Bodies, MeshAtApproach, missing_mesh};
 
 /// How a deck is made.
@@ -174,7 +174,7 @@ impl Part {
     /// and element of its sector.
     fn collect(
         &mut self,
-        mesh: &GearMesh,
+        mesh: &FeGearMesh,
         angle: f64,
         kept: impl Fn(usize) -> bool,
     ) -> HashMap<(usize, usize), ElementEdge> {
@@ -235,19 +235,19 @@ fn refined(
     patches: &[Patch<'_>],
     numbers: &[usize],
     settings: &DeckSettings,
-) -> Result<GearMesh, FeError> {
+) -> Result<FeGearMesh, FeError> {
     let refine = |patch: &Patch<'_>| {
-        let (_, string) = patch.frame.flank_point(member, 0.0);
+        let (_, roll_length) = patch.frame.flank_point(member, 0.0);
         let (size, reach) = (patch.half_width / settings.per_half_width, REACH * patch.half_width);
         move |outline: &Outline, r: &mut Refinement| {
-            r.resolve(outline, outline.flank_parameter(string), size, reach);
+            r.resolve(outline, outline.flank_parameter(roll_length), size, reach);
         }
     };
     let fine: Vec<_> = patches.iter().map(refine).collect();
     let teeth =
         numbers.iter().zip(&fine).map(|(k, f)| (*k, f as &dyn Fn(&Outline, &mut Refinement)));
     let teeth: Vec<RefinedTooth<'_>> = teeth.collect();
-    GearMesh::refined(name, gear, ElementFamily::Quadratic, settings.flank_elements, &teeth)
+    FeGearMesh::refined(name, gear, ElementFamily::Quadratic, settings.flank_elements, &teeth)
 }
 
 /// What is written.

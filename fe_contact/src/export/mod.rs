@@ -1,10 +1,8 @@
-//! Meshes for other programs and for the eye.
+//! Meshes for other programs, and as outlines for pictures.
 
 pub mod calculix;
 mod outline;
-mod svg;
 mod vtu;
 
 pub use outline::{Drawn, DrawnElement};
-pub use svg::{Placed, picture};
 pub use vtu::vtu;

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::element::Shape;
-use crate::mesh::{CarrierMesh, GearMesh};
+use crate::fe_mesh::{FeCarrierMesh, FeGearMesh};
 
 /// One element: nodes of [`Drawn::points`] in the order of the eight-node element.
 #[derive(Debug, Clone, Copy)]
@@ -25,15 +25,15 @@ pub struct Drawn {
 
 impl Drawn {
     /// A gear's mesh.
-    pub fn gear(mesh: &GearMesh) -> Self {
+    pub fn gear(mesh: &FeGearMesh) -> Self {
         let elements = mesh.elements.iter().map(|e| (e.shape, e.nodes.as_slice(), e.tooth));
         Self::collect(&mesh.points, elements)
     }
 
     /// The carrier's mesh.
-    pub fn carrier(mesh: &CarrierMesh) -> Self {
+    pub fn carrier(mesh: &FeCarrierMesh) -> Self {
         let elements =
-            mesh.elements.iter().map(|nodes| (CarrierMesh::shape(), nodes.as_slice(), 0));
+            mesh.elements.iter().map(|nodes| (FeCarrierMesh::shape(), nodes.as_slice(), 0));
         Self::collect(&mesh.points, elements)
     }
 

@@ -70,10 +70,9 @@ pub fn at_approach(
             continue;
         }
         table.check_patches(&answer, LEAST_CELLS, 0.0)?;
-        let pairs = table.pairs.iter().zip(&answer.pair_forces).map(|(cells, force)| {
-            let own = &answer.cell_forces[cells.first..cells.first + cells.x.len()];
-            let area = cells.width * table.face_width;
-            let pressures: Vec<f64> = own.iter().map(|f| f / area).collect();
+        let list = table.pairs.iter().zip(&answer.pair_forces).enumerate();
+        let pairs = list.map(|(k, (cells, force))| {
+            let pressures = table.pressures(k, &answer.cell_forces);
             let fit = hertz::fit(&cells.x, &pressures).filter(|_| cells.location == Location::Path);
             PairAtApproach {
                 index: cells.index,

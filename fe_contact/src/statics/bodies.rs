@@ -5,8 +5,8 @@ use gearset::{FeContactInput, Gear, Geometry, Mesh, MeshKind, MeshMember, Scene}
 use crate::body::GearBody;
 use crate::contact::{CellSettings, Matching};
 use crate::error::FeError;
+use crate::fe_mesh::FeGearMesh;
 use crate::material::Elastic;
-use crate::mesh::GearMesh;
 
 /// Settings of a run, worked out from the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -96,7 +96,7 @@ impl Bodies {
         fit(&input)?;
         let material = Elastic::new(&scene.material, input.plane);
         let make = |name: &'static str, gear: &Gear| -> Result<GearBody, FeError> {
-            let mesh = GearMesh::new(name, gear, input.element, input.flank_elements as usize)?;
+            let mesh = FeGearMesh::new(name, gear, input.element, input.flank_elements as usize)?;
             GearBody::new(mesh, material, geometry.face_width)
         };
         let wanted = |kind: MeshKind| scene.pair.is_none_or(|pair| pair == kind);
@@ -104,18 +104,10 @@ impl Bodies {
             geometry.sun.as_ref().filter(|_| wanted(MeshKind::SunPlanet)),
             geometry.ring.as_ref().filter(|_| wanted(MeshKind::RingPlanet)),
         );
-        // The gears are independent of each other: one thread each, whatever the machine.
-        let (sun, planet, ring) = std::thread::scope(|scope| {
-            let ring = scope.spawn(|| ring_gear.map(|g| make("ring", g)).transpose());
-            let sun = sun_gear.map(|g| make("sun", g)).transpose();
-            let planet = make("planet", &geometry.planet);
-            (sun, planet, ring.join())
-        });
-        let ring = match ring {
-            Ok(ring) => ring?,
-            Err(panic) => std::panic::resume_unwind(panic),
-        };
-        let (sun, planet) = (sun?, planet?);
+        // One after the other: a factor of each at once would be the largest thing in memory.
+        let ring = ring_gear.map(|g| make("ring", g)).transpose()?;
+        let sun = sun_gear.map(|g| make("sun", g)).transpose()?;
+        let planet = make("planet", &geometry.planet)?;
         let all = [sun.as_ref(), Some(&planet), ring.as_ref()];
         let matching = matching(&input, geometry.base_pitch, all.into_iter().flatten())?;
         let settings = FeSettings { input, matching };

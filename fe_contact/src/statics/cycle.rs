@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use super::equilibrium::Equilibrium;
 use super::races::SUN;
-use super::reference::Reference;
+use super::reference::ReferenceConfiguration;
 use super::set::StaticSet;
 use super::state::{MeshState, SetCycle, SetState};
 use crate::complementarity::{ActiveSet, ComplementaritySolver};
@@ -82,7 +82,7 @@ impl<'s> StaticSet<'s> {
         torque_nm: f64,
         further: &DVector<f64>,
         sized_for: f64,
-    ) -> Result<Reference, FeError> {
+    ) -> Result<ReferenceConfiguration, FeError> {
         let count = self.even_positions();
         let positions: Vec<f64> = (0..count).map(|i| i as f64 / count as f64).collect();
         let tables = self.tables(sized_for, &positions)?;
@@ -232,7 +232,7 @@ impl<'s> StaticSet<'s> {
             position: *position,
             central,
             planets,
-            backs: states.split_off(self.nominal.len()),
+            backside: states.split_off(self.nominal.len()),
             meshes: states,
             reactions: self.reactions(found),
             kinematic_rest,

@@ -13,7 +13,7 @@
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
-use super::placed::Placed;
+use super::placed::PlacedMesh;
 use super::set::StaticSet;
 use super::slopes::Slopes;
 use super::tables::SetTables;
@@ -35,8 +35,8 @@ pub(crate) struct Equilibrium<'t> {
     pub(crate) position: f64,
     /// Races' coordinates, m.
     pub(crate) q: DVector<f64>,
-    /// Sun meshes, ring meshes, and the back flanks if any touch.
-    pub(crate) meshes: Vec<Placed<'t>>,
+    /// Sun meshes, ring meshes, and the backside flanks if any touch.
+    pub(crate) meshes: Vec<PlacedMesh<'t>>,
     pub(crate) answers: Vec<MeshAnswer>,
     /// Slopes of the deformed flanks that the front meshes' rows hold, and what these leave on the
     /// races, N.
@@ -76,7 +76,7 @@ impl StaticSet<'_> {
         let none = DVector::zeros(self.races.count);
         let slopes = Vec::new();
         if f.amax() == 0.0 {
-            let answers = meshes.iter().map(Placed::untouched).collect::<Vec<_>>();
+            let answers = meshes.iter().map(PlacedMesh::untouched).collect::<Vec<_>>();
             let (q, level, load) = (none.clone(), none.clone(), none);
             let (residual, counts) = (0.0, (0, 0));
             return Ok(Equilibrium {
@@ -97,8 +97,8 @@ impl StaticSet<'_> {
         };
         let system = self.system(f, &none);
         let (mut found, mut counts) = self.balance(&system, &mut q, &meshes, solver)?;
-        if self.backs_touch(&q) {
-            meshes.extend(self.place_backs(position, &tables.settings)?);
+        if self.backside_touches(&q) {
+            meshes.extend(self.place_backside(position, &tables.settings)?);
             let (again, more) = self.balance(&system, &mut q, &meshes, solver)?;
             (found, counts) = (again, (counts.0 + more.0, counts.1 + more.1));
         }
@@ -197,7 +197,7 @@ impl StaticSet<'_> {
         &self,
         system: &System,
         q: &mut DVector<f64>,
-        meshes: &[Placed<'_>],
+        meshes: &[PlacedMesh<'_>],
         solver: &dyn ComplementaritySolver,
     ) -> Result<Balance, FeError> {
         const MOST: usize = 60;

@@ -11,12 +11,13 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use super::equilibrium::{Equilibrium, System};
-use super::placed::Placed;
-use super::reference::{moved, turned};
+use super::mesh_rows::turned;
+use super::phase::cycle;
+use super::placed::PlacedMesh;
+use super::reference::moved;
 use super::set::StaticSet;
-use super::slopes::{Beside, Slopes, unrelieved};
+use super::slopes::{NeighbourTables, Slopes, unrelieved};
 use super::state::{SetCycle, SetState};
-use super::tables::cycle;
 use crate::complementarity::{ActiveSet, ComplementaritySolver};
 use crate::contact::{CellSettings, MeshAnswer, MeshTable, PairFrame};
 use crate::error::FeError;
@@ -91,7 +92,7 @@ impl StaticSet<'_> {
             let there = self.there(position, &q, settings)?;
             let placed = there.iter().enumerate();
             let placed = placed.map(|(k, t)| self.place_there(k, t, position, &q));
-            let mut meshes: Vec<Placed<'_>> = placed.collect::<Result<_, _>>()?;
+            let mut meshes: Vec<PlacedMesh<'_>> = placed.collect::<Result<_, _>>()?;
             let mut load = DVector::zeros(self.races.count);
             let hold = |at: &DVector<f64>| (at - &q).amax() < SLOPES_HOLD;
             if !slopes_at.as_ref().is_some_and(hold) {
@@ -138,7 +139,7 @@ impl StaticSet<'_> {
         let there = self.there(position, q, &settings)?;
         let placed = there.iter().enumerate();
         let placed = placed.map(|(k, t)| self.place_there(k, t, position, q));
-        let mut meshes: Vec<Placed<'_>> = placed.collect::<Result<_, _>>()?;
+        let mut meshes: Vec<PlacedMesh<'_>> = placed.collect::<Result<_, _>>()?;
         let slopes = self.slopes_there(&there, &meshes, q, &settings, &ActiveSet)?;
         let mut load = DVector::zeros(q.len());
         let mut energy = 0.0;
@@ -160,7 +161,7 @@ impl StaticSet<'_> {
         there: &There,
         slopes: &Slopes,
         q: &DVector<f64>,
-        placed: &mut Placed<'_>,
+        placed: &mut PlacedMesh<'_>,
         load: &mut DVector<f64>,
     ) {
         let of = &self.nominal[which];
@@ -168,7 +169,7 @@ impl StaticSet<'_> {
         let onto = |row: &[f64; 6]| -> DVector<f64> {
             self.races.approach(of.kind, of.planet, row).into()
         };
-        let along = [onto(&gradients.string), onto(&gradients.center_distance)];
+        let along = [onto(&gradients.roll_length), onto(&gradients.center_distance)];
         let rows = placed.rows.iter_mut().zip(&mut placed.offsets).zip(&slopes.of_pairs);
         for ((row, offset), kappa) in rows {
             let before = row.dot(q);
@@ -238,7 +239,7 @@ impl StaticSet<'_> {
         there: &'t There,
         position: f64,
         q: &DVector<f64>,
-    ) -> Result<Placed<'t>, FeError> {
+    ) -> Result<PlacedMesh<'t>, FeError> {
         let of = &self.nominal[which];
         let still = unrelieved(&there.mesh, there.phase)?;
         let mut rows = Vec::new();
@@ -270,7 +271,7 @@ impl StaticSet<'_> {
             }
         }
         let table = Cow::Borrowed(&there.table);
-        Ok(Placed {
+        Ok(PlacedMesh {
             kind: of.kind,
             planet: of.planet,
             phase: there.phase,
@@ -288,7 +289,7 @@ impl StaticSet<'_> {
     fn slopes_there(
         &self,
         there: &[There],
-        meshes: &[Placed<'_>],
+        meshes: &[PlacedMesh<'_>],
         q: &DVector<f64>,
         settings: &CellSettings,
         solver: &(dyn ComplementaritySolver + Sync),
@@ -299,7 +300,7 @@ impl StaticSet<'_> {
             .into_par_iter()
             .map(|k| {
                 let There { mesh, table, .. } = &there[k];
-                let beside = Beside::new(self.bodies, mesh, table.phase, settings, STEPS)?;
+                let beside = NeighbourTables::new(self.bodies, mesh, table.phase, settings, STEPS)?;
                 beside.slopes(table, &answers[k].pair_forces, solver)
             })
             .collect()

@@ -7,16 +7,12 @@ use gearset::{DisplacedMesh, MeshKind};
 use nalgebra::DVector;
 
 use super::equilibrium::Equilibrium;
-use super::placed::Placed;
+use super::placed::PlacedMesh;
+use super::rest::larger;
 use super::set::StaticSet;
 use super::state::ThroughTorques;
 use crate::contact::MeshTable;
 use crate::error::FeError;
-
-/// The largest number; none if one is none.
-pub(crate) fn larger(each: impl Iterator<Item = f64>) -> f64 {
-    each.fold(0.0, |a, b| if a.is_nan() || a >= b { a } else { b })
-}
 
 impl StaticSet<'_> {
     /// A front mesh with the races at q, as exact kinematics have it at a position.
@@ -26,7 +22,7 @@ impl StaticSet<'_> {
         position: f64,
         q: &DVector<f64>,
     ) -> Result<DisplacedMesh, FeError> {
-        let (found, _) = self.ground().displaced(&self.nominal[mesh], q, 1.0)?;
+        let (found, _) = self.inputs().displaced(&self.nominal[mesh], q, 1.0)?;
         let unloaded = position - self.reference.lead() + self.nominal[mesh].offset;
         Ok(found.turned_by(unloaded))
     }
@@ -35,7 +31,7 @@ impl StaticSet<'_> {
     pub(crate) fn exact_approaches(
         &self,
         mesh: usize,
-        placed: &Placed<'_>,
+        placed: &PlacedMesh<'_>,
         position: f64,
         q: &DVector<f64>,
     ) -> Result<Vec<f64>, FeError> {
@@ -102,10 +98,10 @@ impl StaticSet<'_> {
             // The slopes of the flanks, of front meshes alone.
             let Some(slopes) = found.slopes.get(which) else { continue };
             let pose = &self.reference.meshes[which];
-            let by_string = self.reference.loaded[pose.group].gradients.string[5];
+            let by_roll_length = self.reference.loaded[pose.group].gradients.roll_length[5];
             let kappa = slopes.of_pairs.iter().zip(&answer.pair_forces);
-            ring += by_string * kappa.map(|(kappa, force)| kappa[0] * force).sum::<f64>();
-            ring += by_string * slopes.rest[0];
+            ring += by_roll_length * kappa.map(|(kappa, force)| kappa[0] * force).sum::<f64>();
+            ring += by_roll_length * slopes.rest[0];
         }
         let carrier = self.races.carrier_torque(&found.q);
         ThroughTorques { carrier_nm: self.sign * carrier, ring_nm: self.sign * ring }

@@ -4,6 +4,7 @@ use gearset::{Mesh, MeshKind, MeshMember};
 
 use super::bodies::Bodies;
 use crate::complementarity::ComplementaritySolver;
+use crate::contact::hertz::{self, Hertz};
 use crate::contact::{MeshAnswer, MeshTable};
 use crate::error::FeError;
 
@@ -39,6 +40,37 @@ pub struct PairAtPhase {
     pub answer: MeshAnswer,
 }
 
+/// Pressure along the flank of one tooth pair.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PressureProfile {
+    /// Pair k stands k base pitches on from pair 0.
+    pub index: i64,
+    /// Middles of the cells along the flank, m from the middle of the grid.
+    pub places: Vec<f64>,
+    /// Pressure in each, Pa.
+    pub pressures: Vec<f64>,
+    /// Half the length of the grid, m.
+    pub half_length: f64,
+    /// The ellipse nearest to the pressures; `None` with fewer than four loaded cells.
+    pub ellipse: Option<Hertz>,
+}
+
+impl PairAtPhase {
+    /// Pressure of entry `k` of the table's pairs, whose force is `answer.pair_forces[k]`; `None` if there
+    /// is no such entry.
+    pub fn pressure_profile(&self, k: usize) -> Option<PressureProfile> {
+        let cells = self.table.pairs.get(k)?;
+        let pressures = self.table.pressures(k, &self.answer.cell_forces);
+        Some(PressureProfile {
+            index: cells.index,
+            ellipse: hertz::fit(&cells.x, &pressures),
+            half_length: 0.5 * cells.width * cells.x.len() as f64,
+            places: cells.x.clone(),
+            pressures,
+        })
+    }
+}
+
 /// One mesh cycle of one mesh.
 #[derive(Debug, Clone)]
 pub struct PairCycle {
@@ -55,9 +87,36 @@ impl PairCycle {
         self.positions.iter().map(of).sum::<f64>() / self.positions.len() as f64
     }
 
+    /// F/δ at one of the positions, N/m.
+    pub fn secant_stiffness(&self, position: &PairAtPhase) -> f64 {
+        self.force / position.deflection
+    }
+
     /// Mean over the positions of F/δ, N/m.
     pub fn mean_secant_stiffness(&self) -> f64 {
-        self.mean(|p| self.force / p.deflection)
+        self.mean(|p| self.secant_stiffness(p))
+    }
+
+    /// Force of one tooth pair on its way from first to last touch: place, in base pitches from the start of
+    /// the path of contact, and force, N; by place.
+    ///
+    /// Pair k at phase φ stands where pair 0 stands at φ + k, so a cycle of all pairs is the way of one.
+    pub fn load_of_one_pair(&self) -> Vec<(f64, f64)> {
+        let at = |p: &PairAtPhase| {
+            let phase = p.phase;
+            p.pairs.clone().into_iter().map(move |load| (phase + load.index as f64, load.force))
+        };
+        let mut list: Vec<(f64, f64)> = self.positions.iter().flat_map(at).collect();
+        list.sort_by(|a, b| a.0.total_cmp(&b.0));
+        list
+    }
+
+    /// Position at which a single pair carries most, and that pair's entry in the position's table.
+    pub fn heaviest_pair(&self) -> Option<(&PairAtPhase, usize)> {
+        let of = |p: &PairAtPhase| p.answer.pair_forces.iter().copied().fold(0.0, f64::max);
+        let p = self.positions.iter().max_by(|a, b| of(a).total_cmp(&of(b)))?;
+        let forces = &p.answer.pair_forces;
+        (0..forces.len()).max_by(|a, b| forces[*a].total_cmp(&forces[*b])).map(|k| (p, k))
     }
 
     /// Mean over the positions of ΔF/Δδ for a load step of 1 %, N/m.
@@ -76,6 +135,11 @@ impl PairCycle {
             self.positions.iter().map(|p| p.deflection).fold(start, f)
         };
         fold(f64::max, f64::NEG_INFINITY) - fold(f64::min, f64::INFINITY)
+    }
+
+    /// Iterations of the contact solver at all positions.
+    pub fn iterations(&self) -> usize {
+        self.positions.iter().map(|p| p.iterations).sum()
     }
 
     /// Mean number of loaded pairs.

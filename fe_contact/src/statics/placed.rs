@@ -14,7 +14,7 @@ use crate::error::FeError;
 
 /// One mesh at one position.
 #[derive(Debug, Clone)]
-pub(crate) struct Placed<'t> {
+pub(crate) struct PlacedMesh<'t> {
     pub(crate) kind: MeshKind,
     pub(crate) planet: usize,
     pub(crate) phase: f64,
@@ -57,7 +57,7 @@ impl Bend {
     }
 }
 
-impl Placed<'_> {
+impl PlacedMesh<'_> {
     pub(crate) fn approaches(&self, q: &DVector<f64>) -> Vec<f64> {
         self.rows.iter().zip(&self.offsets).map(|(b, offset)| b.dot(q) - offset).collect()
     }

@@ -5,17 +5,18 @@ use std::borrow::Cow;
 use gearset::{Mesh, MeshKind, MeshMember};
 use nalgebra::DVector;
 
-use super::placed::{Bend, Placed};
-use super::reference::{invariants, turned};
-use super::set::{StaticSet, mirrored};
+use super::mesh_rows::{invariants, mirrored, turned};
+use super::phase::cycle;
+use super::placed::{Bend, PlacedMesh};
+use super::set::StaticSet;
 use super::slopes::Slopes;
-use super::tables::{SetTables, cycle};
+use super::tables::SetTables;
 use crate::contact::{CellSettings, Location, MeshTable, PairCells, PairFrame};
 use crate::error::FeError;
 
 impl StaticSet<'_> {
     /// Every mesh at a position, with its rows and gap offsets; the tables must hold its phases.
-    pub(crate) fn place<'t>(&self, position: f64, tables: &'t SetTables) -> Vec<Placed<'t>> {
+    pub(crate) fn place<'t>(&self, position: f64, tables: &'t SetTables) -> Vec<PlacedMesh<'t>> {
         let one = |mesh: usize| {
             let table = tables.list[self.place_of(tables, mesh, position)].as_ref();
             self.place_one(mesh, Cow::Borrowed(table), position)
@@ -35,12 +36,12 @@ impl StaticSet<'_> {
         mesh: usize,
         table: Cow<'t, MeshTable>,
         position: f64,
-    ) -> Placed<'t> {
+    ) -> PlacedMesh<'t> {
         let pose = &self.reference.meshes[mesh];
         let own = &self.reference.loaded[pose.group];
         let (kind, planet) = (pose.kind, pose.planet);
-        let [approach, string, distance] = pose.at;
-        let phase = table.phase + string / own.mesh.base_pitch;
+        let [approach, roll_length, distance] = pose.at;
+        let phase = table.phase + roll_length / own.mesh.base_pitch;
         let one = |p: &PairCells| {
             let here = PairFrame::pressed(&own.mesh, phase, approach, p.index);
             let of_table = PairFrame::new(&own.mesh, table.phase, p.index);
@@ -59,8 +60,9 @@ impl StaticSet<'_> {
                     }
                     (Location::Path, _) => return None,
                 };
-                let [delta, string] = [own.gradients.approach[5], own.gradients.string[5]];
-                let turn = by[0] * delta + by[1] * string;
+                let [delta, roll_length] =
+                    [own.gradients.approach[5], own.gradients.roll_length[5]];
+                let turn = by[0] * delta + by[1] * roll_length;
                 let mut row = DVector::zeros(self.races.count);
                 for (gradient, by) in pose.gradients.iter().zip(by) {
                     row.axpy(by, gradient, 1.0);
@@ -97,7 +99,7 @@ impl StaticSet<'_> {
         if self.has_tooth_errors() {
             self.write_errors(mesh, &table, position, &mut errors);
         }
-        Placed { kind, planet, phase: table.phase, table, rows, offsets, errors, bends, turns }
+        PlacedMesh { kind, planet, phase: table.phase, table, rows, offsets, errors, bends, turns }
     }
 
     /// The gears of a front mesh at their loaded centre distance, and the direction of its line of centres
@@ -129,61 +131,61 @@ impl StaticSet<'_> {
     pub(crate) fn lean(
         &self,
         mesh: usize,
-        placed: &mut Placed<'_>,
+        placed: &mut PlacedMesh<'_>,
         slopes: &Slopes,
         load: &mut DVector<f64>,
     ) {
         let pose = &self.reference.meshes[mesh];
-        let [_, string, distance] = &pose.gradients;
+        let [_, roll_length, distance] = &pose.gradients;
         let pairs = placed.rows.iter_mut().zip(&mut placed.offsets).zip(&slopes.of_pairs);
-        for ((row, offset), [by_string, by_distance]) in pairs {
-            if *by_string == 0.0 && *by_distance == 0.0 {
+        for ((row, offset), [by_roll_length, by_distance]) in pairs {
+            if *by_roll_length == 0.0 && *by_distance == 0.0 {
                 continue;
             }
             let before = row.dot(&self.reference.q);
-            row.axpy(-by_string, string, 1.0);
+            row.axpy(-by_roll_length, roll_length, 1.0);
             row.axpy(-by_distance, distance, 1.0);
-            let at = by_string * pose.at[1] + by_distance * pose.at[2];
+            let at = by_roll_length * pose.at[1] + by_distance * pose.at[2];
             *offset += row.dot(&self.reference.q) - before + at;
         }
-        load.axpy(slopes.rest[0], string, 1.0);
+        load.axpy(slopes.rest[0], roll_length, 1.0);
         load.axpy(slopes.rest[1], distance, 1.0);
     }
 
-    /// The back flanks of all meshes at a position.
-    pub(crate) fn place_backs(
+    /// The backside flanks of all meshes at a position.
+    pub(crate) fn place_backside(
         &self,
         position: f64,
         settings: &CellSettings,
-    ) -> Result<Vec<Placed<'static>>, FeError> {
-        (0..self.nominal.len()).map(|mesh| self.back(mesh, position, settings)).collect()
+    ) -> Result<Vec<PlacedMesh<'static>>, FeError> {
+        (0..self.nominal.len()).map(|mesh| self.backside(mesh, position, settings)).collect()
     }
 
-    /// Whether any back flanks meet at these displacements.
-    pub(crate) fn backs_touch(&self, q: &DVector<f64>) -> bool {
-        self.reference.backs.iter().any(|back| back.is_met(q.as_slice()))
+    /// Whether any backside flanks meet at these displacements.
+    pub(crate) fn backside_touches(&self, q: &DVector<f64>) -> bool {
+        self.reference.backside.iter().any(|backside| backside.is_met(q.as_slice()))
     }
 
-    /// The back flanks of one mesh: the mesh seen in the mirror along its line of centres. They
+    /// The backside flanks of one mesh: the mesh seen in the mirror along its line of centres. They
     /// share no compliance with the flanks in front.
-    fn back(
+    fn backside(
         &self,
         mesh: usize,
         position: f64,
         settings: &CellSettings,
-    ) -> Result<Placed<'static>, FeError> {
-        let back = &self.reference.backs[mesh];
+    ) -> Result<PlacedMesh<'static>, FeError> {
+        let backside = &self.reference.backside[mesh];
         let of = &self.nominal[mesh];
         let (_, pair) = self.bodies.joined(of.kind)?;
-        let phase = cycle(self.back_offset(mesh) - position);
-        let table = MeshTable::new(&back.mesh, pair, phase, settings)?;
+        let phase = cycle(self.backside_offset(mesh) - position);
+        let table = MeshTable::new(&backside.mesh, pair, phase, settings)?;
         let mut rows = Vec::with_capacity(table.pairs.len());
         let mut offsets = Vec::with_capacity(table.pairs.len());
         for p in &table.pairs {
-            let row = mirrored(&turned(&p.row, back.direction));
+            let row = mirrored(&turned(&p.row, backside.direction));
             let row = DVector::from_vec(self.races.approach(of.kind, of.planet, &row));
-            let [by_approach, ..] = invariants(of.kind, &back.gradients, &p.row);
-            offsets.push(row.dot(&self.reference.q) - by_approach * back.approach);
+            let [by_approach, ..] = invariants(of.kind, &backside.gradients, &p.row);
+            offsets.push(row.dot(&self.reference.q) - by_approach * backside.approach);
             rows.push(row);
         }
         let errors = vec![0.0; rows.len()];
@@ -191,6 +193,6 @@ impl StaticSet<'_> {
         let (kind, planet, bends) = (of.kind, of.planet, Vec::new());
         // In the mirror rotations turn round.
         let turns = table.pairs.iter().map(|p| -p.row[5]).collect();
-        Ok(Placed { kind, planet, phase, table, rows, offsets, errors, bends, turns })
+        Ok(PlacedMesh { kind, planet, phase, table, rows, offsets, errors, bends, turns })
     }
 }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use gearset::{Displacements, MeshKind, Motion, Scene, Support, Torsional};
+use gearset::{Displacements, Freedom, MeshKind, Scene, Support, Torsional};
 
 use super::bodies::Bodies;
 use crate::body::CarrierBody;
@@ -60,9 +60,9 @@ impl Races {
         for body in 0..3 + n {
             for axis in 0..3 {
                 let free = match supports.get(body).map(|s| s.motion) {
-                    None | Some(Motion::Free) => true,
-                    Some(Motion::RotationHeld) => axis < 2,
-                    Some(Motion::Held) => false,
+                    None | Some(Freedom::Free) => true,
+                    Some(Freedom::RotationHeld) => axis < 2,
+                    Some(Freedom::Held) => false,
                 };
                 index.push(free.then(|| {
                     next += 1;
@@ -98,6 +98,11 @@ impl Races {
     /// Index of a coordinate, `None` if it is held.
     pub fn of(&self, body: usize, axis: usize) -> Option<usize> {
         self.index[3 * body + axis]
+    }
+
+    /// Displacements of one body's race from those of all, x (n, m); held coordinates are still.
+    pub(crate) fn displaced(&self, x: &DVector<f64>, body: usize) -> [f64; 3] {
+        [0, 1, 2].map(|axis| self.of(body, axis).map_or(0.0, |i| x[i]))
     }
 
     /// Stiffness of a central member's own support on one of its coordinates, N/m.

@@ -18,8 +18,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::bodies::{Bodies, missing_mesh};
 use super::imperfection::Imperfections;
+use super::mesh_rows::mirrored;
+use super::nominal_mesh::NominalMesh;
 use super::races::Races;
-use super::set::NominalMesh;
+
 use crate::error::FeError;
 use crate::short_row::ShortRow;
 
@@ -43,7 +45,7 @@ pub(crate) struct LoadedMesh {
 pub(crate) struct MeshPose {
     pub(crate) kind: MeshKind,
     pub(crate) planet: usize,
-    /// Which of [`Reference::loaded`].
+    /// Which of [`ReferenceConfiguration::loaded`].
     pub(crate) group: usize,
     /// λ, rad.
     pub(crate) direction: f64,
@@ -53,9 +55,9 @@ pub(crate) struct MeshPose {
     pub(crate) gradients: [DVector<f64>; 3],
 }
 
-/// Back flanks of one mesh at the reference, seen in the mirror along its line of centres.
+/// Backside flanks of one mesh at the reference, seen in the mirror along its line of centres.
 #[derive(Debug, Clone)]
-pub(crate) struct BackPose {
+pub(crate) struct BacksidePose {
     pub(crate) mesh: Mesh,
     /// By how much loads have moved the phase of the mirrored mesh, cycles.
     pub(crate) shift: f64,
@@ -70,7 +72,7 @@ pub(crate) struct BackPose {
     met_at: f64,
 }
 
-impl BackPose {
+impl BacksidePose {
     /// Whether the flanks meet with the races at q (m).
     pub(crate) fn is_met(&self, q: &[f64]) -> bool {
         self.row.dot(q) >= self.met_at
@@ -79,28 +81,28 @@ impl BackPose {
 
 /// What a set is linearised about.
 #[derive(Debug, Clone)]
-pub struct Reference {
+pub struct ReferenceConfiguration {
     /// Torque on the sun it is the mean configuration under, N·m (magnitude).
     pub torque_nm: f64,
     /// Displacements of the races, n, m.
     pub q: DVector<f64>,
     /// Sun meshes, then ring meshes.
     pub(crate) meshes: Vec<MeshPose>,
-    pub(crate) backs: Vec<BackPose>,
+    pub(crate) backside: Vec<BacksidePose>,
     pub(crate) loaded: Vec<LoadedMesh>,
     /// Σ F̄ ∂²δ, n×n, N/m.
     pub(crate) stiffness: DMatrix<f64>,
 }
 
 /// What a reference is worked out from.
-pub(super) struct Ground<'g> {
+pub(super) struct ReferenceInputs<'g> {
     pub(super) bodies: &'g Bodies,
     pub(super) races: &'g Races,
     pub(super) nominal: &'g [NominalMesh],
     pub(super) imperfections: &'g Imperfections,
 }
 
-impl Ground<'_> {
+impl ReferenceInputs<'_> {
     /// A mesh with the races at q, from its unloaded phase 0; seen in the mirror with `sign` −1.
     pub(super) fn displaced(
         &self,
@@ -112,7 +114,7 @@ impl Ground<'_> {
         let mut x = self.races.mesh_displacements(of.kind, of.planet, q.as_slice());
         self.imperfections.displace(of.kind, of.planet, &mut x);
         if sign < 0.0 {
-            x = super::set::mirrored(&x);
+            x = mirrored(&x);
         }
         let found = mesh.displaced(0.0, &x).map_err(|cause| {
             FeError::NoEquilibrium(format!(
@@ -124,31 +126,31 @@ impl Ground<'_> {
     }
 }
 
-impl Reference {
+impl ReferenceConfiguration {
     /// At displacements q (m) of the races, the meshes carrying `forces` (N) on the mean.
     pub(super) fn new(
-        ground: &Ground<'_>,
+        inputs: &ReferenceInputs<'_>,
         torque_nm: f64,
         q: DVector<f64>,
         forces: &[f64],
     ) -> Result<Self, FeError> {
-        let races = ground.races;
+        let races = inputs.races;
         let n = races.count;
-        let found: Vec<DisplacedMesh> = ground
+        let found: Vec<DisplacedMesh> = inputs
             .nominal
             .iter()
-            .map(|of| ground.displaced(of, &q, 1.0).map(|d| d.0))
+            .map(|of| inputs.displaced(of, &q, 1.0).map(|d| d.0))
             .collect::<Result<_, _>>()?;
-        let loaded = share(ground, &found)?;
+        let loaded = share(inputs, &found)?;
         let mut meshes = Vec::with_capacity(found.len());
         let mut stiffness = DMatrix::zeros(n, n);
-        for (which, (of, displaced)) in ground.nominal.iter().zip(&found).enumerate() {
+        for (which, (of, displaced)) in inputs.nominal.iter().zip(&found).enumerate() {
             let onto =
                 |row: &[f64; 6]| -> DVector<f64> { races.approach(of.kind, of.planet, row).into() };
             let belongs = |group: &&(LoadedMesh, Vec<usize>)| group.1.contains(&which);
             let group = loaded.iter().position(|group| belongs(&group)).unwrap_or(0);
             let own = &loaded[group].0;
-            let string = |mesh: &Mesh, shift: f64| mesh.path_start + shift * mesh.base_pitch;
+            let roll_length = |mesh: &Mesh, shift: f64| mesh.path_start + shift * mesh.base_pitch;
             let gradients = displaced.gradients();
             meshes.push(MeshPose {
                 kind: of.kind,
@@ -157,12 +159,12 @@ impl Reference {
                 direction: displaced.line_of_centres,
                 at: [
                     displaced.approach,
-                    displaced.touching_string() - string(&own.mesh, own.shift),
+                    displaced.touching_roll_length() - roll_length(&own.mesh, own.shift),
                     displaced.center_distance - own.mesh.center_distance,
                 ],
                 gradients: [
                     onto(&gradients.approach),
-                    onto(&gradients.string),
+                    onto(&gradients.roll_length),
                     onto(&gradients.center_distance),
                 ],
             });
@@ -174,21 +176,21 @@ impl Reference {
                 stiffness += onto_mesh.transpose() * turning * &onto_mesh;
             }
         }
-        let backs = ground
+        let backside = inputs
             .nominal
             .iter()
             .map(|of| {
-                let backlash = ground.bodies.geometry.normal_backlash(of.kind).unwrap_or(0.0);
-                let (displaced, _) = ground.displaced(of, &q, -1.0)?;
-                let mesh = moved(ground.bodies, of.kind, displaced.center_distance)?;
+                let backlash = inputs.bodies.geometry.normal_backlash(of.kind).unwrap_or(0.0);
+                let (displaced, _) = inputs.displaced(of, &q, -1.0)?;
+                let mesh = moved(inputs.bodies, of.kind, displaced.center_distance)?;
                 let gradients = at_rest(&mesh)?;
-                let row = super::set::mirrored(&displaced.gradients().approach);
+                let row = mirrored(&displaced.gradients().approach);
                 let row = races.approach(of.kind, of.planet, &row);
                 let row = ShortRow::new(row.into_iter()).ok_or_else(|| {
                     FeError::NoEquilibrium("a mesh has more than two bodies".into())
                 })?;
                 let approach = displaced.approach - backlash;
-                Ok(BackPose {
+                Ok(BacksidePose {
                     shift: displaced.phase(),
                     direction: displaced.line_of_centres,
                     approach,
@@ -200,7 +202,7 @@ impl Reference {
             })
             .collect::<Result<_, FeError>>()?;
         let loaded = loaded.into_iter().map(|group| group.0).collect();
-        Ok(Self { torque_nm, q, meshes, backs, loaded, stiffness })
+        Ok(Self { torque_nm, q, meshes, backside, loaded, stiffness })
     }
 
     /// By how much loads have moved the phase of planet 0's sun mesh, from which positions count, cycles.
@@ -239,30 +241,6 @@ impl Reference {
     }
 }
 
-/// Derivatives of a pair's approach with respect to δ, σ and a', from its row on driver and driven in
-/// the displaced frame.
-///
-/// The rotations' entries give A_δ and A_σ, the planet's along the line of centres A_a.
-pub(crate) fn invariants(kind: MeshKind, gradients: &MeshGradients, row: &[f64; 6]) -> [f64; 3] {
-    let (delta, string) = (&gradients.approach, &gradients.string);
-    let determinant = delta[2] * string[5] - delta[5] * string[2];
-    let by_approach = (row[2] * string[5] - row[5] * string[2]) / determinant;
-    let by_string = (delta[2] * row[5] - delta[5] * row[2]) / determinant;
-    let planet = match kind {
-        MeshKind::SunPlanet => 3,
-        MeshKind::RingPlanet => 0,
-    };
-    [by_approach, by_string, row[planet] - by_approach * delta[planet] - by_string * string[planet]]
-}
-
-/// A row on (x, y, θ) of driver and driven in a frame that stands at `angle`, seen from where it is 0.
-pub(crate) fn turned(row: &[f64; 6], angle: f64) -> [f64; 6] {
-    let (sin, cos) = angle.sin_cos();
-    let one = |x: f64, y: f64| [cos * x - sin * y, sin * x + cos * y];
-    let ([a, b], [c, d]) = (one(row[0], row[1]), one(row[3], row[4]));
-    [a, b, row[2], c, d, row[5]]
-}
-
 /// A mesh of a kind at another centre distance.
 pub(super) fn moved(bodies: &Bodies, kind: MeshKind, distance: f64) -> Result<Mesh, FeError> {
     let mesh = bodies.geometry.mesh(kind).ok_or_else(|| missing_mesh(kind))?;
@@ -277,14 +255,14 @@ pub(super) fn at_rest(mesh: &Mesh) -> Result<MeshGradients, FeError> {
 
 /// Meshes that share tables, with the places of their members.
 fn share(
-    ground: &Ground<'_>,
+    inputs: &ReferenceInputs<'_>,
     found: &[DisplacedMesh],
 ) -> Result<Vec<(LoadedMesh, Vec<usize>)>, FeError> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (k, displaced) in found.iter().enumerate() {
         let near = |group: &&mut Vec<usize>| {
             let first = &found[group[0]];
-            ground.nominal[group[0]].kind == ground.nominal[k].kind
+            inputs.nominal[group[0]].kind == inputs.nominal[k].kind
                 && (first.phase() - displaced.phase()).abs() < SHARED[0]
                 && (first.center_distance - displaced.center_distance).abs() < SHARED[1]
         };
@@ -297,8 +275,8 @@ fn share(
         let mean = |of: fn(&DisplacedMesh) -> f64| {
             members.iter().map(|k| of(&found[*k])).sum::<f64>() / members.len() as f64
         };
-        let kind = ground.nominal[members[0]].kind;
-        let mesh = moved(ground.bodies, kind, mean(|d| d.center_distance))?;
+        let kind = inputs.nominal[members[0]].kind;
+        let mesh = moved(inputs.bodies, kind, mean(|d| d.center_distance))?;
         let gradients = at_rest(&mesh)?;
         Ok((LoadedMesh { mesh, shift: mean(DisplacedMesh::phase), gradients }, members))
     };

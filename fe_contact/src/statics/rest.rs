@@ -48,6 +48,11 @@ impl KinematicRest {
     }
 }
 
+/// The largest number; none if one is none.
+pub(crate) fn larger(each: impl Iterator<Item = f64>) -> f64 {
+    each.fold(0.0, |a, b| if a.is_nan() || a >= b { a } else { b })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -8,21 +8,11 @@ use nalgebra::DVector;
 
 use super::bodies::{Bodies, missing_mesh};
 use super::imperfection::Imperfections;
+use super::nominal_mesh::NominalMesh;
+use super::phase::cycle;
 use super::races::{PLANETS, Races, SUN};
-use super::reference::{Ground, Reference};
-use super::tables::cycle;
+use super::reference::{ReferenceConfiguration, ReferenceInputs};
 use crate::error::FeError;
-
-/// One mesh of the unloaded set.
-#[derive(Debug, Clone)]
-pub(super) struct NominalMesh {
-    pub(super) kind: MeshKind,
-    pub(super) planet: usize,
-    /// Phase where planet 0's sun mesh is at phase 0, cycles.
-    pub(super) offset: f64,
-    /// The same of its back flanks, whose phases run backwards.
-    pub(super) back_offset: f64,
-}
 
 /// A set ready for loads.
 #[derive(Debug, Clone)]
@@ -37,7 +27,7 @@ pub struct StaticSet<'s> {
     /// Sun's angle (mirrored frame) where planet 0's sun mesh is at phase 0, unloaded, rad.
     pub(super) start_angle: f64,
     pub(super) imperfections: Imperfections,
-    pub(crate) reference: Reference,
+    pub(crate) reference: ReferenceConfiguration,
 }
 
 impl<'s> StaticSet<'s> {
@@ -68,32 +58,37 @@ impl<'s> StaticSet<'s> {
         let at_zero = phasing.phases(0.0, Facing::CounterClockwise);
         let first = at_zero.sun_planet[0];
         // The other flanks at the same sun angle. The planets stand where the flanks in front touch,
-        // one sun-mesh backlash ahead of where the back flanks would.
-        let at_back = phasing.phases(-first * pitch_angle(bodies), Facing::Clockwise);
+        // one sun-mesh backlash ahead of where the backside flanks would.
+        let at_backside = phasing.phases(-first * pitch_angle(bodies), Facing::Clockwise);
         let normal = bodies.geometry.normal_backlash(MeshKind::SunPlanet).unwrap_or(0.0);
         let ahead = normal / bodies.geometry.base_pitch;
-        let list = |kind, front: &[f64], back: &[f64], ahead: f64| -> Vec<NominalMesh> {
-            let one = |(planet, (front, back)): (usize, (&f64, &f64))| NominalMesh {
+        let list = |kind, front: &[f64], backside: &[f64], ahead: f64| -> Vec<NominalMesh> {
+            let one = |(planet, (front, backside)): (usize, (&f64, &f64))| NominalMesh {
                 kind,
                 planet,
                 offset: front - first,
-                back_offset: back + ahead,
+                backside_offset: backside + ahead,
             };
-            front.iter().zip(back).enumerate().map(one).collect()
+            front.iter().zip(backside).enumerate().map(one).collect()
         };
-        let mut nominal = list(MeshKind::SunPlanet, &at_zero.sun_planet, &at_back.sun_planet, 0.0);
+        let mut nominal =
+            list(MeshKind::SunPlanet, &at_zero.sun_planet, &at_backside.sun_planet, 0.0);
         nominal.extend(list(
             MeshKind::RingPlanet,
             &at_zero.ring_planet,
-            &at_back.ring_planet,
+            &at_backside.ring_planet,
             ahead,
         ));
         let races = Races::new(scene, bodies, &positions.psi_rad)?;
         let imperfections = imperfections.mirrored(sign);
         let unloaded = DVector::zeros(races.count);
-        let ground =
-            Ground { bodies, races: &races, nominal: &nominal, imperfections: &imperfections };
-        let reference = Reference::new(&ground, 0.0, unloaded, &[])?;
+        let inputs = ReferenceInputs {
+            bodies,
+            races: &races,
+            nominal: &nominal,
+            imperfections: &imperfections,
+        };
+        let reference = ReferenceConfiguration::new(&inputs, 0.0, unloaded, &[])?;
         let start_angle = -first * pitch_angle(bodies);
         Ok(Self { bodies, races, sign, nominal, start_angle, imperfections, reference })
     }
@@ -118,12 +113,12 @@ impl<'s> StaticSet<'s> {
         torque_nm: f64,
         q: DVector<f64>,
         forces: &[f64],
-    ) -> Result<Reference, FeError> {
-        Reference::new(&self.ground(), torque_nm, q, forces)
+    ) -> Result<ReferenceConfiguration, FeError> {
+        ReferenceConfiguration::new(&self.inputs(), torque_nm, q, forces)
     }
 
-    pub(super) fn ground(&self) -> Ground<'_> {
-        Ground {
+    pub(super) fn inputs(&self) -> ReferenceInputs<'_> {
+        ReferenceInputs {
             bodies: self.bodies,
             races: &self.races,
             nominal: &self.nominal,
@@ -132,7 +127,7 @@ impl<'s> StaticSet<'s> {
     }
 
     /// The configuration the set is linearised about.
-    pub fn reference(&self) -> &Reference {
+    pub fn reference(&self) -> &ReferenceConfiguration {
         &self.reference
     }
 
@@ -177,18 +172,18 @@ impl<'s> StaticSet<'s> {
         self.nominal[mesh].offset + (shift - self.reference.lead())
     }
 
-    /// Phase of the mirrored mesh of back flanks at position 0, cycles.
-    pub(super) fn back_offset(&self, mesh: usize) -> f64 {
-        let shift = self.reference.backs[mesh].shift;
-        self.nominal[mesh].back_offset + shift + self.reference.lead()
+    /// Phase of the mirrored mesh of backside flanks at position 0, cycles.
+    pub(super) fn backside_offset(&self, mesh: usize) -> f64 {
+        let shift = self.reference.backside[mesh].shift;
+        self.nominal[mesh].backside_offset + shift + self.reference.lead()
     }
 
     /// Where all meshes stand in their cycles at position 0: sun meshes, then ring meshes.
-    pub(crate) fn law_starts(&self, has_backs: bool) -> Vec<MeshStart> {
+    pub(crate) fn law_starts(&self, has_backside: bool) -> Vec<MeshStart> {
         let one = |(mesh, of): (usize, &NominalMesh)| MeshStart {
             kind: of.kind,
             front: self.offset(mesh),
-            back: has_backs.then(|| self.back_offset(mesh)),
+            backside: has_backside.then(|| self.backside_offset(mesh)),
         };
         self.nominal.iter().enumerate().map(one).collect()
     }
@@ -209,10 +204,4 @@ impl<'s> StaticSet<'s> {
 /// Angle between the sun's teeth, rad.
 pub(super) fn pitch_angle(bodies: &Bodies) -> f64 {
     bodies.geometry.sun.as_ref().map_or(0.0, gearset::Gear::pitch_angle)
-}
-
-/// What stands on (x, y, θ) of driver and driven, seen in the mirror along the line of centres: y and θ
-/// turn round.
-pub(crate) fn mirrored(row: &[f64; 6]) -> [f64; 6] {
-    [row[0], -row[1], -row[2], row[3], -row[4], -row[5]]
 }

@@ -31,7 +31,7 @@ pub(crate) struct Slopes {
 
 /// Tables to either side of a place of a mesh: σ on and back, a' wider and narrower.
 #[derive(Debug, Clone)]
-pub(crate) struct Beside {
+pub(crate) struct NeighbourTables {
     tables: Vec<(Mesh, MeshTable)>,
     steps: [f64; 2],
 }
@@ -42,7 +42,7 @@ const STEPS: [f64; 2] = [2e-5, 2e-5];
 /// Cells of a pair in tables of which only differences are taken.
 const CELLS: usize = 20;
 
-impl Beside {
+impl NeighbourTables {
     /// On cells as coarse as differences allow.
     pub(crate) fn coarse(
         bodies: &Bodies,
@@ -63,18 +63,18 @@ impl Beside {
         steps: [f64; 2],
     ) -> Result<Self, FeError> {
         let (_, pair) = bodies.joined(mesh.kind)?;
-        let string = mesh.path_start + phase * mesh.base_pitch;
+        let roll_length = mesh.path_start + phase * mesh.base_pitch;
         let mut tables = Vec::with_capacity(4);
         for (which, step) in steps.into_iter().enumerate() {
             for sign in [1.0, -1.0] {
-                let (mesh, string) = match which {
-                    0 => (mesh.clone(), string + sign * step),
+                let (mesh, roll_length) = match which {
+                    0 => (mesh.clone(), roll_length + sign * step),
                     _ => {
                         let distance = mesh.center_distance + sign * step;
-                        (super::reference::moved(bodies, mesh.kind, distance)?, string)
+                        (super::reference::moved(bodies, mesh.kind, distance)?, roll_length)
                     }
                 };
-                let phase = (string - mesh.path_start) / mesh.base_pitch;
+                let phase = (roll_length - mesh.path_start) / mesh.base_pitch;
                 let table = MeshTable::new(&mesh, pair, phase, settings)?;
                 tables.push((mesh, table));
             }

@@ -2,9 +2,8 @@
 
 use gearset::MeshKind;
 
-use super::kinematic_rest::larger;
 use super::pair::ToothPairLoad;
-use super::rest::KinematicRest;
+use super::rest::{KinematicRest, larger};
 
 /// One mesh of a set in equilibrium.
 #[derive(Debug, Clone)]
@@ -25,6 +24,13 @@ pub struct MeshState {
     pub pairs: Vec<ToothPairLoad>,
 }
 
+impl MeshState {
+    /// Force over rigid approach along the line of action, N/m.
+    pub fn secant_stiffness(&self) -> f64 {
+        self.force / self.approach
+    }
+}
+
 /// A set in equilibrium at one position. Displacements in the carrier frame, counter-clockwise.
 #[derive(Debug, Clone)]
 pub struct SetState {
@@ -36,8 +42,8 @@ pub struct SetState {
     pub planets: Vec<[f64; 3]>,
     /// All meshes: sun meshes, then ring meshes.
     pub meshes: Vec<MeshState>,
-    /// Loaded back flanks; phases count in the mirrored mesh.
-    pub backs: Vec<MeshState>,
+    /// Loaded backside flanks; phases count in the mirrored mesh.
+    pub backside: Vec<MeshState>,
     /// Torques that leave through carrier and ring.
     pub reactions: ThroughTorques,
     /// What the approach of a loaded pair, worked out with exact kinematics at these displacements, is
@@ -67,6 +73,24 @@ pub struct ThroughTorques {
     pub ring_nm: f64,
 }
 
+/// A quantity over the positions of a mesh cycle, in its own unit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CycleRange {
+    /// Mean.
+    pub mean: f64,
+    /// Smallest value.
+    pub least: f64,
+    /// Largest value.
+    pub largest: f64,
+}
+
+impl CycleRange {
+    /// Largest value less smallest.
+    pub fn peak_to_peak(&self) -> f64 {
+        self.largest - self.least
+    }
+}
+
 /// Equilibrium over one mesh cycle.
 #[derive(Debug, Clone)]
 pub struct SetCycle {
@@ -84,17 +108,55 @@ impl SetCycle {
     pub fn mean_secant_stiffness(&self, kind: MeshKind) -> f64 {
         let meshes = self.states.iter().flat_map(|s| &s.meshes).filter(|m| m.kind == kind);
         let (sum, count) =
-            meshes.fold((0.0, 0u32), |(sum, n), m| (sum + m.force / m.approach, n + 1));
+            meshes.fold((0.0, 0u32), |(sum, n), m| (sum + m.secant_stiffness(), n + 1));
         sum / f64::from(count.max(1))
+    }
+
+    /// Mean, smallest and largest value of a quantity over the positions.
+    pub fn range(&self, of: impl Fn(&SetState) -> f64) -> CycleRange {
+        let values: Vec<f64> = self.states.iter().map(of).collect();
+        CycleRange {
+            mean: values.iter().sum::<f64>() / values.len() as f64,
+            least: values.iter().fold(f64::INFINITY, |a, v| a.min(*v)),
+            largest: values.iter().fold(f64::NEG_INFINITY, |a, v| a.max(*v)),
+        }
+    }
+
+    /// Transmission error r_b θ of the sun, m.
+    pub fn transmission_error(&self, sun_base_radius: f64) -> CycleRange {
+        self.range(|s| s.transmission_error(sun_base_radius))
+    }
+
+    /// Force of one mesh, in the order of [`SetState::meshes`], N: how the planets share the load.
+    pub fn mesh_force(&self, mesh: usize) -> CycleRange {
+        self.range(|s| s.meshes[mesh].force)
+    }
+
+    /// Force over rigid approach of one mesh, in the order of [`SetState::meshes`], N/m.
+    pub fn mesh_secant_stiffness(&self, mesh: usize) -> CycleRange {
+        self.range(|s| s.meshes[mesh].secant_stiffness())
+    }
+
+    /// ∂F/∂δ of one mesh, in the order of [`SetState::meshes`], N/m.
+    pub fn mesh_tangent_stiffness(&self, mesh: usize) -> CycleRange {
+        self.range(|s| s.meshes[mesh].tangent)
     }
 
     /// What linear kinematics leave out over the cycle.
     pub fn kinematic_rest(&self, sun_base_radius: f64) -> KinematicRest {
-        let error = |s: &SetState| s.transmission_error(sun_base_radius);
-        let high = self.states.iter().map(error).fold(f64::NEG_INFINITY, f64::max);
-        let low = self.states.iter().map(error).fold(f64::INFINITY, f64::min);
         let largest = larger(self.states.iter().map(|s| s.kinematic_rest));
-        KinematicRest::new(largest, high - low)
+        KinematicRest::new(largest, self.transmission_error(sun_base_radius).peak_to_peak())
+    }
+
+    /// Equilibrium and contact iterations of all positions.
+    pub fn iterations(&self) -> (usize, usize) {
+        let all = self.states.iter();
+        all.fold((0, 0), |(a, b), s| (a + s.iterations, b + s.contact_iterations))
+    }
+
+    /// Largest imbalance of any race over the load.
+    pub fn worst_residual(&self) -> f64 {
+        self.states.iter().fold(0.0, |a, s| a.max(s.residual))
     }
 
     /// Root mean square about the mean of the sun's rotation (rad) and of its translation (m): the

@@ -6,8 +6,9 @@ use std::sync::{Arc, OnceLock};
 use gearset::MeshKind;
 use rayon::prelude::*;
 
+use super::phase::PHASE_RESOLUTION;
 use super::set::StaticSet;
-use super::slopes::{Beside, Slopes};
+use super::slopes::{NeighbourTables, Slopes};
 use crate::complementarity::ActiveSet;
 use crate::contact::{CellSettings, MeshTable};
 use crate::error::FeError;
@@ -20,22 +21,13 @@ pub struct SetTables {
     pub list: Vec<Arc<MeshTable>>,
     place: HashMap<(usize, i64), usize>,
     /// Tables beside each, once slopes were asked for.
-    beside: Vec<OnceLock<Arc<Beside>>>,
+    beside: Vec<OnceLock<Arc<NeighbourTables>>>,
     /// Settings they were made with.
     pub settings: CellSettings,
 }
 
-/// Phases nearer than this many parts of a cycle are the same phase, rounded differently.
-const PHASE_RESOLUTION: f64 = 1e12;
-
 fn key(group: usize, phase: f64) -> (usize, i64) {
     (group, (phase * PHASE_RESOLUTION).round() as i64)
-}
-
-/// Phase in [0, 1), what rounds to 1 being 0.
-pub(super) fn cycle(phase: f64) -> f64 {
-    let reduced = phase - phase.floor();
-    if reduced * PHASE_RESOLUTION >= PHASE_RESOLUTION - 0.5 { 0.0 } else { reduced }
 }
 
 impl SetTables {
@@ -102,13 +94,13 @@ impl StaticSet<'_> {
         tables: &'t SetTables,
         place: usize,
         group: usize,
-    ) -> Result<&'t Beside, FeError> {
+    ) -> Result<&'t NeighbourTables, FeError> {
         if let Some(beside) = tables.beside[place].get() {
             return Ok(beside);
         }
         let mesh = &self.reference.loaded[group].mesh;
         let phase = tables.list[place].phase;
-        let made = Beside::coarse(self.bodies, mesh, phase, &tables.settings)?;
+        let made = NeighbourTables::coarse(self.bodies, mesh, phase, &tables.settings)?;
         Ok(tables.beside[place].get_or_init(|| Arc::new(made)))
     }
 

@@ -45,9 +45,9 @@ pub(crate) fn pair_ends(
         let tooth = frame.tooth(member);
         // A driver displaced along the normal approaches, a driven gear against it.
         let sign = if member == MeshMember::Driver { 1.0 } else { -1.0 };
-        let normal = crate::mesh::rotated(frame.normal, -tooth.axis);
-        let (_, string) = frame.flank_point(member, 0.0);
-        let at = gear.mesh.outline.flank_parameter(string);
+        let normal = crate::fe_mesh::rotated(frame.normal, -tooth.axis);
+        let (_, roll_length) = frame.flank_point(member, 0.0);
+        let at = gear.mesh.outline.flank_parameter(roll_length);
         PairEnd {
             axis: tooth.axis,
             load: gear.flank_load(tooth.side, at, spread),

@@ -4,7 +4,7 @@ use dynamics::{AverageAcceleration, Motion};
 use nalgebra::{DMatrix, DVector};
 
 use super::body::{Port, VibratingBody};
-use super::modal_body::FixedRaceMode;
+use super::fixed_race_mode::FixedRaceMode;
 use super::packed::Packed;
 use crate::error::FeError;
 use crate::statics::{CARRIER, PLANETS, Races};

@@ -2,7 +2,7 @@
 
 use dynamics::Motion;
 
-use super::modal_body::FixedRaceMode;
+use super::fixed_race_mode::FixedRaceMode;
 
 /// Displacement, velocity and acceleration of a race: x, y (m) and u = r θ (m) each.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

@@ -3,19 +3,20 @@
 use std::sync::Arc;
 
 use dynamics::AverageAcceleration;
-use gearset::{Fidelity, MeshKind, Motion as Support, Scene};
+use gearset::{Fidelity, Freedom, MeshKind, Scene};
 use nalgebra::DMatrix;
 
 use super::body::{Port, VibratingBody};
 use super::damping::Proportional;
+use super::fixed_race_mode::{FixedRaceMode, fixed_race_modes};
 use super::full_body::{FullBody, SharedFactors};
-use super::gear::Gear;
-use super::modal_body::{FixedRaceMode, ModalBody, fixed_race_modes};
+use super::gear::VibratingGear;
+use super::modal_body::ModalBody;
 use super::teeth::tooth_points;
 use crate::body::{BodyMatrices, GearBody, number_unknowns};
 use crate::error::FeError;
 use crate::statics::{
-    Bodies, CARRIER, FLEXIBILITY_FACTOR, PLANETS, RING, Races, SUN, SetTables, StaticSet,
+    Bodies, CARRIER, FLEXIBILITY_FACTOR, PLANETS, RING, SUN, SetTables, StaticSet,
 };
 
 /// What all bodies of a set share.
@@ -54,7 +55,7 @@ pub(super) fn gears<'s>(
     tables: &SetTables,
     settings: &Settings,
     start: f64,
-) -> Result<Vec<Gear<'s>>, FeError> {
+) -> Result<Vec<VibratingGear<'s>>, FeError> {
     let bodies = statics.bodies;
     let races = &statics.races;
     let angles = start_angles(statics, tables, start)?;
@@ -72,7 +73,7 @@ pub(super) fn gears<'s>(
         })?;
         let count = if kind == PLANETS { races.planets() } else { 1 };
         for n in 0..count {
-            gears.push(Gear {
+            gears.push(VibratingGear {
                 body,
                 vibrating: make(),
                 unknown_of: unknown_of.clone(),
@@ -155,7 +156,7 @@ pub(super) fn body_mass(
             if let Some(own) = &races.carrier {
                 return Ok([own.mass, own.mass, own.inertia / races.radii[0].powi(2)]);
             }
-            if scene.supports.carrier.motion == Support::Held {
+            if scene.supports.carrier.motion == Freedom::Held {
                 return Ok([0.0; 3]);
             }
             let lumped = scene.lumped.as_ref();
@@ -199,22 +200,4 @@ fn start_angles(
         }
     }
     Ok(angles)
-}
-
-/// Gyroscopic matrix (kg/s) and centripetal stiffness (N/m) of bodies whose centres' coordinates
-/// stand in a frame that turns at Ω (rad/s): m (ẍ − 2Ωẏ − Ω²x), m (ÿ + 2Ωẋ − Ω²y).
-pub(super) fn gyroscopic_terms(races: &Races, mass: &[f64], speed: f64) -> [DMatrix<f64>; 2] {
-    let n = races.count;
-    let (mut g, mut k) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
-    for body in 0..PLANETS + races.planets() {
-        let (x, y) = (races.of(body, 0), races.of(body, 1));
-        for i in [x, y].into_iter().flatten() {
-            k[(i, i)] -= mass[i] * speed * speed;
-        }
-        if let (Some(x), Some(y)) = (x, y) {
-            g[(x, y)] -= 2.0 * mass[x] * speed;
-            g[(y, x)] += 2.0 * mass[x] * speed;
-        }
-    }
-    [g, k]
 }

@@ -10,7 +10,7 @@ impl VibratingSet<'_> {
     /// Everything the next step starts from: races, bearings, bodies, forces of the tooth pairs.
     /// To be taken after whole mesh cycles; maps and frames are not in it, since they only save work.
     pub fn state(&mut self) -> Vec<f64> {
-        let mut out = vec![self.cycles as f64];
+        let mut out = vec![self.clock.cycles as f64];
         self.visit(&mut |list| out.extend_from_slice(list));
         out
     }
@@ -30,7 +30,7 @@ impl VibratingSet<'_> {
                 why: "a set goes on from a state of the same scene and fidelity only".into(),
             });
         }
-        self.cycles = state[0] as i64;
+        self.clock.cycles = state[0] as i64;
         let mut rest = &state[1..];
         self.visit(&mut |list| {
             let (own, others) = rest.split_at(list.len());
@@ -46,13 +46,13 @@ impl VibratingSet<'_> {
             each(&mut motion.v);
             each(&mut motion.a);
         };
-        motion(&mut self.motion);
-        motion(&mut self.bearings.state);
-        motion(self.carrier.elastic_mut());
-        for gear in &mut self.gears {
+        motion(&mut self.race_dynamics.motion);
+        motion(&mut self.race_dynamics.bearings.state);
+        motion(self.bodies.carrier.elastic_mut());
+        for gear in &mut self.bodies.gears {
             motion(gear.vibrating.elastic_mut());
         }
-        for memory in &mut self.memory {
+        for memory in &mut self.pairs.memory {
             for list in memory.lists() {
                 each(list);
             }

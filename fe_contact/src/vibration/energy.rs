@@ -44,13 +44,17 @@ impl VibratingSet<'_> {
     /// What the approach of a loaded pair, worked out with exact kinematics at the present displacements,
     /// is off its linear form about the reference at most, m; nil where every step is exact.
     pub fn kinematic_rest(&self) -> f64 {
-        let (Some(frame), None) = (self.current_frame(), &self.grid) else { return 0.0 };
+        let (Some(frame), None) =
+            (self.frames.current(self.clock.step_in_cycle), &self.contact.grid)
+        else {
+            return 0.0;
+        };
         let x = DVector::from_column_slice(&self.motion().x);
-        let position = self.position(self.step_in_cycle);
-        let fronts = frame.meshes.iter().take(self.memory.len()).enumerate();
+        let position = self.clock.position(self.clock.step_in_cycle);
+        let fronts = frame.meshes.iter().take(self.pairs.memory.len()).enumerate();
         larger(fronts.map(|(which, mesh)| {
-            let table = &self.tables.list[mesh.table];
-            let forces = &self.forces.as_slice()[mesh.first..mesh.first + mesh.count];
+            let table = &self.contact.tables.list[mesh.table];
+            let forces = &self.pairs.forces.as_slice()[mesh.first..mesh.first + mesh.count];
             self.statics.rest_of_mesh(which, table, position, &x, forces)
         }))
     }
@@ -59,39 +63,42 @@ impl VibratingSet<'_> {
     pub fn energies(&self) -> Energies {
         let m = self.motion();
         let x = DVector::from_column_slice(&m.x);
-        let kinetic = m.v.iter().zip(self.masses()).map(|(v, m)| 0.5 * m * v * v).sum();
-        let supports: f64 = x.iter().zip(self.supports.iter()).map(|(x, k)| 0.5 * k * x * x).sum();
+        let kinetic = self.race_dynamics.kinetic_energy();
+        let supports: f64 =
+            x.iter().zip(self.race_dynamics.supports.iter()).map(|(x, k)| 0.5 * k * x * x).sum();
         let reference = self.statics.reference();
         let moved = &x - &reference.q;
         let turning = 0.5 * moved.dot(&(&reference.stiffness * &moved));
         Energies {
             kinetic,
-            bearings: supports + self.bearings.energy() + turning,
+            bearings: supports + self.race_dynamics.bearings.energy() + turning,
             contact: self.contact_energy(),
         }
     }
 
     /// ½ pᵀ C p of the present forces; no number if a map gave way since.
     fn contact_energy(&self) -> f64 {
-        let Some(frame) = self.current_frame() else { return 0.0 };
+        let Some(frame) = self.frames.current(self.clock.step_in_cycle) else { return 0.0 };
         let of = |mesh: &super::frame::FrameMesh| {
-            let delta = &self.approaches.as_slice()[mesh.first..mesh.first + mesh.count];
-            mesh.map(&self.maps).map_or(f64::NAN, |map| map.energy(delta))
+            let delta = &self.pairs.approaches.as_slice()[mesh.first..mesh.first + mesh.count];
+            mesh.map(&self.contact.maps).map_or(f64::NAN, |map| map.energy(delta))
         };
         let energy: f64 = frame.meshes.iter().map(of).sum();
         let moved = DVector::from_column_slice(&self.motion().x) - &self.statics.reference().q;
-        let left = self.leaning[self.step_in_cycle].rest_of(&self.statics);
+        let left = self.contact.leaning[self.clock.step_in_cycle].rest_of(&self.statics);
         energy - left.dot(&moved)
     }
 
     /// What the meshes press the races with, N.
     fn pressed(&self) -> DVector<f64> {
-        match self.current_frame() {
+        match self.frames.current(self.clock.step_in_cycle) {
             Some(frame) => {
-                let pairs = frame.rigid.tr_mul(&self.forces.rows(0, frame.offsets.len()));
-                pairs - self.leaning[self.step_in_cycle].rest_of(&self.statics) - &self.bent
+                let pairs = frame.rigid.tr_mul(&self.pairs.forces.rows(0, frame.offsets.len()));
+                pairs
+                    - self.contact.leaning[self.clock.step_in_cycle].rest_of(&self.statics)
+                    - &self.pairs.bent
             }
-            None => DVector::zeros(self.mass.len()),
+            None => DVector::zeros(self.race_dynamics.mass.len()),
         }
     }
 
@@ -120,12 +127,7 @@ impl VibratingSet<'_> {
         let x = DVector::from_column_slice(&m.x);
         let pressed = self.pressed();
         let moved = &x - &start.x;
-        let mean_v = 0.5 * (DVector::from_column_slice(&m.v) + &start.v);
-        let mut damped = self.bearing_ratio * self.bearings.dashpot_work(&self.rule(), &moved);
-        for (i, dx) in moved.iter().enumerate() {
-            let c = self.damping.alpha * self.mass[i] + self.bearing_ratio * self.supports[i];
-            damped += c * mean_v[i] * dx;
-        }
+        let damped = self.race_dynamics.damped_since(&self.clock.rule, &moved, &start.v);
         StepWork {
             external: 0.5 * (&self.external + &start.external).dot(&moved),
             damped,
@@ -140,19 +142,19 @@ impl VibratingSet<'_> {
         step_in_cycle: usize,
         x: &DVector<f64>,
     ) -> Result<Option<f64>, FeError> {
-        let Some(frame) = self.frame_at(step_in_cycle) else { return Ok(None) };
+        let Some(frame) = self.frames.at(step_in_cycle) else { return Ok(None) };
         let approaches = &frame.rigid * x - frame.opened_at(x.as_slice());
         let meshes: Vec<_> = frame.meshes.iter().map(|m| (m.table, m.first, m.count)).collect();
         let mut held: Vec<Held> = frame.meshes.iter().map(|m| m.held).collect();
         let mut energy = 0.0;
         for ((table, first, count), held) in meshes.into_iter().zip(&mut held) {
             let (delta, maps) =
-                (&approaches.as_slice()[first..first + count], &mut self.maps[table]);
-            maps.find(&self.tables.list[table], delta, held, &ActiveSet)?;
+                (&approaches.as_slice()[first..first + count], &mut self.contact.maps[table]);
+            maps.find(&self.contact.tables.list[table], delta, held, &ActiveSet)?;
             energy += maps.held(held).map_or(f64::NAN, |map| map.energy(delta));
         }
         // What the slopes leave is the same at all displacements.
-        let left = self.leaning[step_in_cycle].rest_of(&self.statics);
+        let left = self.contact.leaning[step_in_cycle].rest_of(&self.statics);
         Ok(Some(energy - left.dot(&(x - &self.statics.reference().q))))
     }
 
@@ -163,7 +165,8 @@ impl VibratingSet<'_> {
     /// # Errors
     /// If a contact problem fails.
     pub fn turning_work(&mut self, start: &StepStart) -> Result<Option<f64>, FeError> {
-        let (before, now) = self.last_two_steps();
+        let now = self.clock.step_in_cycle;
+        let before = self.clock.before(now);
         let x = DVector::from_column_slice(&self.motion().x);
         let mut sum = 0.0;
         for x in [&start.x, &x] {

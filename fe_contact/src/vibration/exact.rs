@@ -5,19 +5,15 @@
 //! one; over that distance approaches are exact, and compliance changes by its slopes.
 
 use std::borrow::Cow;
-use std::collections::HashMap;
-use std::sync::Arc;
 
-use gearset::{DisplacedMesh, Facing, Scene};
+use gearset::DisplacedMesh;
 use nalgebra::DVector;
 
-use super::frame::{Frame, Ground};
-use super::leaning::Leaning;
-use super::prepared::{Loading, Prepared};
-use super::set::{Motive, VibratingSet};
-use crate::contact::{ContactMaps, PairFrame};
+use super::frame::{Frame, FrameInputs};
+use super::set::VibratingSet;
+use crate::contact::PairFrame;
 use crate::error::FeError;
-use crate::statics::{Beside, Bodies, Imperfections, Placed, StaticSet, turned};
+use crate::statics::{NeighbourTables, PlacedMesh, turned};
 
 /// Tables in a mesh cycle.
 const GRID: f64 = 1120.0;
@@ -31,14 +27,6 @@ const MOST: usize = 12;
 /// Placings after which a mesh keeps its table: half-way between two of them it might go to and fro.
 const FREE: usize = 4;
 
-/// Tables of the grid that were needed so far.
-#[derive(Debug, Default)]
-pub(super) struct GridTables {
-    /// By group of meshes and place on the grid.
-    place: HashMap<(usize, i64), usize>,
-    beside: HashMap<usize, Beside>,
-}
-
 /// Meshes placed where the gears are.
 struct PlacedStep {
     frame: Box<Frame>,
@@ -48,32 +36,7 @@ struct PlacedStep {
     places: Vec<usize>,
 }
 
-impl<'s> VibratingSet<'s> {
-    /// A quasi-static set whose kinematics are exact at every step, for a torque on the sun of the given
-    /// sense; it turns.
-    ///
-    /// # Errors
-    /// As [`VibratingSet::new`].
-    pub fn exact(
-        scene: &Scene,
-        bodies: &'s Bodies,
-        sense: Facing,
-        imperfections: Imperfections,
-        motive: Motive,
-        loading: Loading,
-    ) -> Result<Self, FeError> {
-        let positions = motive.positions();
-        let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
-        let mut statics = statics.under(loading.torque_nm)?;
-        // Lines of action are taken where they are.
-        statics.reference.stiffness.fill(0.0);
-        let tables = statics.tables(loading.mesh_force, &positions[..1])?;
-        let leaning = vec![Leaning::none(&statics); positions.len()];
-        let mut set = Self::assemble(scene, Prepared { statics, tables, leaning }, motive)?;
-        set.grid = Some(GridTables::default());
-        Ok(set)
-    }
-
+impl VibratingSet<'_> {
     /// The meshes at the end of the step where the races stand at x, on the tables nearest to them, or on
     /// `kept` ones if there are any.
     fn placed_at(
@@ -81,7 +44,7 @@ impl<'s> VibratingSet<'s> {
         x: &DVector<f64>,
         kept: Option<&[usize]>,
     ) -> Result<PlacedStep, FeError> {
-        let position = self.position(self.step_in_cycle);
+        let position = self.clock.position(self.clock.step_in_cycle);
         let count = self.statics.reference().meshes.len();
         let mut load = DVector::zeros(x.len());
         let mut places = Vec::with_capacity(count);
@@ -100,13 +63,13 @@ impl<'s> VibratingSet<'s> {
         for (mesh, (place, pose)) in places.iter().zip(&poses).enumerate() {
             placed.push(self.place_on_grid(mesh, *place, pose, x, &mut load)?);
         }
-        let ground = Ground {
+        let inputs = FrameInputs {
             statics: &self.statics,
-            gears: &self.gears,
-            inverse: &self.inverse,
-            lag_end: self.lag.end,
+            gears: &self.bodies.gears,
+            inverse: &self.race_dynamics.inverse,
+            lag_end: self.pairs.lag.end,
         };
-        let frame = Frame::new(&ground, &placed, &places, count, position)?;
+        let frame = Frame::new(&inputs, &placed, &places, count, position)?;
         Ok(PlacedStep { frame: Box::new(frame), load, places })
     }
 
@@ -114,18 +77,16 @@ impl<'s> VibratingSet<'s> {
     fn grid_table(&mut self, mesh: usize, phase: f64) -> Result<usize, FeError> {
         let group = self.statics.reference().meshes[mesh].group;
         let key = (group, (phase * GRID).round() as i64);
-        if let Some(place) = self.grid.as_ref().and_then(|grid| grid.place.get(&key)) {
+        if let Some(place) = self.contact.grid.as_ref().and_then(|grid| grid.place.get(&key)) {
             return Ok(*place);
         }
-        let settings = self.tables.settings;
+        let settings = self.contact.tables.settings;
         let phase = key.1 as f64 / GRID;
         let table = self.statics.table(group, phase, &settings)?;
         let own = &self.statics.reference().loaded[group].mesh;
-        let beside = Beside::coarse(self.statics.bodies, own, phase, &settings)?;
-        let place = self.tables.list.len();
-        self.tables.list.push(Arc::new(table));
-        self.maps.push(ContactMaps::new(&settings));
-        let grid = self.grid.get_or_insert_default();
+        let beside = NeighbourTables::coarse(self.statics.bodies, own, phase, &settings)?;
+        let place = self.contact.add(table);
+        let grid = self.contact.grid.get_or_insert_default();
         grid.place.insert(key, place);
         grid.beside.insert(place, beside);
         Ok(place)
@@ -139,30 +100,31 @@ impl<'s> VibratingSet<'s> {
         pose: &DisplacedMesh,
         x: &DVector<f64>,
         load: &mut DVector<f64>,
-    ) -> Result<Placed<'static>, FeError> {
+    ) -> Result<PlacedMesh<'static>, FeError> {
         let of = &self.statics.reference().meshes[mesh];
         let own = &self.statics.reference().loaded[of.group].mesh;
-        let table = self.tables.list[place].as_ref();
+        let table = self.contact.tables.list[place].as_ref();
         let lost = |cause: String| FeError::NoEquilibrium(cause);
         let there = own.at_center_distance(pose.center_distance);
         let there = there.map_err(|cause| lost(cause.to_string()))?;
         let still = own.displaced(table.phase, &[0.0; 6]).map_err(|e| lost(e.to_string()))?;
-        let memory = &self.memory[mesh];
+        let memory = &self.pairs.memory[mesh];
         let forces: Vec<f64> = table
             .pairs
             .iter()
             .map(|pair| memory.now(super::lag::PairSlot::of(pair.index)).max(0.0))
             .collect();
-        let grid = self.grid.as_ref().and_then(|grid| grid.beside.get(&place));
+        let grid = self.contact.grid.as_ref().and_then(|grid| grid.beside.get(&place));
         let beside = grid.ok_or_else(|| lost("a table of the grid is lost".into()))?;
         let slopes = beside.slopes(table, &forces, &crate::complementarity::ActiveSet)?;
         let races = &self.statics.races;
         let onto =
             |row: &[f64; 6]| -> DVector<f64> { races.approach(of.kind, of.planet, row).into() };
         let gradients = pose.gradients();
-        let along = [onto(&gradients.string), onto(&gradients.center_distance)];
-        let string = own.path_start + table.phase * own.base_pitch;
-        let moved = [pose.touching_string() - string, pose.center_distance - own.center_distance];
+        let along = [onto(&gradients.roll_length), onto(&gradients.center_distance)];
+        let roll_length = own.path_start + table.phase * own.base_pitch;
+        let moved =
+            [pose.touching_roll_length() - roll_length, pose.center_distance - own.center_distance];
         let (mut rows, mut offsets) = (Vec::new(), Vec::new());
         for (pair, kappa) in table.pairs.iter().zip(&slopes.of_pairs) {
             let here = PairFrame::pressed(&there, pose.phase(), pose.approach, pair.index);
@@ -184,19 +146,19 @@ impl<'s> VibratingSet<'s> {
         }
         let mut errors = vec![0.0; rows.len()];
         if self.statics.has_tooth_errors() {
-            self.statics.write_errors(mesh, table, self.turned(), &mut errors);
+            self.statics.write_errors(mesh, table, self.clock.turned(), &mut errors);
         }
         let (kind, planet, phase) = (of.kind, of.planet, table.phase);
         let table = Cow::Owned(table.clone());
         let (bends, turns) = (Vec::new(), Vec::new());
-        Ok(Placed { kind, planet, phase, table, rows, offsets, errors, bends, turns })
+        Ok(PlacedMesh { kind, planet, phase, table, rows, offsets, errors, bends, turns })
     }
 
     /// Contact of the step with the meshes placed where it ends; the loads on the races without them are
     /// in `work.load`.
     pub(super) fn exact_contact(&mut self) -> Result<Box<Frame>, FeError> {
         let given = self.work.load.clone();
-        let mut x = DVector::from_column_slice(&self.motion.x);
+        let mut x = DVector::from_column_slice(&self.race_dynamics.motion.x);
         let mut change = f64::INFINITY;
         let mut kept: Option<Vec<usize>> = None;
         for placing in 0..MOST {
@@ -206,7 +168,7 @@ impl<'s> VibratingSet<'s> {
             }
             self.work.load = &given + load;
             self.free_races();
-            self.contact(&mut frame)?;
+            self.solve_contact(&mut frame)?;
             change = (&self.work.x - &x).amax();
             x.copy_from(&self.work.x);
             if change < FOUND {

@@ -5,14 +5,14 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 
 use super::body::Port;
-use super::gear::Gear;
+use super::gear::VibratingGear;
 use super::lag::PairSlot;
 use super::packed::Packed;
 use super::teeth::{ToothPoint, fill_port, tooth_points};
 use crate::contact::{ContactMap, ContactMaps, Held};
 use crate::error::FeError;
 use crate::short_row::ShortRow;
-use crate::statics::{Placed, StaticSet};
+use crate::statics::{PlacedMesh, StaticSet};
 
 /// Solved combinations of contact maps that a frame keeps.
 const MOST_COMBINATIONS: usize = 6;
@@ -66,13 +66,13 @@ pub(super) struct FrameBend {
 /// All pairs of a set at one position.
 #[derive(Debug)]
 pub(super) struct Frame {
-    /// Front meshes, then the back ones where they may touch.
+    /// Front meshes, then the backside ones where they may touch.
     pub(super) meshes: Vec<FrameMesh>,
     /// What is taken from the rows' products, tooth errors included: a pair approaches by b·x − offset, m.
     pub(super) offsets: Vec<f64>,
     /// The same without tooth errors, m.
     pub(super) perfect: Vec<f64>,
-    /// Ends of each pair on the teeth; none for back flanks.
+    /// Ends of each pair on the teeth; none for backside flanks.
     pub(super) ends: Vec<Option<[ToothPoint; 2]>>,
     /// Number of the tooth of each end when the set has turned by less than a mesh cycle.
     pub(super) teeth: Vec<Option<[i64; 2]>>,
@@ -102,9 +102,9 @@ pub(super) struct Frame {
 }
 
 /// What a frame is built from.
-pub(super) struct Ground<'g> {
+pub(super) struct FrameInputs<'g> {
     pub(super) statics: &'g StaticSet<'g>,
-    pub(super) gears: &'g [Gear<'g>],
+    pub(super) gears: &'g [VibratingGear<'g>],
     /// A⁻¹ of the races, n×n.
     pub(super) inverse: &'g DMatrix<f64>,
     /// Weight of the forces at the end of a step in their lagged value.
@@ -115,28 +115,28 @@ impl Frame {
     /// `placed` with the place of each table; the first `front` are front flanks. `turned`: mesh
     /// cycles since the start.
     pub(super) fn new(
-        ground: &Ground<'_>,
-        placed: &[Placed<'_>],
+        inputs: &FrameInputs<'_>,
+        placed: &[PlacedMesh<'_>],
         places: &[usize],
         front: usize,
         turned: f64,
     ) -> Result<Self, FeError> {
         let count: usize = placed.iter().map(|p| p.rows.len()).sum();
         let many = || FeError::NoEquilibrium("a tooth pair meets more than two bodies".into());
-        let n = ground.statics.races.count;
+        let n = inputs.statics.races.count;
         let mut frame = Self {
             meshes: Vec::with_capacity(placed.len()),
             offsets: Vec::with_capacity(count),
             perfect: Vec::with_capacity(count),
             ends: Vec::with_capacity(count),
             teeth: Vec::with_capacity(count),
-            own: vec![Vec::new(); ground.gears.len()],
+            own: vec![Vec::new(); inputs.gears.len()],
             rigid: DMatrix::zeros(count, n),
             rows: Vec::new(),
             receptance: DMatrix::zeros(count, count),
             lagging: DMatrix::zeros(count, count),
             lags: Vec::new(),
-            is_coupled: ground.gears.iter().any(|gear| gear.vibrating.unknowns() > 0),
+            is_coupled: inputs.gears.iter().any(|gear| gear.vibrating.unknowns() > 0),
             bends: Vec::new(),
             slots: Vec::with_capacity(count),
             combinations: Vec::with_capacity(MOST_COMBINATIONS),
@@ -163,9 +163,9 @@ impl Frame {
             }
             frame.slots.extend(mesh.table.pairs.iter().map(|pair| PairSlot::of(pair.index)));
             if which < front {
-                for ends in tooth_points(ground.statics, which, mesh)? {
+                for ends in tooth_points(inputs.statics, which, mesh)? {
                     let teeth = ends.each_ref().map(|end| {
-                        let gear = &ground.gears[end.body - 1];
+                        let gear = &inputs.gears[end.body - 1];
                         gear.tooth_at(end.axis, turned)
                     });
                     frame.ends.push(Some(ends));
@@ -180,17 +180,17 @@ impl Frame {
                 first,
                 count: mesh.rows.len(),
                 held: Held::default(),
-                flexibility_factor: ground.statics.bodies.flexibility_factor(mesh.kind),
+                flexibility_factor: inputs.statics.bodies.flexibility_factor(mesh.kind),
             });
         }
         let mut rows = frame.rigid.clone();
-        for (k, gear) in ground.gears.iter().enumerate() {
-            frame.add_body(ground, k + 1, gear, turned, &mut rows);
+        for (k, gear) in inputs.gears.iter().enumerate() {
+            frame.add_body(inputs, k + 1, gear, turned, &mut rows);
         }
-        frame.receptance += &rows * (ground.inverse * rows.transpose());
+        frame.receptance += &rows * (inputs.inverse * rows.transpose());
         let short = rows.row_iter().map(|row| ShortRow::new(row.iter().copied()));
         frame.rows = short.collect::<Option<_>>().ok_or_else(many)?;
-        frame.receptance -= (1.0 - ground.lag_end) * &frame.lagging;
+        frame.receptance -= (1.0 - inputs.lag_end) * &frame.lagging;
         for mesh in &frame.meshes {
             let lagged = frame.lagged_by(mesh);
             for j in mesh.first..mesh.first + mesh.count {
@@ -213,9 +213,9 @@ impl Frame {
     /// Elastic part of one gear: couplings, receptances between its ports, lagging flexibility.
     fn add_body(
         &mut self,
-        ground: &Ground<'_>,
+        inputs: &FrameInputs<'_>,
         body: usize,
-        gear: &Gear<'_>,
+        gear: &VibratingGear<'_>,
         turned: f64,
         rows: &mut DMatrix<f64>,
     ) {
@@ -242,7 +242,7 @@ impl Frame {
             }
             for (pair, port) in places.iter().zip(&ports) {
                 for (axis, c) in gear.vibrating.coupling(port, angle).into_iter().enumerate() {
-                    if let Some(i) = ground.statics.races.of(body, axis) {
+                    if let Some(i) = inputs.statics.races.of(body, axis) {
                         rows[(*pair, i)] += c;
                     }
                 }

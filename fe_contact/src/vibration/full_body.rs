@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::body::{Port, RaceMotion, VibratingBody, into_frame, out_of_frame};
 use super::damping::Proportional;
-use super::modal_body::FixedRaceMode;
+use super::fixed_race_mode::FixedRaceMode;
 use crate::body::{BodyMatrices, Factor};
 use crate::error::FeError;
 

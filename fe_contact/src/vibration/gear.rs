@@ -7,7 +7,7 @@ use crate::body::GearBody;
 
 /// One gear that vibrates.
 #[derive(Debug)]
-pub(super) struct Gear<'s> {
+pub(super) struct VibratingGear<'s> {
     pub(super) body: &'s GearBody,
     pub(super) vibrating: Box<dyn VibratingBody>,
     /// Degree of freedom of each node of its mesh.
@@ -18,7 +18,7 @@ pub(super) struct Gear<'s> {
     pub(super) rate: f64,
 }
 
-impl Gear<'_> {
+impl VibratingGear<'_> {
     /// Angle of tooth 0 in the race's frame after some mesh cycles, rad.
     pub(super) fn angle(&self, turned: f64) -> f64 {
         self.start + self.rate * turned

@@ -4,7 +4,7 @@ use nalgebra::DVector;
 
 use crate::complementarity::ActiveSet;
 use crate::error::FeError;
-use crate::statics::{Placed, SetTables, Slopes, StaticSet};
+use crate::statics::{PlacedMesh, SetTables, Slopes, StaticSet};
 
 /// What the slopes of the flanks put into a set's rows at one position, and leave on its races.
 #[derive(Debug, Clone)]
@@ -58,7 +58,7 @@ impl Leaning {
     }
 
     /// Puts the slopes into the rows of the front meshes at the position.
-    pub(super) fn apply(&self, statics: &StaticSet<'_>, placed: &mut [Placed<'_>]) {
+    pub(super) fn apply(&self, statics: &StaticSet<'_>, placed: &mut [PlacedMesh<'_>]) {
         let mut known = DVector::zeros(self.load.len());
         for (mesh, (own, slopes)) in placed.iter_mut().zip(&self.slopes).enumerate() {
             statics.lean(mesh, own, slopes, &mut known);

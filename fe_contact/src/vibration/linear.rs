@@ -1,10 +1,10 @@
 //! A set linearised about its present state: all touching cells keep touching, no others begin to.
 
-use faer::Mat;
 use nalgebra::{DMatrix, DVector};
 
 use super::body::out_of_frame;
-use super::modal_body::FixedRaceMode;
+use super::fixed_race_mode::FixedRaceMode;
+use super::flexible_bodies::FlexibleBodies;
 use super::set::VibratingSet;
 use crate::error::FeError;
 use crate::statics::CARRIER;
@@ -60,17 +60,17 @@ impl VibratingSet<'_> {
     /// If no mesh touches, or a body has every degree of freedom (`full`): its linearisation is the
     /// limit of `modal`.
     pub fn linearised(&self) -> Result<LinearSet, FeError> {
-        let frame = self.current_frame().ok_or_else(unloaded)?;
+        let frame = self.frames.current(self.clock.step_in_cycle).ok_or_else(unloaded)?;
         let n = self.races().count;
-        let turned = self.turned();
+        let turned = self.clock.turned();
         let no_modes = || {
             FeError::NoEquilibrium(
                 "`dynamics.fidelity` = \"full\" has no small linearisation: take \"modal\"".into(),
             )
         };
         let mut lists: Vec<(usize, f64, &[FixedRaceMode])> = Vec::new();
-        lists.push((CARRIER, 0.0, self.carrier.modes().ok_or_else(no_modes)?));
-        for (k, gear) in self.gears.iter().enumerate() {
+        lists.push((CARRIER, 0.0, self.bodies.carrier.modes().ok_or_else(no_modes)?));
+        for (k, gear) in self.bodies.gears.iter().enumerate() {
             let modes = gear.vibrating.modes().ok_or_else(no_modes)?;
             lists.push((k + 1, gear.angle(turned), modes));
         }
@@ -79,8 +79,8 @@ impl VibratingSet<'_> {
         let (mut mass, mut supports) = (DMatrix::zeros(size, size), DMatrix::zeros(size, size));
         let mut damping = DMatrix::zeros(size, size);
         for i in 0..n {
-            mass[(i, i)] = self.mass[i];
-            supports[(i, i)] = self.supports[i];
+            mass[(i, i)] = self.race_dynamics.mass[i];
+            supports[(i, i)] = self.race_dynamics.supports[i];
         }
         let mut first = n;
         for (body, angle, modes) in &lists {
@@ -97,9 +97,9 @@ impl VibratingSet<'_> {
             first += modes.len();
         }
         // Planet bearings on seats that may give way, and the central members' supports.
-        let bearings = self.bearings.linearised(lists[0].2, n, size)?;
+        let bearings = self.race_dynamics.bearings.linearised(lists[0].2, n, size)?;
         supports += bearings;
-        damping += self.bearing_ratio * &supports;
+        damping += self.race_dynamics.bearing_ratio * &supports;
         // The meshes' forces turn with their lines of action; that has no dashpot.
         let mut turning = DMatrix::zeros(size, size);
         turning.view_mut((0, 0), (n, n)).copy_from(&self.statics.reference().stiffness);
@@ -107,8 +107,9 @@ impl VibratingSet<'_> {
         let mut rigid = frame.rigid.clone();
         for bend in &frame.bends {
             let row = bend.row.full(n);
-            let moved = row.dot(&DVector::from_column_slice(&self.motion.x)) - bend.offset;
-            let force = self.forces[bend.pair].max(0.0);
+            let moved =
+                row.dot(&DVector::from_column_slice(&self.race_dynamics.motion.x)) - bend.offset;
+            let force = self.pairs.forces[bend.pair].max(0.0);
             let mut of_races = turning.view_mut((0, 0), (n, n));
             of_races.ger(-force * bend.curvature, &row, &row, 1.0);
             let mut leant = rigid.row_mut(bend.pair);
@@ -119,18 +120,18 @@ impl VibratingSet<'_> {
         for (_, _, modes) in &lists {
             for (j, mode) in modes.iter().enumerate() {
                 supports[(first + j, first + j)] += mode.lambda;
-                damping[(first + j, first + j)] += self.damping.beta * mode.lambda;
+                damping[(first + j, first + j)] += self.race_dynamics.damping.beta * mode.lambda;
             }
             first += modes.len();
         }
-        damping += self.damping.alpha * &mass;
+        damping += self.race_dynamics.damping.alpha * &mass;
         // Pairs that touch.
         let count = frame.offsets.len();
         let mut s = DMatrix::zeros(count, count);
         let mut mesh_tangents = Vec::with_capacity(frame.meshes.len());
         for mesh in &frame.meshes {
             let lost = || FeError::NoEquilibrium("no contact was found at this position".into());
-            let map = mesh.map(&self.maps).ok_or_else(lost)?;
+            let map = mesh.map(&self.contact.maps).ok_or_else(lost)?;
             mesh_tangents.push(map.stiffness.iter().sum());
             for i in 0..mesh.count {
                 for j in 0..mesh.count {
@@ -144,11 +145,15 @@ impl VibratingSet<'_> {
         let mut rows = DMatrix::zeros(count, size);
         rows.view_mut((0, 0), (count, n)).copy_from(&rigid);
         let mut first = n + lists[0].2.len();
-        for ((gear, own), (_, _, modes)) in self.gears.iter().zip(&frame.own).zip(&lists[1..]) {
+        for ((gear, own), (_, _, modes)) in
+            self.bodies.gears.iter().zip(&frame.own).zip(&lists[1..])
+        {
             if modes.is_empty() {
                 continue;
             }
-            for (port, (pair, _)) in self.ports_of(frame, gear, own).iter().zip(own) {
+            for (port, (pair, _)) in
+                FlexibleBodies::ports_of(frame, gear, own, self.clock.cycles).iter().zip(own)
+            {
                 for (j, mode) in modes.iter().enumerate() {
                     rows[(*pair, first + j)] += port.read(&mode.shape);
                 }
@@ -157,7 +162,8 @@ impl VibratingSet<'_> {
         }
         // What the modes carry within a mesh is in the cells' compliance and must not act twice; what
         // they do not carry between meshes is nowhere else.
-        let (carried, mut doubled) = (self.carried(frame), -&frame.lagging);
+        let (carried, mut doubled) =
+            (self.bodies.carried(frame, self.clock.cycles), -&frame.lagging);
         for mesh in &frame.meshes {
             let own = (mesh.first, mesh.first);
             let size = (mesh.count, mesh.count);
@@ -173,7 +179,7 @@ impl VibratingSet<'_> {
             contact,
             mesh_tangents,
             lagging: frame.lagging.clone(),
-            beta: self.damping.beta,
+            beta: self.race_dynamics.damping.beta,
             races: n,
         })
     }
@@ -214,11 +220,9 @@ impl LinearSet {
         let failed = || FeError::NoEquilibrium("the mass matrix is singular".into());
         let half = l.solve_lower_triangular(&k).ok_or_else(failed)?;
         let scaled = l.solve_lower_triangular(&half.transpose()).ok_or_else(failed)?;
-        let matrix = Mat::from_fn(size, size, |i, j| scaled[(i, j)]);
-        let modes = dynamics::generalized_symmetric(&matrix, &vec![1.0; size])
+        let modes = dynamics::generalized_symmetric(&scaled, &vec![1.0; size])
             .map_err(|cause| FeError::Modes { body: "linearised set", cause })?;
-        let turned = DMatrix::from_fn(size, size, |i, j| modes.vectors[(i, j)]);
-        let shapes = l.tr_solve_lower_triangular(&turned).ok_or_else(failed)?;
+        let shapes = l.tr_solve_lower_triangular(&modes.vectors).ok_or_else(failed)?;
         let frequency = |x: &f64| x.max(0.0).sqrt() / std::f64::consts::TAU;
         Ok((modes.lambda.iter().map(frequency).collect(), shapes))
     }
@@ -247,7 +251,7 @@ impl LinearSet {
         let followed = &contact * &self.rows;
         let kept = &contact * &self.lagging;
         let total = 2 * size + p;
-        let mut a = Mat::zeros(total, total);
+        let mut a = DMatrix::zeros(total, total);
         for i in 0..size {
             a[(i, size + i)] = 1.0;
             for j in 0..size {

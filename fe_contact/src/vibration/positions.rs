@@ -1,96 +1,50 @@
-//! Frames of a set: built at the first visit of a position, and the ports of its teeth.
+//! Frames of a set, built at the first visit of a position.
 
-use std::sync::Arc;
-
-use super::body::{Port, RaceMotion};
-use super::frame::{Frame, Ground};
-use super::gear::Gear;
-use super::set::{Motive, VibratingSet};
-use super::teeth::fill_port;
-use crate::contact::ContactMaps;
+use super::frame::{Frame, FrameInputs};
+use super::rotation::NominalRotation;
+use super::set::VibratingSet;
 use crate::error::FeError;
 
 impl VibratingSet<'_> {
-    fn fill_one(&self, port: &mut Port, frame: &Frame, gear: &Gear<'_>, at: (usize, usize)) {
-        let (Some(ends), Some(teeth)) = (&frame.ends[at.0], &frame.teeth[at.0]) else { return };
-        let count = gear.body.mesh.outline.gear().teeth as i64;
-        let tooth = teeth[at.1] + gear.teeth_per_cycle() * self.cycles;
-        let tooth = tooth.rem_euclid(count) as usize;
-        fill_port(port, (gear.body, &gear.unknown_of), &ends[at.1], tooth);
-    }
-
-    /// Ports of one gear.
-    pub(super) fn ports_of(
-        &self,
-        frame: &Frame,
-        gear: &Gear<'_>,
-        own: &[(usize, usize)],
-    ) -> Vec<Port> {
-        let mut ports = vec![Port::default(); own.len()];
-        for (port, at) in ports.iter_mut().zip(own) {
-            self.fill_one(port, frame, gear, *at);
-        }
-        ports
-    }
-
-    /// Ports of all gears with a state of their own.
-    pub(super) fn fill_ports(&mut self, frame: &Frame) {
-        let mut lists = std::mem::take(&mut self.work.ports);
-        for ((gear, own), (ports, _)) in self.gears.iter().zip(&frame.own).zip(&mut lists) {
-            if gear.vibrating.unknowns() == 0 {
-                continue;
-            }
-            while ports.len() < own.len() {
-                ports.push(Port::default());
-            }
-            for (port, at) in ports.iter_mut().zip(own) {
-                self.fill_one(port, frame, gear, *at);
-            }
-        }
-        self.work.ports = lists;
-    }
-
     /// The frame of the current step, built where it is not there yet.
-    pub(super) fn take_frame(&mut self, with_backs: bool) -> Result<Box<Frame>, FeError> {
-        let k = self.step_in_cycle;
-        let list = if with_backs { &mut self.frames_with_backs } else { &mut self.frames };
-        if let Some(mut frame) = list[k].take() {
+    pub(super) fn take_frame(&mut self, with_backside: bool) -> Result<Box<Frame>, FeError> {
+        let k = self.clock.step_in_cycle;
+        if let Some(mut frame) = self.frames.take(k, with_backside) {
             if self.statics.has_tooth_errors() {
                 self.renew_offsets(&mut frame);
             }
             return Ok(frame);
         }
-        let position = self.position(k);
-        let mut placed = self.statics.place(position, &self.tables);
+        let position = self.clock.position(k);
+        let mut placed = self.statics.place(position, &self.contact.tables);
         let front = placed.len();
         let mut places: Vec<usize> =
-            (0..front).map(|m| self.statics.place_of(&self.tables, m, position)).collect();
-        if let Some(leaning) = self.leaning.get(k) {
+            (0..front).map(|m| self.statics.place_of(&self.contact.tables, m, position)).collect();
+        if let Some(leaning) = self.contact.leaning.get(k) {
             leaning.apply(&self.statics, &mut placed);
         }
-        if with_backs {
-            let backs = self.statics.place_backs(position, &self.tables.settings)?;
-            for (i, back) in backs.into_iter().enumerate() {
-                places.push(self.tables.list.len() + i);
-                placed.push(back);
+        if with_backside {
+            let backside = self.statics.place_backside(position, &self.contact.tables.settings)?;
+            for (i, backside) in backside.into_iter().enumerate() {
+                places.push(self.contact.tables.list.len() + i);
+                placed.push(backside);
             }
         }
-        let turned = match self.motive {
-            Motive::Standing { .. } => 0.0,
-            Motive::Turning { .. } => position,
+        let turned = match self.clock.rotation {
+            NominalRotation::Standing { .. } => 0.0,
+            NominalRotation::Turning { .. } => position,
         };
-        let ground = Ground {
+        let inputs = FrameInputs {
             statics: &self.statics,
-            gears: &self.gears,
-            inverse: &self.inverse,
-            lag_end: self.lag.end,
+            gears: &self.bodies.gears,
+            inverse: &self.race_dynamics.inverse,
+            lag_end: self.pairs.lag.end,
         };
-        let mut frame = Box::new(Frame::new(&ground, &placed, &places, front, turned)?);
+        let mut frame = Box::new(Frame::new(&inputs, &placed, &places, front, turned)?);
         let owned: Vec<crate::contact::MeshTable> =
             placed.drain(front..).map(|p| p.table.into_owned()).collect();
         for table in owned {
-            self.tables.list.push(Arc::new(table));
-            self.maps.push(ContactMaps::new(&self.tables.settings));
+            self.contact.add(table);
         }
         if self.statics.has_tooth_errors() {
             self.renew_offsets(&mut frame);
@@ -100,36 +54,17 @@ impl VibratingSet<'_> {
 
     /// Gap offsets with the teeth that are in mesh now.
     fn renew_offsets(&self, frame: &mut Frame) {
-        let turned = match self.motive {
-            Motive::Standing { .. } => self.position(0),
-            Motive::Turning { .. } => self.turned(),
+        let turned = match self.clock.rotation {
+            NominalRotation::Standing { .. } => self.clock.position(0),
+            NominalRotation::Turning { .. } => self.clock.turned(),
         };
-        for (which, mesh) in frame.meshes.iter().enumerate().take(self.memory.len()) {
-            let table = &self.tables.list[mesh.table];
+        for (which, mesh) in frame.meshes.iter().enumerate().take(self.pairs.memory.len()) {
+            let table = &self.contact.tables.list[mesh.table];
             let own = mesh.first..mesh.first + mesh.count;
             let (offsets, perfect) = (&mut frame.offsets[own.clone()], &frame.perfect[own]);
             self.statics.write_errors(which, table, turned, offsets);
             offsets.iter_mut().zip(perfect).for_each(|(offset, perfect)| *offset += perfect);
         }
-    }
-
-    pub(super) fn put_back(&mut self, frame: Box<Frame>, with_backs: bool) {
-        let k = self.step_in_cycle;
-        let list = if with_backs { &mut self.frames_with_backs } else { &mut self.frames };
-        list[k] = Some(frame);
-    }
-
-    /// Motion of one body's race; held coordinates are still.
-    pub(super) fn race(&self, body: usize) -> RaceMotion {
-        let mut race = RaceMotion::default();
-        for axis in 0..3 {
-            if let Some(i) = self.statics.races.of(body, axis) {
-                race.x[axis] = self.motion.x[i];
-                race.v[axis] = self.motion.v[i];
-                race.a[axis] = self.motion.a[i];
-            }
-        }
-        race
     }
 }
 
@@ -150,17 +85,17 @@ mod tests {
         scene.fe_contact.flank_elements = 8;
         let bodies = Bodies::new(&scene).unwrap();
         let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
-        let motive = Motive::Turning { mesh_frequency: 500.0, steps_per_cycle: 28 };
+        let rotation = NominalRotation::Turning { mesh_frequency: 500.0, steps_per_cycle: 28 };
         let loading = Loading { torque_nm: 1130.0, mesh_force: 8000.0 };
-        let mut set = VibratingSet::new(&scene, &bodies, sense, none, motive, loading).unwrap();
+        let mut set = VibratingSet::new(&scene, &bodies, sense, none, rotation, loading).unwrap();
         set.rest(1130.0).unwrap();
         // (mesh, pair, phase, teeth in the bodies' own numbers) of all pairs at the present step.
         let seen = |set: &VibratingSet<'_>| {
-            let frame = set.current_frame().unwrap();
+            let frame = set.frames.current(set.clock.step_in_cycle).unwrap();
             let mut list = Vec::new();
             for (m, mesh) in frame.meshes.iter().enumerate() {
-                let phase = set.statics.phase(m, set.position(set.step_in_cycle));
-                let table = &set.tables.list[mesh.table];
+                let phase = set.statics.phase(m, set.clock.position(set.clock.step_in_cycle));
+                let table = &set.contact.tables.list[mesh.table];
                 for (k, pair) in table.pairs.iter().map(|p| p.index).enumerate() {
                     let at = mesh.first + k;
                     let (ends, teeth) = (frame.ends[at].as_ref(), frame.teeth[at]);
@@ -169,17 +104,17 @@ mod tests {
                         .iter()
                         .zip(teeth.unwrap())
                         .map(|(end, tooth)| {
-                            let gear = &set.gears[end.body - 1];
+                            let gear = &set.bodies.gears[end.body - 1];
                             let count = gear.body.mesh.outline.gear().teeth as i64;
                             // The axis of a whole number of pitches from where tooth 0 is now.
-                            let turned = set.position(set.step_in_cycle);
+                            let turned = set.clock.position(set.clock.step_in_cycle);
                             let pitch = gear.body.mesh.outline.gear().pitch_angle();
                             let exact = (end.axis - gear.angle(turned)) / pitch;
                             // Under load a planet stands between where its two meshes touch, half of
                             // their approaches from either: some 20 µm at its base radius of 46 mm.
                             let apart = (exact - exact.round()).abs() * pitch;
                             assert!(apart < 20e-6 / 45.6e-3, "{exact}");
-                            (tooth + gear.teeth_per_cycle() * set.cycles).rem_euclid(count)
+                            (tooth + gear.teeth_per_cycle() * set.clock.cycles).rem_euclid(count)
                         })
                         .collect();
                     list.push((m, pair, phase, teeth));
@@ -217,7 +152,7 @@ mod tests {
             let mut scene = Scene::from_file(format!("{root}{name}.toml").as_ref()).unwrap();
             scene.fe_contact.flank_elements = 8;
             let bodies = Bodies::new(&scene).unwrap();
-            let motive = Motive::Turning { mesh_frequency: 570.0, steps_per_cycle: 28 };
+            let rotation = NominalRotation::Turning { mesh_frequency: 570.0, steps_per_cycle: 28 };
             let march = |most: usize| {
                 let displaced = Imperfections {
                     displaced_planets: vec![(0, 0.0, 12e-6)],
@@ -226,8 +161,9 @@ mod tests {
                 let sense = Facing::CounterClockwise;
                 let loading = Loading { torque_nm: 1130.0, mesh_force: 12000.0 };
                 let mut set =
-                    VibratingSet::new(&scene, &bodies, sense, displaced, motive, loading).unwrap();
-                set.maps.iter_mut().for_each(|maps| maps.keep(most));
+                    VibratingSet::new(&scene, &bodies, sense, displaced, rotation, loading)
+                        .unwrap();
+                set.contact.maps.iter_mut().for_each(|maps| maps.keep(most));
                 set.rest(1130.0).unwrap();
                 for _ in 0..6 * 28 {
                     set.step().unwrap();

@@ -1,9 +1,9 @@
 //! What has to be in order before a set can turn, and what sets of one scene share.
 
-use gearset::{Facing, Fidelity, Scene};
+use gearset::{Facing, Fidelity, MeshKinematics, Scene};
 
 use super::leaning::Leaning;
-use super::set::{Motive, VibratingSet};
+use super::rotation::NominalRotation;
 use crate::error::FeError;
 use crate::statics::{Bodies, Imperfections, SetTables, StaticSet};
 
@@ -26,65 +26,62 @@ pub struct Prepared<'s> {
     pub(super) statics: StaticSet<'s>,
     pub(super) tables: SetTables,
     pub(super) leaning: Vec<Leaning>,
+    /// Whether kinematics are exact at every step.
+    pub(super) is_exact: bool,
 }
 
-impl<'s> VibratingSet<'s> {
-    /// A set for a torque on the sun of the given sense, linearised about its mean configuration under
-    /// that torque; it stands there without motion until [`VibratingSet::rest`] finds its equilibrium.
+impl<'s> Prepared<'s> {
+    /// What sets of one scene, loading and number of steps share at any speed. Where the scene asks for
+    /// exact kinematics (`dynamics.kinematics`) and the set turns, they are exact at every step; a standing
+    /// set is linearised about its mean configuration in either case.
     ///
     /// # Errors
-    /// If the scene lacks what the bodies need, or a mesh, a factor or a table cannot be had.
+    /// If the scene lacks what the bodies need, or a mesh or a table cannot be had.
     pub fn new(
         scene: &Scene,
         bodies: &'s Bodies,
         sense: Facing,
         imperfections: Imperfections,
-        motive: Motive,
+        rotation: NominalRotation,
         loading: Loading,
     ) -> Result<Self, FeError> {
-        let prepared = Self::prepare(scene, bodies, sense, imperfections, motive, loading)?;
-        Self::assemble(scene, prepared, motive)
-    }
-
-    /// What sets of one scene, loading and number of steps share at any speed.
-    ///
-    /// # Errors
-    /// As [`VibratingSet::new`].
-    pub fn prepare(
-        scene: &Scene,
-        bodies: &'s Bodies,
-        sense: Facing,
-        imperfections: Imperfections,
-        motive: Motive,
-        loading: Loading,
-    ) -> Result<Prepared<'s>, FeError> {
         solves_contact(scene)?;
-        fit(scene, &motive)?;
+        fit(scene, &rotation)?;
+        let turns = matches!(rotation, NominalRotation::Turning { .. });
+        let is_exact = turns && scene.dynamics.kinematics == MeshKinematics::Exact;
         let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
-        let statics = statics.under(loading.torque_nm)?;
-        let positions = motive.positions();
+        let mut statics = statics.under(loading.torque_nm)?;
+        let positions = rotation.positions();
+        if is_exact {
+            // Lines of action are taken where they are; tables are laid out where the gears come to stand.
+            statics.reference.stiffness.fill(0.0);
+            let tables = statics.tables(loading.mesh_force, &positions[..1])?;
+            let leaning = vec![Leaning::none(&statics); positions.len()];
+            return Ok(Self { statics, tables, leaning, is_exact });
+        }
         let tables = statics.tables(loading.mesh_force, &positions)?;
         let leaning = Leaning::at(&statics, &tables, &positions)?;
-        Ok(Prepared { statics, tables, leaning })
+        Ok(Self { statics, tables, leaning, is_exact })
     }
 
-    /// A set like [`VibratingSet::new`] on what was prepared for the same scene.
-    ///
-    /// # Errors
-    /// As [`VibratingSet::new`], and if other steps in the cycle were prepared for.
-    pub fn on(scene: &Scene, prepared: &Prepared<'s>, motive: Motive) -> Result<Self, FeError> {
+    /// Refuses a scene or a rotation that was not prepared for.
+    pub(super) fn check(&self, scene: &Scene, rotation: &NominalRotation) -> Result<(), FeError> {
         solves_contact(scene)?;
-        fit(scene, &motive)?;
-        let Prepared { statics, tables, .. } = prepared;
-        if !motive.positions().iter().all(|p| statics.is_covered(*p, tables)) {
-            return Err(FeError::Unfit {
-                key: "tables".into(),
-                value: format!("{} tables", tables.list.len()),
-                allowed: "tables of the same steps in a cycle".into(),
-                why: "phases of the mesh cycle are never interpolated".into(),
-            });
+        fit(scene, rotation)?;
+        let Self { statics, tables, .. } = self;
+        let is_covered = match self.is_exact {
+            true => rotation.count() == self.leaning.len(),
+            false => rotation.positions().iter().all(|p| statics.is_covered(*p, tables)),
+        };
+        if is_covered {
+            return Ok(());
         }
-        Self::assemble(scene, prepared.clone(), motive)
+        Err(FeError::Unfit {
+            key: "tables".into(),
+            value: format!("{} tables", tables.list.len()),
+            allowed: "tables of the same steps in a cycle".into(),
+            why: "phases of the mesh cycle are never interpolated".into(),
+        })
     }
 }
 
@@ -98,7 +95,7 @@ fn solves_contact(scene: &Scene) -> Result<(), FeError> {
 
 /// Refuses damping that is no number, and steps that leave nothing of a cycle: scenes can be built in
 /// memory, past the reader's checks.
-pub(super) fn fit(scene: &Scene, motive: &Motive) -> Result<(), FeError> {
+pub(super) fn fit(scene: &Scene, rotation: &NominalRotation) -> Result<(), FeError> {
     let refuse = |key: &str, value: f64, allowed: &str, why: &str| {
         let (key, value) = (key.to_owned(), format!("{value}"));
         Err(FeError::Unfit { key, value, allowed: allowed.into(), why: why.into() })
@@ -115,7 +112,7 @@ pub(super) fn fit(scene: &Scene, motive: &Motive) -> Result<(), FeError> {
             return refuse(key, value, "a finite number, at least 0", why);
         }
     }
-    if let Motive::Turning { mesh_frequency, steps_per_cycle } = *motive {
+    if let NominalRotation::Turning { mesh_frequency, steps_per_cycle } = *rotation {
         if steps_per_cycle < LEAST_STEPS {
             let why = "fewer steps see neither the second tooth pair nor a harmonic";
             let value = steps_per_cycle as f64;

@@ -2,17 +2,15 @@
 
 use dynamics::Motion;
 use nalgebra::{DMatrix, DVector};
-use rayon::prelude::*;
 
-use super::body::RaceMotion;
 use super::frame::{Combination, Frame};
-use super::gear::Gear;
 use super::packed::Packed;
-use super::set::{Loads, Motive, VibratingSet, Work};
+use super::rotation::NominalRotation;
+use super::set::VibratingSet;
+use super::workspace::Workspace;
 use crate::complementarity::ActiveSet;
 use crate::contact::ContactMaps;
 use crate::error::FeError;
-use crate::statics::{CARRIER, Races, SetTables};
 
 /// Newton iterations of one step before it is given up.
 const MOST_ITERATIONS: usize = 60;
@@ -27,50 +25,43 @@ impl VibratingSet<'_> {
     /// If contact cannot be solved, its cells do not suffice, or the motion diverges.
     pub fn step(&mut self) -> Result<(), FeError> {
         self.tick();
-        let turned = self.turned();
+        let turned = self.clock.turned();
         self.work.load.copy_from(&self.external);
-        self.work.load += &self.leaning[self.step_in_cycle].load;
-        let race = self.race(CARRIER);
-        let own = self.carrier.predict(&race, 0.0);
-        add_of(&self.statics.races, CARRIER, own, &mut self.work.load);
-        self.predict_gears(turned);
-        self.motion.velocity_history(&self.rule, &mut self.work.history);
-        for (i, v) in self.work.history.iter().enumerate() {
-            self.work.load[i] += self.bearing_ratio * self.supports[i] * v;
-        }
-        if let Some([g, _]) = &self.gyroscopic {
-            for (i, row) in g.row_iter().enumerate() {
-                self.work.load[i] +=
-                    row.iter().zip(&self.work.history).map(|(g, v)| g * v).sum::<f64>();
-            }
-        }
-        self.bearings.predict(&self.rule, self.carrier.as_ref(), &mut self.work.load);
-        if self.grid.is_some() {
+        self.work.load += &self.contact.leaning[self.clock.step_in_cycle].load;
+        let (races, load) = (&self.statics.races, &mut self.work.load);
+        self.bodies.predict(races, &self.race_dynamics.motion, turned, load);
+        self.race_dynamics.add_history(&self.clock.rule, &mut self.work.history, load);
+        self.race_dynamics.bearings.predict(
+            &self.clock.rule,
+            self.bodies.carrier.as_ref(),
+            &mut self.work.load,
+        );
+        if self.contact.grid.is_some() {
             let frame = self.exact_contact()?;
             self.check(&frame)?;
             self.finish(&frame, turned);
-            self.touched_back = false;
-            self.put_back(frame, false);
+            self.frames.touched_backside = false;
+            self.frames.put_back(self.clock.step_in_cycle, frame, false);
             self.counts.steps += 1;
             return Ok(());
         }
-        let mut with_backs = false;
+        let mut with_backside = false;
         let mut frame = self.take_frame(false)?;
         self.bend(&mut frame);
         self.free_races();
-        self.contact(&mut frame)?;
-        if self.statics.backs_touch(&self.work.x) {
-            self.put_back(frame, false);
-            with_backs = true;
+        self.solve_contact(&mut frame)?;
+        if self.statics.backside_touches(&self.work.x) {
+            self.frames.put_back(self.clock.step_in_cycle, frame, false);
+            with_backside = true;
             frame = self.take_frame(true)?;
             self.bend_again(&mut frame);
-            self.contact(&mut frame)?;
-            self.counts.with_backs += 1;
+            self.solve_contact(&mut frame)?;
+            self.counts.with_backside += 1;
         }
         self.check(&frame)?;
         self.finish(&frame, turned);
-        self.touched_back = with_backs;
-        self.put_back(frame, with_backs);
+        self.frames.touched_backside = with_backside;
+        self.frames.put_back(self.clock.step_in_cycle, frame, with_backside);
         self.counts.steps += 1;
         Ok(())
     }
@@ -81,24 +72,24 @@ impl VibratingSet<'_> {
     /// The term is some thousandths of a mesh's stiffness; expected to the order of the step it needs no
     /// iteration.
     fn bend(&mut self, frame: &mut Frame) {
-        let h = self.rule.step();
-        let Motion { x, v, a } = &self.motion;
+        let h = self.clock.rule.step();
+        let Motion { x, v, a } = &self.race_dynamics.motion;
         let each = self.work.expected.iter_mut().zip(x).zip(v).zip(a);
         each.for_each(|(((e, x), v), a)| *e = x + h * (v + 0.5 * h * a));
-        self.bent.fill(0.0);
+        self.pairs.bent.fill(0.0);
         for bend in &mut frame.bends {
             let moved = bend.row.dot(&self.work.expected) - bend.offset;
             bend.opened = 0.5 * bend.curvature * moved * moved;
-            let force = self.memory[bend.mesh].expected(bend.slot);
+            let force = self.pairs.memory[bend.mesh].expected(bend.slot);
             if force > 0.0 {
                 let pressed = force * bend.curvature * moved;
-                bend.row.add_to(pressed, self.bent.as_mut_slice());
+                bend.row.add_to(pressed, self.pairs.bent.as_mut_slice());
             }
         }
-        self.work.load += &self.bent;
+        self.work.load += &self.pairs.bent;
     }
 
-    /// The same for a frame with back flanks, the loads being in already.
+    /// The same for a frame with backside flanks, the loads being in already.
     fn bend_again(&mut self, frame: &mut Frame) {
         for bend in &mut frame.bends {
             let moved = bend.row.dot(&self.work.expected) - bend.offset;
@@ -109,57 +100,28 @@ impl VibratingSet<'_> {
     /// Displacements of the races under `work.load` alone.
     pub(super) fn free_races(&mut self) {
         self.work.free.fill(0.0);
-        let Work { load, free, .. } = &mut self.work;
-        self.packed_inverse.add_product(load.as_slice(), free.as_mut_slice());
-    }
-
-    /// Starts the step of all gears; large ones side by side, which changes no bit.
-    fn predict_gears(&mut self, turned: f64) {
-        for k in 0..self.gears.len() {
-            self.work.started[k].0 = self.race(k + 1);
-        }
-        let one = |(gear, (race, load)): (&mut Gear<'_>, &mut (RaceMotion, [f64; 3]))| {
-            let angle = gear.angle(turned);
-            *load = gear.vibrating.predict(race, angle);
-        };
-        if self.is_large {
-            self.gears.par_iter_mut().zip(&mut self.work.started).for_each(one);
-        } else {
-            self.gears.iter_mut().zip(&mut self.work.started).for_each(one);
-        }
-        for (k, (_, load)) in self.work.started.iter().enumerate() {
-            add_of(&self.statics.races, k + 1, *load, &mut self.work.load);
-        }
+        let Workspace { load, free, .. } = &mut self.work;
+        self.race_dynamics.packed_inverse.add_product(load.as_slice(), free.as_mut_slice());
     }
 
     /// Moves the clock on, and the memories of meshes whose phase starts anew.
     fn tick(&mut self) {
-        self.steps += 1;
-        if let Motive::Turning { steps_per_cycle, .. } = self.motive {
-            self.step_in_cycle += 1;
-            if self.step_in_cycle == steps_per_cycle {
-                self.step_in_cycle = 0;
-                self.cycles += 1;
-            }
-            for mesh in &self.restarts[self.step_in_cycle] {
-                self.memory[*mesh].move_on();
-            }
+        self.clock.tick();
+        if let NominalRotation::Turning { .. } = self.clock.rotation {
+            self.pairs.restart(self.clock.step_in_cycle);
         }
     }
 
     /// Solves for the pairs' forces and the races' displacements.
-    pub(super) fn contact(&mut self, frame: &mut Frame) -> Result<(), FeError> {
+    pub(super) fn solve_contact(&mut self, frame: &mut Frame) -> Result<(), FeError> {
         let count = frame.offsets.len();
-        self.fill_ports(frame);
+        self.bodies.fill_ports(frame, self.clock.cycles);
         let work = &mut self.work;
         // Positions differ in their number of pairs: the vectors fit the largest.
         if work.b.len() < count {
             work.b = DVector::zeros(count);
         }
-        if self.forces.len() < count {
-            self.forces = DVector::zeros(count);
-            self.approaches = DVector::zeros(count);
-        }
+        self.pairs.fit(count);
         // b = rows · x_free + elastic − offsets − lagging · known
         for ((b, row), offset) in work.b.iter_mut().zip(&frame.rows).zip(&frame.offsets) {
             *b = row.dot(work.free.as_slice()) - offset;
@@ -167,7 +129,9 @@ impl VibratingSet<'_> {
         for bend in &frame.bends {
             work.b[bend.pair] -= bend.opened;
         }
-        for ((gear, own), (ports, _)) in self.gears.iter().zip(&frame.own).zip(&work.ports) {
+        for ((gear, own), (ports, _)) in
+            self.bodies.gears.iter().zip(&frame.own).zip(&self.bodies.ports)
+        {
             if gear.vibrating.unknowns() > 0 {
                 for ((pair, _), port) in own.iter().zip(ports) {
                     work.b[*pair] += gear.vibrating.free(port);
@@ -175,23 +139,22 @@ impl VibratingSet<'_> {
             }
         }
         let mut lags = frame.lags.as_slice();
-        for (memory, mesh) in self.memory.iter().zip(&frame.meshes) {
+        for (memory, mesh) in self.pairs.memory.iter().zip(&frame.meshes) {
             let lagged = &mut work.b.as_mut_slice()[frame.lagged_by(mesh)];
             for slot in &frame.slots[mesh.first..mesh.first + mesh.count] {
-                let known = memory.known(&self.lag, *slot);
+                let known = memory.known(&self.pairs.lag, *slot);
                 let column;
                 (column, lags) = lags.split_at(lagged.len());
                 lagged.iter_mut().zip(column).for_each(|(b, f)| *b -= f * known);
             }
         }
-        let (tables, solver) = (&self.tables, &ActiveSet);
         let b = &work.b.as_slice()[..count];
-        let approaches = &mut self.approaches.as_mut_slice()[..count];
-        let forces = &mut self.forces.as_mut_slice()[..count];
-        if frame.meshes.iter().any(|mesh| mesh.map(&self.maps).is_none()) {
+        let approaches = &mut self.pairs.approaches.as_mut_slice()[..count];
+        let forces = &mut self.pairs.forces.as_mut_slice()[..count];
+        if frame.meshes.iter().any(|mesh| mesh.map(&self.contact.maps).is_none()) {
             // First guess at a position not met before, or whose map gave way: the forces of the last step.
             forces.fill(0.0);
-            for (memory, mesh) in self.memory.iter().zip(&frame.meshes) {
+            for (memory, mesh) in self.pairs.memory.iter().zip(&frame.meshes) {
                 let own = mesh.first..mesh.first + mesh.count;
                 let slots = frame.slots[own.clone()].iter();
                 forces[own].iter_mut().zip(slots).for_each(|(p, slot)| *p = memory.now(*slot));
@@ -200,7 +163,7 @@ impl VibratingSet<'_> {
                 let row = frame.receptance.row(i);
                 *delta = b - row.iter().zip(&*forces).map(|(y, p)| y * p).sum::<f64>();
             }
-            find_lost(frame, &mut self.maps, tables, approaches)?;
+            self.contact.find_lost(frame, approaches)?;
         }
         let mut residual = f64::INFINITY;
         for iteration in 0..MOST_ITERATIONS {
@@ -208,9 +171,9 @@ impl VibratingSet<'_> {
             let place = match known {
                 Some(place) => place,
                 None => {
-                    let Some(made) = combine(frame, &self.maps, &work.ids)? else {
+                    let Some(made) = combine(frame, &self.contact.maps, &work.ids)? else {
                         // Meshes of one table: the map of one gave way to that of another.
-                        find_lost(frame, &mut self.maps, tables, approaches)?;
+                        self.contact.find_lost(frame, approaches)?;
                         continue;
                     };
                     self.counts.combinations += 1;
@@ -233,9 +196,14 @@ impl VibratingSet<'_> {
             let mut all_hold = part == 1.0 || residual < 1e-14;
             for mesh in &mut frame.meshes {
                 let delta = &approaches[mesh.first..mesh.first + mesh.count];
-                let maps = &mut self.maps[mesh.table];
+                let maps = &mut self.contact.maps[mesh.table];
                 if !maps.holds(&mut mesh.held, delta) {
-                    maps.find(&tables.list[mesh.table], delta, &mut mesh.held, solver)?;
+                    maps.find(
+                        &self.contact.tables.list[mesh.table],
+                        delta,
+                        &mut mesh.held,
+                        &ActiveSet,
+                    )?;
                     all_hold = false;
                 }
             }
@@ -258,7 +226,9 @@ impl VibratingSet<'_> {
                     row.add_to(-force, work.left.as_mut_slice());
                 }
                 work.x.fill(0.0);
-                self.packed_inverse.add_product(work.left.as_slice(), work.x.as_mut_slice());
+                self.race_dynamics
+                    .packed_inverse
+                    .add_product(work.left.as_slice(), work.x.as_mut_slice());
                 return Ok(());
             }
         }
@@ -274,16 +244,16 @@ impl VibratingSet<'_> {
             }
         }
         for mesh in &frame.meshes {
-            let table = &self.tables.list[mesh.table];
-            if let Some(pair) = mesh.map(&self.maps).and_then(|map| map.overflows) {
-                let (cells, force_n) = (&table.pairs[pair], self.forces[mesh.first + pair]);
+            let table = &self.contact.tables.list[mesh.table];
+            if let Some(pair) = mesh.map(&self.contact.maps).and_then(|map| map.overflows) {
+                let (cells, force_n) = (&table.pairs[pair], self.pairs.forces[mesh.first + pair]);
                 if force_n > 0.0 {
                     let reach_mm = 0.5e3 * cells.width * cells.x.len() as f64;
                     let (phase, pair) = (table.phase, cells.index);
                     return Err(FeError::GridOverflow { phase, pair, reach_mm, force_n });
                 }
             }
-            let own = &self.approaches.as_slice()[mesh.first..mesh.first + mesh.count];
+            let own = &self.pairs.approaches.as_slice()[mesh.first..mesh.first + mesh.count];
             let deepest = own.iter().fold(0.0f64, |a, d| a.max(*d));
             if deepest >= table.next_gap {
                 return Err(FeError::NoEquilibrium(format!(
@@ -298,37 +268,10 @@ impl VibratingSet<'_> {
 
     /// Ends the step.
     fn finish(&mut self, frame: &Frame, turned: f64) {
-        let races = &self.statics.races;
-        let displaced = |x: &DVector<f64>, body: usize| {
-            [0, 1, 2].map(|axis| races.of(body, axis).map_or(0.0, |i| x[i]))
-        };
-        for ((ports, forces), own) in self.work.ports.iter_mut().zip(&frame.own) {
-            if !ports.is_empty() {
-                forces.clear();
-                forces.extend(own.iter().map(|(pair, _)| self.forces[*pair]));
-            }
-        }
-        let x = &self.work.x;
-        let one = |(k, (gear, loads)): (usize, (&mut Gear<'_>, &Loads))| {
-            let (ports, forces) = loads;
-            if gear.vibrating.unknowns() > 0 {
-                let angle = gear.angle(turned);
-                gear.vibrating.finish(displaced(x, k + 1), angle, &ports[..forces.len()], forces);
-            }
-        };
-        if self.is_large {
-            self.gears.par_iter_mut().zip(&self.work.ports).enumerate().for_each(one);
-        } else {
-            self.gears.iter_mut().zip(&self.work.ports).enumerate().for_each(one);
-        }
-        let race = displaced(&self.work.x, CARRIER);
-        self.bearings.finish(&self.rule, self.carrier.as_mut(), &self.work.x, race);
-        self.motion.advance(&self.rule, self.work.x.as_slice());
-        for (memory, mesh) in self.memory.iter_mut().zip(&frame.meshes) {
-            let own = &self.forces.as_slice()[mesh.first..mesh.first + mesh.count];
-            let slots = &frame.slots[mesh.first..mesh.first + mesh.count];
-            memory.advance(&self.lag, slots.iter().copied().zip(own.iter().copied()));
-        }
+        let (races, x) = (&self.statics.races, &self.work.x);
+        self.bodies.finish_gears(races, x, turned, frame, &self.pairs.forces);
+        self.race_dynamics.finish(races, &self.clock.rule, &mut self.bodies, x);
+        self.pairs.advance(frame);
     }
 }
 
@@ -337,22 +280,6 @@ fn combination(frame: &Frame, ids: &mut Vec<u64>) -> Option<usize> {
     ids.clear();
     ids.extend(frame.meshes.iter().map(|mesh| mesh.held.id()));
     frame.combinations.iter().position(|c| c.maps == *ids)
-}
-
-/// Finds maps at some approaches for the meshes that have none, or whose map gave way to another.
-fn find_lost(
-    frame: &mut Frame,
-    maps: &mut [ContactMaps],
-    tables: &SetTables,
-    approaches: &[f64],
-) -> Result<(), FeError> {
-    for mesh in &mut frame.meshes {
-        if mesh.map(maps).is_none() {
-            let delta = &approaches[mesh.first..mesh.first + mesh.count];
-            maps[mesh.table].find(&tables.list[mesh.table], delta, &mut mesh.held, &ActiveSet)?;
-        }
-    }
-    Ok(())
 }
 
 /// (I + Y S) δ = b − Y P₀; `None` if a mesh has no map.
@@ -382,12 +309,4 @@ fn combine(
     let slope = Packed::new(&slope);
     let offset = offset.as_slice().to_vec();
     Ok(Some(Combination { maps: ids.to_vec(), slope, offset, laws }))
-}
-
-fn add_of(races: &Races, body: usize, own: [f64; 3], load: &mut DVector<f64>) {
-    for (axis, value) in own.into_iter().enumerate() {
-        if let Some(i) = races.of(body, axis) {
-            load[i] += value;
-        }
-    }
 }

@@ -3,8 +3,8 @@
 use super::body::Port;
 use crate::body::GearBody;
 use crate::error::FeError;
-use crate::mesh::GearMesh;
-use crate::statics::{PLANETS, PairEnd, Placed, StaticSet, body_numbers, pair_ends};
+use crate::fe_mesh::FeGearMesh;
+use crate::statics::{PLANETS, PairEnd, PlacedMesh, StaticSet, body_numbers, pair_ends};
 
 /// One end of a tooth pair on a body of the set. Only what inertia and damping change of the elastic
 /// displacement goes through this: the static part is the cells' compliance.
@@ -25,7 +25,7 @@ pub(super) struct ToothPoint {
 pub(super) fn tooth_points(
     statics: &StaticSet<'_>,
     which: usize,
-    placed: &Placed<'_>,
+    placed: &PlacedMesh<'_>,
 ) -> Result<Vec<[ToothPoint; 2]>, FeError> {
     let (mesh, direction) = statics.loaded_mesh(which);
     let numbers = body_numbers(placed.kind, placed.planet);
@@ -51,8 +51,8 @@ pub(super) fn fill_port(
     end: &ToothPoint,
     tooth: usize,
 ) {
-    let mesh: &GearMesh = &gear.mesh;
-    let direction = crate::mesh::rotated(end.end.direction, mesh.tooth_angle(tooth));
+    let mesh: &FeGearMesh = &gear.mesh;
+    let direction = crate::fe_mesh::rotated(end.end.direction, mesh.tooth_angle(tooth));
     port.terms.clear();
     for (column, weight) in &end.end.load {
         let unknown = unknown_of[mesh.nodes[tooth][gear.node_of(*column)]];

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
 use gearset::{
-    Motion, PerBody, PerMesh, PlanetOverride, PlanetPositions, Scene, Support, Torsional,
+    Freedom, PerBody, PerMesh, PlanetOverride, PlanetPositions, Scene, Support, Torsional,
 };
 
 /// A file of the project.
@@ -69,9 +69,9 @@ impl Random {
 
     fn support(&mut self) -> Support {
         let motion = match self.below(4) {
-            0 => Motion::RotationHeld,
-            1 => Motion::Held,
-            _ => Motion::Free,
+            0 => Freedom::RotationHeld,
+            1 => Freedom::Held,
+            _ => Freedom::Free,
         };
         // Some members float, some are free to turn.
         let bearing = if self.one_in(4) { 0.0 } else { self.stiffness() };

@@ -3,7 +3,7 @@
 
 use experiments::NaturalMode;
 use experiments::modal::{
-    Preload, fed_lumped, linear_modes, lumped_frequencies, majority, preloaded,
+    Preload, linear_modes, lumped_frequencies, lumped_from_fe, majority, preloaded,
 };
 use fe_contact::statics::Bodies;
 use gearset::{Kinematics, PlanetPositions, Scene};
@@ -55,8 +55,8 @@ pub struct Effects {
     pub printed_fe_contact_hz: Vec<f64>,
     /// Lumped as published, Hz.
     pub published_hz: Vec<f64>,
-    /// Lumped, fed from FE, Hz.
-    pub fed_hz: Vec<f64>,
+    /// Lumped, parameters from FE, Hz.
+    pub lumped_from_fe_hz: Vec<f64>,
     /// FE/contact, linearised, Hz.
     pub fe_contact_hz: Vec<f64>,
     /// The same without the turning of the meshes' forces.
@@ -112,13 +112,13 @@ pub fn effects(
         Ok::<Rows, ValidationError>(tabled(printed, &typed))
     };
     let fe = |scene: &Scene, bodies: &Bodies, preload| turned(scene, bodies, preload, true);
-    let fed = fed_lumped(&set, bodies, &preload)?;
-    let (of_fe, of_fed) = (fe(&set, bodies, preload)?, lumped(&fed)?);
+    let from_fe = lumped_from_fe(&set, bodies, &preload)?;
+    let (of_fe, of_lumped) = (fe(&set, bodies, preload)?, lumped(&from_fe)?);
     let mut variants = Vec::new();
     for &variant in wanted {
         let rows = match variant.base() {
-            Base::FedLumped => {
-                let (changed, _) = variant.applied(&fed, &set, preload);
+            Base::LumpedFromFe => {
+                let (changed, _) = variant.applied(&from_fe, &set, preload);
                 Some(match variant {
                     Variant::Gyroscopic => tabled(printed, &turning(&changed)?),
                     _ => lumped(&changed)?,
@@ -133,7 +133,7 @@ pub fn effects(
                 with.map(|bodies| fe(&changed, bodies, preload)).transpose()?
             }
         };
-        let base = if variant.base() == Base::FeContact { &of_fe } else { &of_fed };
+        let base = if variant.base() == Base::FeContact { &of_fe } else { &of_lumped };
         variants.push((variant, rows.map(|rows| effect_of(base, &rows))));
     }
     let mut path = vec![step("lumped, as published", true, &lumped(&as_published)?)];
@@ -143,12 +143,12 @@ pub fn effects(
     if table == Table::Three {
         path.push(step("spacing that can be assembled", true, &lumped(&set)?));
     }
-    let (own_masses, _) = Variant::PrintedMeshes.applied(&fed, &set, preload);
+    let (own_masses, _) = Variant::PrintedMeshes.applied(&from_fe, &set, preload);
     path.push(step("masses and inertias of the meshes", true, &lumped(&own_masses)?));
-    path.push(step("tangent stiffness of each mesh: lumped, fed from FE", true, &of_fed));
+    path.push(step("tangent stiffness of each mesh: lumped, parameters from FE", true, &of_lumped));
     let (rigid, _) = Variant::RigidCarrier.applied(&set, &set, preload);
     path.push(step(
-        "corner pairs press along their own normals",
+        "corner contacts press along their own normals",
         false,
         &turned(&rigid, bodies, preload, false)?,
     ));
@@ -164,10 +164,10 @@ pub fn effects(
         printed_lumped_hz: printed.lumped_hz.clone(),
         printed_fe_contact_hz: printed.fe_contact_hz.clone(),
         published_hz: path[0].frequency_hz.clone(),
-        fed_hz: means(&of_fed),
+        lumped_from_fe_hz: means(&of_lumped),
         fe_contact_hz: means(&of_fe),
         still_hz: means(&of_still),
-        split_percent: [splits(&of_fed), splits(&of_fe)],
+        split_percent: [splits(&of_lumped), splits(&of_fe)],
         variants,
         path,
     })
@@ -208,9 +208,10 @@ impl Effects {
     }
 
     /// What the parameters' effects one by one leave of their joint effect, for each row, percent:
-    /// Σ ln(f_i/f_fed) − ln(f_published/f_fed).
+    /// Σ ln(f_i/f_lumped) − ln(f_published/f_lumped).
     pub fn remainders_percent(&self) -> Vec<f64> {
-        let joint = self.published_hz.iter().zip(&self.fed_hz).map(|(p, f)| (p / f).ln());
+        let joint =
+            self.published_hz.iter().zip(&self.lumped_from_fe_hz).map(|(p, f)| (p / f).ln());
         let single = |row: usize| {
             let of = |v| self.of(v).map_or(f64::NAN, |e| (0.01 * e[row].percent).ln_1p());
             Variant::TO_PUBLISHED.into_iter().map(of).sum::<f64>()
@@ -218,15 +219,15 @@ impl Effects {
         joint.enumerate().map(|(row, joint)| 100.0 * (single(row) - joint)).collect()
     }
 
-    /// FE/contact against the fed lumped model, less the effects of the carrier's giving way and of forces
+    /// FE/contact against the lumped model from FE, less the effects of the carrier's giving way and of forces
     /// that turn with their lines of action, for each row, percent: what the model has besides.
     pub fn beyond_carrier_percent(&self) -> Vec<f64> {
         let rigid = self.of(Variant::RigidCarrier);
-        let of = |(row, (fe, fed)): (usize, (&f64, &f64))| {
+        let of = |(row, (fe, from_fe)): (usize, (&f64, &f64))| {
             let carrier = rigid.map_or(f64::NAN, |e| (0.01 * e[row].percent).ln_1p());
-            100.0 * ((fe / fed).ln() + carrier)
+            100.0 * ((fe / from_fe).ln() + carrier)
         };
-        self.still_hz.iter().zip(&self.fed_hz).enumerate().map(of).collect()
+        self.still_hz.iter().zip(&self.lumped_from_fe_hz).enumerate().map(of).collect()
     }
 }
 
@@ -249,7 +250,7 @@ mod tests {
             printed_lumped_hz: vec![1.0],
             printed_fe_contact_hz: vec![1.0],
             published_hz: vec![1000.0 * whole],
-            fed_hz: vec![1000.0],
+            lumped_from_fe_hz: vec![1000.0],
             // The carrier's giving way takes 2 % off, and something else 0.1 %.
             still_hz: vec![1000.0 / 1.02 * 0.999],
             fe_contact_hz: vec![1000.0 / 1.02 * 0.999],

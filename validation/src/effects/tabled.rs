@@ -4,7 +4,7 @@ use experiments::NaturalMode;
 use lumped::ModeType;
 
 use crate::reference::ModeTable;
-use crate::suites::modes_of::type_named;
+use crate::suites::mode_lists::type_named;
 
 /// One row of a table as a model gives it.
 #[derive(Debug, Clone, PartialEq)]

@@ -34,7 +34,7 @@ impl Effects {
         };
         Self::row(f, "printed: lumped", whole(&self.printed_lumped_hz))?;
         Self::row(f, "lumped, as published", tenths(&self.published_hz))?;
-        Self::row(f, "lumped, fed from FE", tenths(&self.fed_hz))?;
+        Self::row(f, "lumped, parameters from FE", tenths(&self.lumped_from_fe_hz))?;
         Self::row(f, "FE/contact, linearised", tenths(&self.fe_contact_hz))?;
         Self::row(f, "printed: FE/contact", whole(&self.printed_fe_contact_hz))?;
         let printed = off(&self.printed_fe_contact_hz, &self.printed_lumped_hz);
@@ -62,9 +62,11 @@ impl Effects {
             Base::FeContact => {
                 ("against FE/contact, %", "(split of pairs, %)", &self.split_percent[1])
             }
-            Base::FedLumped => {
-                ("against lumped, fed from FE, %", "(split of pairs, %)", &self.split_percent[0])
-            }
+            Base::LumpedFromFe => (
+                "against lumped, parameters from FE, %",
+                "(split of pairs, %)",
+                &self.split_percent[0],
+            ),
         };
         self.head(f, first)?;
         Self::row(f, name, splits.iter().map(|s| bracket(*s)).collect())?;
@@ -100,7 +102,7 @@ impl fmt::Display for Effects {
         self.models(f)?;
         writeln!(f)?;
         self.steps(f)?;
-        for base in [Base::FeContact, Base::FedLumped] {
+        for base in [Base::FeContact, Base::LumpedFromFe] {
             writeln!(f)?;
             self.changes(f, base)?;
         }

@@ -13,8 +13,8 @@ use crate::error::ValidationError;
 pub enum Base {
     /// The FE/contact set, linearised.
     FeContact,
-    /// The lumped model fed from it.
-    FedLumped,
+    /// The lumped model with parameters from it.
+    LumpedFromFe,
 }
 
 /// One change.
@@ -62,7 +62,7 @@ impl Variant {
         Self::Position(0.25),
         Self::Position(0.5),
         Self::Position(0.75),
-        // Where corner pairs come into contact in all meshes of three planets at once.
+        // Where corner contact sets in in all meshes of three planets at once.
         Self::Position(0.836),
         Self::PrintedAngles,
         Self::EqualSpacing,
@@ -71,7 +71,7 @@ impl Variant {
         Self::Gyroscopic,
     ];
 
-    /// The changes that together turn the fed lumped model into the published one.
+    /// The changes that together turn the lumped model with parameters from FE into the published one.
     pub const TO_PUBLISHED: [Self; 4] =
         [Self::PrintedAngles, Self::EqualSpacing, Self::PrintedMasses, Self::PrintedMeshes];
 
@@ -99,7 +99,7 @@ impl Variant {
             | Self::PrintedAngles
             | Self::PrintedMasses
             | Self::PrintedMeshes
-            | Self::Gyroscopic => Base::FedLumped,
+            | Self::Gyroscopic => Base::LumpedFromFe,
             _ => Base::FeContact,
         }
     }
@@ -179,27 +179,27 @@ mod tests {
     use crate::catalogue::{PublishedScene, scene};
     use experiments::modal::lumped_frequencies;
 
-    /// The four changes are all that sets a fed scene apart from the published one.
+    /// The four changes are all that sets a scene with parameters from FE apart from the published one.
     #[test]
     fn all_changes_to_published_give_the_published_frequencies() {
         let set = scene(PublishedScene::Oh58FourPlanets).unwrap();
-        let mut fed = set.clone();
+        let mut from_fe = set.clone();
         let own = |planet| PlanetOverride {
             planet,
             sun_mesh: Some(7e8 + 1e7 * planet as f64),
             ring_mesh: Some(9e8),
             ..PlanetOverride::default()
         };
-        fed.overrides = (0..4).map(own).collect();
-        fed.lumped.as_mut().unwrap().mass.planet = Some(0.7);
-        fed.lumped.as_mut().unwrap().inertia_over_r2.sun = Some(0.5);
+        from_fe.overrides = (0..4).map(own).collect();
+        from_fe.lumped.as_mut().unwrap().mass.planet = Some(0.7);
+        from_fe.lumped.as_mut().unwrap().inertia_over_r2.sun = Some(0.5);
         let nowhere = Preload { load: LoadCase::standing(0.0), position: 0.0, step_s: 0.0 };
         for variant in Variant::TO_PUBLISHED {
-            fed = variant.applied(&fed, &set, nowhere).0;
+            from_fe = variant.applied(&from_fe, &set, nowhere).0;
         }
         let published = scene(PublishedScene::Oh58FourPlanetsAsPublished).unwrap();
         let (ours, theirs) =
-            (lumped_frequencies(&fed).unwrap(), lumped_frequencies(&published).unwrap());
+            (lumped_frequencies(&from_fe).unwrap(), lumped_frequencies(&published).unwrap());
         assert_eq!(ours.len(), theirs.len());
         for (a, b) in ours.iter().zip(&theirs) {
             // Radii printed to 0.01 mm.

@@ -1,54 +1,59 @@
 //! Lin & Parker (1999): every frequency, type and multiplicity of the model set, N = 3 and 4.
 
+use experiments::models::Changed;
+use experiments::{ModalModel, frequencies_of};
+use gearset::Scene;
 use lumped::ModeType;
 
-use crate::catalogue::{PublishedScene, scene};
-use crate::check::{Check, ReferenceKind, Subject};
 use crate::error::ValidationError;
 use crate::reference::{Frequencies, Reference};
 
-use super::modes_of::{by_type, frequencies, modes_of, signature};
+use super::Checks;
+use super::mode_lists::{by_type, signature};
+use super::tables::{modes_of, planet_1_heavier};
 
-pub(crate) fn checks(reference: &Reference) -> Result<Vec<Check>, ValidationError> {
+/// `scenes`: sets of three or four planets.
+pub(crate) fn checks(model: &dyn ModalModel, scenes: &[Scene], reference: &Reference) -> Checks {
     let published = &reference.lin_parker;
-    let sets = [
-        ("three_planets", 3, PublishedScene::LinParkerThreePlanets, &published.three_planets),
-        ("four_planets", 4, PublishedScene::LinParkerFourPlanets, &published.four_planets),
-    ];
     let mut checks = Vec::new();
-    for (name, planets, which, expected) in sets {
-        let (_, modes) = modes_of(&scene(which)?)?;
+    for set in scenes {
+        let planets = set.planets.count();
+        let (name, expected) = match planets {
+            3 => ("three_planets", &published.three_planets),
+            _ => ("four_planets", &published.four_planets),
+        };
+        let modes = modes_of(model, set)?;
         for (mode_type, list) in by_type(expected) {
-            let found = frequencies(&modes, mode_type);
+            let found = frequencies_of(&modes, mode_type);
             for (i, &hz) in list.iter().enumerate() {
                 let id = format!("lin_parker_1999.{name}.{}.{}", mode_type.name(), i + 1);
                 let title = format!("N = {planets}, {} frequency {}", mode_type.name(), i + 1);
-                let subject = Subject {
-                    id: &id,
-                    title: &title,
-                    kind: ReferenceKind::Published,
-                    source: &published.source,
-                    unit: "Hz",
-                };
-                let actual = found.get(i).copied().unwrap_or(f64::NAN);
-                checks.push(Check::number(subject, hz, actual, reference.tolerance(&id, hz)?));
+                let about = reference.about(&id, &title)?.source(&published.source);
+                checks.push(about.number(hz, found.get(i).copied().unwrap_or(f64::NAN)));
             }
         }
         let id = format!("lin_parker_1999.{name}.types");
-        let subject = Subject {
-            id: &id,
-            title: "types and multiplicities, by frequency",
-            kind: ReferenceKind::Published,
-            source: &published.source,
-            unit: "",
-        };
-        checks.push(Check::equal(
-            subject,
-            expected_signature(expected, planets),
-            signature(&modes),
-        ));
+        let title = "types and multiplicities, by frequency";
+        let about = reference.about(&id, title)?.source(&published.source);
+        checks.push(about.equal(expected_signature(expected, planets), signature(&modes)));
     }
     Ok(checks)
+}
+
+/// Controls: sun meshes softened, a planet heavier.
+pub(crate) fn controls(model: &dyn ModalModel, scenes: &[Scene], reference: &Reference) -> Checks {
+    let softened = |scene: &mut Scene| {
+        if let Some(lumped) = &mut scene.lumped {
+            lumped.mesh.sun_planet *= 0.98;
+        }
+    };
+    let control = |what: &str, change: &dyn Fn(&mut Scene)| {
+        let judged = checks(&Changed::new(model, change), scenes, reference)?;
+        Ok::<_, ValidationError>(
+            reference.control(&format!("lin_parker_1999.control.{what}"), &judged)?,
+        )
+    };
+    Ok(vec![control("mesh_softened", &softened)?, control("planet_heavier", &planet_1_heavier)?])
 }
 
 /// The published frequencies in order, each with its type and multiplicity.

@@ -1,49 +1,243 @@
-//! The checks, suite by suite.
+//! The checks, suite by suite. Suites that can be asked of anybody's model take it, its scenes and the
+//! reference data; suites about the numerics of our own models take the [`Lab`].
 
 mod claims;
-mod controls;
 pub(crate) mod explained;
-mod fe;
+pub(crate) mod fe;
+mod lab;
 mod lin_parker;
-pub(crate) mod modes_of;
+pub(crate) mod mode_lists;
 mod rules;
 pub(crate) mod statements;
 mod structure;
 mod table1;
 pub(crate) mod tables;
 
+use experiments::{ModalModel, StaticModel, SteadyStateModel};
+use gearset::Scene;
+
 use crate::Profile;
+use crate::catalogue::{PublishedScene, scene};
 use crate::check::Check;
 use crate::error::ValidationError;
+use crate::progress::{Listener, told};
 use crate::reference::Reference;
 
-type Suite = fn(&Reference) -> Result<Vec<Check>, ValidationError>;
+pub(crate) use lab::Lab;
 
-/// Runs every suite that has ids starting with `only`, in the order of the report.
+/// Checks of one suite.
+pub(crate) type Checks = Result<Vec<Check>, ValidationError>;
+
+/// Natural modes of some scenes held against reference data.
+pub(crate) type OfModes = fn(&dyn ModalModel, &[Scene], &Reference) -> Checks;
+
+/// Mesh cycles at rest held against reference data.
+pub(crate) type OfMeshCycle = fn(&dyn StaticModel, &[Scene], &Reference) -> Checks;
+
+/// Steady states, with natural modes where the model has them, held against reference data.
+pub(crate) type OfSteadyStates =
+    fn(&dyn SteadyStateModel, Option<&dyn ModalModel>, &[Scene], &Reference) -> Checks;
+
+/// What a suite asks, with the scenes it asks about.
+#[derive(Clone, Copy)]
+pub(crate) enum Question {
+    /// Natural modes.
+    Modes(&'static [PublishedScene], OfModes),
+    /// Mesh cycles at rest.
+    MeshCycle(&'static [PublishedScene], OfMeshCycle),
+    /// Steady states.
+    SteadyStates(&'static [PublishedScene], OfSteadyStates),
+}
+
+/// A suite that can be asked of anybody's model.
+#[derive(Clone, Copy)]
+pub(crate) struct Askable {
+    /// Name in the registry.
+    pub(crate) suite: &'static str,
+    /// What is asked.
+    pub(crate) question: Question,
+}
+
+use PublishedScene as P;
+use Question::{MeshCycle, Modes, SteadyStates};
+
+const fn ask(suite: &'static str, question: Question) -> Askable {
+    Askable { suite, question }
+}
+
+/// Suites that can be asked of anybody's model.
+pub(crate) const ASKABLE: [Askable; 16] = [
+    ask("table2.lumped", Modes(&[P::Oh58ThreePlanetsAsPublished], tables::lumped)),
+    ask("table3.lumped", Modes(&[P::Oh58FourPlanetsAsPublished], tables::lumped)),
+    ask("table2.geometry_consistent", Modes(&[P::Oh58ThreePlanets], tables::geometry_consistent)),
+    ask("table3.geometry_consistent", Modes(&[P::Oh58FourPlanets], tables::geometry_consistent)),
+    ask("table3.explained", Modes(&[P::Oh58FourPlanets], explained::checks)),
+    ask(
+        "claims",
+        Modes(&[P::Oh58ThreePlanetsAsPublished, P::Oh58FourPlanetsAsPublished], claims::checks),
+    ),
+    ask(
+        "lin_parker_1999",
+        Modes(&[P::LinParkerThreePlanets, P::LinParkerFourPlanets], lin_parker::checks),
+    ),
+    ask("structure", Modes(&[P::LinParkerThreePlanets], structure::checks)),
+    ask("fe.sets", MeshCycle(&[P::Oh58ThreePlanets, P::Oh58FourPlanets], fe::sets::asked)),
+    ask("fe.fig12", MeshCycle(&[P::Oh58FourPlanets], fe::fig12::asked)),
+    ask("table2.fe_contact", Modes(&[P::Oh58ThreePlanets], fe::modal::printed)),
+    ask("table3.fe_contact", Modes(&[P::Oh58FourPlanets], fe::modal::printed)),
+    ask("sweep", SteadyStates(&[P::Oh58FourPlanets], fe::sweeps::asked)),
+    ask("sweep", SteadyStates(&[P::Oh58ThreePlanets], fe::sweeps::asked)),
+    ask("sweep", SteadyStates(&[P::FivePlanets], fe::sweeps::asked)),
+    ask("torque", SteadyStates(&[P::Oh58FourPlanets], fe::torque::asked)),
+];
+
+/// A suite as it is run on our own models: names of the suites it makes the checks of, and how.
+type Own = (&'static [&'static str], fn(&Lab<'_>) -> Checks);
+
+/// All suites in the order of the report.
+const OWN: [Own; 31] = [
+    (&["table2.lumped", "table3.lumped"], own_lumped_tables),
+    (&["table2.geometry_consistent", "table3.geometry_consistent"], own_geometry),
+    (&["table3.explained"], |lab| own_modes(lab, "table3.explained", explained::controls)),
+    (&["claims"], |lab| own_modes(lab, "claims", claims::controls)),
+    (&["lin_parker_1999"], |lab| own_modes(lab, "lin_parker_1999", lin_parker::controls)),
+    (&["table1"], table1::checks),
+    (&["rules"], rules::checks),
+    (&["structure"], own_structure),
+    (&["fe.hertz"], fe::hertz::checks),
+    (&["fe.convergence"], fe::convergence::checks),
+    (&["fe.resolved"], fe::resolved::checks),
+    (&["fe.calculix"], fe::calculix::checks),
+    (&["fe.bodies"], fe::bodies::checks),
+    (&["fe.stiffness"], fe::stiffness::checks),
+    (&["fe.iso_6336"], fe::iso6336::checks),
+    (&["fe.sets"], fe::sets::checks),
+    (&["fe.kinematics.turned"], fe::kinematics::turned::checks),
+    (&["fe.kinematics.work"], fe::kinematics::work::checks),
+    (&["fe.kinematics.bearings"], fe::kinematics::bearings::checks),
+    (&["fe.kinematics.potential"], fe::kinematics::potential::checks),
+    (&["fe.kinematics.exact"], fe::kinematics::exact::checks),
+    (&["fe.kinematics.peaks"], fe::kinematics::peaks::checks),
+    (&["fe.fig12"], fe::fig12::checks),
+    (&["table2.fe_contact", "table3.fe_contact"], fe::modal::tables),
+    (&["fe.modal"], fe::modal::checks),
+    (&["fe.stepping"], fe::stepping::checks),
+    (&["fe.fidelity"], fe::fidelity::checks),
+    (&["lumped_from_fe"], fe::lumped_from_fe::checks),
+    (&["sweep"], fe::sweeps::checks),
+    (&["truth"], fe::truth::checks),
+    (&["torque"], fe::torque::checks),
+];
+
+/// Scenes and question of a suite that can be asked of anybody's model.
+fn modes_question(suite: &str) -> Result<(Vec<Scene>, OfModes), ValidationError> {
+    for askable in ASKABLE {
+        if let (true, Modes(scenes, run)) = (askable.suite == suite, askable.question) {
+            return Ok((scenes_of(scenes)?, run));
+        }
+    }
+    Err(ValidationError::Incomplete("suite of that name that asks for natural modes"))
+}
+
+/// Scenes of the catalogue.
+pub(crate) fn scenes_of(which: &[PublishedScene]) -> Result<Vec<Scene>, ValidationError> {
+    Ok(which.iter().map(|p| scene(*p)).collect::<Result<Vec<Scene>, _>>()?)
+}
+
+/// A suite asked of the lumped model, and its controls.
+fn own_modes(lab: &Lab<'_>, suite: &str, controls: OfModes) -> Checks {
+    let (scenes, run) = modes_question(suite)?;
+    let mut checks = run(&lab.lumped, &scenes, lab.reference)?;
+    checks.extend(controls(&lab.lumped, &scenes, lab.reference)?);
+    Ok(checks)
+}
+
+fn own_lumped_tables(lab: &Lab<'_>) -> Checks {
+    let mut checks = own_modes(lab, "table2.lumped", tables::lumped_controls)?;
+    checks.extend(own_modes(lab, "table3.lumped", tables::lumped_controls)?);
+    let (scenes, _) = modes_question("table3.lumped")?;
+    checks.extend(tables::sign_control(&scenes, lab.reference)?);
+    Ok(checks)
+}
+
+fn own_geometry(lab: &Lab<'_>) -> Checks {
+    let mut checks = own_modes(lab, "table2.geometry_consistent", tables::geometry_controls)?;
+    checks.extend(own_modes(lab, "table3.geometry_consistent", tables::geometry_controls)?);
+    Ok(checks)
+}
+
+fn own_structure(lab: &Lab<'_>) -> Checks {
+    let mut checks = own_modes(lab, "structure", structure::controls)?;
+    let (scenes, _) = modes_question("structure")?;
+    checks.extend(structure::mirror(&scenes, lab.reference)?);
+    Ok(checks)
+}
+
+/// Runs every suite that has ids starting with `only` on our own models, in the order of the report; `progress`
+/// hears of each.
 pub(crate) fn all(
     reference: &Reference,
     profile: Profile,
     only: &str,
-) -> Result<Vec<Check>, ValidationError> {
-    // Each with what its ids start with.
-    let suites: [(&[&str], Suite); 8] = [
-        (&["table2.", "table3."], tables::checks),
-        (&["table3.explained."], explained::checks),
-        (&["claims."], claims::checks),
-        (&["lin_parker_1999."], lin_parker::checks),
-        (&["table1."], table1::checks),
-        (&["rules."], rules::checks),
-        (&["structure."], structure::checks),
-        (&["control."], controls::checks),
-    ];
-    let concerns = |prefix: &str| prefix.starts_with(only) || only.starts_with(prefix);
+    progress: Listener<'_>,
+) -> Checks {
+    let concerned = |name: &str| {
+        let prefix = format!("{name}.");
+        prefix.starts_with(only) || only.starts_with(&prefix)
+    };
+    let suites: Vec<Own> =
+        OWN.into_iter().filter(|(names, _)| names.iter().any(|n| concerned(n))).collect();
+    if suites.is_empty() {
+        return Ok(Vec::new());
+    }
+    let lab = Lab::new(reference, profile)?;
+    let mut checks: Vec<Check> = Vec::new();
+    for (names, suite) in suites {
+        checks.extend(told(names, progress, || {
+            let mut found = suite(&lab)?;
+            found.retain(|check| check.id.starts_with(only));
+            Ok(found)
+        })?);
+    }
+    Ok(checks)
+}
+
+/// Every suite that a foreign model can be asked, as far as it answers.
+pub(crate) fn foreign(reference: &Reference, models: &Models<'_>, only: &str) -> Checks {
     let mut checks = Vec::new();
-    for (prefixes, suite) in suites {
-        if prefixes.iter().any(|p| concerns(p)) {
-            checks.extend(suite(reference)?);
+    for Askable { suite, question } in ASKABLE {
+        if !format!("{suite}.").starts_with(only) && !only.starts_with(suite) {
+            continue;
+        }
+        let found = match (question, models) {
+            (Modes(which, run), Models { modal: Some(model), .. }) => {
+                run(*model, &scenes_of(which)?, reference)
+            }
+            (MeshCycle(which, run), Models { at_rest: Some(model), .. }) => {
+                run(*model, &scenes_of(which)?, reference)
+            }
+            (SteadyStates(which, run), Models { in_time: Some(model), modal, .. }) => {
+                run(*model, *modal, &scenes_of(which)?, reference)
+            }
+            _ => continue,
+        };
+        match found {
+            // A table answers what it holds.
+            Err(error) if error.is_not_recorded() => {}
+            found => checks.extend(found?),
         }
     }
-    checks.extend(fe::checks(reference, profile, &concerns)?);
-    checks.retain(|check| check.id.starts_with(only));
+    checks.retain(|check: &Check| check.id.starts_with(only));
     Ok(checks)
+}
+
+/// A foreign model by what it can be asked.
+#[derive(Clone, Copy, Default)]
+pub struct Models<'m> {
+    /// Natural modes.
+    pub modal: Option<&'m dyn ModalModel>,
+    /// A mesh cycle at rest.
+    pub at_rest: Option<&'m dyn StaticModel>,
+    /// Steady states.
+    pub in_time: Option<&'m dyn SteadyStateModel>,
 }

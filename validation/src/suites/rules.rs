@@ -7,63 +7,64 @@ use gearset::{
     excitation, excitation_of_scene, table4,
 };
 
-use crate::catalogue::{PublishedScene, scene};
-use crate::check::{Check, ReferenceKind, Subject};
 use crate::error::ValidationError;
 use crate::reference::Reference;
+use crate::worst::worst;
+
+use super::{Checks, Lab};
 
 const HARMONICS: u32 = 5;
 
-pub(crate) fn checks(reference: &Reference) -> Result<Vec<Check>, ValidationError> {
-    let paper = reference.parker.source.as_str();
-    let three = strengths(&scene(PublishedScene::Oh58ThreePlanets)?)?;
-    let four = strengths(&scene(PublishedScene::Oh58FourPlanets)?)?;
-    let mut checks = Vec::new();
-    let (published, analytic) = (ReferenceKind::Published, ReferenceKind::Analytic);
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
+    let mut checks = judged(lab.reference, &lab.three, &lab.four)?;
+    let mut moved = lab.four.clone();
+    let steps = moved.planets.steps.as_mut().and_then(|s| s.get_mut(1));
+    *steps.ok_or(ValidationError::Incomplete("assembly steps"))? += 1;
+    let (sun, ring) =
+        moved.teeth.and_then(|t| t.sun_ring()).ok_or(ValidationError::Incomplete("teeth"))?;
+    moved.planets.psi_rad[1] += std::f64::consts::TAU / f64::from(sun + ring);
+    let spoilt = judged(lab.reference, &lab.three, &moved)?;
+    checks.push(lab.reference.control("rules.control.one_planet_moved", &spoilt)?);
+    Ok(checks)
+}
 
-    let id = "rules.table4.three_planets";
+/// The rules for a set of three planets and one of four.
+fn judged(reference: &Reference, three: &Scene, four: &Scene) -> Checks {
+    let paper = reference.parker.source.as_str();
+    let (three, four) = (strengths(three)?, strengths(four)?);
+    let mut checks = Vec::new();
+
     let title = "three planets, 27 sun teeth: harmonics 1 to 5 excite (k = 0 throughout)";
     let expected = vec!["rotational"; HARMONICS as usize];
     let found: Vec<String> = three.iter().map(|s| kinds(s.allowed())).collect();
-    checks.push(Check::equal(subject(id, title, published, paper), expected, found));
+    let about = reference.about("rules.table4.three_planets", title)?.source(paper);
+    checks.push(about.equal(expected, found));
 
-    let id = "rules.diametrical.four_planets";
     let title = "four planets in diametrical pairs, 27 sun teeth: harmonics 1 to 5 do not excite";
     let expected: Vec<&str> = (1..=HARMONICS).map(|l| forbidden_by_rule(27, l)).collect();
     let found: Vec<String> = four.iter().map(|s| forbidden(s.allowed())).collect();
-    checks.push(Check::equal(subject(id, title, published, paper), expected, found));
+    let about = reference.about("rules.diametrical.four_planets", title)?.source(paper);
+    checks.push(about.equal(expected, found));
 
     let printed = &reference.parker.excitation.net_torque_strength;
-    for (&l, &expected) in printed.harmonics.iter().zip(&printed.values) {
+    for (l, expected) in printed.rows() {
         let id = format!("rules.strength.four_planets.{l}");
         let title = format!("four planets: net torque strength of harmonic {l}");
-        let source = "an independent phasor sum (reference/parker_2000.toml)";
         let actual = four.iter().find(|s| s.harmonic == l).map_or(f64::NAN, |s| s.net_torque);
-        let tolerance = reference.tolerance(&id, expected)?;
-        let subject = subject(&id, &title, ReferenceKind::OtherCode, source);
-        checks.push(Check::number(subject, expected, actual, tolerance));
+        checks.push(reference.about(&id, &title)?.number(expected, actual));
     }
 
-    let id = "rules.forbidden.four_planets";
     let title = "four planets: largest strength of what the diametrical rule forbids";
-    let largest = four
-        .iter()
-        .map(|s| match diametrical_rule(27, s.harmonic) {
-            DiametricalRule::TranslationalForbidden => s.net_force_plus.max(s.net_force_minus),
-            DiametricalRule::RotationalForbidden => s.net_torque,
-        })
-        .fold(0.0, f64::max);
-    let source = "e^{i l Zs (ψ+π)} = (−1)^{l Zs} e^{i l Zs ψ}";
-    let tolerance = reference.tolerance(id, 0.0)?;
-    checks.push(Check::number(subject(id, title, analytic, source), 0.0, largest, tolerance));
+    let strengths = four.iter().map(|s| match diametrical_rule(27, s.harmonic) {
+        DiametricalRule::TranslationalForbidden => s.net_force_plus.max(s.net_force_minus),
+        DiametricalRule::RotationalForbidden => s.net_torque,
+    });
+    let about = reference.about("rules.forbidden.four_planets", title)?;
+    checks.push(about.at_most(worst(strengths)));
 
-    let id = "rules.table4.all";
     let title = "Table 4 against phasor sums, Zs 12–60, N 3–8, l 1–12: disagreements";
-    let source = "geometric series of unit phasors";
-    let subject_all = subject(id, title, analytic, source);
-    checks.push(Check::equal(subject_all, 0.0, disagreements()));
+    checks.push(reference.about("rules.table4.all", title)?.equal(0.0, disagreements()));
 
-    let id = "rules.diametrical.only_forbids";
     let title = "N = 4, Zs = 30, l = 1: Table 4 and the phasors excite no rotation, though the diametrical rule as printed would";
     let net_torque = excitation(&equal(4), 30, 1).net_torque;
     let rule = diametrical_rule(30, 1) == DiametricalRule::TranslationalForbidden;
@@ -72,13 +73,8 @@ pub(crate) fn checks(reference: &Reference) -> Result<Vec<Check>, ValidationErro
         if rule { "the rule leaves rotation open" } else { "the rule forbids rotation" },
         if net_torque < 1e-12 { "the phasors forbid it" } else { "the phasors allow it" },
     ];
-    let subject_only = subject(id, title, analytic, source);
-    checks.push(Check::equal(subject_only, expected, found));
+    checks.push(reference.about("rules.diametrical.only_forbids", title)?.equal(expected, found));
     Ok(checks)
-}
-
-fn subject<'a>(id: &'a str, title: &'a str, kind: ReferenceKind, source: &'a str) -> Subject<'a> {
-    Subject { id, title, kind, source, unit: "" }
 }
 
 fn strengths(scene: &Scene) -> Result<Vec<ExcitationStrengths>, ValidationError> {

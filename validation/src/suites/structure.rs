@@ -1,59 +1,67 @@
 //! Structure theorems as properties over random sets.
 
+use experiments::models::Changed;
+use experiments::{ModalModel, frequencies_of};
 use gearset::{PerBody, PlanetPositions, Scene, Torsional};
-use lumped::{ModeType, NaturalModes};
+use lumped::{LumpedModel, ModeType, NaturalModes};
 
-use crate::catalogue::{PublishedScene, scene};
-use crate::check::{Check, ReferenceKind, Subject};
 use crate::error::ValidationError;
 use crate::reference::Reference;
 
-use super::modes_of::{frequencies, modes_of};
+use super::Checks;
+use super::mode_lists::multiplicities;
+use super::tables::{modes_of, planet_1_heavier};
 
 const SETS: usize = 200;
 
-pub(crate) fn checks(_: &Reference) -> Result<Vec<Check>, ValidationError> {
+/// `scenes`: one set with all members free, whose parameters are drawn anew.
+pub(crate) fn checks(model: &dyn ModalModel, scenes: &[Scene], reference: &Reference) -> Checks {
     let mut random = fastrand::Rng::with_seed(1999);
-    let template = scene(PublishedScene::LinParkerThreePlanets)?;
-    let (mut spectrum, mut diametrical, mut mirror) = (0, 0, 0);
+    let [template] = scenes else {
+        return Err(ValidationError::Incomplete("set to draw others from"));
+    };
+    let (mut spectrum, mut diametrical) = (0, 0);
     for _ in 0..SETS {
         let planets = random.usize(3..=8);
-        let set = random_set(&template, &mut random, planets);
-        spectrum += usize::from(!has_published_structure(&set)?);
+        let set = random_set(template, &mut random, planets);
+        spectrum += usize::from(!has_published_structure(model, &set)?);
         let pairs = random.usize(2..=3);
-        let set = random_set(&template, &mut random, 2 * pairs);
-        diametrical += usize::from(!diametrical_spacing_splits_pairs_only(&set, &mut random)?);
-        mirror += usize::from(!mirrored_set_mirrors_its_modes(&set, &mut random)?);
+        let set = random_set(template, &mut random, 2 * pairs);
+        let turned = turn_pairs(&set, &mut random);
+        diametrical += usize::from(!only_pairs_split(model, &set, &turned)?);
     }
-    let check = |id, title, source, violations: usize| {
-        let kind = ReferenceKind::Analytic;
-        Check::equal(Subject { id, title, kind, source, unit: "sets" }, 0.0, violations as f64)
+    let title = "200 random sets, N = 3 to 8, equally spaced, all members free: violations of 6 rotational, 6 translational pairs, 3 planet frequencies N−3 times";
+    let spectrum = reference.about("structure.spectrum", title)?.equal(0.0, spectrum as f64);
+    let title = "200 random sets of diametrical pairs: violations of 'rotational and planet frequencies stay, translational pairs split'";
+    let about = reference.about("structure.diametrical", title)?;
+    Ok(vec![spectrum, about.equal(0.0, diametrical as f64)])
+}
+
+/// Mirror images of random sets, whose mode shapes our own model tells.
+pub(crate) fn mirror(scenes: &[Scene], reference: &Reference) -> Checks {
+    let mut random = fastrand::Rng::with_seed(2000);
+    let [template] = scenes else {
+        return Err(ValidationError::Incomplete("set to draw others from"));
     };
-    Ok(vec![
-        check(
-            "structure.spectrum",
-            "200 random sets, N = 3 to 8, equally spaced, all members free: violations of 6 rotational, 6 translational pairs, 3 planet frequencies N−3 times",
-            "Lin & Parker (1999)",
-            spectrum,
-        ),
-        check(
-            "structure.diametrical",
-            "200 random sets of diametrical pairs: violations of 'rotational and planet frequencies stay, translational pairs split'",
-            "Lin & Parker (2000)",
-            diametrical,
-        ),
-        check(
-            "structure.mirror",
-            "200 random sets and their mirror images: frequencies, types or mirrored mode shapes that differ",
-            "reflection in the axis through planet 0, senses of rotation reversed",
-            mirror,
-        ),
-    ])
+    let mut violations = 0;
+    for _ in 0..SETS {
+        let pairs = random.usize(2..=3);
+        let set = random_set(template, &mut random, 2 * pairs);
+        violations += usize::from(!mirrored_set_mirrors_its_modes(&set, &mut random)?);
+    }
+    let title = "200 random sets and their mirror images: frequencies, types or mirrored mode shapes that differ";
+    Ok(vec![reference.about("structure.mirror", title)?.equal(0.0, violations as f64)])
+}
+
+/// Control: one planet heavier in every set.
+pub(crate) fn controls(model: &dyn ModalModel, scenes: &[Scene], reference: &Reference) -> Checks {
+    let judged = checks(&Changed::new(model, planet_1_heavier), scenes, reference)?;
+    Ok(vec![reference.control("structure.control.planet_heavier", &judged)?])
 }
 
 /// Any set with all members free, equally spaced.
 fn random_set(template: &Scene, random: &mut fastrand::Rng, planets: usize) -> Scene {
-    let mut set = template.clone();
+    let mut set = template.variant("drawn at random");
     set.planets = PlanetPositions::equally_spaced(planets);
     // Uniform in the logarithm: sets differ by decades, not by percents.
     let mut between = |low: f64, high: f64| low * (high / low).powf(random.f64());
@@ -79,12 +87,8 @@ fn random_set(template: &Scene, random: &mut fastrand::Rng, planets: usize) -> S
     set
 }
 
-fn multiplicities(modes: &NaturalModes, mode_type: ModeType) -> Vec<usize> {
-    modes.of_type(mode_type).map(|g| g.multiplicity).collect()
-}
-
-fn has_published_structure(set: &Scene) -> Result<bool, ValidationError> {
-    let (_, modes) = modes_of(set)?;
+fn has_published_structure(model: &dyn ModalModel, set: &Scene) -> Result<bool, ValidationError> {
+    let modes = modes_of(model, set)?;
     let planets = set.planets.count();
     let planet = if planets > 3 { vec![planets - 3; 3] } else { vec![] };
     Ok(multiplicities(&modes, ModeType::Rotational) == [1; 6]
@@ -104,15 +108,15 @@ fn turn_pairs(set: &Scene, random: &mut fastrand::Rng) -> Scene {
     turned
 }
 
-fn diametrical_spacing_splits_pairs_only(
+fn only_pairs_split(
+    model: &dyn ModalModel,
     set: &Scene,
-    random: &mut fastrand::Rng,
+    turned: &Scene,
 ) -> Result<bool, ValidationError> {
-    let (_, equal) = modes_of(set)?;
-    let (_, turned) = modes_of(&turn_pairs(set, random))?;
-    let highest = equal.groups.last().map_or(0.0, |g| g.frequency_hz);
+    let (equal, turned) = (modes_of(model, set)?, modes_of(model, turned)?);
+    let highest = equal.iter().map(|m| m.frequency_hz).fold(0.0, f64::max);
     let same = |mode_type| {
-        let (a, b) = (frequencies(&equal, mode_type), frequencies(&turned, mode_type));
+        let (a, b) = (frequencies_of(&equal, mode_type), frequencies_of(&turned, mode_type));
         a.len() == b.len()
             && a.iter().zip(&b).all(|(x, y)| (x * x - y * y).abs() < 1e-10 * highest * highest)
     };
@@ -120,6 +124,12 @@ fn diametrical_spacing_splits_pairs_only(
         && same(ModeType::Planet)
         && multiplicities(&turned, ModeType::Planet) == multiplicities(&equal, ModeType::Planet)
         && multiplicities(&turned, ModeType::Translational) == [1; 12])
+}
+
+fn model_of(set: &Scene) -> Result<(LumpedModel, NaturalModes), ValidationError> {
+    let model = LumpedModel::from_scene(set)?;
+    let modes = NaturalModes::of(&model)?;
+    Ok((model, modes))
 }
 
 /// Mirrors a set in the axis through planet 0 and reverses the senses of rotation: every pressure
@@ -136,8 +146,8 @@ fn mirrored_set_mirrors_its_modes(
         lumped.pressure_angle.sun_planet *= -1.0;
         lumped.pressure_angle.ring_planet *= -1.0;
     }
-    let (model, modes) = modes_of(&set)?;
-    let (mirror_model, mirror_modes) = modes_of(&mirrored)?;
+    let (model, modes) = model_of(&set)?;
+    let (mirror_model, mirror_modes) = model_of(&mirrored)?;
     if modes.groups.len() != mirror_modes.groups.len() {
         return Ok(false);
     }

@@ -1,38 +1,39 @@
 //! Tables of mesh force from the cells.
 
-use gearset::{CurveKey, Facing, FlankSide, LawPlan, MeshCurve, MeshKind, MeshLaw, Scene};
-use nalgebra::DMatrix;
+use gearset::{CurveKey, Facing, FlankSide, MeshCurve, MeshKind, MeshLaw, MeshLawPlan, Scene};
 use rayon::prelude::*;
 
+use super::deflected_mesh::{Approaches, DeflectedMesh, at, deflection_for, first_contact};
 use super::share::damped_share;
 use crate::complementarity::ActiveSet;
-use crate::contact::{CellSettings, MeshAnswer, MeshTable, PairCells};
+use crate::contact::{CellSettings, MeshTable, PairCells};
 use crate::error::FeError;
 use crate::statics::{
-    Beside, Bodies, Imperfections, PLANETS, RING, SUN, StaticSet, invariants, missing_mesh, turned,
+    Bodies, Imperfections, NeighbourTables, PLANETS, RING, SUN, StaticSet, invariants,
+    missing_mesh, turned,
 };
 
 /// What a law is made for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LawSettings {
+pub struct MeshLawSettings {
     /// Torque on the sun (magnitude) about whose equilibrium the set is to move, N·m.
     pub torque_nm: f64,
     /// Largest force of a mesh that the tables hold over the mean one; beyond, forces go straight on.
     pub reach: f64,
     /// Steps of each curve from first contact to the largest force.
     pub nodes: usize,
-    /// Whether back flanks are tabulated.
-    pub has_backs: bool,
+    /// Whether backside flanks are tabulated.
+    pub has_backside: bool,
 }
 
-/// Steps of the curves of back flanks, which rarely touch.
+/// Steps of the curves of backside flanks, which rarely touch.
 const BACK_NODES: usize = 16;
 
-impl LawSettings {
-    /// For motion about the equilibrium under a torque (N·m): forces up to three times the mean one, back
+impl MeshLawSettings {
+    /// For motion about the equilibrium under a torque (N·m): forces up to three times the mean one, backside
     /// flanks included.
     pub fn at(torque_nm: f64) -> Self {
-        Self { torque_nm, reach: 3.0, nodes: 64, has_backs: true }
+        Self { torque_nm, reach: 3.0, nodes: 64, has_backside: true }
     }
 }
 
@@ -51,7 +52,7 @@ pub fn mesh_law(
     bodies: &Bodies,
     sense: Facing,
     steps: usize,
-    settings: &LawSettings,
+    settings: &MeshLawSettings,
 ) -> Result<MeshLaw, FeError> {
     let unfit = |key: &str, value: f64, allowed: &str| FeError::Unfit {
         key: key.into(),
@@ -69,7 +70,7 @@ pub fn mesh_law(
     let statics = StaticSet::new(scene, bodies, sense, Imperfections::default())?.under(torque)?;
     let planets = statics.races.planets();
     let mean_force = statics.share(torque);
-    let plan = LawPlan::new(&statics.law_starts(settings.has_backs), steps)?;
+    let plan = MeshLawPlan::new(&statics.law_starts(settings.has_backside), steps)?;
     let job = Job {
         at_rest: at_rest(&statics, steps, mean_force)?,
         cells: bodies.cells(reach * mean_force),
@@ -126,15 +127,6 @@ fn at_rest(statics: &StaticSet<'_>, steps: usize, mean_force: f64) -> Result<Vec
     Ok(list)
 }
 
-/// Approaches of a mesh's pairs over its deflection δ: a δ + o each.
-#[derive(Debug, Clone)]
-pub(super) struct Approaches {
-    /// a.
-    pub(super) arms: Vec<f64>,
-    /// o, m.
-    extra: Vec<f64>,
-}
-
 /// One curve; of front flanks, the damped share of the flexibility and the load beside the line of
 /// action under the mean force.
 struct Made {
@@ -168,7 +160,9 @@ impl Job<'_, '_> {
                 let own = &reference.loaded[reference.meshes[which].group];
                 (&own.mesh, &own.gradients)
             }
-            FlankSide::Back => (&reference.backs[which].mesh, &reference.backs[which].gradients),
+            FlankSide::Backside => {
+                (&reference.backside[which].mesh, &reference.backside[which].gradients)
+            }
         };
         let table = MeshTable::new(mesh, pair, key.phase, &self.cells)?;
         let arm = |p: &PairCells| invariants(key.kind, gradients, &p.row)[0];
@@ -194,7 +188,7 @@ impl Job<'_, '_> {
                 let side_load = self.side_load(which, &table, &found)?;
                 Ok(Made { curve, share, side_load })
             }
-            FlankSide::Back => {
+            FlankSide::Backside => {
                 let backlash = bodies.geometry.normal_backlash(key.kind).unwrap_or(0.0);
                 let curve = curve(&table, &along, self.largest, BACK_NODES)?;
                 let (curve, side_load) = (curve.moved(backlash), [0.0; 6]);
@@ -215,12 +209,12 @@ impl Job<'_, '_> {
         &self,
         which: usize,
         table: &MeshTable,
-        found: &Found,
+        found: &DeflectedMesh,
     ) -> Result<[f64; 6], FeError> {
         let statics = self.statics;
         let pose = &statics.reference().meshes[which];
         let own = &statics.reference().loaded[pose.group];
-        let beside = Beside::coarse(statics.bodies, &own.mesh, table.phase, &self.cells)?;
+        let beside = NeighbourTables::coarse(statics.bodies, &own.mesh, table.phase, &self.cells)?;
         let slopes = beside.slopes(table, &found.pair_forces, &ActiveSet)?;
         let mut along = slopes.rest;
         for ((pair, force), kappa) in
@@ -230,7 +224,7 @@ impl Job<'_, '_> {
             along[0] -= force * (by[1] - kappa[0]);
             along[1] -= force * (by[2] - kappa[1]);
         }
-        let gradients = [&own.gradients.string, &own.gradients.center_distance];
+        let gradients = [&own.gradients.roll_length, &own.gradients.center_distance];
         let mut sum = [0.0; 6];
         for (gradient, force) in gradients.into_iter().zip(along) {
             let row = turned(gradient, pose.direction);
@@ -246,80 +240,6 @@ impl Job<'_, '_> {
         let [zeta, eta, spin] = planet;
         Ok([x, y, turn / radius, zeta, eta, spin / radii[PLANETS]])
     }
-}
-
-impl Approaches {
-    fn at(&self, deflection: f64) -> Vec<f64> {
-        self.arms.iter().zip(&self.extra).map(|(a, o)| a * deflection + o).collect()
-    }
-}
-
-/// A mesh at a deflection.
-pub(super) struct Found {
-    /// F = Σ a P, the slope of a potential, N.
-    pub(super) force: f64,
-    /// dF/dδ, N/m.
-    pub(super) stiffness: f64,
-    /// P, N.
-    pub(super) pair_forces: Vec<f64>,
-    /// Tangent between the pairs, N/m.
-    pub(super) tangent: DMatrix<f64>,
-}
-
-/// A mesh at a deflection; `warm` takes the cells in contact.
-pub(super) fn at(
-    table: &MeshTable,
-    along: &Approaches,
-    deflection: f64,
-    warm: &mut Option<Vec<bool>>,
-) -> Result<Found, FeError> {
-    let (approaches, arms) = (along.at(deflection), &along.arms);
-    let none = vec![0.0; arms.len()];
-    let answer = table.answer(&approaches, &none, &ActiveSet, warm.as_deref())?;
-    let force = answer.pair_forces.iter().zip(arms).map(|(p, a)| p * a).sum();
-    let mut stiffness = 0.0;
-    for (k, a) in arms.iter().enumerate() {
-        for (l, b) in arms.iter().enumerate() {
-            stiffness += a * answer.tangent[(k, l)] * b;
-        }
-    }
-    *warm = Some(answer.active.clone());
-    let MeshAnswer { pair_forces, tangent, .. } = answer;
-    Ok(Found { force, stiffness, pair_forces, tangent })
-}
-
-/// Deflection at which a mesh carries a force at least, and at most some percent more, m.
-pub(super) fn deflection_for(
-    table: &MeshTable,
-    along: &Approaches,
-    force: f64,
-) -> Result<f64, FeError> {
-    let start = first_contact(table, along);
-    let mut warm = None;
-    // About one pair of steel teeth.
-    let mut delta = start + force / (2.0e9 * table.face_width * 10.0);
-    for _ in 0..60 {
-        let found = at(table, along, delta, &mut warm)?;
-        if found.force >= force && found.force <= 1.02 * force {
-            return Ok(delta);
-        }
-        let (reach, k) = (delta - start, found.stiffness);
-        let change = if k > 0.0 { (1.005 * force - found.force) / k } else { reach };
-        delta += change.clamp(-0.5 * reach, 2.0 * reach);
-    }
-    Err(FeError::NoEquilibrium(format!(
-        "no deflection gives {force:.0} N at mesh phase {:.4}",
-        table.phase
-    )))
-}
-
-/// Deflection at which the first cell touches, m.
-fn first_contact(table: &MeshTable, along: &Approaches) -> f64 {
-    let of = |(k, pair): (usize, &PairCells)| {
-        let own = &table.gaps[pair.first..pair.first + pair.x.len()];
-        (own.iter().fold(f64::INFINITY, |a, g| a.min(*g)) - along.extra[k]) / along.arms[k]
-    };
-    table.pairs.iter().enumerate().map(of).fold(f64::INFINITY, f64::min)
 }
 
 fn curve(

@@ -1,12 +1,12 @@
-//! A mesh law as couplings: front flanks, then back flanks.
+//! A mesh law as couplings: front flanks, then backside flanks.
 
-use dynamics::CouplingLaw;
+use dynamics::CouplingForce;
 use gearset::MeshLaw;
 
 #[derive(Debug, Clone)]
-pub(super) struct Tables(pub(super) MeshLaw);
+pub(super) struct MeshLawCouplings(pub(super) MeshLaw);
 
-impl CouplingLaw for Tables {
+impl CouplingForce for MeshLawCouplings {
     #[inline]
     fn answer(&self, coupling: usize, step_in_cycle: usize, deflection: f64) -> (f64, f64) {
         self.0.force(coupling, step_in_cycle, deflection)

@@ -11,9 +11,10 @@
 //! from each; at rest, 0.7 % of the range of the transmission error.
 
 mod build;
+mod deflected_mesh;
 mod law;
 mod set;
 mod share;
 
-pub use build::{LawSettings, mesh_law};
+pub use build::{MeshLawSettings, mesh_law};
 pub use set::MeshLawSet;

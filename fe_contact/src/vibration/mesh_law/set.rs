@@ -2,14 +2,14 @@
 //! carrier, and table look-up instead of contact.
 
 use dynamics::{AverageAcceleration, Coupled, CoupledState, Coupling, LinearPart, Motion};
-use faer::Mat;
 use gearset::{Facing, MeshLaw, Scene};
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
-use super::super::build::{body_mass, gyroscopic_terms};
+use super::super::build::body_mass;
+use super::super::gyroscopic::{GyroscopicTerms, carrier_speed};
 use super::super::prepared::fit;
-use super::super::set::{Motive, carrier_speed};
-use super::law::Tables;
+use super::super::rotation::NominalRotation;
+use super::law::MeshLawCouplings;
 use crate::error::FeError;
 use crate::statics::{Bodies, CARRIER, Imperfections, PLANETS, RING, Races, SUN, StaticSet};
 
@@ -17,7 +17,7 @@ use crate::statics::{Bodies, CARRIER, Imperfections, PLANETS, RING, Races, SUN, 
 #[derive(Debug)]
 pub struct MeshLawSet<'s> {
     statics: StaticSet<'s>,
-    system: Coupled<Tables>,
+    system: Coupled<MeshLawCouplings>,
     mass: Vec<f64>,
 }
 
@@ -51,7 +51,7 @@ impl<'s> MeshLawSet<'s> {
         law: MeshLaw,
     ) -> Result<Self, FeError> {
         let steps = law.steps();
-        fit(scene, &Motive::Turning { mesh_frequency, steps_per_cycle: steps })?;
+        fit(scene, &NominalRotation::Turning { mesh_frequency, steps_per_cycle: steps })?;
         let statics = loaded.clone();
         let bodies = statics.bodies;
         let reference = statics.reference();
@@ -76,19 +76,21 @@ impl<'s> MeshLawSet<'s> {
         }
         let d = &scene.damping;
         // C = αM + τ K: dashpots at supports and bearings, through the carrier's flexibility.
-        let mut damping = Mat::from_fn(n, n, |i, j| {
+        let mut damping = DMatrix::from_fn(n, n, |i, j| {
             let own = if i == j { d.mass_proportional_per_s * mass[i] } else { 0.0 };
             own + d.bearing_s * races.stiffness[(i, j)]
         });
         let turning = &reference.stiffness;
-        let mut stiffness = Mat::from_fn(n, n, |i, j| races.stiffness[(i, j)] + turning[(i, j)]);
+        let mut stiffness =
+            DMatrix::from_fn(n, n, |i, j| races.stiffness[(i, j)] + turning[(i, j)]);
         if scene.dynamics.gyroscopic {
-            let [g, k] = gyroscopic_terms(races, &mass, carrier_speed(scene, mesh_frequency));
-            damping += Mat::from_fn(n, n, |i, j| g[(i, j)]);
-            stiffness += Mat::from_fn(n, n, |i, j| k[(i, j)]);
+            let terms = GyroscopicTerms::new(races, &mass, carrier_speed(scene, mesh_frequency));
+            let (g, k) = (&terms.gyroscopic, &terms.centripetal);
+            damping += g;
+            stiffness += k;
         }
-        let (mut front, mut back) = (Vec::new(), Vec::new());
-        for (pose, behind) in reference.meshes.iter().zip(&reference.backs) {
+        let (mut front, mut backside) = (Vec::new(), Vec::new());
+        for (pose, behind) in reference.meshes.iter().zip(&reference.backside) {
             let lag = d.stiffness_proportional_s * law.damping_share(front.len());
             let coupling = |row: &DVector<f64>, at: f64| {
                 let offset = row.dot(&reference.q) - at;
@@ -96,10 +98,10 @@ impl<'s> MeshLawSet<'s> {
             };
             front.push(coupling(&pose.gradients[0], pose.at[0]));
             let backlash = bodies.geometry.normal_backlash(pose.kind).unwrap_or(0.0);
-            back.push(coupling(&behind.row.full(n), behind.approach + backlash));
+            backside.push(coupling(&behind.row.full(n), behind.approach + backlash));
         }
-        if !law.has_backs() {
-            back.clear();
+        if !law.has_backside() {
+            backside.clear();
         }
         let step = 1.0 / (mesh_frequency * steps as f64);
         let rule = AverageAcceleration::new(step).map_err(|e| FeError::Unfit {
@@ -114,7 +116,7 @@ impl<'s> MeshLawSet<'s> {
         for load in &mut side_loads {
             load.iter_mut().zip(turning.iter()).for_each(|(load, f)| *load += f);
         }
-        let system = Coupled::new(&part, &front, &back, Tables(law), rule, steps);
+        let system = Coupled::new(&part, &front, &backside, MeshLawCouplings(law), rule, steps);
         let mut system = system.map_err(|cause| failed(&statics, cause))?;
         for (step, load) in side_loads.iter().enumerate() {
             system.add_in_cycle(step, load).map_err(|cause| failed(&statics, cause))?;
@@ -154,7 +156,7 @@ impl<'s> MeshLawSet<'s> {
         self.statics.displacements(&DVector::from_vec(self.system.displacements()))
     }
 
-    /// Force of each mesh: sun meshes, ring meshes, then their back flanks if the law has them, N.
+    /// Force of each mesh: sun meshes, ring meshes, then their backside flanks if the law has them, N.
     pub fn mesh_forces(&self, out: &mut Vec<f64>) {
         out.clear();
         out.extend_from_slice(self.system.forces());
@@ -215,7 +217,7 @@ impl<'s> MeshLawSet<'s> {
         &self.mass
     }
 
-    /// Mean iterations of a step so far, and steps in which back flanks took part.
+    /// Mean iterations of a step so far, and steps in which backside flanks took part.
     pub fn counts(&self) -> (f64, u64) {
         let steps = self.state().steps.max(1) as f64;
         (self.system.iterations as f64 / steps, self.system.with_rare)

@@ -2,7 +2,7 @@
 
 use gearset::Mesh;
 
-use super::build::{Approaches, Found};
+use super::deflected_mesh::{Approaches, DeflectedMesh};
 use crate::contact::{MeshTable, PairCells};
 use crate::statics::{Bodies, flexibility};
 
@@ -19,7 +19,7 @@ pub(super) fn damped_share(
     mesh: &Mesh,
     table: &MeshTable,
     along: &Approaches,
-    found: &Found,
+    found: &DeflectedMesh,
 ) -> f64 {
     let (total, tangent) = (found.stiffness, &found.tangent);
     let arms = &along.arms;

@@ -2,13 +2,12 @@
 
 use fe_contact::Elastic;
 use fe_contact::body::CarrierBody;
-use fe_contact::mesh::GearMesh;
+use fe_contact::fe_mesh::FeGearMesh;
 use gearset::{Gear, Geometry, Scene, ThicknessInput};
 
-use super::Lab;
 use crate::catalogue::{PublishedScene, scene};
-use crate::check::{Check, ReferenceKind};
 use crate::error::ValidationError;
+use crate::suites::{Checks, Lab};
 
 /// Elements along the flank for masses alone.
 const FLANK_ELEMENTS: usize = 6;
@@ -20,7 +19,7 @@ fn gears(scene: &Scene) -> Result<[(f64, f64); 4], ValidationError> {
     let material = Elastic::new(&scene.material, scene.fe_contact.plane);
     let lumped = scene.lumped.as_ref().ok_or_else(missing)?;
     let of = |name, gear: &Gear| -> Result<(f64, f64), ValidationError> {
-        let mesh = GearMesh::new(name, gear, scene.fe_contact.element, FLANK_ELEMENTS)?;
+        let mesh = FeGearMesh::new(name, gear, scene.fe_contact.element, FLANK_ELEMENTS)?;
         Ok(mesh.mass_properties(&material, geometry.face_width)?)
     };
     let sun_gear = geometry.sun.as_ref().ok_or_else(missing)?;
@@ -68,42 +67,12 @@ fn best_share(scene: &Scene) -> Result<f64, ValidationError> {
     Ok(0.5 * (low + high))
 }
 
-pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
-    let mut checks = Vec::new();
-    let source = &lab.reference.parker.source;
-    let published = ReferenceKind::Published;
-    let names = [
-        ("sun", "mass", "kg"),
-        ("sun", "inertia", "kg m²"),
-        ("planet", "mass", "kg"),
-        ("planet", "inertia", "kg m²"),
-    ];
-    for ((body, what, unit), (paper, ours)) in names.into_iter().zip(gears(&lab.four)?) {
-        let id = format!("fe.bodies.{what}.{body}");
-        let title = format!("{what} of the {body}'s mesh against the printed lumped one");
-        checks.push(lab.number(&id, &title, published, source, unit, paper, ours)?);
-    }
-    let geometry = lab.four.geometry.as_ref().and_then(|g| g.carrier);
-    let carrier = geometry.ok_or(ValidationError::Incomplete("carrier"))?;
-    let (a, width) = (lab.bodies.geometry.center_distance, lab.bodies.geometry.face_width);
-    let psi = &lab.four.planets.psi_rad;
-    let body = CarrierBody::new(&carrier, a, psi, &lab.bodies.material, width)?;
-    let lumped = lab.four.lumped.as_ref().ok_or(ValidationError::Incomplete("lumped"))?;
-    let printed = lumped.mass.carrier.zip(lumped.inertia_over_r2.carrier.map(|i| i * a * a));
-    let (mass, inertia) = printed.ok_or(ValidationError::Incomplete("carrier's mass"))?;
-    let title = "mass of the carrier's annulus against the printed lumped one";
-    checks.push(lab.number(
-        "fe.bodies.mass.carrier",
-        title,
-        published,
-        source,
-        "kg",
-        mass,
-        body.mass,
-    )?);
-    let title = "polar inertia of the carrier's annulus against the printed lumped one";
-    let id = "fe.bodies.inertia.carrier";
-    checks.push(lab.number(id, title, published, source, "kg m²", inertia, body.inertia)?);
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
+    let mut checks = masses(lab, &lab.four)?;
+    let mut light = lab.four.clone();
+    light.material.density_kg_per_m3 = 7000.0;
+    let spoilt = masses(lab, &light)?;
+    checks.push(lab.reference.control("fe.bodies.control.density", &spoilt)?);
     let best = best_share(&lab.four)?;
     let second = scene(PublishedScene::Oh58BestThickness)?;
     let kept = match second.geometry.as_ref().map(|g| g.thickness) {
@@ -111,11 +80,37 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
         _ => return Err(ValidationError::Incomplete("planet_share")),
     };
     let title = "planet's share of tooth thickness for which masses and inertias agree best, as in scenes/oh58_4p_best_thickness.toml";
-    let source = "scenes/oh58_4p_best_thickness.toml";
-    let kind = ReferenceKind::OwnRegression;
-    checks.push(lab.number("fe.bodies.best_share", title, kind, source, "", kept, best)?);
+    let about = lab.about("fe.bodies.best_share", title)?;
+    checks.push(about.source("scenes/oh58_4p_best_thickness.toml").number(kept, best));
     let title = "root mean square of the four differences at that share";
-    let misfit = 100.0 * misfit(&lab.four, best)?;
-    checks.push(lab.at_most("fe.bodies.best_misfit", title, "%", misfit)?);
+    let about = lab.about("fe.bodies.best_misfit", title)?.source(&lab.reference.parker.source);
+    checks.push(about.at_most(100.0 * misfit(&lab.four, best)?));
+    Ok(checks)
+}
+
+/// Masses and inertias of a scene's bodies against its printed lumped ones.
+fn masses(lab: &Lab<'_>, scene: &Scene) -> Checks {
+    let mut checks = Vec::new();
+    let source = &lab.reference.parker.source;
+    let names = [("sun", "mass"), ("sun", "inertia"), ("planet", "mass"), ("planet", "inertia")];
+    for ((body, what), (paper, ours)) in names.into_iter().zip(gears(scene)?) {
+        let id = format!("fe.bodies.{what}.{body}");
+        let title = format!("{what} of the {body}'s mesh against the printed lumped one");
+        checks.push(lab.about(&id, &title)?.source(source).number(paper, ours));
+    }
+    let geometry = scene.geometry.as_ref().and_then(|g| g.carrier);
+    let carrier = geometry.ok_or(ValidationError::Incomplete("carrier"))?;
+    let (a, width) = (lab.bodies.geometry.center_distance, lab.bodies.geometry.face_width);
+    let material = Elastic::new(&scene.material, scene.fe_contact.plane);
+    let body = CarrierBody::new(&carrier, a, &scene.planets.psi_rad, &material, width)?;
+    let lumped = scene.lumped.as_ref().ok_or(ValidationError::Incomplete("lumped"))?;
+    let printed = lumped.mass.carrier.zip(lumped.inertia_over_r2.carrier.map(|i| i * a * a));
+    let (mass, inertia) = printed.ok_or(ValidationError::Incomplete("carrier's mass"))?;
+    let title = "mass of the carrier's annulus against the printed lumped one";
+    let about = lab.about("fe.bodies.mass.carrier", title)?.source(source);
+    checks.push(about.number(mass, body.mass));
+    let title = "polar inertia of the carrier's annulus against the printed lumped one";
+    let about = lab.about("fe.bodies.inertia.carrier", title)?.source(source);
+    checks.push(about.number(inertia, body.inertia));
     Ok(checks)
 }

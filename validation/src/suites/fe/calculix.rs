@@ -4,16 +4,29 @@ use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::at_approach;
 use gearset::MeshKind;
 
-use super::Lab;
-use crate::check::{Check, ReferenceKind};
-use crate::error::ValidationError;
+use crate::reference::CalculixCase;
+use crate::suites::{Checks, Lab};
 
-pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
-    let calculix = &lab.reference.calculix;
-    let source = format!("{}; remade by benches/calculix_pair.py --write", calculix.source);
-    let other = ReferenceKind::OtherCode;
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
+    let kept = &lab.reference.calculix;
+    let mut checks = judged(lab, &kept.case)?;
+    // Every row beside the place of the next.
+    let mut shifted = kept.case.clone();
+    let places: Vec<_> = kept.case.iter().map(|c| (c.scene.clone(), c.phase)).collect();
+    let next = places.iter().cycle().skip(1);
+    for (case, (scene, phase)) in shifted.iter_mut().zip(next) {
+        (case.scene, case.phase) = (scene.clone(), *phase);
+    }
+    let spoilt = judged(lab, &shifted)?;
+    checks.push(lab.reference.control("fe.calculix.control.rows_shifted", &spoilt)?);
+    Ok(checks)
+}
+
+fn judged(lab: &Lab<'_>, cases: &[CalculixCase]) -> Checks {
+    let source =
+        format!("{}; remade by benches/calculix_pair.py --write", lab.reference.calculix.source);
     let mut checks = Vec::new();
-    for case in &calculix.case {
+    for case in cases {
         let kind = match case.scene.contains("ring_planet") {
             true => MeshKind::RingPlanet,
             false => MeshKind::SunPlanet,
@@ -24,19 +37,18 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
         let id = format!("fe.calculix.{name}.force");
         let (mesh, phase, um) = (kind.name(), case.phase, case.approach_um);
         let title = format!("{mesh} mesh, phase {phase}, {um} µm approach: force ({})", case.what);
-        checks.push(lab.number(&id, &title, other, &source, "N", case.force_n, own.force)?);
+        checks.push(lab.about(&id, &title)?.source(&source).number(case.force_n, own.force));
         for pair in &case.pair {
+            // Without a peak of its own (at corners) a row says nothing of pressure.
+            let Some(expected) = pair.peak_pressure_mpa else { continue };
             let found = own.pairs.iter().find(|p| p.index == pair.index);
-            let peaks = pair.peak_pressure_mpa.zip(found.and_then(|p| p.peak_pressure));
-            if let Some((expected, actual)) = peaks {
-                let index = pair.index;
-                let id = format!("fe.calculix.{name}.pressure.{index}");
-                let title = format!(
-                    "{mesh} mesh, phase {phase}, {um} µm approach: peak pressure of pair {index}"
-                );
-                let actual = actual * 1e-6;
-                checks.push(lab.number(&id, &title, other, &source, "MPa", expected, actual)?);
-            }
+            let actual = found.and_then(|p| p.peak_pressure).map_or(f64::NAN, |p| 1e-6 * p);
+            let index = pair.index;
+            let id = format!("fe.calculix.{name}.pressure.{index}");
+            let title = format!(
+                "{mesh} mesh, phase {phase}, {um} µm approach: peak pressure of pair {index}"
+            );
+            checks.push(lab.about(&id, &title)?.source(&source).number(expected, actual));
         }
     }
     Ok(checks)

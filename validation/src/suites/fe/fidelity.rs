@@ -1,26 +1,27 @@
 //! The fidelities of the ladder against bodies with every degree of freedom, whose transients are kept.
 
-use fe_contact::statics::Bodies;
+use experiments::modal::{FeMode, ImpulseSettings, impulse_test};
 use gearset::{Fidelity, LoadCase};
 
-use super::Lab;
-use crate::Profile;
-use crate::check::{Check, ReferenceKind, Subject};
-use crate::error::ValidationError;
 use crate::own_truth::FullImpulseSet;
-use experiments::modal::{ImpulseSettings, impulse_test};
+use crate::suites::tables::Table;
+use crate::suites::{Checks, Lab};
+use crate::worst::{paired, worst};
 
-pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+/// Largest differences of one test from full bodies.
+type Found = Vec<(f64, f64)>;
+
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     let kept = &lab.reference.full_impulse;
     let mut checks = Vec::new();
     for set in &kept.set {
-        let (name, scene) = match set.scene.as_str() {
-            "oh58_3p" => ("three", &lab.three),
-            _ => ("four", &lab.four),
+        let scene = match set.scene.as_str() {
+            "oh58_3p" => &lab.three,
+            _ => &lab.four,
         };
+        let name = Table::of_planets(scene.planets.count()).planets();
         let mut scene = scene.clone();
         scene.fe_contact.flank_elements = kept.flank_elements;
-        let bodies = Bodies::new(&scene)?;
         let settings = ImpulseSettings::short(LoadCase::standing(kept.torque_nm), kept.position);
         let fidelities = [
             ("quasi_static", Fidelity::QuasiStatic),
@@ -30,61 +31,48 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
             ("modal_30", Fidelity::Modal(30)),
         ];
         for (fidelity_name, fidelity) in fidelities {
-            let titles = [
-                (
-                    "frequency",
-                    format!(
-                        "{name} planets, {fidelity_name}: natural frequencies against full, largest difference"
-                    ),
-                ),
-                (
-                    "damping",
-                    format!(
-                        "{name} planets, {fidelity_name}: damping ratios against full, largest difference"
-                    ),
-                ),
-            ];
-            let found = if fidelity == Fidelity::QuasiStatic || lab.profile == Profile::Full {
+            let word = format!("{fidelity_name}.{name}");
+            let mut found = None;
+            if lab.runs(&format!("fe.fidelity.frequency.{word}"))? {
                 scene.dynamics.fidelity = fidelity;
-                let test = impulse_test(&scene, &bodies, &settings)?;
-                let list: Vec<(f64, f64)> =
-                    test.modes.iter().map(|m| (m.frequency_hz, m.damping_ratio)).collect();
-                Some(differences(set, &list))
-            } else {
-                None
-            };
-            for (k, (what, title)) in titles.iter().enumerate() {
-                let id = format!("fe.fidelity.{what}.{fidelity_name}.{name}");
-                let source = format!("{}; remade by {}", kept.source, kept.command);
-                let subject = Subject {
-                    id: &id,
-                    title,
-                    kind: ReferenceKind::OwnRegression,
-                    source: &source,
-                    unit: "%",
-                };
-                let tolerance = lab.reference.tolerance(&id, 0.0)?;
-                checks.push(match found {
-                    Some(found) => Check::number(subject, 0.0, found[k], tolerance),
-                    None => Check::not_run(subject, 0.0, tolerance),
-                });
+                let test = impulse_test(&scene, &*lab.gears.of(&scene)?, &settings)?;
+                let of = |m: &FeMode| (m.frequency_hz, m.damping_ratio);
+                found = Some(test.modes.iter().map(of).collect::<Found>());
+            }
+            checks.extend(judged(lab, &word, set, found.as_ref())?);
+            if let Some(found) = found.filter(|_| word == "quasi_static.four") {
+                let mut shifted = set.clone();
+                shifted.frequencies_hz.iter_mut().for_each(|f| *f *= 1.01);
+                let spoilt = judged(lab, &word, &shifted, Some(&found))?;
+                let id = "fe.fidelity.control.record_shifted";
+                checks.push(lab.reference.control(id, &spoilt)?);
             }
         }
     }
+    lab.gears.drop_unused();
     Ok(checks)
 }
 
-/// Largest differences in frequency and damping, percent; not a number if modes are missing.
-fn differences(set: &FullImpulseSet, found: &[(f64, f64)]) -> [f64; 2] {
-    if found.len() != set.frequencies_hz.len() {
-        return [f64::NAN; 2];
+/// Frequencies and damping ratios, if they were found, against the kept ones of full bodies.
+fn judged(lab: &Lab<'_>, word: &str, full: &FullImpulseSet, found: Option<&Found>) -> Checks {
+    let kept = &lab.reference.full_impulse;
+    let source = format!("{}; remade by {}", kept.source, kept.command);
+    let off = |own: fn(&(f64, f64)) -> f64, full: &[f64]| {
+        found.map(|found| {
+            let own: Vec<f64> = found.iter().map(own).collect();
+            worst(paired(&own, full).map(|(own, full)| 100.0 * (own / full - 1.0)))
+        })
+    };
+    let mut checks = Vec::new();
+    for (what, words, off) in [
+        ("frequency", "natural frequencies", off(|m| m.0, &full.frequencies_hz)),
+        ("damping", "damping ratios", off(|m| m.1, &full.damping_ratios)),
+    ] {
+        let id = format!("fe.fidelity.{what}.{word}");
+        let (fidelity, planets) = word.rsplit_once('.').unwrap_or((word, ""));
+        let title =
+            format!("{planets} planets, {fidelity}: {words} against full, largest difference");
+        checks.push(lab.about(&id, &title)?.source(&source).at_most_if_run(off));
     }
-    let mut worst = [0.0f64; 2];
-    for ((f, z), (full_f, full_z)) in
-        found.iter().zip(set.frequencies_hz.iter().zip(&set.damping_ratios))
-    {
-        worst[0] = worst[0].max(100.0 * (f / full_f - 1.0).abs());
-        worst[1] = worst[1].max(100.0 * (z / full_z - 1.0).abs());
-    }
-    worst
+    Ok(checks)
 }

@@ -1,31 +1,104 @@
 //! Fig. 12: static deflection of the sun against torque, four planets.
 
-use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{PlaneState, Scene, ThicknessInput};
+use experiments::{StaticModel, SunRms};
+use gearset::{LoadCase, PlaneState, Scene, ThicknessInput};
 
-use super::Lab;
-use crate::Profile;
-use crate::check::{Check, ReferenceKind, Subject, Tolerance};
 use crate::error::ValidationError;
+use crate::reference::Reference;
+use crate::suites::lab::of_model;
+use crate::suites::{Checks, Lab};
 
-/// N·m: 1000 to 12000 lb-in.
+/// N·m: 1000 lb-in, and how many multiples of it.
 const FIRST: f64 = 113.0;
-const LAST: f64 = 1356.0;
+const TORQUES: u32 = 12;
 
-/// RMS of sun rotation and translation over those at 113 N·m, for each torque.
-pub fn normalised_rms(
-    lab: &Lab<'_>,
+/// Positions of the mesh cycle: of the default set, and of its variants.
+const POSITIONS: usize = 140;
+const POSITIONS_OF_VARIANTS: usize = 42;
+
+/// Root mean squares of the sun's rotation and translation over those at the first torque.
+fn normalised_rms(
+    model: &dyn StaticModel,
     scene: &Scene,
-    bodies: &Bodies,
     torques: &[f64],
     positions: usize,
 ) -> Result<Vec<(f64, f64)>, ValidationError> {
-    let mut list = Vec::new();
+    let mut list: Vec<SunRms> = Vec::new();
     for torque in torques {
-        list.push(lab.set(scene, bodies, *torque, positions, Imperfections::default())?.sun_rms());
+        let case = LoadCase::standing(*torque);
+        list.push(model.mesh_cycle(scene, &case, positions).map_err(of_model)?.sun_rms());
     }
-    let (r, t) = list[0];
-    Ok(list.iter().map(|(a, b)| (a / r, b / t)).collect())
+    let first = list.first().copied().ok_or(ValidationError::Incomplete("torque"))?;
+    let over = |rms: &SunRms| {
+        (rms.rotation_rad / first.rotation_rad, rms.translation_m / first.translation_m)
+    };
+    Ok(list.iter().map(over).collect())
+}
+
+fn torques() -> Vec<f64> {
+    (1..=TORQUES).map(|i| FIRST * f64::from(i)).collect()
+}
+
+/// What is said of the figure, of anybody's mesh cycles.
+pub(crate) fn asked(model: &dyn StaticModel, scenes: &[Scene], reference: &Reference) -> Checks {
+    let mut checks = Vec::new();
+    for scene in scenes {
+        let found = normalised_rms(model, scene, &torques(), POSITIONS)?;
+        checks.extend(judged(reference, &found)?);
+    }
+    Ok(checks)
+}
+
+/// Statements about growth with torque: rotation and translation, over those at the first torque.
+fn judged(reference: &Reference, found: &[(f64, f64)]) -> Checks {
+    let source = format!("{}, Fig. 12 and section 4.2", reference.parker.source);
+    let others = f64::from(TORQUES - 1);
+    let mut checks = Vec::new();
+    let title = "torques, of eleven above 113 N·m, at which the sun's rotation has grown more than its translation";
+    let about = reference.about("fe.fig12.rotation_ahead", title)?.source(&source);
+    checks.push(about.equal(others, ahead(found)));
+    let grows = |of: fn(&(f64, f64)) -> f64| {
+        found.windows(2).filter(|w| of(&w[1]) > of(&w[0])).count() as f64
+    };
+    let title = "steps of torque, of eleven, over which rotation and translation grow";
+    let both = vec![grows(|p| p.0), grows(|p| p.1)];
+    let about = reference.about("fe.fig12.monotonic", title)?.source(&source);
+    checks.push(about.equal(vec![others, others], both));
+    // Grows more rapidly at every torque, not only on the whole.
+    let faster = found.windows(2).filter(|w| w[1].0 - w[0].0 > w[1].1 - w[0].1).count() as f64;
+    let title = "steps of torque, of eleven, over which rotation grows more than translation";
+    let about = reference.about("fe.fig12.rotation_faster", title)?.source(&source);
+    checks.push(about.equal(others, faster));
+    Ok(checks)
+}
+
+/// Torques above the first at which rotation has grown more than translation.
+fn ahead(found: &[(f64, f64)]) -> f64 {
+    found.iter().skip(1).filter(|(r, t)| r > t).count() as f64
+}
+
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
+    let found = normalised_rms(&lab.fe, &lab.four, &torques(), POSITIONS)?;
+    let mut checks = judged(lab.reference, &found)?;
+    let falling: Vec<(f64, f64)> = found.iter().rev().copied().collect();
+    let spoilt = judged(lab.reference, &falling)?;
+    checks.push(lab.reference.control("fe.fig12.control.reversed", &spoilt)?);
+    let source = format!("{}, Fig. 12 and section 4.2", lab.reference.parker.source);
+    for (name, scene) in variants(&lab.four) {
+        let id = format!("fe.fig12.variant.{name}");
+        let title = format!(
+            "{name}: torques, of eleven above 113 N·m, at which the sun's rotation has grown more than its translation"
+        );
+        let found = if lab.runs(&id)? {
+            Some(ahead(&normalised_rms(&lab.fe, &scene, &torques(), POSITIONS_OF_VARIANTS)?))
+        } else {
+            None
+        };
+        lab.gears.drop_unused();
+        let about = lab.about(&id, &title)?.source(&source);
+        checks.push(about.equal_if_run(f64::from(TORQUES - 1), found));
+    }
+    Ok(checks)
 }
 
 fn with_fillet(mut scene: Scene, radius: f64) -> Scene {
@@ -66,43 +139,4 @@ fn variants(base: &Scene) -> Vec<(String, Scene)> {
     scene.fe_contact.plane = PlaneState::Stress;
     list.push(("plane_stress".into(), scene));
     list
-}
-
-pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
-    let mut checks = Vec::new();
-    let source = format!("{}, Fig. 12 and section 4.2", lab.reference.parker.source);
-    let torques: Vec<f64> = (1..=12).map(|i| FIRST * f64::from(i)).collect();
-    let found = normalised_rms(lab, &lab.four, &lab.bodies, &torques, 140)?;
-    fn about<'a>(id: &'a str, title: &'a str, source: &'a str) -> Subject<'a> {
-        Subject { id, title, kind: ReferenceKind::Published, source, unit: "" }
-    }
-    let ahead = found[1..].iter().filter(|(r, t)| r > t).count() as f64;
-    let title = "torques, of eleven above 113 N·m, at which the sun's rotation has grown more than its translation";
-    checks.push(Check::equal(about("fe.fig12.rotation_ahead", title, &source), 11.0, ahead));
-    let grows = |of: fn(&(f64, f64)) -> f64| {
-        found.windows(2).filter(|w| of(&w[1]) > of(&w[0])).count() as f64
-    };
-    let title = "steps of torque, of eleven, over which rotation and translation grow";
-    let both = vec![grows(|p| p.0), grows(|p| p.1)];
-    checks.push(Check::equal(about("fe.fig12.monotonic", title, &source), vec![11.0, 11.0], both));
-    // Grows more rapidly at every torque, not only on the whole.
-    let faster = found.windows(2).filter(|w| w[1].0 - w[0].0 > w[1].1 - w[0].1).count() as f64;
-    let title = "steps of torque, of eleven, over which rotation grows more than translation";
-    checks.push(Check::equal(about("fe.fig12.rotation_faster", title, &source), 11.0, faster));
-    for (name, scene) in variants(&lab.four) {
-        let id = format!("fe.fig12.variant.{name}");
-        let title =
-            format!("{name}: torques, of three, at which rotation has grown more than translation");
-        let subject = about(&id, &title, &source);
-        if lab.profile == Profile::Quick {
-            checks.push(Check::not_run(subject, 3.0, Tolerance::exact()));
-            continue;
-        }
-        let bodies = Bodies::new(&scene)?;
-        let torques = [FIRST, 452.0, 904.0, LAST];
-        let found = normalised_rms(lab, &scene, &bodies, &torques, 42)?;
-        let ahead = found[1..].iter().filter(|(r, t)| r > t).count() as f64;
-        checks.push(Check::equal(subject, 3.0, ahead));
-    }
-    Ok(checks)
 }

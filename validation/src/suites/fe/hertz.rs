@@ -7,37 +7,57 @@ use fe_contact::contact::hertz::{Hertz, fit};
 use fe_contact::statics::at_phase;
 use gearset::MeshKind;
 
-use super::{Lab, MESHES};
-use crate::check::{Check, ReferenceKind};
 use crate::error::ValidationError;
+use crate::suites::lab::MESHES;
+use crate::suites::{Checks, Lab};
 
-const SOURCE: &str = "Johnson, Contact Mechanics (1985), §4.2 and §5.6";
+/// Relative radius of curvature of the two cylinders, m.
+const RADIUS: f64 = 8.3e-3;
 
-pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
+    let mut checks = cylinders(lab, RADIUS)?;
+    checks.extend(mid_flank(lab)?);
+    let spoilt = cylinders(lab, 1.1 * RADIUS)?;
+    checks.push(lab.reference.control("fe.hertz.control.radius", &spoilt)?);
+    Ok(checks)
+}
+
+/// Two cylinders pressed together with a relative radius (m), against Hertz for the right one.
+fn cylinders(lab: &Lab<'_>, pressed: f64) -> Checks {
     let mut checks = Vec::new();
     let m = &lab.bodies.material;
-    let (radius, line_load) = (8.3e-3, lab.force / lab.bodies.geometry.face_width);
-    let hertz = Hertz::new(line_load, radius, m);
+    let line_load = lab.force / lab.bodies.geometry.face_width;
+    let hertz = Hertz::new(line_load, RADIUS, m);
     // 16 cells across the patch.
     let grid = (1.5 * hertz.half_width, 24);
-    let patch = Cylinders::press(m, radius, line_load, grid, &ActiveSet)?;
+    let patch = Cylinders::press(m, pressed, line_load, grid, &ActiveSet)?;
     let found = fit(&patch.x, &patch.pressures()).ok_or(ValidationError::Incomplete("patch"))?;
-    let analytic = ReferenceKind::Analytic;
-    let mut number = |id: &str, title: &str, unit: &str, expected: f64, actual: f64| {
-        checks.push(lab.number(id, title, analytic, SOURCE, unit, expected, actual)?);
+    let mut number = |id: &str, title: &str, expected: f64, actual: f64| {
+        checks.push(lab.about(id, title)?.number(expected, actual));
         Ok::<_, ValidationError>(())
     };
     let title =
         "two cylinders, 16 cells across the patch: peak pressure of the ellipse fitted to p²";
     let (expected, actual) = (hertz.peak_pressure * 1e-6, found.peak_pressure * 1e-6);
-    number("fe.hertz.cylinders.peak_pressure", title, "MPa", expected, actual)?;
+    number("fe.hertz.cylinders.peak_pressure", title, expected, actual)?;
     let title = "two cylinders, 16 cells across the patch: half-width of that ellipse";
     let (expected, actual) = (hertz.half_width * 1e6, found.half_width * 1e6);
-    number("fe.hertz.cylinders.half_width", title, "µm", expected, actual)?;
+    number("fe.hertz.cylinders.half_width", title, expected, actual)?;
     let depth = 5.0 * hertz.half_width;
     let title = "two cylinders: approach between points five half-widths deep";
     let (expected, actual) = (2.0 * hertz.compression(depth, m), patch.approach(m, depth));
-    number("fe.hertz.cylinders.approach", title, "µm", expected * 1e6, actual * 1e6)?;
+    number("fe.hertz.cylinders.approach", title, expected * 1e6, actual * 1e6)?;
+    Ok(checks)
+}
+
+/// Patches of real teeth against Hertz for their curvature and load.
+fn mid_flank(lab: &Lab<'_>) -> Checks {
+    let mut checks = Vec::new();
+    let m = &lab.bodies.material;
+    let mut number = |id: &str, title: &str, expected: f64, actual: f64| {
+        checks.push(lab.about(id, title)?.number(expected, actual));
+        Ok::<_, ValidationError>(())
+    };
     for kind in MESHES {
         // Mid-flank of both gears; alone in the sun mesh, beside another pair in the ring mesh.
         let phase = if kind == MeshKind::SunPlanet { 0.7 } else { 0.5 };
@@ -58,11 +78,11 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
         let id = format!("fe.hertz.mid_flank.{name}.peak_pressure");
         let title = format!("{name} teeth at the default setting: peak pressure mid-flank");
         let (expected, actual) = (hertz.peak_pressure * 1e-6, found.peak_pressure * 1e-6);
-        number(&id, &title, "MPa", expected, actual)?;
+        number(&id, &title, expected, actual)?;
         let id = format!("fe.hertz.mid_flank.{name}.half_width");
         let title = format!("{name} teeth at the default setting: half-width mid-flank");
         let (expected, actual) = (hertz.half_width * 1e6, found.half_width * 1e6);
-        number(&id, &title, "µm", expected, actual)?;
+        number(&id, &title, expected, actual)?;
     }
     Ok(checks)
 }

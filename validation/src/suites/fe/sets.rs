@@ -1,18 +1,23 @@
 //! Whole sets at rest: balance, load sharing, symmetry.
 
-use fe_contact::statics::{Imperfections, SetCycle};
-use gearset::{MeshKind, Scene};
+use experiments::models::FeContact;
+use experiments::{MeshCycle, RestState, StaticModel};
+use fe_contact::statics::{Imperfections, PitchError, SetCycle};
+use gearset::{LoadCase, MeshKind, Scene};
 
-use super::Lab;
-use crate::check::{Check, ReferenceKind, Subject};
+use crate::check::{Check, Status};
 use crate::error::ValidationError;
+use crate::reference::Reference;
+use crate::suites::lab::of_model;
+use crate::suites::{Checks, Lab};
+use crate::worst::{paired, peak_to_peak, worst};
 
 /// Even, and a multiple of 14, the denominator of the OH-58's phases.
 const POSITIONS: usize = 28;
 
 /// The scene seen in a mirror along planet 0's axis.
 fn mirrored(scene: &Scene) -> Scene {
-    let mut scene = scene.clone();
+    let mut scene = scene.variant("seen in a mirror");
     scene.planets.psi_rad.iter_mut().for_each(|psi| *psi = -*psi);
     if let Some(steps) = &mut scene.planets.steps {
         steps.iter_mut().for_each(|s| *s = -*s);
@@ -22,107 +27,174 @@ fn mirrored(scene: &Scene) -> Scene {
 
 /// The scene with its planets listed in another order, planet 0 first.
 fn renumbered(scene: &Scene, order: &[usize]) -> Scene {
-    let mut other = scene.clone();
+    let mut other = scene.variant("planets renumbered");
     other.planets.psi_rad = order.iter().map(|n| scene.planets.psi_rad[*n]).collect();
     other.planets.steps =
         scene.planets.steps.as_ref().map(|s| order.iter().map(|n| s[*n]).collect());
     other
 }
 
-fn mesh_force(cycle: &SetCycle, position: usize, kind: MeshKind, planet: usize) -> f64 {
-    let meshes = &cycle.states[position].meshes;
-    meshes.iter().find(|m| m.kind == kind && m.planet == planet).map_or(f64::NAN, |m| m.force)
+const KINDS: [MeshKind; 2] = [MeshKind::SunPlanet, MeshKind::RingPlanet];
+
+/// Another order of four planets, planet 0 first.
+const ORDER: [usize; 4] = [0, 2, 3, 1];
+
+/// Torque on the sun of all these checks, N·m.
+const TORQUE: f64 = 1413.0;
+
+/// Our own model: what anybody's is asked, balance and flanks of its own, controls.
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
+    let scenes = [lab.three.clone(), lab.four.clone()];
+    let mut checks = asked(&lab.fe, &scenes, lab.reference)?;
+    checks.extend(own(lab)?);
+    let displaced =
+        Imperfections { displaced_planets: vec![(1, 0.0, 50e-6)], ..Imperfections::default() };
+    checks.push(control(lab, "fe.sets.control.displaced_planet", &[displaced])?);
+    // One of these teeth stands in planet 1's mesh in this cycle.
+    let pitch = |tooth| Imperfections {
+        pitch_errors: vec![PitchError { tooth, amount: 10e-6 }],
+        ..Imperfections::default()
+    };
+    checks.push(control(lab, "fe.sets.control.pitch_error", &[8, 9, 10].map(pitch))?);
+    Ok(checks)
 }
 
-pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
-    let torque = 1413.0;
-    let run = |scene: &Scene, torque: f64| {
-        lab.set(scene, &lab.bodies, torque, POSITIONS, Imperfections::default())
-    };
-    let (three, four) = (run(&lab.three, torque)?, run(&lab.four, torque)?);
-    let mut checks = Vec::new();
-    let worst = |cycle: &SetCycle| cycle.states.iter().map(|s| s.residual).fold(0.0, f64::max);
-    let title =
-        "largest imbalance of force or moment on any race, over the load, three and four planets";
-    checks.push(lab.at_most("fe.sets.balance", title, "", worst(&three).max(worst(&four)))?);
+/// Sharing judged of imperfect gears; of several, those that share least evenly.
+fn control(
+    lab: &Lab<'_>,
+    id: &str,
+    imperfections: &[Imperfections],
+) -> Result<Check, ValidationError> {
+    let mut judged = Vec::new();
+    for own in imperfections {
+        let model = FeContact::sharing(lab.gears.clone()).with_imperfections(own.clone());
+        let found = cycle(&model, &lab.three, TORQUE)?;
+        judged.push(sharing_of_three(&found, lab.reference)?);
+    }
+    judged.sort_by_key(|c| c.status != Status::Fail);
+    Ok(lab.reference.control(id, &judged)?)
+}
 
-    let kinds = [MeshKind::SunPlanet, MeshKind::RingPlanet];
-    let mut spread = 0.0f64;
-    for i in 0..POSITIONS {
-        for kind in kinds {
-            let f = [0, 1, 2].map(|n| mesh_force(&three, i, kind, n));
-            let most = f.iter().fold(0.0f64, |a, x| a.max(*x));
-            spread = spread.max((most - f.iter().fold(most, |a, x| a.min(*x))) / most);
+/// What holds of anybody's mesh cycles. `scenes`: sets of three or four planets.
+pub(crate) fn asked(model: &dyn StaticModel, scenes: &[Scene], reference: &Reference) -> Checks {
+    let mut checks = Vec::new();
+    for scene in scenes {
+        let found = cycle(model, scene, TORQUE)?;
+        if scene.planets.count() == 3 {
+            checks.push(sharing_of_three(&found, reference)?);
+            checks.push(sun_stays(&found, reference)?);
+        } else {
+            checks.push(sharing_of_four(&found, reference)?);
+            let image = cycle(model, &mirrored(scene), -TORQUE)?;
+            checks.push(mirror(&found, &image, reference)?);
+            let other = cycle(model, &renumbered(scene, &ORDER), TORQUE)?;
+            checks.push(numbering(&found, &other, reference)?);
         }
     }
+    Ok(checks)
+}
+
+fn cycle(
+    model: &dyn StaticModel,
+    scene: &Scene,
+    torque_nm: f64,
+) -> Result<MeshCycle, ValidationError> {
+    model.mesh_cycle(scene, &LoadCase::standing(torque_nm), POSITIONS).map_err(of_model)
+}
+
+fn sharing_of_three(found: &MeshCycle, reference: &Reference) -> Result<Check, ValidationError> {
+    let spread = |state: &RestState, kind: MeshKind| {
+        let forces = state.forces(kind);
+        peak_to_peak(forces.iter().copied()) / worst(forces.iter().copied())
+    };
+    let all = found.states.iter().flat_map(|s| KINDS.map(|kind| spread(s, kind)));
     let title =
         "three planets: largest difference between mesh forces of the planets at any position";
-    checks.push(lab.at_most("fe.sets.sharing.three", title, "", spread)?);
+    Ok(reference.about("fe.sets.sharing.three", title)?.at_most(worst(all)))
+}
 
-    let mut off = 0.0f64;
-    for i in 0..POSITIONS {
-        let later = (i + POSITIONS / 2) % POSITIONS;
-        for kind in kinds {
-            for (n, opposite) in [(0, 2), (1, 3)] {
-                let (a, b) =
-                    (mesh_force(&four, i, kind, n), mesh_force(&four, later, kind, opposite));
-                off = off.max((a / b - 1.0).abs());
-            }
+fn sun_stays(found: &MeshCycle, reference: &Reference) -> Result<Check, ValidationError> {
+    let drift = worst(found.states.iter().flat_map(|s| [s.sun[0], s.sun[1]]));
+    let title = "three planets: the sun does not translate";
+    Ok(reference.about("fe.sets.sun_stays.three", title)?.at_most(1e6 * drift))
+}
+
+fn sharing_of_four(found: &MeshCycle, reference: &Reference) -> Result<Check, ValidationError> {
+    let half = found.states.len() / 2;
+    let later = found.states.iter().cycle().skip(half);
+    let mut off = Vec::new();
+    for (now, later) in found.states.iter().zip(later) {
+        for kind in KINDS {
+            let (a, b) = (now.forces(kind), later.forces(kind));
+            off.extend(
+                [(0, 2), (1, 3)].map(|(n, opposite)| force(a, n) / force(b, opposite) - 1.0),
+            );
         }
     }
     let title = "four planets: opposed planets carry the same mesh force half a cycle apart";
-    checks.push(lab.at_most("fe.sets.sharing.four", title, "", off)?);
+    Ok(reference.about("fe.sets.sharing.four", title)?.at_most(worst(off)))
+}
 
-    // Mirrored set, reversed torque: y and θ change sign, nothing else.
-    let image = run(&mirrored(&lab.four), -torque)?;
-    let scale = four.states[0].central[2][2].abs();
-    let mut off = 0.0f64;
-    for (a, b) in four.states.iter().zip(&image.states) {
-        for (p, q) in a.central.iter().chain(&a.planets).zip(b.central.iter().chain(&b.planets)) {
-            for (k, sign) in [1.0, -1.0, -1.0].into_iter().enumerate() {
-                off = off.max((p[k] - sign * q[k]).abs() / scale);
-            }
+/// Mirrored set, reversed torque: y and θ change sign, nothing else.
+fn mirror(
+    own: &MeshCycle,
+    image: &MeshCycle,
+    reference: &Reference,
+) -> Result<Check, ValidationError> {
+    let scale = own.states.first().map_or(f64::NAN, |s| s.sun[2].abs());
+    let flat = |c: &MeshCycle, signs: [f64; 3]| -> Vec<f64> {
+        c.states.iter().flat_map(|s| [0, 1, 2].map(|k| signs[k] * s.sun[k])).collect()
+    };
+    let (a, b) = (flat(own, [1.0; 3]), flat(image, [1.0, -1.0, -1.0]));
+    let off = worst(paired(&a, &b).map(|(a, b)| (a - b) / scale));
+    let title =
+        "mirrored set with reversed torque: displacements of the sun against the mirror image";
+    Ok(reference.about("fe.sets.mirror", title)?.at_most(off))
+}
+
+fn numbering(
+    own: &MeshCycle,
+    other: &MeshCycle,
+    reference: &Reference,
+) -> Result<Check, ValidationError> {
+    let mut off = Vec::new();
+    if own.states.len() != other.states.len() {
+        off.push(f64::NAN);
+    }
+    for (own, other) in own.states.iter().zip(&other.states) {
+        for kind in KINDS {
+            let of =
+                |(new, old)| force(other.forces(kind), new) / force(own.forces(kind), old) - 1.0;
+            off.extend(ORDER.into_iter().enumerate().map(of));
         }
     }
-    let title =
-        "mirrored set with reversed torque: displacements of all races against the mirror image";
-    checks.push(lab.at_most("fe.sets.mirror", title, "", off)?);
+    let title = "mesh forces after renumbering the planets";
+    Ok(reference.about("fe.sets.numbering", title)?.at_most(worst(off)))
+}
 
+/// Force of a planet's mesh; not a number if it is not there.
+fn force(forces: &[f64], planet: usize) -> f64 {
+    forces.get(planet).copied().unwrap_or(f64::NAN)
+}
+
+/// Balance of all races, and flanks of the other sense.
+fn own(lab: &Lab<'_>) -> Checks {
+    let run = |scene: &Scene, torque: f64| {
+        lab.set(scene, &lab.bodies, torque, POSITIONS, Imperfections::default())
+    };
+    let (three, four) = (run(&lab.three, TORQUE)?, run(&lab.four, TORQUE)?);
+    let residuals = three.states.iter().chain(&four.states).map(|s| s.residual);
+    let title =
+        "largest imbalance of force or moment on any race, over the load, three and four planets";
+    let balance = lab.about("fe.sets.balance", title)?.at_most(worst(residuals));
     // Reversed torque alone: other flanks, other phases, another result.
-    let reversed = run(&lab.four, -torque)?;
+    let reversed = run(&lab.four, -TORQUE)?;
     let phase = |cycle: &SetCycle, n: usize| cycle.states[0].meshes[n].phase;
     let other = |a: f64, b: f64| (a - b - (a - b).round()).abs() > 1e-6;
     let is_other = other(phase(&four, 1), phase(&reversed, 1));
     let turned = reversed.states[0].central[2][2] < 0.0;
-    let subject = Subject {
-        id: "fe.sets.reversed",
-        title: "reversed torque turns the sun the other way, on flanks with phases of their own",
-        kind: ReferenceKind::Analytic,
-        source: "phases of the clockwise flanks: rigid polygons in gearset/tests",
-        unit: "",
-    };
     let told = |x: bool| f64::from(u8::from(x));
-    checks.push(Check::equal(subject, vec![1.0, 1.0], vec![told(is_other), told(turned)]));
-
-    let order = [0, 2, 3, 1];
-    let other = run(&renumbered(&lab.four, &order), torque)?;
-    let mut off = 0.0f64;
-    for i in 0..POSITIONS {
-        for kind in kinds {
-            for (new, old) in order.into_iter().enumerate() {
-                let (a, b) = (mesh_force(&other, i, kind, new), mesh_force(&four, i, kind, old));
-                off = off.max((a / b - 1.0).abs());
-            }
-        }
-    }
-    let title = "mesh forces after renumbering the planets";
-    checks.push(lab.at_most("fe.sets.numbering", title, "", off)?);
-
-    let deflection = |cycle: &SetCycle, axis: usize| {
-        cycle.states.iter().map(|s| s.central[2][axis].abs()).fold(0.0, f64::max)
-    };
-    let drift = deflection(&three, 0).max(deflection(&three, 1)) * 1e6;
-    let title = "three planets: the sun does not translate";
-    checks.push(lab.at_most("fe.sets.sun_stays.three", title, "µm", drift)?);
-    Ok(checks)
+    let title = "reversed torque turns the sun the other way, on flanks with phases of their own";
+    let about = lab.about("fe.sets.reversed", title)?;
+    Ok(vec![balance, about.equal(vec![1.0, 1.0], vec![told(is_other), told(turned)])])
 }

@@ -2,12 +2,13 @@
 
 use dynamics::{Window, spectrum};
 use fe_contact::statics::{Bodies, Imperfections};
-use fe_contact::vibration::{Loading, Motive, VibratingSet};
+use fe_contact::vibration::{Loading, NominalRotation, VibratingSet};
 use gearset::{Facing, LoadCase, Scene};
 
-use super::Lab;
 use crate::check::Check;
 use crate::error::ValidationError;
+use crate::suites::{Checks, Lab};
+use crate::worst::worst;
 
 /// The helicopter's nominal point.
 const TORQUE: f64 = 1413.0;
@@ -21,26 +22,26 @@ fn turning<'b>(
     let mesh_frequency = LoadCase::of_scene(scene)?.at_speed(SPEED_RPM).mesh_frequency_hz;
     let sun = bodies.geometry.sun.as_ref().ok_or(ValidationError::Incomplete("sun"))?;
     let force = TORQUE / sun.base_radius / scene.planets.psi_rad.len() as f64;
-    let motive = Motive::Turning { mesh_frequency, steps_per_cycle };
+    let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle };
     let loading = Loading { torque_nm: TORQUE, mesh_force: force };
     let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
-    let mut set = VibratingSet::new(scene, bodies, sense, none, motive, loading)?;
+    let mut set = VibratingSet::new(scene, bodies, sense, none, rotation, loading)?;
     set.rest(TORQUE)?;
     Ok(set)
 }
 
-pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     let mut checks = energy(lab)?;
     checks.extend(ringing(lab)?);
     Ok(checks)
 }
 
 /// Identity of every step, closure with independent energies, drift.
-fn energy(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+fn energy(lab: &Lab<'_>) -> Checks {
     // Independent energies know no lag: β of the bodies is left out, all else damps.
     let mut scene = lab.four.clone();
     scene.damping.stiffness_proportional_s = 0.0;
-    let mut identity = 0.0f64;
+    let (mut identity, mut undamped) = (Vec::new(), Vec::new());
     let (mut closures, mut missed) = (Vec::new(), Vec::new());
     for steps in [140, 280, 560] {
         let mut set = turning(&scene, &lab.bodies, steps)?;
@@ -57,7 +58,8 @@ fn energy(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
             let moved = after.kinetic - before.kinetic + after.bearings - before.bearings;
             let done = work.external - work.damped;
             size = size.max(after.kinetic + after.bearings);
-            identity = identity.max((moved - done + work.against_contact).abs() / size);
+            identity.push((moved - done + work.against_contact) / size);
+            undamped.push((moved - work.external + work.against_contact) / size);
             let turning = set.turning_work(&start)?.unwrap_or(f64::NAN);
             let of_step = moved + after.contact - before.contact - done - turning;
             each += of_step.abs();
@@ -68,26 +70,22 @@ fn energy(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
         missed.push(each / turned);
     }
     let title = "energy of races and bearings against the forces' work, every step at 1600 rpm and 1413 N·m";
-    let mut checks = vec![lab.at_most("fe.stepping.energy.identity", title, "", identity)?];
-    let title = format!(
-        "energy, contact's ½pᵀCp and the turning meshes' work included: what is open after a cycle over that work, 140 steps; {:.1e} with 280",
-        closures[1]
-    );
-    checks.push(lab.at_most("fe.stepping.energy.closure", &title, "", closures[0])?);
+    let judged = |off: Vec<f64>| {
+        Ok::<Check, ValidationError>(
+            lab.about("fe.stepping.energy.identity", title)?.at_most(worst(off)),
+        )
+    };
+    let mut checks = vec![judged(identity)?];
+    let spoilt = [judged(undamped)?];
+    checks.push(lab.reference.control("fe.stepping.control.dashpots", &spoilt)?);
+    let title = "energy, contact's ½pᵀCp and the turning meshes' work included: what is open after a cycle over that work, 140 steps";
+    let note = format!("{:.1e} with 280 steps", closures[1]);
+    let about = lab.about("fe.stepping.energy.closure", title)?.note(note);
+    checks.push(about.at_most(closures[0]));
     let title =
         "order at which that closes, what every step misses taken positive, from 280 to 560 steps";
     let order = (missed[1] / missed[2]).log2();
-    let kind = crate::check::ReferenceKind::Analytic;
-    let id = "fe.stepping.energy.closure_order";
-    checks.push(lab.number(
-        id,
-        title,
-        kind,
-        "average acceleration is of second order",
-        "",
-        2.0,
-        order,
-    )?);
+    checks.push(lab.about("fe.stepping.energy.closure_order", title)?.number(2.0, order));
     // A thousand cycles: no secular drift.
     let mut set = turning(&lab.four, &lab.bodies, 140)?;
     let mut ends = Vec::new();
@@ -100,12 +98,12 @@ fn energy(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
     }
     let drift = (ends[999] / ends[499] - 1.0).abs();
     let title = "energy after 1000 mesh cycles against that after 500, 1600 rpm and 1413 N·m";
-    checks.push(lab.at_most("fe.stepping.energy.drift", title, "", drift)?);
+    checks.push(lab.about("fe.stepping.energy.drift", title)?.at_most(drift));
     Ok(checks)
 }
 
 /// The shortest wave a step can carry must not stand out in the mesh forces.
-fn ringing(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+fn ringing(lab: &Lab<'_>) -> Checks {
     let mut checks = Vec::new();
     for (name, beta) in [("with_lag", None), ("without_lag", Some(0.0))] {
         let mut scene = lab.four.clone();
@@ -122,20 +120,20 @@ fn ringing(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
             set.mesh_forces(&mut forces);
             record.push(forces.clone());
         }
-        let mut worst = 0.0f64;
+        let mut stands_out = Vec::new();
         for mesh in 0..record[0].len() {
             let of_mesh: Vec<f64> = record.iter().map(|f| f[mesh]).collect();
             let lines = spectrum(&of_mesh, 1.0, Window::Rectangular, 1)?.lines;
             let size = |k: usize| lines[k].re.hypot(lines[k].im);
             let around = (50..70).map(size).fold(0.0f64, f64::max);
-            worst = worst.max(size(70) / around);
+            stands_out.push(size(70) / around);
         }
         let id = format!("fe.stepping.ringing.{name}");
         let words = name.replace('_', " ");
         let title = format!(
             "amplitude at half the sampling rate over the largest between harmonics 50 and 69, mesh forces {words}"
         );
-        checks.push(lab.at_most(&id, &title, "", worst)?);
+        checks.push(lab.about(&id, &title)?.at_most(worst(stands_out)));
     }
     Ok(checks)
 }

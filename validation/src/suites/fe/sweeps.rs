@@ -4,42 +4,42 @@
 use std::f64::consts::TAU;
 
 use dynamics::{Window, spectrum};
-use fe_contact::complementarity::ActiveSet;
-use fe_contact::statics::{Bodies, Imperfections, PitchError, StaticSet};
-use gearset::{ExcitationStrengths, Facing, LoadCase, Scene, excitation_of_scene};
-
-use super::Lab;
-use crate::Profile;
-use crate::catalogue::PublishedScene;
-use crate::check::{Check, ReferenceKind, Subject};
-use crate::error::ValidationError;
-use experiments::NaturalMode;
 use experiments::sweep::{
-    Assigned, Content, Coordinate, Direction, FeModel, HEADROOM, Memory, Part, Plan,
-    SteadySettings, SteadyState, Sweep, SweepModel, SweepPoint, assigned, contents, naturals, run,
+    Assigned, Coordinate, Direction, FeModel, HEADROOM, Memory, MeshLawModel, Part, Plan,
+    SteadySettings, SteadyState, Sweep, SweepModel, SweepPoint, assigned, contents, peak_speeds,
+    run,
 };
+use experiments::{ModalModel, NaturalMode, SteadyStateModel};
+use fe_contact::complementarity::ActiveSet;
+use fe_contact::statics::{Imperfections, PitchError, StaticSet};
+use gearset::{ExcitationStrengths, LoadCase, PlanetOverride, Scene, excitation_of_scene};
 
-/// What ids of the sweeps start with.
-pub(crate) const IDS: &[&str] = &[
-    "sweep.unsteady.",
-    "sweep.forbidden.",
-    "sweep.allowed.",
-    "sweep.between.",
-    "sweep.peaks.",
-    "sweep.harmonics_of_",
-    "sweep.static_limit.",
-    "sweep.odd_grid.",
-    "sweep.order.",
-];
+use crate::Profile;
+use crate::catalogue::{PublishedScene, scene};
+use crate::check::Check;
+use crate::error::ValidationError;
+use crate::reference::Reference;
+use crate::suites::lab::of_model;
+use crate::suites::tables::Table;
+use crate::suites::{Checks, Lab};
+use crate::worst::worst;
 
-/// N·m on the sun.
-pub(super) const TORQUE: f64 = 1130.0;
+/// N·m on the sun of three and four planets.
+const TORQUE: f64 = 1130.0;
+
+/// Speeds of the sweeps, rpm.
+const FROM: f64 = 450.0;
+const TO: f64 = 2500.0;
 
 /// Peaks that stand out by less are left alone.
-pub(super) const PROMINENT: f64 = 1.3;
+const PROMINENT: f64 = 1.3;
 
-/// The second manifest goes so far to either side of a peak, in parts of its speed.
+/// Speeds are asked for again so far to either side of a peak, in parts of its speed, at so many places.
 const SPAN: f64 = 0.015;
+const AROUND: usize = 5;
+
+/// Harmonics that are judged.
+const HARMONICS: u32 = 5;
 
 /// The load case of a scene under a torque on the sun, N m.
 pub(crate) fn under(scene: &Scene, sun_torque_nm: f64) -> Result<LoadCase, ValidationError> {
@@ -52,97 +52,162 @@ pub(crate) fn speeds(first: f64, last: f64, ratio: f64) -> Vec<f64> {
     (0..=count).map(|i| first * (1.0 + ratio).powi(i)).collect()
 }
 
-/// A sweep of the FE/contact model in memory.
-pub(crate) fn sweep_of(
-    scene: &Scene,
-    bodies: &Bodies,
-    imperfections: Imperfections,
-    torque_nm: f64,
-    speeds_rpm: &[f64],
-    steady: SteadySettings,
-) -> Result<Sweep, ValidationError> {
-    let model = FeModel::new(scene, bodies, imperfections, under(scene, torque_nm)?);
-    let plan = Plan::new(speeds_rpm, &[Direction::Up], steady)?;
-    Ok(run(&model, &plan, &Memory, &|_| ())?)
-}
-
-pub(crate) fn steady_settings() -> SteadySettings {
+fn steady_settings() -> SteadySettings {
     SteadySettings { tolerance: 1e-9, ..SteadySettings::default() }
 }
 
-/// Largest share of what is forbidden.
-fn forbidden(list: &[Content]) -> f64 {
-    list.iter().filter(|c| !c.is_allowed).fold(0.0f64, |a, c| a.max(c.share))
+fn strengths(scene: &Scene) -> Result<Vec<ExcitationStrengths>, ValidationError> {
+    excitation_of_scene(scene, HARMONICS).ok_or(ValidationError::Incomplete("teeth"))
 }
 
-pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+/// What sweeps are called after: the number of planets.
+fn planets(scene: &Scene) -> &'static str {
+    match scene.planets.count() {
+        5 => "five",
+        count => Table::of_planets(count).planets(),
+    }
+}
+
+/// Load case and speeds of a set's sweep, by how far each speed is above the one before.
+fn asked_of(scene: &Scene, ratios: [f64; 2]) -> Result<(LoadCase, Vec<f64>), ValidationError> {
+    let [usual, five] = ratios;
+    Ok(match scene.planets.count() {
+        5 => (LoadCase::of_scene(scene)?, speeds(FROM, TO, five)),
+        _ => (under(scene, TORQUE)?, speeds(FROM, TO, usual)),
+    })
+}
+
+/// Ratios of speeds of the quick and of the full profile, of three and four planets and of five.
+const QUICK: [f64; 2] = [0.02, 0.08];
+const FULL: [f64; 2] = [0.005, 0.02];
+
+/// Five planets on a grid that their mesh phases divide.
+fn five_planets() -> Result<Scene, ValidationError> {
+    let mut five = scene(PublishedScene::FivePlanets)?;
+    five.dynamics.steps_per_cycle = 140;
+    Ok(five)
+}
+
+/// What holds of anybody's steady states: forbidden and allowed harmonics, peaks where the model has natural
+/// modes too, the order of the meshes of equally spaced planets.
+pub(crate) fn asked(
+    model: &dyn SteadyStateModel,
+    modal: Option<&dyn ModalModel>,
+    scenes: &[Scene],
+    reference: &Reference,
+) -> Checks {
     let mut checks = Vec::new();
-    let ratio = if lab.profile == Profile::Quick { 0.02 } else { 0.005 };
-    let grid = speeds(450.0, 2500.0, ratio);
-    checks.extend(set(lab, "four", &lab.four, &lab.bodies, &grid)?);
-    checks.extend(set(lab, "three", &lab.three, &lab.bodies, &grid)?);
-    checks.extend(slow(lab)?);
-    checks.extend(odd_grid(lab)?);
-    checks.extend(five(lab)?);
+    for scene in scenes {
+        let (case, grid) = asked_of(scene, QUICK)?;
+        let mut asked = 0;
+        let mut next = |found: &[SteadyState]| -> Option<Vec<f64>> {
+            asked += 1;
+            let found: Vec<&SteadyState> = found.iter().collect();
+            match asked {
+                1 => Some(grid.clone()),
+                2 => Some(peak_speeds(&found, HARMONICS as usize, PROMINENT, SPAN, AROUND)),
+                _ => None,
+            }
+        };
+        let accuracy = (HARMONICS as usize, 1e-9);
+        let states = model.explore(scene, &case, accuracy, &mut next).map_err(of_model)?;
+        let states: Vec<&SteadyState> = states.iter().collect();
+        let naturals = match modal {
+            Some(modal) => Some(modal.natural_modes(scene, &case).map_err(of_model)?),
+            None => None,
+        };
+        checks.extend(judged(reference, scene, planets(scene), &states, naturals.as_deref())?);
+    }
     Ok(checks)
 }
 
-/// Five planets: harmonics that move planets only, translations only, rotations only.
-fn five(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
-    let mut scene = crate::catalogue::scene(PublishedScene::FivePlanets)?;
-    // A multiple of the five mesh phases.
-    scene.dynamics.steps_per_cycle = 140;
-    let torque = five_torque(&scene)?;
-    let bodies = Bodies::new(&scene)?;
-    let ratio = if lab.profile == Profile::Quick { 0.08 } else { 0.02 };
-    let grid = speeds(450.0, 2500.0, ratio);
-    let settings = steady_settings();
-    let found = sweep_of(&scene, &bodies, Imperfections::default(), torque, &grid, settings)?;
-    let points = found.points();
-    let strengths = excitation_of_scene(&scene, 5).ok_or(ValidationError::Incomplete("teeth"))?;
-    let mut checks = judged(lab, "five", &points, &strengths)?;
-    let off = found
-        .states()
-        .into_iter()
-        .filter_map(|p| order_of_meshes(p, &scene))
-        .fold(0.0f64, f64::max);
-    let title = "five planets: mesh forces of the sun against the order that the planets' phases say, harmonics 1 to 5, in cycles";
-    checks.push(lab.at_most("sweep.order.five", title, "", off)?);
-    Ok(checks)
-}
-
-/// Torque on the sun at the operating point, N m.
-fn five_torque(scene: &Scene) -> Result<f64, ValidationError> {
-    Ok(LoadCase::of_scene(scene)?.sun_torque_nm)
-}
-
-/// Everything that is judged of one set.
-fn set(
-    lab: &Lab<'_>,
-    name: &str,
+/// Judges the steady states of a set, named after its planets or, of another model, `four_lumped`.
+fn judged(
+    reference: &Reference,
     scene: &Scene,
-    bodies: &Bodies,
-    grid: &[f64],
-) -> Result<Vec<Check>, ValidationError> {
-    let case = under(scene, TORQUE)?;
-    let model = FeModel::new(scene, bodies, Imperfections::default(), case);
-    let found = swept(&model, grid)?;
-    let points = found.points();
-    let strengths = excitation_of_scene(scene, 5).ok_or(ValidationError::Incomplete("teeth"))?;
-    let mut checks = judged(lab, name, &points, &strengths)?;
-    let naturals = naturals(scene, bodies, case)?;
-    let list = assigned(&found.states(), &strengths, &naturals, PROMINENT);
-    checks.push(peaks_judged(lab, name, &list)?);
-    let source = "phasor sums of the planets' mesh phases";
-    // The two modes the paper follows, each where its own harmonics meet it.
-    let mut modes: Vec<NaturalMode> = Vec::new();
-    for n in &naturals {
-        if modes.iter().all(|m| m.mode_type != n.mode_type) {
-            modes.push(*n);
+    name: &str,
+    states: &[&SteadyState],
+    naturals: Option<&[NaturalMode]>,
+) -> Checks {
+    let mut checks = phasing(reference, scene, name, states)?;
+    if let Some(naturals) = naturals {
+        let list = assigned(states, &strengths(scene)?, naturals, PROMINENT);
+        checks.push(peaks(reference, name, &list)?);
+        if name == planets(scene) {
+            checks.extend(harmonics_of_modes(reference, scene, name, states, naturals, &list)?);
         }
     }
-    for mode in modes {
-        let kind = format!("{:?}", mode.mode_type).to_lowercase();
+    if scene.planets.count() == 5 {
+        checks.push(order(reference, scene, name, states)?);
+    }
+    Ok(checks)
+}
+
+/// `four planets` or, of another model, `four planets, lumped`, for people.
+fn words(name: &str) -> String {
+    match name.split_once('_') {
+        Some((count, model)) => format!("{count} planets, {}", model.replace('_', " ")),
+        None => format!("{name} planets"),
+    }
+}
+
+/// What planet phasing forbids and allows in the sun's motion.
+fn phasing(reference: &Reference, scene: &Scene, name: &str, states: &[&SteadyState]) -> Checks {
+    let words = words(name);
+    let list = contents(states, &strengths(scene)?);
+    let id = format!("sweep.forbidden.{name}");
+    let title = format!(
+        "{words}: largest motion of the sun in a harmonic that planet phasing forbids, over the largest of its kind at any speed"
+    );
+    let forbidden = worst(list.iter().filter(|c| !c.is_allowed).map(|c| c.share));
+    let note = format!("{} speeds", states.len());
+    let mut checks = vec![reference.about(&id, &title)?.note(note).at_most(forbidden)];
+    let id = format!("sweep.allowed.{name}");
+    let title = format!(
+        "{words}: kinds of the sun's motion and harmonics that planet phasing allows and that are there (1e-3 of the largest)"
+    );
+    let expected = list.iter().filter(|c| c.is_allowed).count() as f64;
+    let present = list.iter().filter(|c| c.is_allowed && c.share > 1e-3).count() as f64;
+    checks.push(reference.about(&id, &title)?.equal(expected, present));
+    Ok(checks)
+}
+
+/// How far the peaks stand from where modes should have them.
+fn peaks(reference: &Reference, name: &str, list: &[Assigned]) -> Result<Check, ValidationError> {
+    let id = format!("sweep.peaks.{name}");
+    let title = format!(
+        "{}: peaks of the sun and planet 0, farthest from ω_n/l of a mode that the harmonic may excite",
+        words(name)
+    );
+    let note = format!("{} peaks", list.len());
+    let off = worst(list.iter().map(Assigned::off_percent));
+    Ok(reference.about(&id, &title)?.note(note).at_most(off))
+}
+
+/// The lowest mode of each kind, each where its own harmonics meet it.
+fn harmonics_of_modes(
+    reference: &Reference,
+    scene: &Scene,
+    name: &str,
+    states: &[&SteadyState],
+    naturals: &[NaturalMode],
+    list: &[Assigned],
+) -> Checks {
+    let strengths = strengths(scene)?;
+    let ends = states.first().zip(states.last());
+    let (first, last) = ends.ok_or(ValidationError::Incomplete("steady state"))?;
+    let (bottom, top) = (first.case.mesh_frequency_hz, last.case.mesh_frequency_hz);
+    let mut sorted = naturals.to_vec();
+    sorted.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+    let mut lowest: Vec<NaturalMode> = Vec::new();
+    for n in sorted.into_iter().filter(|n| n.frequency_hz > 1.0) {
+        if lowest.iter().all(|m| m.mode_type != n.mode_type) {
+            lowest.push(n);
+        }
+    }
+    let mut checks = Vec::new();
+    for mode in lowest {
+        let kind = mode.mode_type.name();
         let met = |l: usize| {
             list.iter().any(|p| {
                 p.peak.harmonic == l
@@ -150,8 +215,6 @@ fn set(
                     && (p.natural.frequency_hz / mode.frequency_hz - 1.0).abs() < 0.02
             })
         };
-        let mesh_hz = |rpm: f64| case.at_speed(rpm).mesh_frequency_hz;
-        let (bottom, top) = (mesh_hz(grid[0]), mesh_hz(grid[grid.len() - 1]));
         let may = |l: &usize| {
             let allowed = strengths[l - 1].allowed();
             let is_excited = match mode.mode_type {
@@ -163,85 +226,105 @@ fn set(
             let mesh = mode.frequency_hz / *l as f64;
             is_excited && mesh < 0.97 * top && mesh > 1.03 * bottom
         };
-        let expected: Vec<f64> = (1..=5).filter(may).map(|l| l as f64).collect();
-        let actual: Vec<f64> = (1..=5).filter(|l| met(*l)).map(|l| l as f64).collect();
-        let own = format!("sweep.harmonics_of_{kind}.{name}");
+        let all = 1..=strengths.len();
+        let expected: Vec<f64> = all.clone().filter(may).map(|l| l as f64).collect();
+        let actual: Vec<f64> = all.filter(|l| met(*l)).map(|l| l as f64).collect();
+        let id = format!("sweep.harmonics_of_{kind}.{name}");
         let title = format!(
             "{name} planets: harmonics that bring the lowest {kind} mode to resonance within the sweep"
         );
-        let subject =
-            Subject { id: &own, title: &title, kind: ReferenceKind::Analytic, source, unit: "" };
-        checks.push(Check::equal(subject, expected, actual));
+        checks.push(reference.about(&id, &title)?.equal(expected, actual));
     }
     Ok(checks)
 }
 
+/// The sun meshes' forces follow one another as the planets' phases say.
+fn order(
+    reference: &Reference,
+    scene: &Scene,
+    name: &str,
+    states: &[&SteadyState],
+) -> Result<Check, ValidationError> {
+    let id = format!("sweep.order.{name}");
+    let title = format!(
+        "{name} planets: mesh forces of the sun against the order that the planets' phases say, harmonics 1 to 5, in cycles"
+    );
+    let off = states.iter().map(|s| order_of_meshes(s, scene).unwrap_or(f64::NAN));
+    Ok(reference.about(&id, &title)?.at_most(worst(off)))
+}
+
+/// How the marches of our own models went.
+fn marches(lab: &Lab<'_>, name: &str, points: &[&SweepPoint]) -> Checks {
+    let words = words(name);
+    let id = format!("sweep.unsteady.{name}");
+    let title = format!("{words}: speeds at which cycles do not come to repeat");
+    let unsteady = points.iter().filter(|p| !p.is_steady).count() as f64;
+    let mut checks = vec![lab.about(&id, &title)?.at_most(unsteady)];
+    let id = format!("sweep.between.{name}");
+    let title = format!("{words}: vibration energy between mesh harmonics, over all of it");
+    let between = worst(points.iter().map(|p| p.between.unwrap_or(f64::NAN)));
+    checks.push(lab.about(&id, &title)?.at_most(between));
+    Ok(checks)
+}
+
 /// A sweep over some speeds, and closer about its peaks.
-pub(super) fn swept(model: &dyn SweepModel, grid: &[f64]) -> Result<Sweep, ValidationError> {
+fn swept(model: &dyn SweepModel, grid: &[f64]) -> Result<Sweep, ValidationError> {
     let plan = Plan::new(grid, &[Direction::Up], steady_settings())?;
     let mut found = run(model, &plan, &Memory, &|_| ())?;
-    let around = found.around_peaks(PROMINENT, SPAN, 5, steady_settings());
+    let around = found.around_peaks(PROMINENT, SPAN, AROUND, steady_settings());
     found.chains.extend(run(model, &around, &Memory, &|_| ())?.chains);
     Ok(found)
 }
 
-/// `four` or, of another model, `four_lumped`, for people.
-fn words(name: &str) -> String {
-    match name.split_once('_') {
-        Some((count, model)) => format!("{count} planets, {model}"),
-        None => format!("{name} planets"),
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
+    let ratios = if lab.profile == Profile::Quick { QUICK } else { FULL };
+    let mut checks = Vec::new();
+    for scene in [&lab.four, &lab.three] {
+        let (case, grid) = asked_of(scene, ratios)?;
+        let model = FeModel::new(scene, &lab.bodies, Imperfections::default(), case);
+        let found = swept(&model, &grid)?;
+        let naturals = lab.fe.natural_modes(scene, &case).map_err(of_model)?;
+        let name = planets(scene);
+        checks.extend(marches(lab, name, &found.points())?);
+        checks.extend(judged(lab.reference, scene, name, &found.states(), Some(&naturals))?);
     }
+    checks.extend(slow(lab)?);
+    checks.extend(five(lab, ratios)?);
+    checks.extend(reduced(lab, ratios)?);
+    checks.extend(controls(lab)?);
+    lab.gears.drop_unused();
+    Ok(checks)
 }
 
-/// How far the peaks stand from where modes should have them.
-pub(super) fn peaks_judged(
-    lab: &Lab<'_>,
-    name: &str,
-    list: &[Assigned],
-) -> Result<Check, ValidationError> {
-    let words = words(name);
-    let worst = list.iter().fold(0.0f64, |a, p| a.max(p.off_percent().abs()));
-    let title = format!(
-        "{words}: {} peaks of the sun and planet 0, farthest from ω_n/l of a mode that the harmonic may excite",
-        list.len()
-    );
-    let id = format!("sweep.peaks.{name}");
-    lab.number(&id, &title, ReferenceKind::Analytic, "resonance", "%", 0.0, worst)
+/// Five planets: harmonics that move planets only, translations only, rotations only.
+fn five(lab: &Lab<'_>, ratios: [f64; 2]) -> Checks {
+    let scene = five_planets()?;
+    let (case, grid) = asked_of(&scene, ratios)?;
+    let bodies = lab.gears.of(&scene)?;
+    let model = FeModel::new(&scene, &bodies, Imperfections::default(), case);
+    let plan = Plan::new(&grid, &[Direction::Up], steady_settings())?;
+    let found = run(&model, &plan, &Memory, &|_| ())?;
+    let mut checks = marches(lab, "five", &found.points())?;
+    checks.extend(judged(lab.reference, &scene, "five", &found.states(), None)?);
+    Ok(checks)
 }
 
-/// What holds for any set of equal planets.
-pub(super) fn judged(
-    lab: &Lab<'_>,
-    name: &str,
-    points: &[&SweepPoint],
-    strengths: &[ExcitationStrengths],
-) -> Result<Vec<Check>, ValidationError> {
-    let (mut checks, words) = (Vec::new(), words(name));
-    let id = |what: &str| format!("sweep.{what}.{name}");
-    let unsteady = points.iter().filter(|p| !p.is_steady).count() as f64;
-    let title = format!("{words}: speeds at which cycles do not come to repeat");
-    checks.push(lab.at_most(&id("unsteady"), &title, "", unsteady)?);
-    let states: Vec<&SteadyState> = points.iter().map(|p| &p.state).collect();
-    let list = contents(&states, strengths);
-    let forbidden = forbidden(&list);
-    let title = format!(
-        "{words}: largest motion of the sun in a harmonic that planet phasing forbids, over the largest of its kind, {} speeds",
-        points.len()
-    );
-    checks.push(lab.at_most(&id("forbidden"), &title, "", forbidden)?);
-    let title = format!(
-        "{words}: kinds of the sun's motion and harmonics that planet phasing allows and that are there (1e-3 of the largest)"
-    );
-    let expected = list.iter().filter(|c| c.is_allowed).count() as f64;
-    let present = list.iter().filter(|c| c.is_allowed && c.share > 1e-3).count() as f64;
-    let source = "phasor sums of the planets' mesh phases";
-    let kind = ReferenceKind::Analytic;
-    let own = id("allowed");
-    let subject = Subject { id: &own, title: &title, kind, source, unit: "" };
-    checks.push(Check::equal(subject, expected, present));
-    let between = points.iter().filter_map(|p| p.between).fold(0.0f64, f64::max);
-    let title = format!("{words}: vibration energy between mesh harmonics, over all of it");
-    checks.push(lab.at_most(&id("between"), &title, "", between)?);
+/// The reduced models under the same judging as the fidelity they are made from: meshes that follow a law,
+/// between FE bodies' races and in the lumped model.
+fn reduced(lab: &Lab<'_>, ratios: [f64; 2]) -> Checks {
+    let scene = &lab.four;
+    let (case, grid) = asked_of(scene, ratios)?;
+    let law = MeshLawModel::new(scene, &lab.bodies, case)?;
+    let naturals = lab.fe.natural_modes(scene, &case).map_err(of_model)?;
+    let mut checks = Vec::new();
+    // The lumped model's modes are its own: the printed masses, not those of the meshes.
+    for (name, model, naturals) in
+        [("four_mesh_law", &law, Some(naturals.as_slice())), ("four_lumped", &law.lumped(), None)]
+    {
+        let found = swept(model, &grid)?;
+        checks.extend(marches(lab, name, &found.points())?);
+        checks.extend(judged(lab.reference, scene, name, &found.states(), naturals)?);
+    }
     Ok(checks)
 }
 
@@ -249,7 +332,7 @@ pub(super) fn judged(
 fn static_harmonics(lab: &Lab<'_>) -> Result<[Vec<[f64; 2]>; 3], ValidationError> {
     let sun = lab.bodies.geometry.sun.as_ref().ok_or(ValidationError::Incomplete("sun"))?;
     let share = TORQUE / sun.base_radius / lab.four.planets.count() as f64;
-    let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
+    let (sense, none) = (LoadCase::standing(TORQUE).sense(), Imperfections::default());
     let set = StaticSet::new(&lab.four, &lab.bodies, sense, none)?;
     let cycle = set.cycle_on_grids_for(HEADROOM * share, TORQUE, 140, &ActiveSet)?;
     let one = |axis: usize| -> Result<Vec<[f64; 2]>, ValidationError> {
@@ -261,129 +344,97 @@ fn static_harmonics(lab: &Lab<'_>) -> Result<[Vec<[f64; 2]>; 3], ValidationError
 }
 
 /// As the speed goes to zero what is left is the static deflection.
-fn slow(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+fn slow(lab: &Lab<'_>) -> Checks {
     let settings = SteadySettings { between_cycles: 0, ..steady_settings() };
-    let none = Imperfections::default();
-    let found = sweep_of(&lab.four, &lab.bodies, none, TORQUE, &[20.0], settings)?;
+    let case = under(&lab.four, TORQUE)?.at_speed(20.0);
+    let found = at_speed(lab, &lab.four, Imperfections::default(), case, settings)?;
     let still = static_harmonics(lab)?;
-    let mut worst = 0.0f64;
+    let mut off_percent = Vec::new();
     for point in found.states() {
         for (axis, coordinate) in Coordinate::DISPLACEMENTS.into_iter().enumerate() {
             let largest = (1..=5).map(|l| still[axis][l][0].hypot(still[axis][l][1]));
             let largest = largest.fold(0.0f64, f64::max);
             for (l, [re, im]) in still[axis].iter().enumerate().skip(1) {
                 let size = re.hypot(*im);
-                let Some(line) = point.line(Part::Sun, coordinate, l) else { continue };
                 // What is forbidden is nothing on either side.
                 if size > 1e-6 * largest {
-                    let (a, p) = (line.amplitude, line.phase_rad);
+                    let line = point.line(Part::Sun, coordinate, l);
+                    let (a, p) = line.map_or((f64::NAN, 0.0), |l| (l.amplitude, l.phase_rad));
                     let off = (a * p.cos() - re).hypot(a * p.sin() - im);
-                    worst = worst.max(100.0 * off / size);
+                    off_percent.push(100.0 * off / size);
                 }
             }
         }
     }
     let title = "four planets at 20 rpm: harmonics 1 to 5 of the sun's motion against those at rest, largest difference";
-    let kind = ReferenceKind::Analytic;
-    let id = "sweep.static_limit.four";
-    Ok(vec![lab.number(id, title, kind, "inertia and damping vanish", "%", 0.0, worst)?])
+    Ok(vec![lab.about("sweep.static_limit.four", title)?.at_most(worst(off_percent))])
 }
 
-/// With an odd number of steps half a cycle is no whole number of them, and what the rules forbid is
-/// there: an artefact, shown once.
-fn odd_grid(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
-    let mut scene = lab.four.clone();
-    scene.dynamics.steps_per_cycle = 141;
-    let found = forbidden_share(&scene, &lab.bodies, Imperfections::default(), 1600.0)?;
-    let limit = lab.reference.tolerance("sweep.forbidden.four", 0.0)?.absolute;
-    let is_there = found > limit;
-    let title = format!(
-        "141 steps in a cycle leave the sun {found:.1e} in forbidden harmonics at 1600 rpm: more than sweep.forbidden.four allows"
-    );
-    Ok(vec![breaks("sweep.odd_grid.four", &title, is_there)])
-}
-
-/// What forbidden harmonics hold at one speed.
-fn forbidden_share(
+/// One speed of a set, as sweeps have it.
+fn at_speed(
+    lab: &Lab<'_>,
     scene: &Scene,
-    bodies: &Bodies,
     imperfections: Imperfections,
-    speed_rpm: f64,
-) -> Result<f64, ValidationError> {
-    let settings = SteadySettings { between_cycles: 0, ..steady_settings() };
-    let found = sweep_of(scene, bodies, imperfections, TORQUE, &[speed_rpm], settings)?;
-    let strengths = excitation_of_scene(scene, 5).ok_or(ValidationError::Incomplete("teeth"))?;
-    Ok(forbidden(&contents(&found.states(), &strengths)))
+    case: LoadCase,
+    settings: SteadySettings,
+) -> Result<Sweep, ValidationError> {
+    let bodies = lab.gears.of(scene)?;
+    let model = FeModel::new(scene, &bodies, imperfections, case);
+    let plan = Plan::new(&[case.speed_rpm], &[Direction::Up], settings)?;
+    Ok(run(&model, &plan, &Memory, &|_| ())?)
 }
 
-fn breaks(id: &str, title: &str, is_broken: bool) -> Check {
-    let source = "a check that cannot fail is none";
-    let subject = Subject { id, title, kind: ReferenceKind::Analytic, source, unit: "" };
-    Check::equal(subject, "breaks", if is_broken { "breaks" } else { "stands" })
-}
-
-/// Negative controls: what must break when the set is spoilt.
-pub(crate) fn controls(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+/// Negative controls: the same judgement of spoilt sets.
+fn controls(lab: &Lab<'_>) -> Checks {
+    let alone = SteadySettings { between_cycles: 0, ..steady_settings() };
+    let at_1600 = under(&lab.four, TORQUE)?.at_speed(1600.0);
     let mut checks = Vec::new();
-    let limit = lab.reference.tolerance("sweep.forbidden.four", 0.0)?.absolute;
-    let displaced =
-        Imperfections { displaced_planets: vec![(1, 0.0, 50e-6)], ..Imperfections::default() };
-    let found = forbidden_share(&lab.four, &lab.bodies, displaced, 1600.0)?;
-    let title = "one planet displaced by 50 µm along its path breaks sweep.forbidden.four";
-    checks.push(breaks("sweep.control.displaced_planet", title, found > limit));
-
+    let mut forbids = |what: &str, scene: &Scene, imperfections: Imperfections| {
+        let found = at_speed(lab, scene, imperfections, at_1600, alone.clone())?;
+        let spoilt = phasing(lab.reference, scene, "four", &found.states())?;
+        checks.push(lab.reference.control(&format!("sweep.control.{what}"), &spoilt)?);
+        Ok::<(), ValidationError>(())
+    };
+    let none = Imperfections::default;
+    let displaced = Imperfections { displaced_planets: vec![(1, 0.0, 50e-6)], ..none() };
+    forbids("displaced_planet", &lab.four, displaced)?;
     let mut softer = lab.four.clone();
-    let bearing = 0.8 * softer.supports.planet_bearing;
-    softer.overrides.push(gearset::PlanetOverride {
-        planet: 1,
-        mass: None,
-        inertia_over_r2: None,
-        bearing: Some(bearing),
-        sun_mesh: None,
-        ring_mesh: None,
-    });
-    let found = forbidden_share(&softer, &lab.bodies, Imperfections::default(), 1600.0)?;
-    let title = "one planet bearing 20 % softer breaks sweep.forbidden.four";
-    checks.push(breaks("sweep.control.softer_bearing", title, found > limit));
+    let bearing = Some(0.8 * softer.supports.planet_bearing);
+    softer.overrides.push(PlanetOverride { planet: 1, bearing, ..PlanetOverride::default() });
+    forbids("softer_bearing", &softer, none())?;
+    // Half a cycle is no whole number of steps then, and what is forbidden is there: an artefact.
+    let mut odd = lab.four.clone();
+    odd.dynamics.steps_per_cycle = 141;
+    forbids("odd_grid", &odd, none())?;
 
-    // The planets counted the other way round: their phases run backwards.
-    let five = crate::catalogue::scene(PublishedScene::FivePlanets)?;
+    let five = five_planets()?;
     let mut reversed = five.clone();
     reversed.planets.psi_rad.iter_mut().for_each(|psi| *psi = -*psi);
     if let Some(steps) = &mut reversed.planets.steps {
         steps.iter_mut().for_each(|s| *s = -*s);
     }
-    let bodies = Bodies::new(&five)?;
-    let settings = SteadySettings { between_cycles: 0, ..steady_settings() };
-    let (torque, none) = (five_torque(&five)?, Imperfections::default());
-    let found = sweep_of(&reversed, &bodies, none, torque, &[1000.0], settings)?;
-    let limit = lab.reference.tolerance("sweep.order.five", 0.0)?.absolute;
-    let is_off =
-        found.states().into_iter().filter_map(|p| order_of_meshes(p, &five)).any(|o| o > limit);
-    let title = "five planets with their phases reversed break sweep.order.five";
-    checks.push(breaks("sweep.control.phases_reversed", title, is_off));
+    let case = LoadCase::of_scene(&five)?.at_speed(1000.0);
+    let found = at_speed(lab, &reversed, none(), case, alone)?;
+    let spoilt = [order(lab.reference, &five, "five", &found.states())?];
+    checks.push(lab.reference.control("sweep.control.phases_reversed", &spoilt)?);
 
-    let limit = lab.reference.tolerance("sweep.between.four", 0.0)?.absolute;
-    let pitch = Imperfections {
-        pitch_errors: vec![PitchError { tooth: 5, amount: 10e-6 }],
-        ..Imperfections::default()
-    };
+    let pitch =
+        Imperfections { pitch_errors: vec![PitchError { tooth: 5, amount: 10e-6 }], ..none() };
     // The sun's teeth come round after as many mesh cycles.
     let teeth = lab.bodies.geometry.sun.as_ref().map_or(1, |sun| sun.teeth) as usize;
     let settings =
         SteadySettings { most_cycles: 4 * teeth, between_cycles: teeth, ..steady_settings() };
-    let found = sweep_of(&lab.four, &lab.bodies, pitch, TORQUE, &[1600.0], settings)?;
-    let between = found.points().iter().filter_map(|p| p.between).fold(0.0f64, f64::max);
-    let title = "one sun tooth 10 µm out of pitch makes sidebands: breaks sweep.between.four";
-    checks.push(breaks("sweep.control.pitch_error", title, between > limit));
+    let found = at_speed(lab, &lab.four, pitch, at_1600, settings)?;
+    let spoilt = marches(lab, "four", &found.points())?;
+    checks.push(lab.reference.control("sweep.control.pitch_error", &spoilt)?);
     Ok(checks)
 }
 
 /// How far the sun meshes' forces are from following one another as the planets' mesh phases say, in
 /// cycles of the harmonic: F_n(t) = F_0(t + φ_n/f_m) in sets of equally spaced planets.
-pub(crate) fn order_of_meshes(point: &SteadyState, scene: &Scene) -> Option<f64> {
+fn order_of_meshes(point: &SteadyState, scene: &Scene) -> Option<f64> {
     let teeth = f64::from(scene.teeth?.sun?);
-    let mut worst = 0.0f64;
+    let mut largest = 0.0f64;
     for l in 1..=5 {
         let first = point.line(Part::SunMesh(0), Coordinate::Force, l)?;
         for (n, psi) in scene.planets.psi_rad.iter().enumerate().skip(1) {
@@ -391,8 +442,8 @@ pub(crate) fn order_of_meshes(point: &SteadyState, scene: &Scene) -> Option<f64>
             // φ_n = −Z_s ψ_n/2π
             let expected = -(l as f64) * teeth * psi / TAU;
             let off = (own.phase_rad - first.phase_rad) / TAU - expected;
-            worst = worst.max((off - off.round()).abs());
+            largest = largest.max((off - off.round()).abs());
         }
     }
-    Some(worst)
+    Some(largest)
 }

@@ -1,21 +1,58 @@
 //! Section 4.2: growth of resonant peaks with torque, statement by statement, on the default scene, on
 //! the one with meshes as soft as published, and on the second system.
 
-use fe_contact::statics::Bodies;
+use experiments::sweep::Part;
+use experiments::torque::{Followed, Series, follow, lowest_series, static_growth};
+use experiments::{ModalModel, SteadyStateModel};
 use gearset::Scene;
 
-use super::Lab;
 use super::sweeps::under;
-use crate::Profile;
 use crate::catalogue::{PublishedScene, scene};
-use crate::check::{Check, ReferenceKind, Subject, Tolerance};
+use crate::check::Check;
 use crate::error::ValidationError;
+use crate::reference::Reference;
+use crate::suites::lab::of_model;
 use crate::suites::statements::judge;
-use experiments::sweep::{Part, naturals};
-use experiments::torque::{Followed, Series, follow, lowest_series, static_growth};
+use crate::suites::{Checks, Lab};
 
 /// N·m: 5000 to 20000 lb-in.
 const TORQUES: [f64; 4] = [565.0, 1130.0, 1695.0, 2260.0];
+
+/// Statements about the first peaks: name, comparisons, what is compared.
+const FIRST: [(&str, usize, &str); 2] = [
+    (
+        "monotonic",
+        6,
+        "peaks of the lowest translational mode (l = 1) and the lowest rotational one (l = 2) grow from torque to torque",
+    ),
+    (
+        "rotation_above_translation",
+        3,
+        "the rotational peak (l = 2) has grown more than the translational one (l = 1) since 565 N·m",
+    ),
+];
+
+/// Statements about every followed peak.
+const ALL: [(&str, usize, &str); 3] = [
+    (
+        "monotonic",
+        18,
+        "six peaks (lowest translational l = 1, 3; lowest rotational l = 2, 4; third translational l = 3, 5) grow from torque to torque",
+    ),
+    (
+        "rotation_above_translation",
+        6,
+        "rotational peaks (l = 2, 4) have grown more than the lowest translational ones (l = 1, 3)",
+    ),
+    (
+        "third_below_rotation",
+        6,
+        "third translational peaks (l = 3, 5) have grown less than the rotational ones (l = 2, 4)",
+    ),
+];
+
+/// What is said of growth at rest.
+const STATIC: &str = "torques at which the static harmonics (rotation l = 2, translation l = 1) stand in the same order of growth as the resonant peaks";
 
 const PARTS: [(&str, bool); 2] = [("sun", true), ("planet", false)];
 
@@ -25,7 +62,6 @@ struct System<'s> {
     /// For people.
     words: &'s str,
     scene: &'s Scene,
-    bodies: &'s Bodies,
     series: &'s [Series],
 }
 
@@ -41,92 +77,156 @@ fn systems() -> Result<[(&'static str, &'static str, Scene); 3], ValidationError
     ])
 }
 
-pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     let mut checks = Vec::new();
     for (name, words, scene) in systems()? {
-        let bodies = Bodies::new(&scene)?;
+        if !lab.runs(&format!("torque.monotonic.{name}.sun"))? {
+            checks.extend(not_run(lab, name, words)?);
+            continue;
+        }
         let missing = ValidationError::Incomplete("modes of the kinds followed");
-        let series =
-            lowest_series(&naturals(&scene, &bodies, under(&scene, 1130.0)?)?).ok_or(missing)?;
-        let system = System { name, words, scene: &scene, bodies: &bodies, series: &series };
-        checks.extend(first_peaks(lab, &system)?);
+        let modes = lab.fe.natural_modes(&scene, &under(&scene, 1130.0)?).map_err(of_model)?;
+        let series = lowest_series(&modes).ok_or(missing)?;
+        let system = System { name, words, scene: &scene, series: &series };
+        let found = first_peaks(&lab.fe, &system)?;
+        checks.extend(first_judged(lab.reference, &system, &found)?);
+        if name == "default" {
+            let falling: Vec<Followed> = found.iter().map(reversed).collect();
+            let spoilt = first_judged(lab.reference, &system, &falling)?;
+            checks.push(lab.reference.control("torque.control.reversed", &spoilt)?);
+        }
+        checks.push(static_judged(lab, &system, &found)?);
         checks.extend(all_peaks(lab, &system)?);
+        lab.gears.drop_unused();
     }
     Ok(checks)
 }
 
-/// The lowest translational mode in l = 1 and the lowest rotational one in l = 2.
-fn first_peaks(lab: &Lab<'_>, system: &System<'_>) -> Result<Vec<Check>, ValidationError> {
-    let System { name, words, scene, bodies, series } = *system;
+/// What is said of the first peaks, of anybody's steady states of the default scene.
+pub(crate) fn asked(
+    model: &dyn SteadyStateModel,
+    modal: Option<&dyn ModalModel>,
+    scenes: &[Scene],
+    reference: &Reference,
+) -> Checks {
+    let Some(modal) = modal else { return Ok(Vec::new()) };
     let mut checks = Vec::new();
-    let first = [series[0], series[2]];
-    let found = follow(scene, bodies, &TORQUES, &first, &[Part::Sun], 1e-5)?;
+    for scene in scenes {
+        let modes = modal.natural_modes(scene, &under(scene, 1130.0)?).map_err(of_model)?;
+        let missing = ValidationError::Incomplete("modes of the kinds followed");
+        let series = lowest_series(&modes).ok_or(missing)?;
+        let (name, words) = ("default", "default scene");
+        let system = System { name, words, scene, series: &series };
+        let found = first_peaks(model, &system)?;
+        checks.extend(first_judged(reference, &system, &found)?);
+    }
+    Ok(checks)
+}
+
+/// The same peaks with the torques in falling order.
+fn reversed(followed: &Followed) -> Followed {
+    let back = |list: &[f64]| list.iter().rev().copied().collect();
+    Followed {
+        series: followed.series,
+        speeds_rpm: back(&followed.speeds_rpm),
+        sun: back(&followed.sun),
+        planet: back(&followed.planet),
+    }
+}
+
+/// The lowest translational mode in l = 1 and the lowest rotational one in l = 2.
+fn first_peaks(
+    model: &dyn SteadyStateModel,
+    system: &System<'_>,
+) -> Result<Vec<Followed>, ValidationError> {
+    let first = [system.series[0], system.series[2]];
+    Ok(follow(model, system.scene, &TORQUES, &first, &[Part::Sun], 1e-5)?)
+}
+
+fn first_judged(reference: &Reference, system: &System<'_>, found: &[Followed]) -> Checks {
+    let System { name, words, .. } = *system;
+    let mut checks = Vec::new();
     for (part, is_sun) in PARTS {
-        for statement in judge(&found, is_sun).iter().filter(|s| s.asked > 0) {
+        for statement in judge(found, is_sun).iter().filter(|s| s.asked > 0) {
             let id = format!("torque.{}.{name}.{part}", statement.name);
-            let about = if statement.name == "monotonic" {
-                "peaks of the lowest translational mode (l = 1) and the lowest rotational one (l = 2) grow from torque to torque"
-            } else {
-                "the rotational peak (l = 2) has grown more than the translational one (l = 1) since 565 N·m"
-            };
+            let known = FIRST.iter().find(|f| f.0 == statement.name);
+            let about = known.map_or(statement.words, |f| f.2);
             let title = format!("{words}, {part}: comparisons in which {about}");
-            checks.push(counted(lab, &id, &title, statement.asked, Some(statement.holding)));
+            checks.push(counted(reference, &id, &title, statement.asked, Some(statement.holding))?);
         }
     }
-    let still = static_growth(scene, bodies, &TORQUES)?;
+    Ok(checks)
+}
+
+/// Growth of the static deflection's harmonics against that of the peaks.
+fn static_judged(
+    lab: &Lab<'_>,
+    system: &System<'_>,
+    found: &[Followed],
+) -> Result<Check, ValidationError> {
+    let System { name, words, scene, .. } = *system;
+    let still = static_growth(scene, &*lab.gears.of(scene)?, &TORQUES)?;
     let grown = |k: usize, kind: usize, l: usize| still[k][kind][l] / still[0][kind][l];
     let dynamic = |f: &Followed, k: usize| f.sun[k] / f.sun[0];
     let agree = (1..TORQUES.len()).filter(|k| {
         (grown(*k, 0, 2) > grown(*k, 1, 1)) == (dynamic(&found[1], *k) > dynamic(&found[0], *k))
     });
     let id = format!("torque.static_follows_dynamic.{name}");
-    let title = format!(
-        "{words}: torques at which the static harmonics (rotation l = 2, translation l = 1) stand in the same order of growth as the resonant peaks"
-    );
-    checks.push(counted(lab, &id, &title, 3, Some(agree.count())));
-    Ok(checks)
+    let title = format!("{words}: {STATIC}");
+    counted(lab.reference, &id, &title, 3, Some(agree.count()))
 }
 
 /// Every followed resonance, in the full profile.
-fn all_peaks(lab: &Lab<'_>, system: &System<'_>) -> Result<Vec<Check>, ValidationError> {
-    let System { name, words, scene, bodies, series } = *system;
+fn all_peaks(lab: &Lab<'_>, system: &System<'_>) -> Checks {
+    let System { name, words, scene, series } = *system;
     let both = [Part::Sun, Part::Planet(0)];
-    let found = match lab.profile {
-        Profile::Quick => None,
-        Profile::Full => Some(follow(scene, bodies, &TORQUES, series, &both, 1e-6)?),
-    };
+    let is_run = lab.runs(&format!("torque.all.monotonic.{name}.sun"))?;
+    let found =
+        if is_run { Some(follow(&lab.fe, scene, &TORQUES, series, &both, 1e-6)?) } else { None };
     let mut checks = Vec::new();
     for (part, is_sun) in PARTS {
-        let asked =
-            [("monotonic", 18), ("rotation_above_translation", 6), ("third_below_rotation", 6)];
         let judged = found.as_ref().map(|f| judge(f, is_sun));
-        for (k, (statement, asked)) in asked.into_iter().enumerate() {
+        for (statement, asked, about) in ALL {
             let id = format!("torque.all.{statement}.{name}.{part}");
-            let about = match k {
-                0 => {
-                    "six peaks (lowest translational l = 1, 3; lowest rotational l = 2, 4; third translational l = 3, 5) grow from torque to torque"
-                }
-                1 => {
-                    "rotational peaks (l = 2, 4) have grown more than the lowest translational ones (l = 1, 3)"
-                }
-                _ => {
-                    "third translational peaks (l = 3, 5) have grown less than the rotational ones (l = 2, 4)"
-                }
-            };
             let title = format!("{words}, {part}: comparisons in which {about}");
-            let holding = judged.as_ref().map(|list| list[k].holding);
-            checks.push(counted(lab, &id, &title, asked, holding));
+            let own = judged.as_ref().map(|list| list.iter().find(|s| s.name == statement));
+            // A statement that was not judged holds nowhere.
+            let holding = own.map(|s| s.map_or(0, |s| s.holding));
+            checks.push(counted(lab.reference, &id, &title, asked, holding)?);
         }
     }
     Ok(checks)
 }
 
-/// A published statement by the number of comparisons in which it holds.
-fn counted(lab: &Lab<'_>, id: &str, title: &str, asked: usize, holding: Option<usize>) -> Check {
-    let source = format!("{}, section 4.2", lab.reference.parker.source);
-    let subject = Subject { id, title, kind: ReferenceKind::Published, source: &source, unit: "" };
-    match holding {
-        Some(holding) => Check::equal(subject, asked as f64, holding as f64),
-        None => Check::not_run(subject, asked as f64, Tolerance::exact()),
+/// Checks of a system that the profile leaves out.
+fn not_run(lab: &Lab<'_>, name: &str, words: &str) -> Checks {
+    let mut list = Vec::new();
+    for (part, _) in PARTS {
+        for (statement, asked, about) in FIRST {
+            let id = format!("torque.{statement}.{name}.{part}");
+            list.push((id, format!("{words}, {part}: comparisons in which {about}"), asked));
+        }
     }
+    let id = format!("torque.static_follows_dynamic.{name}");
+    list.push((id, format!("{words}: {STATIC}"), 3));
+    for (part, _) in PARTS {
+        for (statement, asked, about) in ALL {
+            let id = format!("torque.all.{statement}.{name}.{part}");
+            list.push((id, format!("{words}, {part}: comparisons in which {about}"), asked));
+        }
+    }
+    list.iter().map(|(id, title, asked)| counted(lab.reference, id, title, *asked, None)).collect()
+}
+
+/// A published statement by the number of comparisons in which it holds.
+fn counted(
+    reference: &Reference,
+    id: &str,
+    title: &str,
+    asked: usize,
+    holding: Option<usize>,
+) -> Result<Check, ValidationError> {
+    let source = format!("{}, section 4.2", reference.parker.source);
+    let about = reference.about(id, title)?.source(source);
+    Ok(about.equal_if_run(asked as f64, holding.map(|h| h as f64)))
 }

@@ -6,10 +6,10 @@ use fe_contact::contact::MeshTable;
 use fe_contact::statics::{StaticSet, press};
 use gearset::{MeshKind, PairLocation};
 
-use super::{POSITIONS, breaks, largest, unloaded};
-use crate::check::Check;
+use super::{POSITIONS, control, unloaded};
 use crate::error::ValidationError;
-use crate::suites::fe::Lab;
+use crate::suites::{Checks, Lab};
+use crate::worst::worst;
 
 const TORQUE: f64 = 1130.0;
 
@@ -30,7 +30,7 @@ struct Differences {
     windup: f64,
 }
 
-pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     let mut checks = Vec::new();
     let mut softest = lab.three.clone();
     for (id, words, times) in BEARINGS {
@@ -44,18 +44,17 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
         ] {
             let id = format!("fe.kinematics.bearings.{place}.{id}");
             let title = format!(
-                "three planets, {TORQUE} N·m, planet bearings {words} (planets off by up to {:.0} µm): approach of a sun mesh against the pair alone under its share of the torque at that centre distance and phase, {words_of_place}",
-                found.windup
+                "three planets, {TORQUE} N·m, planet bearings {words}: approach of a sun mesh against the pair alone under its share of the torque at that centre distance and phase, {words_of_place}"
             );
-            checks.push(lab.at_most(&id, &title, "µm", off)?);
+            let note = format!("planets off by up to {:.0} µm", found.windup);
+            checks.push(lab.about(&id, &title)?.note(note).at_most(off));
         }
         softest = scene;
     }
     let found = differences(lab, &unloaded(&softest, &lab.bodies)?)?;
-    let title = "linear kinematics about the unloaded set, planet bearings a tenth as stiff:";
-    let id = "fe.kinematics.bearings.control";
+    let id = "fe.kinematics.bearings.control.unloaded";
     let judged_by = "fe.kinematics.bearings.anywhere.soft";
-    checks.push(breaks(lab, id, title, judged_by, found.anywhere)?);
+    checks.push(control(lab, id, judged_by, found.anywhere)?);
     Ok(checks)
 }
 
@@ -88,9 +87,5 @@ fn differences(lab: &Lab<'_>, set: &StaticSet<'_>) -> Result<Differences, Valida
         }
     }
     let windup = cycle.states.iter().map(|s| 1e6 * s.planets[0][0].hypot(s.planets[0][1]));
-    Ok(Differences {
-        on_path: largest(on_path),
-        anywhere: largest(anywhere),
-        windup: largest(windup),
-    })
+    Ok(Differences { on_path: worst(on_path), anywhere: worst(anywhere), windup: worst(windup) })
 }

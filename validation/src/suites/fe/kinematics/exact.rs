@@ -5,12 +5,11 @@ use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, SetCycle};
 use gearset::Scene;
 
-use super::{HARMONICS, POSITIONS, at_most, breaks, largest, sun_lines, unloaded};
-use crate::Profile;
+use super::{HARMONICS, POSITIONS, control, sun_lines, unloaded};
 use crate::catalogue::{PublishedScene, scene};
-use crate::check::Check;
 use crate::error::ValidationError;
-use crate::suites::fe::Lab;
+use crate::suites::{Checks, Lab};
+use crate::worst::{peak_to_peak, worst};
 
 /// A tenth of the paper's preload, half of it, it, and twice it, N·m.
 const TORQUES: [f64; 4] = [113.0, 565.0, 1130.0, 2260.0];
@@ -41,28 +40,26 @@ struct Compared {
     exact: SetCycle,
 }
 
-pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     let Compared { found, exact } = differences(&lab.four, &lab.bodies, TORQUE)?;
     let words = format!("four planets, {TORQUE} N·m");
     let mut checks = judged(lab, "four", &words, Some(&[found]))?;
     let old = unloaded(&lab.four, &lab.bodies)?.cycle_here(TORQUE, POSITIONS, &ActiveSet)?;
     let off = off(&old, &exact, &lab.bodies)?;
-    let title = format!("linear kinematics about the unloaded set, {words}:");
-    let id = "fe.kinematics.exact.control";
-    checks.push(breaks(lab, id, &title, "fe.kinematics.exact.harmonics.four", off)?);
+    let id = "fe.kinematics.exact.control.unloaded";
+    checks.push(control(lab, id, "fe.kinematics.exact.harmonics.four", off)?);
     for (planets, is_soft, set) in sets()? {
         // Carriers are none of the bodies.
-        let bodies = match lab.profile {
-            Profile::Full => Some(Bodies::new(&set)?),
-            Profile::Quick => None,
-        };
+        let meshes = if is_soft { "soft" } else { "own" };
+        let is_run =
+            lab.runs(&format!("fe.kinematics.exact.harmonics.{planets}.{meshes}.rigid"))?;
+        let bodies = is_run.then(|| lab.gears.of(&set)).transpose()?;
         for is_rigid in [false, true] {
             let mut set = set.clone();
             let geometry = set.geometry.as_mut().ok_or(ValidationError::Incomplete("geometry"))?;
             let carrier =
                 geometry.carrier.as_mut().ok_or(ValidationError::Incomplete("carrier"))?;
             carrier.is_rigid = is_rigid;
-            let meshes = if is_soft { "soft" } else { "own" };
             let seats = if is_rigid { "rigid" } else { "elastic" };
             let words = format!(
                 "{planets} planets, meshes as {}, {seats} carrier",
@@ -71,7 +68,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
             let under = |bodies: &Bodies| -> Result<Vec<Differences>, ValidationError> {
                 TORQUES.into_iter().map(|t| Ok(differences(&set, bodies, t)?.found)).collect()
             };
-            let found = bodies.as_ref().map(under).transpose()?;
+            let found = bodies.as_deref().map(under).transpose()?;
             let id = format!("{planets}.{meshes}.{seats}");
             checks.extend(judged(lab, &id, &words, found.as_deref())?);
         }
@@ -97,37 +94,35 @@ fn sets() -> Result<Vec<(&'static str, bool, Scene)>, ValidationError> {
 }
 
 /// Checks of one set by what was found under each torque; not run if that is nothing.
-fn judged(
-    lab: &Lab<'_>,
-    id: &str,
-    words: &str,
-    found: Option<&[Differences]>,
-) -> Result<Vec<Check>, ValidationError> {
-    let worst = |of: fn(&Differences) -> f64| {
+fn judged(lab: &Lab<'_>, id: &str, words: &str, found: Option<&[Differences]>) -> Checks {
+    let most = |of: fn(&Differences) -> f64| {
         let found = found?;
-        let most = largest(found.iter().map(of));
+        let most = worst(found.iter().map(of));
         let at = found.iter().find(|d| of(d) == most).map_or(f64::NAN, |d| d.torque);
-        Some((most, format!(", largest at {at} N·m")))
+        Some((most, format!("largest at {at} N·m")))
     };
     let mut checks = Vec::new();
-    for (name, what, worst) in [
+    for (name, what, most) in [
         (
             "harmonics",
             format!(
                 "harmonics 1 to {HARMONICS} of the sun's rotation and translation at rest against exact kinematics, over the largest, which counts as {SMALL} µm at least"
             ),
-            worst(|d| d.harmonics),
+            most(|d| d.harmonics),
         ),
         (
             "rest",
             "what linear kinematics leave of the approach of a loaded pair, over the peak-to-peak transmission error".into(),
-            worst(|d| d.rest),
+            most(|d| d.rest),
         ),
     ] {
         let id = format!("fe.kinematics.exact.{name}.{id}");
-        let at = worst.as_ref().map_or("", |w| &w.1);
-        let title = format!("{words}: {what}{at}");
-        checks.push(at_most(lab, &id, &title, "%", worst.as_ref().map(|w| w.0))?);
+        let title = format!("{words}: {what}");
+        let mut about = lab.about(&id, &title)?;
+        if let Some((_, at)) = &most {
+            about = about.note(at.as_str());
+        }
+        checks.push(about.at_most_if_run(most.map(|m| m.0)));
     }
     Ok(checks)
 }
@@ -139,8 +134,8 @@ fn differences(scene: &Scene, bodies: &Bodies, torque: f64) -> Result<Compared, 
     let exact = set.exact_cycle(torque, POSITIONS)?;
     let sun = bodies.geometry.sun.as_ref().ok_or(ValidationError::Incomplete("sun"))?;
     let errors = || cycle.states.iter().map(|s| s.transmission_error(sun.base_radius));
-    let peak_to_peak = largest(errors()) + largest(errors().map(|u| -u));
-    let rest = largest(cycle.states.iter().map(|s| s.kinematic_rest));
+    let peak_to_peak = peak_to_peak(errors());
+    let rest = worst(cycle.states.iter().map(|s| s.kinematic_rest));
     let found = Differences {
         torque,
         harmonics: off(&cycle, &exact, bodies)?,
@@ -155,14 +150,14 @@ fn off(cycle: &SetCycle, exact: &SetCycle, bodies: &Bodies) -> Result<f64, Valid
     let (cycle, exact) = (sun_lines(cycle, bodies)?, sun_lines(exact, bodies)?);
     let share = |axes: &[usize]| {
         let size = |of: &dyn Fn(usize, usize, usize) -> f64| {
-            largest((0..HARMONICS).map(|l| {
+            worst((0..HARMONICS).map(|l| {
                 let parts = axes.iter().flat_map(|axis| [of(*axis, l, 0), of(*axis, l, 1)]);
                 parts.map(|x| x * x).sum::<f64>().sqrt()
             }))
         };
-        let most = largest([SMALL, size(&|axis, l, part| exact[axis][l][part])]);
+        let most = worst([SMALL, size(&|axis, l, part| exact[axis][l][part])]);
         100.0 * size(&|axis, l, part| cycle[axis][l][part] - exact[axis][l][part]) / most
     };
     let (rotation, translation) = (share(&[0]), share(&[1, 2]));
-    Ok(largest([rotation, translation]))
+    Ok(worst([rotation, translation]))
 }

@@ -2,11 +2,11 @@
 
 use fe_contact::statics::{CARRIER, StaticSet};
 
-use super::{at_most, breaks, largest, unloaded};
-use crate::Profile;
-use crate::check::Check;
+use super::{control, unloaded};
 use crate::error::ValidationError;
-use crate::suites::fe::{Lab, MESHES};
+use crate::suites::lab::MESHES;
+use crate::suites::{Checks, Lab};
+use crate::worst::worst;
 
 const TORQUE: f64 = 1130.0;
 
@@ -27,23 +27,23 @@ struct Differences {
     along_lines: f64,
 }
 
-pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     let set = unloaded(&lab.four, &lab.bodies)?.under(TORQUE)?;
     let mut random = fastrand::Rng::with_seed(1);
     let mut checks = Vec::new();
     for (k, position) in AT.into_iter().enumerate() {
-        let is_run = k == 0 || lab.profile == Profile::Full;
-        let found = is_run.then(|| differences(lab, &set, position, &mut random)).transpose()?;
         let id = format!("fe.kinematics.potential.{k}");
+        let is_run = lab.runs(&id)?;
+        let found = is_run.then(|| differences(lab, &set, position, &mut random)).transpose()?;
         let title = format!(
             "four planets, {TORQUE} N·m, races displaced by up to {:.0} µm from the mean loaded configuration, position {position}: forces of the meshes on each race's coordinates against differences of the meshes' energy, over an even share of the torque",
             1e6 * MOVED
         );
-        checks.push(at_most(lab, &id, &title, "", found.as_ref().map(|d| d.gradient))?);
+        let gradient = found.as_ref().map(|d| d.gradient);
+        checks.push(lab.about(&id, &title)?.at_most_if_run(gradient));
         if let (0, Some(found)) = (k, &found) {
-            let control = "fe.kinematics.potential.control";
-            let title = "forces along the lines of action alone:";
-            checks.push(breaks(lab, control, title, &id, found.along_lines)?);
+            let own = "fe.kinematics.potential.control.along_lines";
+            checks.push(control(lab, own, &id, found.along_lines)?);
         }
     }
     Ok(checks)
@@ -77,7 +77,7 @@ fn differences(
     }
     let sun = lab.bodies.geometry.sun.as_ref().ok_or(ValidationError::Incomplete("sun"))?;
     let share = TORQUE / sun.base_radius / set.races().planets() as f64;
-    let [gradient, along_lines] = off.map(|list| largest(list) / share);
+    let [gradient, along_lines] = off.map(|list| worst(list) / share);
     Ok(Differences { gradient, along_lines })
 }
 

@@ -11,11 +11,10 @@ use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{PLANETS, SUN, SetCycle, SetState};
 use gearset::Scene;
 
-use super::{HARMONICS, POSITIONS, at_most, breaks, largest, sun_lines, unloaded};
-use crate::Profile;
-use crate::check::Check;
+use super::{HARMONICS, POSITIONS, control, sun_lines, unloaded};
 use crate::error::ValidationError;
-use crate::suites::fe::Lab;
+use crate::suites::{Checks, Lab};
+use crate::worst::{paired, worst};
 
 const TORQUE: f64 = 1130.0;
 
@@ -34,15 +33,15 @@ struct Differences {
     harmonics: f64,
 }
 
-pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     let mut checks = Vec::new();
     for (name, scene) in [("three", &lab.three), ("four", &lab.four)] {
         let scene = with_rigid_carrier(scene)?;
         let mut base = None;
         for (id, wound) in WOUND {
-            let is_quick = name == "four" && [1.0, 140.0].contains(&wound);
+            let own = |of: &str| format!("fe.kinematics.turned.{of}.{name}.{id}");
             let mut found = None;
-            if is_quick || lab.profile == Profile::Full {
+            if lab.runs(&own("force"))? {
                 if base.is_none() {
                     base = Some(run(lab, &scene, 0.0, About::Loaded)?);
                 }
@@ -54,28 +53,26 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
             );
             let title = format!("{what}: largest change of a mesh force, over the largest force");
             let force = found.as_ref().map(|d| d.force);
-            let own = |of: &str| format!("fe.kinematics.turned.{of}.{name}.{id}");
-            checks.push(at_most(lab, &own("force"), &title, "", force)?);
+            checks.push(lab.about(&own("force"), &title)?.at_most_if_run(force));
             let title = format!(
                 "{what}: largest change of the sun's translation or rotation beyond the rolled-in one, over its vibration"
             );
             let motion = found.as_ref().map(|d| d.motion);
-            checks.push(at_most(lab, &own("motion"), &title, "", motion)?);
+            checks.push(lab.about(&own("motion"), &title)?.at_most_if_run(motion));
             let title = format!(
                 "{what}: largest change of harmonics 1 to {HARMONICS} of the sun's rotation and translation, over the largest"
             );
             let harmonics = found.as_ref().map(|d| d.harmonics);
-            checks.push(at_most(lab, &own("harmonics"), &title, "", harmonics)?);
+            checks.push(lab.about(&own("harmonics"), &title)?.at_most_if_run(harmonics));
         }
     }
     let scene = with_rigid_carrier(&lab.four)?;
     let [base, turned] = [0.0, 1.0].map(|wound| run(lab, &scene, wound, About::Unloaded));
     let found = differences(lab, &base?, &turned?)?;
-    let title = "linear kinematics about the unloaded set, wound by a 140th of a mesh cycle:";
     for (what, found) in [("force", found.force), ("motion", found.motion)] {
         let id = format!("fe.kinematics.turned.control.{what}");
         let judged_by = format!("fe.kinematics.turned.{what}.four.step");
-        checks.push(breaks(lab, &id, title, &judged_by, found)?);
+        checks.push(control(lab, &id, &judged_by, found)?);
     }
     Ok(checks)
 }
@@ -145,7 +142,7 @@ fn differences(
     let forces = |states: &[SetState]| -> Vec<f64> {
         states.iter().flat_map(|s| s.meshes.iter().map(|m| m.force)).collect()
     };
-    let force = off(&forces(a), &forces(b), largest(forces(a)));
+    let force = off(&forces(a), &forces(b), worst(forces(a)));
     let rotation = |w: &Wound| -> Vec<f64> {
         let beyond = w.cycle.states.iter().map(|s| s.central[2][2] - w.rolled_in);
         beyond.map(|angle| radius * angle).collect()
@@ -155,8 +152,8 @@ fn differences(
     };
     let vibration = rotation(base);
     let mean = vibration.iter().sum::<f64>() / vibration.len() as f64;
-    let size = largest(vibration.iter().map(|u| (u - mean).abs()));
-    let motion = largest([
+    let size = worst(vibration.iter().map(|u| u - mean));
+    let motion = worst([
         off(&rotation(base), &rotation(turned), size),
         off(&translation(a), &translation(b), size),
     ]);
@@ -167,14 +164,11 @@ fn differences(
         Ok(rotation.iter().map(size).chain(both).collect())
     };
     let (own, other) = (amplitudes(base)?, amplitudes(turned)?);
-    let harmonics = off(&own, &other, largest(own.iter().copied()));
+    let harmonics = off(&own, &other, worst(own.iter().copied()));
     Ok(Differences { force, motion, harmonics })
 }
 
 /// Largest difference of two lists of equal length over a size.
 fn off(a: &[f64], b: &[f64], size: f64) -> f64 {
-    if a.len() != b.len() {
-        return f64::NAN;
-    }
-    largest(a.iter().zip(b).map(|(a, b)| (a - b).abs() / size))
+    worst(paired(a, b).map(|(a, b)| (a - b) / size))
 }

@@ -11,35 +11,35 @@
 //! other's torques but not the kinks where pairs come and go.
 
 use fe_contact::complementarity::ActiveSet;
-use fe_contact::statics::{Bodies, SetCycle, SetState};
+use fe_contact::statics::{SetCycle, SetState};
 use gearset::Scene;
 
-use super::{POSITIONS, at_most, breaks, largest, unloaded};
-use crate::Profile;
+use super::{POSITIONS, control, unloaded};
 use crate::catalogue::{PublishedScene, scene};
-use crate::check::Check;
 use crate::error::ValidationError;
-use crate::suites::fe::Lab;
+use crate::suites::{Checks, Lab};
+use crate::worst::worst;
 
 const TORQUE: f64 = 2260.0;
 
 /// Positions of the finer mean, of the full profile.
 const FINE: usize = 4 * POSITIONS;
 
-pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     let five = scene(PublishedScene::FivePlanets)?;
-    let of_five = Bodies::new(&five)?;
+    let of_five = lab.gears.of(&five)?;
     let mut checks = Vec::new();
     let sets = [
-        ("three", &lab.three, &lab.bodies),
-        ("four", &lab.four, &lab.bodies),
-        ("five", &five, &of_five),
+        ("three", &lab.three, &*lab.bodies),
+        ("four", &lab.four, &*lab.bodies),
+        ("five", &five, &*of_five),
     ];
     for (name, scene, bodies) in sets {
         let set = unloaded(scene, bodies)?.under(TORQUE)?;
         let run = |positions: usize| set.cycle_here(TORQUE, positions, &ActiveSet);
         let cycle = run(POSITIONS)?;
-        let fine = if lab.profile == Profile::Full { Some(run(FINE)?) } else { None };
+        let finer = format!("fe.kinematics.work.carrier.{name}.{FINE}");
+        let fine = if lab.runs(&finer)? { Some(run(FINE)?) } else { None };
         for (count, cycle) in [(POSITIONS, Some(&cycle)), (FINE, fine.as_ref())] {
             let found = cycle.map(|cycle| means(scene, cycle)).transpose()?;
             let parts = [("carrier", found.map(|f| f[0])), ("ring", found.map(|f| f[1]))];
@@ -48,22 +48,19 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Result<Vec<Check>, ValidationError> {
                 let title = format!(
                     "{name} planets, {TORQUE} N·m: mean torque on the {body} over {count} positions against that by numbers of teeth, over what the trapezoidal rule may be off"
                 );
-                checks.push(at_most(lab, &id, &title, "", found)?);
+                checks.push(lab.about(&id, &title)?.at_most_if_run(found));
             }
         }
         let id = format!("fe.kinematics.work.balance.{name}");
         let title = format!(
             "{name} planets, {TORQUE} N·m: largest sum of the torques on carrier and ring less the sun's at any position, over the sun's"
         );
-        checks.push(lab.at_most(&id, &title, "", open(&cycle))?);
+        checks.push(lab.about(&id, &title)?.at_most(open(&cycle)));
         if name == "four" {
             let old = unloaded(scene, bodies)?.cycle_here(TORQUE, FINE, &ActiveSet)?;
-            let title = format!(
-                "linear kinematics about the unloaded set, four planets, {TORQUE} N·m, {FINE} positions:"
-            );
-            let judged_by = format!("fe.kinematics.work.ring.four.{POSITIONS}");
-            let id = "fe.kinematics.work.control";
-            checks.push(breaks(lab, id, &title, &judged_by, means(scene, &old)?[1])?);
+            let judged_by = format!("fe.kinematics.work.ring.four.{FINE}");
+            let id = "fe.kinematics.work.control.unloaded";
+            checks.push(control(lab, id, &judged_by, means(scene, &old)?[1])?);
         }
     }
     Ok(checks)
@@ -94,5 +91,5 @@ fn means(scene: &Scene, cycle: &SetCycle) -> Result<[f64; 2], ValidationError> {
 fn open(cycle: &SetCycle) -> f64 {
     let t = cycle.torque_nm;
     let sum = |s: &SetState| s.reactions.carrier_nm + s.reactions.ring_nm - t;
-    largest(cycle.states.iter().map(|s| (sum(s) / t).abs()))
+    worst(cycle.states.iter().map(|s| sum(s) / t))
 }

@@ -1,0 +1,25 @@
+//! What couples, and with what force.
+
+/// Forces of couplings over their deflections.
+pub trait CouplingForce {
+    /// Force (N, not falling with deflection) and tangent (N/m) of a coupling at a step
+    /// of the cycle and a deflection (m).
+    fn answer(&self, coupling: usize, step_in_cycle: usize, deflection: f64) -> (f64, f64);
+
+    /// A deflection (m) up to which a coupling is silent at every step of the cycle.
+    fn silent_up_to(&self, coupling: usize) -> f64 {
+        let _ = coupling;
+        f64::NEG_INFINITY
+    }
+}
+
+/// One coupling: δ = rᵀx − o.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Coupling {
+    /// r on the coordinates.
+    pub row: Vec<f64>,
+    /// o, m.
+    pub offset: f64,
+    /// τ, s: the force answers to δ + τ δ̇.
+    pub lag: f64,
+}

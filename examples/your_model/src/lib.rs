@@ -1,0 +1,194 @@
+//! Somebody's lumped model of a planetary gear: their own assembly and eigenvalue solver, none of this
+//! project's. It answers one question, its natural modes, and so can be asked every suite that asks for them.
+//!
+//! Springs are collected as rows b of their elongation bᵀq (Lin & Parker 1999, eqs. 1 to 6), so that
+//! K = Σ k b bᵀ; coordinates are x, y, u = r·θ of carrier, ring and sun, then radial, tangential, u of the
+//! planets.
+
+use epicyclic::experiments::{ModalModel, ModelError, NaturalMode};
+use epicyclic::gearset::{Freedom, LoadCase, Scene, Support, Torsional};
+use epicyclic::lumped::ModeType;
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+/// The model; `sign` is that of the planet's rotation in its sun mesh, +1 in a right model.
+#[derive(Debug, Clone, Copy)]
+pub struct YourModel {
+    /// +1, or −1 to see a wrong model caught.
+    pub sign: f64,
+}
+
+impl Default for YourModel {
+    fn default() -> Self {
+        Self { sign: 1.0 }
+    }
+}
+
+/// What a scene must have for this model.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Lacks(pub &'static str);
+
+impl std::fmt::Display for Lacks {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "this model needs {}", self.0)
+    }
+}
+
+impl std::error::Error for Lacks {}
+
+const CARRIER: usize = 0;
+const RING: usize = 1;
+const SUN: usize = 2;
+
+/// Column of coordinate `axis` of body k: carrier, ring, sun, planets.
+fn at(body: usize, axis: usize) -> usize {
+    3 * body + axis
+}
+
+/// Stiffness K, masses and I/r² (the diagonal of M), and which coordinates may move.
+struct Matrices {
+    k: DMatrix<f64>,
+    mass: Vec<f64>,
+    free: Vec<bool>,
+}
+
+impl YourModel {
+    fn matrices(&self, scene: &Scene) -> Result<Matrices, Lacks> {
+        let lumped = scene.lumped.as_ref().ok_or(Lacks("[lumped]"))?;
+        let psi = &scene.planets.psi_rad;
+        let size = at(3 + psi.len(), 0);
+        let mut k = DMatrix::zeros(size, size);
+        let mut spring = |stiffness: f64, row: &[(usize, f64)]| {
+            for (i, a) in row {
+                for (j, b) in row {
+                    k[(*i, *j)] += stiffness * a * b;
+                }
+            }
+        };
+        let (alpha_s, alpha_r) =
+            (lumped.pressure_angle.sun_planet, lumped.pressure_angle.ring_planet);
+        for (n, psi) in psi.iter().enumerate() {
+            let own = scene.overrides.iter().filter(|o| o.planet == n);
+            let last = |of: fn(&epicyclic::gearset::PlanetOverride) -> Option<f64>, usual: f64| {
+                own.clone().filter_map(of).next_back().unwrap_or(usual)
+            };
+            let p = 3 + n;
+            let (sin, cos) = (psi - alpha_s).sin_cos();
+            let row = [
+                (at(SUN, 0), -sin),
+                (at(SUN, 1), cos),
+                (at(SUN, 2), 1.0),
+                (at(p, 0), -alpha_s.sin()),
+                (at(p, 1), -alpha_s.cos()),
+                (at(p, 2), self.sign),
+            ];
+            spring(last(|o| o.sun_mesh, lumped.mesh.sun_planet), &row);
+            let (sin, cos) = (psi + alpha_r).sin_cos();
+            let row = [
+                (at(RING, 0), -sin),
+                (at(RING, 1), cos),
+                (at(RING, 2), 1.0),
+                (at(p, 0), alpha_r.sin()),
+                (at(p, 1), -alpha_r.cos()),
+                (at(p, 2), -1.0),
+            ];
+            spring(last(|o| o.ring_mesh, lumped.mesh.ring_planet), &row);
+            let bearing = last(|o| o.bearing, scene.supports.planet_bearing);
+            let (sin, cos) = psi.sin_cos();
+            let radial = [(at(CARRIER, 0), cos), (at(CARRIER, 1), sin), (at(p, 0), -1.0)];
+            let tangential = [
+                (at(CARRIER, 0), -sin),
+                (at(CARRIER, 1), cos),
+                (at(CARRIER, 2), 1.0),
+                (at(p, 1), -1.0),
+            ];
+            spring(bearing, &radial);
+            spring(bearing, &tangential);
+        }
+        let supports = [scene.supports.carrier, scene.supports.ring, scene.supports.sun];
+        let radii = [lumped.radius.carrier, lumped.radius.ring, lumped.radius.sun];
+        let mut free = vec![true; size];
+        for (body, (support, radius)) in supports.iter().zip(radii).enumerate() {
+            let Support { motion, bearing, torsional } = *support;
+            spring(bearing, &[(at(body, 0), 1.0)]);
+            spring(bearing, &[(at(body, 1), 1.0)]);
+            let per_length = match (torsional, radius) {
+                (Torsional::PerLength(k), _) => k,
+                (Torsional::PerAngle(k), Some(r)) => k / (r * r),
+                (Torsional::PerAngle(0.0), None) => 0.0,
+                (Torsional::PerAngle(_), None) => return Err(Lacks("radii of the members")),
+            };
+            spring(per_length, &[(at(body, 2), 1.0)]);
+            for axis in 0..3 {
+                free[at(body, axis)] = match motion {
+                    Freedom::Free => true,
+                    Freedom::RotationHeld => axis < 2,
+                    Freedom::Held => false,
+                };
+            }
+        }
+        let (m, i) = (&lumped.mass, &lumped.inertia_over_r2);
+        let mut mass = Vec::with_capacity(size);
+        for (m, i) in [(m.carrier, i.carrier), (m.ring, i.ring), (m.sun, i.sun)] {
+            mass.extend([m, m, i].map(|x| x.unwrap_or(f64::NAN)));
+        }
+        for n in 0..psi.len() {
+            let own = scene.overrides.iter().filter(|o| o.planet == n);
+            let mass_of = own.clone().filter_map(|o| o.mass).next_back().or(m.planet);
+            let inertia = own.filter_map(|o| o.inertia_over_r2).next_back().or(i.planet);
+            mass.extend([mass_of, mass_of, inertia].map(|x| x.unwrap_or(f64::NAN)));
+        }
+        if (0..size).any(|j| free[j] && mass[j].is_nan()) {
+            return Err(Lacks("mass and inertia of every body that moves"));
+        }
+        Ok(Matrices { k, mass, free })
+    }
+
+    /// Kind of a mode from its shape scaled by √mass: the largest of the shares in which all planets move alike,
+    /// in which they follow cos ψ and sin ψ, and the rest.
+    fn kind(shape: &DVector<f64>, psi: &[f64]) -> ModeType {
+        let n = psi.len() as f64;
+        let square = |x: f64| x * x;
+        let (mut alike, mut around) = (0.0, 0.0);
+        for body in [CARRIER, RING, SUN] {
+            alike += square(shape[at(body, 2)]);
+            around += square(shape[at(body, 0)]) + square(shape[at(body, 1)]);
+        }
+        for axis in 0..3 {
+            let sum = |weight: &dyn Fn(f64) -> f64| {
+                let own = psi.iter().enumerate();
+                own.map(|(p, psi)| weight(*psi) * shape[at(3 + p, axis)]).sum::<f64>()
+            };
+            alike += square(sum(&|_| 1.0)) / n;
+            around += 2.0 / n * (square(sum(&f64::cos)) + square(sum(&f64::sin)));
+        }
+        let rest = shape.norm_squared() - alike - around;
+        match alike.max(around).max(rest) {
+            most if most == alike => ModeType::Rotational,
+            most if most == around => ModeType::Translational,
+            _ => ModeType::Planet,
+        }
+    }
+}
+
+impl ModalModel for YourModel {
+    fn natural_modes(&self, scene: &Scene, _: &LoadCase) -> Result<Vec<NaturalMode>, ModelError> {
+        let Matrices { k, mass, free } = self.matrices(scene)?;
+        let moving: Vec<usize> = (0..mass.len()).filter(|j| free[*j]).collect();
+        // M^(−½) K M^(−½) has the squares of the natural frequencies.
+        let scaled = DMatrix::from_fn(moving.len(), moving.len(), |a, b| {
+            let (i, j) = (moving[a], moving[b]);
+            k[(i, j)] / (mass[i] * mass[j]).sqrt()
+        });
+        let solved = SymmetricEigen::new(scaled);
+        let mode = |(j, lambda): (usize, &f64)| {
+            let mut shape = DVector::zeros(mass.len());
+            for (a, i) in moving.iter().enumerate() {
+                shape[*i] = solved.eigenvectors[(a, j)];
+            }
+            let frequency_hz = lambda.max(0.0).sqrt() / std::f64::consts::TAU;
+            let mode_type = Self::kind(&shape, &scene.planets.psi_rad);
+            NaturalMode { frequency_hz, mode_type }
+        };
+        Ok(solved.eigenvalues.iter().enumerate().map(mode).collect())
+    }
+}

@@ -1,0 +1,115 @@
+//! The lumped model with parameters from finite elements: same equations, parameters from the meshes.
+//!
+//! Masses and polar inertias are those of the meshed bodies, each mesh is as stiff as its contact
+//! at one frozen position and preload, 1ᵀS1 over its pairs, lines of action are those of the loaded set,
+//! bearings are the scene's. What is left between this model and the linearised FE/contact set is what a
+//! lumped model does not have: a carrier that gives way, corner contacts that press along another normal than
+//! the line of action, the slopes of the deformed flanks, and forces that turn with their lines of action.
+
+use fe_contact::statics::{Bodies, Races};
+use gearset::{LumpedInput, PerBody, PerMesh, PlanetOverride, PlanetPositions, Scene};
+use lumped::{LumpedModel, ModeType, NaturalModes, Participation};
+
+use super::kinds::type_of;
+use super::linear::{Preload, preloaded};
+use crate::error::ExperimentError;
+use crate::natural_mode::NaturalMode;
+
+/// The scene with lumped parameters from its meshed bodies at a position and preload; seen so that
+/// the sun turns counter-clockwise.
+///
+/// # Errors
+/// If the set has no equilibrium there, or backside flanks press, of which the lumped model has none.
+pub fn lumped_from_fe(
+    scene: &Scene,
+    bodies: &Bodies,
+    preload: &Preload,
+) -> Result<Scene, ExperimentError> {
+    let set = preloaded(scene, bodies, preload)?;
+    let angles = set.reference().pressure_angles();
+    lumped_from_tangents(scene, bodies, set.races(), &angles, &set.linearised()?.mesh_tangents)
+}
+
+/// The same with the loaded pressure angles (rad; means over the planets are taken) and tangents (N/m) at
+/// hand: sun meshes, then ring meshes, one a planet.
+///
+/// # Errors
+/// If there are more tangents than meshes, or the scene lacks a mesh or a mass.
+pub fn lumped_from_tangents(
+    scene: &Scene,
+    bodies: &Bodies,
+    races: &Races,
+    angles: &[f64],
+    tangents: &[f64],
+) -> Result<Scene, ExperimentError> {
+    let n = races.planets();
+    if angles.len() != 2 * n
+        || tangents.len() < 2 * n
+        || tangents[2 * n..].iter().any(|t| *t != 0.0)
+    {
+        return Err(ExperimentError::Incomplete("set whose front flanks alone press"));
+    }
+    let (sun_meshes, ring_meshes) = (&tangents[..n], &tangents[n..2 * n]);
+    let overrides = (0..n).map(|planet| PlanetOverride {
+        planet,
+        bearing: scene.overrides.iter().find(|o| o.planet == planet).and_then(|o| o.bearing),
+        sun_mesh: Some(sun_meshes[planet]),
+        ring_mesh: Some(ring_meshes[planet]),
+        ..PlanetOverride::default()
+    });
+    let (mass, inertia_over_r2) = mass_properties(scene, bodies, races);
+    let [carrier, ring, sun, planet] = races.radii.map(Some);
+    let mean = |list: &[f64]| list.iter().sum::<f64>() / n as f64;
+    let mut from_fe = scene.clone();
+    // Phases play no part in a frozen position.
+    from_fe.planets = PlanetPositions { psi_rad: races.psi.clone(), steps: None };
+    from_fe.overrides = overrides.collect();
+    from_fe.lumped = Some(LumpedInput {
+        mass,
+        inertia_over_r2,
+        radius: PerBody { carrier, ring, sun, planet },
+        mesh: PerMesh { sun_planet: mean(sun_meshes), ring_planet: mean(ring_meshes) },
+        pressure_angle: PerMesh { sun_planet: mean(&angles[..n]), ring_planet: mean(&angles[n..]) },
+    });
+    Ok(from_fe)
+}
+
+/// Mass (kg) and I/r² (kg) of the meshed bodies; a carrier without a shape weighs what the scene
+/// says.
+fn mass_properties(scene: &Scene, bodies: &Bodies, races: &Races) -> (PerBody, PerBody) {
+    let [r_carrier, r_ring, r_sun, r_planet] = races.radii.map(|r| r * r);
+    let given =
+        || scene.lumped.as_ref().and_then(|l| l.mass.carrier.zip(l.inertia_over_r2.carrier));
+    let carrier = match &races.carrier {
+        Some(body) => Some((body.mass, body.inertia / r_carrier)),
+        None => given(),
+    };
+    let ring = bodies.ring.as_ref().map(|b| (b.mass, b.inertia / r_ring));
+    let sun = bodies.sun.as_ref().map(|b| (b.mass, b.inertia / r_sun));
+    let planet = Some((bodies.planet.mass, bodies.planet.inertia / r_planet));
+    let all = [carrier, ring, sun, planet];
+    let per_body =
+        |[carrier, ring, sun, planet]: [Option<f64>; 4]| PerBody { carrier, ring, sun, planet };
+    (per_body(all.map(|b| b.map(|(m, _)| m))), per_body(all.map(|b| b.map(|(_, i)| i))))
+}
+
+/// Frequencies of a lumped scene, ascending, each with its multiplicity and the type that has the
+/// larger part of its kinetic energy: at one position planets differ, and kinds mix a little.
+///
+/// # Errors
+/// If the scene has no lumped model, or its eigenproblem fails.
+pub fn lumped_frequencies(scene: &Scene) -> Result<Vec<NaturalMode>, ExperimentError> {
+    let model = LumpedModel::from_scene(scene)?;
+    let modes = NaturalModes::of(&model)?;
+    let of = |group: &lumped::ModeGroup| {
+        let mode_type = majority(&group.participation);
+        let one = NaturalMode { mode_type, frequency_hz: group.frequency_hz };
+        std::iter::repeat_n(one, group.multiplicity)
+    };
+    Ok(modes.groups.iter().flat_map(of).collect())
+}
+
+/// Type by majority of kinetic energy.
+pub fn majority(shares: &Participation) -> ModeType {
+    type_of(&[shares.rotational, shares.translational, shares.planet])
+}

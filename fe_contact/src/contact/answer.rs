@@ -1,0 +1,148 @@
+//! Forces of one mesh for given approaches of its pairs.
+
+use nalgebra::{Cholesky, DMatrix};
+
+use super::pair::Location;
+use super::table::MeshTable;
+use crate::complementarity::{ComplementaritySolver, Problem};
+use crate::error::FeError;
+
+/// What a mesh answers to rigid approaches.
+#[derive(Debug, Clone)]
+pub struct MeshAnswer {
+    /// Force of each pair, N.
+    pub pair_forces: Vec<f64>,
+    /// ∂(pair force)/∂(pair approach), N/m.
+    pub tangent: DMatrix<f64>,
+    /// Force of each cell, N.
+    pub cell_forces: Vec<f64>,
+    /// Whether each cell is in contact.
+    pub active: Vec<bool>,
+    /// Elastic energy ½ pᵀ C p, J.
+    pub energy: f64,
+    /// Iterations of the contact solver.
+    pub iterations: usize,
+}
+
+impl MeshTable {
+    /// Solves contact for pair approaches (m, positive into each other) beyond the gaps; `offsets`
+    /// are added to all gaps of a pair.
+    ///
+    /// # Errors
+    /// If the contact solver fails.
+    pub fn answer(
+        &self,
+        approaches: &[f64],
+        offsets: &[f64],
+        solver: &dyn ComplementaritySolver,
+        warm: Option<&[bool]>,
+    ) -> Result<MeshAnswer, FeError> {
+        let owner = self.pair_of_cells();
+        let gaps: Vec<f64> =
+            self.gaps.iter().zip(&owner).map(|(g, k)| g + offsets[*k] - approaches[*k]).collect();
+        let count = self.pairs.len();
+        let mut answer = MeshAnswer {
+            pair_forces: vec![0.0; count],
+            tangent: DMatrix::zeros(count, count),
+            cell_forces: vec![0.0; gaps.len()],
+            active: vec![false; gaps.len()],
+            energy: 0.0,
+            iterations: 0,
+        };
+        if gaps.iter().all(|g| *g >= 0.0) {
+            return Ok(answer);
+        }
+        let problem = Problem { compliance: &self.compliance, gaps: &gaps };
+        let solution = solver
+            .solve(&problem, warm)
+            .map_err(|cause| FeError::Contact { phase: self.phase, cause })?;
+        let active: Vec<usize> = (0..gaps.len()).filter(|i| solution.active[*i]).collect();
+        for (force, k) in solution.forces.iter().zip(&owner) {
+            answer.pair_forces[*k] += force;
+        }
+        // ½ pᵀCp = ½ pᵀ(−g) on the active cells.
+        answer.energy = -0.5 * solution.forces.iter().zip(&gaps).map(|(p, g)| p * g).sum::<f64>();
+        // S = Eᵀ C_AA⁻¹ E, E: which pair each active cell belongs to.
+        let block = DMatrix::from_fn(active.len(), active.len(), |i, j| {
+            self.compliance[(active[i], active[j])]
+        });
+        if let Some(factor) = Cholesky::new(block) {
+            let e = DMatrix::from_fn(active.len(), count, |i, k| {
+                f64::from(u8::from(owner[active[i]] == k))
+            });
+            answer.tangent = e.transpose() * factor.solve(&e);
+        }
+        answer.iterations = solution.iterations;
+        answer.cell_forces = solution.forces;
+        answer.active = solution.active;
+        Ok(answer)
+    }
+
+    /// Pressure in each cell of a pair (entry of [`Self::pairs`]), Pa; `forces`: of all cells, N.
+    pub fn pressures(&self, pair: usize, forces: &[f64]) -> Vec<f64> {
+        let cells = &self.pairs[pair];
+        let area = cells.width * self.face_width;
+        forces[cells.first..cells.first + cells.x.len()].iter().map(|f| f / area).collect()
+    }
+
+    /// Largest cell pressure of a pair, Pa.
+    pub fn peak_pressure(&self, pair: usize, forces: &[f64]) -> f64 {
+        let cells = &self.pairs[pair];
+        let own = &forces[cells.first..cells.first + cells.x.len()];
+        own.iter().fold(0.0f64, |a, f| a.max(*f)) / (cells.width * self.face_width)
+    }
+
+    /// Total of the pair forces along their rows' entries, driver then driven: generalised forces
+    /// that *press* (to be subtracted from the race equations), N and N m.
+    pub fn resultant(&self, pair_forces: &[f64]) -> [f64; 6] {
+        let mut sum = [0.0; 6];
+        for (pair, force) in self.pairs.iter().zip(pair_forces) {
+            for (s, b) in sum.iter_mut().zip(pair.row) {
+                *s += b * force;
+            }
+        }
+        sum
+    }
+
+    /// Smallest gap of all cells, m.
+    pub fn least_gap(&self) -> f64 {
+        self.gaps.iter().fold(f64::INFINITY, |a, g| a.min(*g))
+    }
+
+    /// Refuses a loaded cell at the end of a grid that ends within the flanks, and a patch of too
+    /// few cells under `worth_judging` (N) or more.
+    ///
+    /// # Errors
+    /// [`FeError::GridOverflow`], [`FeError::GridTooCoarse`].
+    pub fn check_patches(
+        &self,
+        answer: &MeshAnswer,
+        least_cells: usize,
+        worth_judging: f64,
+    ) -> Result<(), FeError> {
+        for (k, cells) in self.pairs.iter().enumerate() {
+            let (pair, force_n) = (cells.index, answer.pair_forces[k]);
+            if force_n <= 0.0 {
+                continue;
+            }
+            let own = &answer.active[cells.first..cells.first + cells.x.len()];
+            let ends = [own[0], own[own.len() - 1]];
+            if (0..2).any(|i| ends[i] && !cells.ends_at_tip[i]) {
+                let reach_mm = 0.5e3 * cells.width * cells.x.len() as f64;
+                return Err(FeError::GridOverflow { phase: self.phase, pair, reach_mm, force_n });
+            }
+            let loaded = own.iter().filter(|a| **a).count();
+            // A patch at a corner is narrow on any grid, and a pair that has only begun to touch
+            // rests on a cell or two: neither carries its load by the cells' number.
+            let is_whole = cells.location == Location::Path && !ends[0] && !ends[1];
+            let total: f64 = answer.pair_forces.iter().sum();
+            let counts = force_n >= worth_judging && force_n > 0.3 * total;
+            if is_whole && counts && loaded < least_cells {
+                let cells = cells.x.len();
+                let least = least_cells;
+                return Err(FeError::GridTooCoarse { pair, force_n, loaded, least, cells });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,65 @@
+//! Tables of contact of a set in time, the maps that were solved on them, and the slopes of its flanks.
+
+use std::sync::Arc;
+
+use super::frame::Frame;
+use super::grid_tables::GridTables;
+use super::leaning::Leaning;
+use crate::complementarity::ActiveSet;
+use crate::contact::{ContactMaps, MeshTable};
+use crate::error::FeError;
+use crate::statics::SetTables;
+
+/// What the contact problems of a set are solved on.
+#[derive(Debug)]
+pub(super) struct ContactTables {
+    pub(super) tables: SetTables,
+    /// Of each table.
+    pub(super) maps: Vec<ContactMaps>,
+    /// By step in the cycle.
+    pub(super) leaning: Vec<Leaning>,
+    /// Tables on a grid of phases, where kinematics are exact at every step.
+    pub(super) grid: Option<GridTables>,
+}
+
+impl ContactTables {
+    pub(super) fn new(tables: SetTables, leaning: Vec<Leaning>, is_exact: bool) -> Self {
+        let maps = tables.list.iter().map(|_| ContactMaps::new(&tables.settings)).collect();
+        Self { tables, maps, leaning, grid: is_exact.then(GridTables::default) }
+    }
+
+    /// Adds a table without maps; returns its place.
+    pub(super) fn add(&mut self, table: MeshTable) -> usize {
+        self.tables.list.push(Arc::new(table));
+        self.maps.push(ContactMaps::new(&self.tables.settings));
+        self.maps.len() - 1
+    }
+
+    /// Finds maps at some approaches (m) for the meshes of a frame that have none, or whose map gave way to
+    /// another.
+    pub(super) fn find_lost(
+        &mut self,
+        frame: &mut Frame,
+        approaches: &[f64],
+    ) -> Result<(), FeError> {
+        let Self { tables, maps, .. } = self;
+        for mesh in &mut frame.meshes {
+            if mesh.map(maps).is_none() {
+                let delta = &approaches[mesh.first..mesh.first + mesh.count];
+                let table = &tables.list[mesh.table];
+                maps[mesh.table].find(table, delta, &mut mesh.held, &ActiveSet)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Contact problems solved so far, and maps kept.
+    pub(super) fn counts(&self) -> [usize; 2] {
+        [self.maps.iter().map(|m| m.solved).sum(), self.maps.iter().map(ContactMaps::count).sum()]
+    }
+
+    /// Memory of tables and of maps, bytes.
+    pub(super) fn bytes(&self) -> [usize; 2] {
+        [self.tables.bytes(), self.maps.iter().map(ContactMaps::bytes).sum()]
+    }
+}

@@ -1,0 +1,50 @@
+//! Terms of the carrier frame in the equations of the races.
+
+use dynamics::RotatingFrame;
+use gearset::{Kinematics, Scene};
+use nalgebra::DMatrix;
+
+use crate::statics::{PLANETS, Races};
+
+/// Gyroscopic and centripetal terms of all races, n×n.
+#[derive(Debug)]
+pub(super) struct GyroscopicTerms {
+    /// On velocities, kg/s.
+    pub(super) gyroscopic: DMatrix<f64>,
+    /// On displacements, N/m.
+    pub(super) centripetal: DMatrix<f64>,
+}
+
+impl GyroscopicTerms {
+    /// Of races with masses (kg) by coordinate, in a carrier frame that turns at `speed` (rad/s).
+    pub(super) fn new(races: &Races, mass: &[f64], speed: f64) -> Self {
+        let frame = RotatingFrame { speed };
+        let n = races.count;
+        let (mut g, mut k) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
+        for body in 0..PLANETS + races.planets() {
+            let (x, y) = (races.of(body, 0), races.of(body, 1));
+            for i in [x, y].into_iter().flatten() {
+                k[(i, i)] += frame.centripetal(mass[i]);
+            }
+            if let (Some(x), Some(y)) = (x, y) {
+                let [[_, of_y], [of_x, _]] = frame.gyroscopic(mass[x]);
+                g[(x, y)] += of_y;
+                g[(y, x)] += of_x;
+            }
+        }
+        Self { gyroscopic: g, centripetal: k }
+    }
+}
+
+/// Speed of the carrier (rad/s) at a mesh frequency (Hz), seen so that the sun turns counter-clockwise
+/// against it, as positions in the mesh cycle count in either sense of torque.
+pub(super) fn carrier_speed(scene: &Scene, mesh_frequency: f64) -> f64 {
+    match Kinematics::from_scene(scene) {
+        Ok(k) if k.mesh_frequency_hz > 0.0 => {
+            let speeds = k.speeds_rad_per_s;
+            let sense = (speeds.sun - speeds.carrier).signum();
+            sense * speeds.carrier * mesh_frequency / k.mesh_frequency_hz
+        }
+        _ => 0.0,
+    }
+}

@@ -1,0 +1,191 @@
+//! The races' equations of motion within one time step: inertia, supports, bearings, turning frame.
+
+use dynamics::{AverageAcceleration, Motion};
+use gearset::Scene;
+use nalgebra::{DMatrix, DVector};
+
+use super::bearings::Bearings;
+use super::body::Port;
+use super::build;
+use super::damping::Proportional;
+use super::flexible_bodies::FlexibleBodies;
+use super::gyroscopic::GyroscopicTerms;
+use super::packed::Packed;
+use crate::error::FeError;
+use crate::statics::{PLANETS, Races, StaticSet, planet_bearing};
+
+/// Races of all bodies; n: their free coordinates.
+#[derive(Debug)]
+pub(super) struct RaceDynamics {
+    pub(super) damping: Proportional,
+    /// Dashpots over stiffness, s.
+    pub(super) bearing_ratio: f64,
+    /// Masses of the races' coordinates, rigid bodies, n, kg.
+    pub(super) mass: Vec<f64>,
+    pub(super) bearings: Bearings,
+    /// Stiffness of the central members' supports, n, N/m.
+    pub(super) supports: DVector<f64>,
+    /// (I/k + A)⁻¹ with the carrier's whole static flexibility, 2N×2N, N/m.
+    pub(super) seat_stiffness: DMatrix<f64>,
+    /// Terms of the turning carrier frame, if they act.
+    gyroscopic: Option<GyroscopicTerms>,
+    /// A⁻¹, n×n, and as every step multiplies by it.
+    pub(super) inverse: DMatrix<f64>,
+    pub(super) packed_inverse: Packed,
+    pub(super) motion: Motion,
+}
+
+impl RaceDynamics {
+    /// At rest at the reference's displacements. `seats`: ports of the carrier's seats and their static
+    /// flexibility (2N×2N, m/N); `carrier_speed` (rad/s) if the terms of the turning frame act.
+    pub(super) fn new(
+        statics: &StaticSet<'_>,
+        scene: &Scene,
+        rule: &AverageAcceleration,
+        bodies: &FlexibleBodies<'_>,
+        seats: (Vec<Port>, DMatrix<f64>),
+        carrier_speed: Option<f64>,
+    ) -> Result<Self, FeError> {
+        let races = &statics.races;
+        let (ports, flexibility) = seats;
+        let of_bearings: Vec<f64> =
+            (0..races.planets()).map(|n| planet_bearing(scene, n)).collect();
+        let ratio = scene.damping.bearing_s;
+        let carrier = bodies.carrier.as_ref();
+        let bearings = Bearings::new(races, &of_bearings, ports, &flexibility, carrier, ratio);
+        let mut whole = flexibility;
+        for i in 0..whole.nrows() {
+            whole[(i, i)] += 1.0 / of_bearings[i / 2];
+        }
+        let unstable = || FeError::NoEquilibrium("the carrier is not stable".into());
+        let seat_stiffness = whole.cholesky().ok_or_else(unstable)?.inverse();
+        let n = races.count;
+        let mut mass = vec![0.0; n];
+        let mut supports = DVector::zeros(n);
+        for body in 0..PLANETS + races.planets() {
+            let own = build::body_mass(statics, scene, body)?;
+            for (axis, m) in own.into_iter().enumerate() {
+                if let Some(i) = races.of(body, axis) {
+                    mass[i] = m;
+                    if body < PLANETS {
+                        supports[i] = races.support(scene, body, axis);
+                    }
+                }
+            }
+        }
+        let gyroscopic = carrier_speed.map(|speed| GyroscopicTerms::new(races, &mass, speed));
+        let mut motion = Motion::at_rest(n);
+        motion.x.copy_from_slice(statics.reference().q.as_slice());
+        let mut own = Self {
+            damping: Proportional {
+                alpha: scene.damping.mass_proportional_per_s,
+                beta: scene.damping.stiffness_proportional_s,
+            },
+            bearing_ratio: ratio,
+            mass,
+            bearings,
+            supports,
+            seat_stiffness,
+            gyroscopic,
+            inverse: DMatrix::zeros(n, n),
+            packed_inverse: Packed::default(),
+            motion,
+        };
+        own.factorise(statics, rule, bodies)?;
+        Ok(own)
+    }
+
+    /// A of the races and its inverse.
+    fn factorise(
+        &mut self,
+        statics: &StaticSet<'_>,
+        rule: &AverageAcceleration,
+        bodies: &FlexibleBodies<'_>,
+    ) -> Result<(), FeError> {
+        let races = &statics.races;
+        let n = races.count;
+        let mut a = self.bearings.prepare(rule, races, bodies.carrier.as_ref())?;
+        for (body, vibrating) in bodies.all() {
+            let own = vibrating.race_stiffness();
+            for (i, row) in own.iter().enumerate() {
+                for (k, value) in row.iter().enumerate() {
+                    if let (Some(i), Some(k)) = (races.of(body, i), races.of(body, k)) {
+                        a[(i, k)] += value;
+                    }
+                }
+            }
+        }
+        for i in 0..n {
+            a[(i, i)] += self.supports[i] * (1.0 + self.bearing_ratio * rule.damping());
+        }
+        if let Some(terms) = &self.gyroscopic {
+            a += &terms.gyroscopic * rule.damping() + &terms.centripetal;
+        }
+        // The meshes' forces turn with their lines of action.
+        a += &statics.reference().stiffness;
+        let singular = || FeError::NoEquilibrium("the races have no inertia".into());
+        self.inverse = a.try_inverse().ok_or_else(singular)?;
+        self.packed_inverse = Packed::new(&self.inverse);
+        Ok(())
+    }
+
+    /// Adds what past velocities leave in the dashpots of the supports and in the turning frame to the
+    /// load (n, N); `history` (n, m/s) takes what velocities are counted from.
+    pub(super) fn add_history(
+        &self,
+        rule: &AverageAcceleration,
+        history: &mut [f64],
+        load: &mut DVector<f64>,
+    ) {
+        self.motion.velocity_history(rule, history);
+        for (i, v) in history.iter().enumerate() {
+            load[i] += self.bearing_ratio * self.supports[i] * v;
+        }
+        if let Some(terms) = &self.gyroscopic {
+            for (i, row) in terms.gyroscopic.row_iter().enumerate() {
+                load[i] += row.iter().zip(&*history).map(|(g, v)| g * v).sum::<f64>();
+            }
+        }
+    }
+
+    /// Ends the step of races and carrier with the races at x, n, m.
+    pub(super) fn finish(
+        &mut self,
+        races: &Races,
+        rule: &AverageAcceleration,
+        bodies: &mut FlexibleBodies<'_>,
+        x: &DVector<f64>,
+    ) {
+        let race = races.displaced(x, crate::statics::CARRIER);
+        self.bearings.finish(rule, bodies.carrier.as_mut(), x, race);
+        self.motion.advance(rule, x.as_slice());
+    }
+
+    /// At rest with the races at q, n, m.
+    pub(super) fn rest(&mut self, bodies: &mut FlexibleBodies<'_>, q: &DVector<f64>) {
+        self.motion = Motion::at_rest(q.len());
+        self.motion.x.copy_from_slice(q.as_slice());
+        self.bearings.rest(bodies.carrier.as_mut(), &self.seat_stiffness, q);
+    }
+
+    /// Kinetic energy of rigid bodies, J.
+    pub(super) fn kinetic_energy(&self) -> f64 {
+        self.motion.v.iter().zip(&self.mass).map(|(v, m)| 0.5 * m * v * v).sum()
+    }
+
+    /// Energy lost in αM and in the dashpots over a step from (x, v) of its start, J.
+    pub(super) fn damped_since(
+        &self,
+        rule: &AverageAcceleration,
+        moved: &DVector<f64>,
+        start_v: &DVector<f64>,
+    ) -> f64 {
+        let mean_v = 0.5 * (DVector::from_column_slice(&self.motion.v) + start_v);
+        let mut damped = self.bearing_ratio * self.bearings.dashpot_work(rule, moved);
+        for (i, dx) in moved.iter().enumerate() {
+            let c = self.damping.alpha * self.mass[i] + self.bearing_ratio * self.supports[i];
+            damped += c * mean_v[i] * dx;
+        }
+        damped
+    }
+}

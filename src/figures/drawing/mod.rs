@@ -1,0 +1,14 @@
+//! What all figures are drawn with, on the scenes of kuva, which nothing outside this folder sees: line
+//! charts, and a canvas with axes for what charts cannot show.
+
+mod axes;
+mod canvas;
+mod chart;
+mod palette;
+mod picture;
+
+pub(super) use axes::{Axes, Scale, spread};
+pub(super) use canvas::{Anchor, Canvas, Pen, Pixel, Type};
+pub(super) use chart::{Curve, Labels, Panel, chart, panels};
+pub(super) use palette::{colour, colour_of};
+pub use picture::{FigureError, Picture};

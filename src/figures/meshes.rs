@@ -1,0 +1,122 @@
+//! The meshes of a scene set together.
+
+use std::collections::HashSet;
+
+use fe_contact::body::CarrierBody;
+use fe_contact::contact::PairFrame;
+use fe_contact::export::Drawn;
+use fe_contact::fe_mesh::polar;
+use fe_contact::statics::Bodies;
+use gearset::{Facing, MeshMember, Phasing, Scene};
+
+use super::drawing::{Canvas, Pen, Picture, Pixel};
+
+const SUN: &str = "#b8860b";
+const PLANET: &str = "#1b6ca8";
+const RING: &str = "#5a6570";
+const CARRIER: &str = "#b9c4cc";
+
+/// Width of the picture and of its lines, px.
+const WIDTH: f64 = 1000.0;
+const LINE: f64 = 0.4;
+
+/// A mesh with its place.
+struct Placed<'d> {
+    drawn: &'d Drawn,
+    /// Centre, m.
+    centre: [f64; 2],
+    /// Angle of tooth 0's axis, rad.
+    angle: f64,
+    colour: &'static str,
+}
+
+/// The meshes of all bodies, each turned and placed as it meshes; the carrier if its shape is known.
+pub fn meshes(scene: &Scene, bodies: &Bodies, carrier: Option<&CarrierBody>) -> Picture {
+    let drawn = |body: &fe_contact::body::GearBody| Drawn::gear(&body.mesh);
+    let (sun, planet, ring) =
+        (bodies.sun.as_ref().map(drawn), drawn(&bodies.planet), bodies.ring.as_ref().map(drawn));
+    let carrier = carrier.map(|body| Drawn::carrier(&body.mesh));
+    let centre = |psi: f64| polar(bodies.geometry.center_distance, psi);
+    let origin = [0.0, 0.0];
+    let mut placed = Vec::new();
+    // Behind everything else.
+    if let Some(drawn) = &carrier {
+        placed.push(Placed { drawn, centre: origin, angle: 0.0, colour: CARRIER });
+    }
+    let [sun_angle, ring_angle, planet_angles] = angles(scene, bodies);
+    if let Some(drawn) = &ring {
+        placed.push(Placed { drawn, centre: origin, angle: ring_angle[0], colour: RING });
+    }
+    for (psi, angle) in scene.planets.psi_rad.iter().zip(planet_angles) {
+        placed.push(Placed { drawn: &planet, centre: centre(*psi), angle, colour: PLANET });
+    }
+    if let Some(drawn) = &sun {
+        placed.push(Placed { drawn, centre: origin, angle: sun_angle[0], colour: SUN });
+    }
+    picture(&placed)
+}
+
+/// Every element edge once, as the parabola through its middle.
+fn picture(bodies: &[Placed<'_>]) -> Picture {
+    let lists: Vec<Vec<[[f64; 2]; 3]>> = bodies.iter().map(edges).collect();
+    let mut reach = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+    for [p, _, q] in lists.iter().flatten() {
+        for k in [0, 1] {
+            reach[0][k] = reach[0][k].min(p[k]).min(q[k]);
+            reach[1][k] = reach[1][k].max(p[k]).max(q[k]);
+        }
+    }
+    let margin = 0.02 * (reach[1][0] - reach[0][0]);
+    let size = [0, 1].map(|k| reach[1][k] - reach[0][k] + 2.0 * margin);
+    let to_pixels = WIDTH / size[0];
+    // y downwards
+    let pixel = |[x, y]: [f64; 2]| {
+        [to_pixels * (x - reach[0][0] + margin), to_pixels * (reach[1][1] + margin - y)]
+    };
+    let mut canvas = Canvas::new([WIDTH, to_pixels * size[1]]);
+    for (body, list) in bodies.iter().zip(lists) {
+        let curves: Vec<[Pixel; 3]> = list.into_iter().map(|edge| edge.map(pixel)).collect();
+        canvas.parabolas(&curves, Pen::new(body.colour, LINE));
+    }
+    canvas.picture()
+}
+
+/// Ends of a body's element edges with the control points between them, m.
+fn edges(body: &Placed<'_>) -> Vec<[[f64; 2]; 3]> {
+    let (sin, cos) = body.angle.sin_cos();
+    let at = |n: usize| {
+        let [x, y] = body.drawn.points[n];
+        [body.centre[0] + cos * x - sin * y, body.centre[1] + sin * x + cos * y]
+    };
+    let (mut seen, mut list) = (HashSet::new(), Vec::new());
+    for e in &body.drawn.elements {
+        for edge in 0..4 {
+            let (a, b) = (e.nodes[edge], e.nodes[(edge + 1) % 4]);
+            if seen.insert((a.min(b), a.max(b))) {
+                let [p, m, q] = [a, e.nodes[4 + edge], b].map(at);
+                // A parabola through the middle: control point 2m − (p + q)/2.
+                list.push([p, [0, 1].map(|k| 2.0 * m[k] - 0.5 * (p[k] + q[k])), q]);
+            }
+        }
+    }
+    list
+}
+
+/// Angles of the teeth 0: sun, ring (a tooth, half a pitch from its space), planets.
+fn angles(scene: &Scene, bodies: &Bodies) -> [Vec<f64>; 3] {
+    let geometry = &bodies.geometry;
+    if let Some(phasing) = Phasing::new(geometry, &scene.planets).filter(|_| scene.pair.is_none()) {
+        let found = phasing.gear_angles(0.0, Facing::CounterClockwise);
+        let half = geometry.ring.as_ref().map_or(0.0, |ring| 0.5 * ring.pitch_angle());
+        return [vec![found.sun], vec![found.ring + half], found.planets];
+    }
+    let frame = scene.pair.and_then(|kind| geometry.mesh(kind));
+    let frame = frame.and_then(|mesh| Some((mesh, PairFrame::new(mesh, 0.3, 0)?)));
+    let Some((mesh, frame)) = frame else { return [vec![0.0], vec![0.0], vec![0.0]] };
+    let [driver, driven] =
+        [MeshMember::Driver, MeshMember::Driven].map(|member| frame.tooth(member).axis);
+    match mesh.kind {
+        gearset::MeshKind::SunPlanet => [vec![driver], vec![0.0], vec![driven]],
+        gearset::MeshKind::RingPlanet => [vec![0.0], vec![driven], vec![driver]],
+    }
+}

@@ -1,0 +1,57 @@
+//! Figures, a file each, drawn in one way and saved as SVG and PNG: of the verdict's report, of a mesh
+//! cycle at rest, of impulse tests and of speed sweeps.
+
+mod campbell;
+mod cost;
+mod drawing;
+mod fidelities;
+mod frequency_band;
+mod harmonics;
+mod impulse;
+mod meshes;
+mod mode_shapes;
+mod pair_cycle;
+mod pressure;
+mod set_cycle;
+mod spectrum;
+mod stabilisation;
+mod sweep;
+mod torque_map;
+mod torque_peaks;
+mod waterfall;
+
+pub use campbell::campbell;
+pub use cost::cost;
+pub use drawing::{FigureError, Picture};
+pub use fidelities::fidelities;
+pub use impulse::{ModalTest, of_impulse_test};
+pub use meshes::meshes;
+pub use pair_cycle::of_pair_cycle;
+pub use set_cycle::of_set_cycles;
+pub use sweep::{SweepContext, of_sweep};
+pub use torque_map::torque_map;
+pub use torque_peaks::torque_peaks;
+
+use std::path::Path;
+
+/// A picture and what its files are called.
+pub struct Figure {
+    /// Name of the files without ending.
+    pub name: String,
+    /// What is drawn.
+    pub picture: Picture,
+}
+
+impl Figure {
+    fn new(name: impl Into<String>, picture: Picture) -> Self {
+        Self { name: name.into(), picture }
+    }
+}
+
+/// Writes figures into a folder, which is made if need be.
+///
+/// # Errors
+/// At the first file that cannot be written.
+pub fn save(figures: &[Figure], folder: &Path) -> Result<(), FigureError> {
+    figures.iter().try_for_each(|figure| figure.picture.save(folder, &figure.name))
+}

@@ -1,0 +1,89 @@
+//! A whole set over its mesh cycle.
+
+use fe_contact::statics::{SetCycle, SetState};
+use gearset::MeshKind;
+
+use super::Figure;
+use super::drawing::{Curve, Labels, Picture, chart};
+
+/// Of the last cycle `transmission_error`, `load_sharing` and `mesh_stiffness`; of several cycles under
+/// different torques `rms_against_torque`.
+///
+/// `title` names the scene; `sun_base_radius` in m.
+pub fn of_set_cycles(title: &str, cycles: &[SetCycle], sun_base_radius: f64) -> Vec<Figure> {
+    let Some(cycle) = cycles.last() else { return Vec::new() };
+    let about = format!("{title}, {} N·m on the sun", cycle.torque_nm);
+    let mut figures = vec![
+        Figure::new("transmission_error", transmission_error(cycle, sun_base_radius, &about)),
+        Figure::new("load_sharing", load_sharing(cycle, &about)),
+        Figure::new("mesh_stiffness", mesh_stiffness(cycle, &about)),
+    ];
+    if cycles.len() > 1 {
+        figures.push(Figure::new("rms_against_torque", rms_against_torque(title, cycles)));
+    }
+    figures
+}
+
+fn over(cycle: &SetCycle, of: impl Fn(&SetState) -> f64) -> Vec<(f64, f64)> {
+    cycle.states.iter().map(|s| (s.position, of(s))).collect()
+}
+
+fn transmission_error(cycle: &SetCycle, radius: f64, about: &str) -> Picture {
+    let labels = Labels {
+        title: "Transmission error of the set",
+        subtitle: about.into(),
+        x: "mesh cycle",
+        y: "r_b θ of the sun, µm",
+    };
+    chart(&labels, &[Curve::new("", over(cycle, |s| s.transmission_error(radius) * 1e6))])
+}
+
+fn load_sharing(cycle: &SetCycle, about: &str) -> Picture {
+    let meshes = cycle.states[0].meshes.iter().enumerate();
+    let curves: Vec<Curve> = meshes
+        .map(|(i, m)| {
+            let forces = over(cycle, |s| s.meshes[i].force * 1e-3);
+            let curve = Curve::new(format!("{} {}", m.kind.name(), m.planet), forces);
+            if m.kind == MeshKind::RingPlanet { curve.dashed() } else { curve }
+        })
+        .collect();
+    let labels = Labels {
+        title: "Load sharing between the planets",
+        subtitle: about.into(),
+        x: "mesh cycle",
+        y: "mesh force, kN",
+    };
+    chart(&labels, &curves)
+}
+
+fn mesh_stiffness(cycle: &SetCycle, about: &str) -> Picture {
+    let meshes = cycle.states[0].meshes.iter().enumerate().filter(|(_, m)| m.planet == 0);
+    let curves: Vec<Curve> = meshes
+        .map(|(i, m)| Curve::new(m.kind.name(), over(cycle, |s| s.meshes[i].tangent * 1e-6)))
+        .collect();
+    let labels = Labels {
+        title: "Tangent mesh stiffness, planet 0",
+        subtitle: about.into(),
+        x: "mesh cycle",
+        y: "∂F/∂δ, 1e6 N/m",
+    };
+    chart(&labels, &curves)
+}
+
+fn rms_against_torque(title: &str, cycles: &[SetCycle]) -> Picture {
+    let (r0, t0) = cycles[0].sun_rms();
+    let over = |of: &dyn Fn(&SetCycle) -> f64| -> Vec<(f64, f64)> {
+        cycles.iter().map(|c| (c.torque_nm.abs(), of(c))).collect()
+    };
+    let labels = Labels {
+        title: "Static deflection of the sun against torque",
+        subtitle: format!("{title}, RMS about the mean, over that at the first torque"),
+        x: "sun torque, N·m",
+        y: "normalised RMS",
+    };
+    let curves = [
+        Curve::new("rotation", over(&|c| c.sun_rms().0 / r0)),
+        Curve::new("translation", over(&|c| c.sun_rms().1 / t0)).dashed(),
+    ];
+    chart(&labels, &curves)
+}

@@ -1,0 +1,215 @@
+//! Figures of a speed sweep, arranged as Figs 4 to 11 of Parker, Agashe & Vijayakar (2000): harmonics
+//! behind one another, over their own frequency, and each by itself.
+
+use experiments::sweep::{Coordinate, Part, Sweep, SweepPoint};
+use gearset::Scene;
+use lumped::ModeType;
+
+use super::drawing::{Anchor, Canvas, Pen, Type, colour_of};
+use super::{Figure, harmonics, waterfall};
+
+/// Amplitudes below this part of the largest of their kind are nothing to draw a panel for.
+const NOTHING: f64 = 1e-9;
+
+/// Natural frequencies of one type nearer than this (in parts) are drawn as one.
+const SAME: f64 = 1e-3;
+
+/// What a sweep was run on.
+#[derive(Debug, Clone, Copy)]
+pub struct SweepContext<'a> {
+    /// Scene of the set.
+    pub scene: &'a Scene,
+    /// On the sun, N m.
+    pub torque_nm: f64,
+    /// Natural frequencies (Hz) with their types; may be empty.
+    pub natural: &'a [(f64, ModeType)],
+}
+
+/// A steady state's amplitude in one harmonic, as far as pictures need it.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Spot {
+    pub(super) mesh_hz: f64,
+    pub(super) amplitude: f64,
+    pub(super) is_steady: bool,
+}
+
+/// One quantity over the sweep.
+pub(super) struct Quantity {
+    /// For people.
+    pub(super) title: String,
+    /// For file names.
+    name: String,
+    /// µm or µrad.
+    pub(super) unit: &'static str,
+    /// By harmonic from 1, by branch: speeds growing first.
+    pub(super) harmonics: Vec<Vec<Vec<Spot>>>,
+}
+
+impl Quantity {
+    /// Largest amplitude of all harmonics.
+    pub(super) fn largest(&self) -> f64 {
+        self.harmonics.iter().map(|h| Self::largest_of(h)).fold(0.0, f64::max)
+    }
+
+    /// Largest amplitude of one harmonic.
+    pub(super) fn largest_of(branches: &[Vec<Spot>]) -> f64 {
+        branches.iter().flatten().map(|s| s.amplitude).fold(0.0, f64::max)
+    }
+}
+
+/// All that the pictures of a sweep share.
+pub(super) struct Subject {
+    pub(super) title: String,
+    /// Fidelity, torque, speeds.
+    pub(super) caption: String,
+    /// Whether every point came to its steady state.
+    pub(super) is_settled: bool,
+    /// Highest mesh frequency, Hz.
+    pub(super) top_mesh_hz: f64,
+    /// Speed of the input member at a mesh frequency of 1 Hz, rpm.
+    pub(super) rpm_per_hz: f64,
+    /// By frequency.
+    pub(super) natural: Vec<(f64, ModeType)>,
+}
+
+/// Says what the colours of natural frequencies mean, about the middle of a line.
+pub(super) fn key_of_types(canvas: &mut Canvas, subject: &Subject, at: [f64; 2]) {
+    let mut types: Vec<ModeType> = Vec::new();
+    for (_, mode_type) in &subject.natural {
+        if !types.contains(mode_type) {
+            types.push(*mode_type);
+        }
+    }
+    let width = 130.0;
+    let mut x = at[0] - 0.5 * width * types.len() as f64;
+    for mode_type in types {
+        let pen = Pen::new(colour_of(mode_type), 1.4).dashed("5 3");
+        canvas.line([[x, at[1] - 4.0], [x + 28.0, at[1] - 4.0]], pen);
+        canvas.text([x + 34.0, at[1]], Type::new(11, Anchor::Start), mode_type.name());
+        x += width;
+    }
+}
+
+/// All that a sweep shows: `waterfalls`, `frequencies` and one `harmonics_*` a quantity; none of a sweep
+/// without points.
+pub fn of_sweep(sweep: &Sweep, context: &SweepContext<'_>) -> Vec<Figure> {
+    let Some(subject) = subject(sweep, context) else { return Vec::new() };
+    let list = quantities(sweep, context.scene.planets.psi_rad.len());
+    if list.is_empty() {
+        return Vec::new();
+    }
+    let mut figures = vec![
+        Figure::new("waterfalls", waterfall::over_mesh_frequency(&subject, &list)),
+        Figure::new("frequencies", waterfall::over_frequency(&subject, &list)),
+    ];
+    figures.extend(list.iter().map(|quantity| {
+        let name = format!("harmonics_{}", quantity.name);
+        Figure::new(name, harmonics::picture(&subject, quantity))
+    }));
+    figures
+}
+
+/// Caption and scales; `None` without points.
+fn subject(sweep: &Sweep, context: &SweepContext<'_>) -> Option<Subject> {
+    let points = sweep.points();
+    let (first, last) = (points.first()?, points.last()?);
+    let mut natural: Vec<(f64, ModeType)> = context.natural.to_vec();
+    natural.retain(|(f, _)| f.is_finite() && *f > 0.0);
+    natural.sort_by(|a, b| a.0.total_cmp(&b.0));
+    natural.dedup_by(|b, a| a.1 == b.1 && b.0 - a.0 < SAME * a.0);
+    let moved = points.iter().filter(|p| !p.is_steady).count();
+    let unsettled = match moved {
+        0 => String::new(),
+        n => format!("; {n} of {} points not settled", points.len()),
+    };
+    Some(Subject {
+        title: context.scene.title.clone(),
+        caption: format!(
+            "fidelity {}, {:.0} N·m on the sun, {:.0} to {:.0} rpm{unsettled}",
+            sweep.fidelity,
+            context.torque_nm,
+            first.state.case.speed_rpm,
+            last.state.case.speed_rpm
+        ),
+        is_settled: moved == 0,
+        top_mesh_hz: last.state.case.mesh_frequency_hz,
+        rpm_per_hz: last.state.case.speed_rpm / last.state.case.mesh_frequency_hz,
+        natural,
+    })
+}
+
+/// Points in the direction of growing speeds (with those about peaks), then of falling ones; by speed.
+fn branches(sweep: &Sweep) -> Vec<Vec<&SweepPoint>> {
+    let (mut up, mut down): (Vec<&SweepPoint>, Vec<&SweepPoint>) = (Vec::new(), Vec::new());
+    for (name, points) in &sweep.chains {
+        let side = if name.starts_with("down") { &mut down } else { &mut up };
+        side.extend(points);
+    }
+    let mut both = vec![up, down];
+    both.retain(|side| !side.is_empty());
+    for side in &mut both {
+        side.sort_by(|a, b| a.state.case.speed_rpm.total_cmp(&b.state.case.speed_rpm));
+    }
+    both
+}
+
+/// Bodies' rotations and translations that are not nothing, planets by planet 0.
+fn quantities(sweep: &Sweep, planets: usize) -> Vec<Quantity> {
+    use Coordinate::{Radial, Rotation, Tangential};
+    let branches = branches(sweep);
+    let most =
+        branches.iter().flatten().flat_map(|p| p.state.lines.iter().map(|l| l.harmonic)).max();
+    let top = most.unwrap_or(0);
+    let both: &[Coordinate] = &[Radial, Tangential];
+    let mut wanted: Vec<(Part, &str, &[Coordinate])> = vec![
+        (Part::Sun, "rotation", &[Rotation]),
+        (Part::Sun, "translation", both),
+        (Part::Carrier, "rotation", &[Rotation]),
+        (Part::Carrier, "translation", both),
+        (Part::Ring, "rotation", &[Rotation]),
+        (Part::Ring, "translation", both),
+    ];
+    if planets > 0 {
+        wanted.push((Part::Planet(0), "rotation", &[Rotation]));
+        wanted.push((Part::Planet(0), "radial", &[Radial]));
+        wanted.push((Part::Planet(0), "tangential", &[Tangential]));
+    }
+    let spot = |p: &SweepPoint, part: Part, coordinates: &[Coordinate], l: usize| Spot {
+        mesh_hz: p.state.case.mesh_frequency_hz,
+        // √(radial² + tangential²) of a translation
+        amplitude: 1e6
+            * coordinates.iter().fold(0.0f64, |sum, c| sum.hypot(p.state.amplitude(part, *c, l))),
+        is_steady: p.is_steady,
+    };
+    let mut list: Vec<Quantity> = wanted
+        .into_iter()
+        .map(|(part, kind, coordinates)| {
+            let of = |l: usize| -> Vec<Vec<Spot>> {
+                let one = |side: &Vec<&SweepPoint>| {
+                    side.iter().map(|p| spot(p, part, coordinates, l)).collect()
+                };
+                branches.iter().map(one).collect()
+            };
+            let name = part.name();
+            let kind_for_people = match kind {
+                "radial" | "tangential" => format!("{kind} displacement"),
+                _ => kind.to_owned(),
+            };
+            Quantity {
+                title: format!("{}, {kind_for_people}", name.replace('_', " ")),
+                name: format!("{name}_{kind}"),
+                unit: if coordinates == [Rotation] { "µrad" } else { "µm" },
+                harmonics: (1..=top).map(of).collect(),
+            }
+        })
+        .collect();
+    let largest = |unit: &str| {
+        list.iter().filter(|q| q.unit == unit).map(Quantity::largest).fold(0.0, f64::max)
+    };
+    let (of_rotations, of_translations) = (largest("µrad"), largest("µm"));
+    list.retain(|q| {
+        let all = if q.unit == "µrad" { of_rotations } else { of_translations };
+        q.largest() > NOTHING * all
+    });
+    list
+}

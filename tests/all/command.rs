@@ -1,0 +1,388 @@
+//! The command as a user meets it: results on stdout, one clear message and exit code 2 for bad
+//! input, JSON that keeps to its schema.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+fn scene(name: &str) -> String {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name).display().to_string()
+}
+
+/// Exit code, stdout and stderr of one in-process run.
+fn run(arguments: &[&str]) -> (u8, String, String) {
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let all = std::iter::once("epicyclic").chain(arguments.iter().copied());
+    let code = epicyclic::run(all, &mut out, &mut err);
+    (code, String::from_utf8(out).unwrap(), String::from_utf8(err).unwrap())
+}
+
+fn json(arguments: &[&str]) -> Value {
+    let (code, out, err) = run(arguments);
+    assert_eq!(code, 0, "{err}");
+    serde_json::from_str(&out).unwrap()
+}
+
+#[test]
+fn modes_of_oh58_as_json() {
+    let result = json(&["modes", &scene("oh58_4p.toml"), "--format", "json"]);
+    let modes = result["modes"].as_array().unwrap();
+    let of = |kind: &str| -> Vec<f64> {
+        let own = modes.iter().filter(|m| m["mode_type"] == kind);
+        own.map(|m| m["frequency_hz"].as_f64().unwrap()).collect()
+    };
+    let near = |found: Vec<f64>, expected: &[f64]| {
+        for (f, e) in found.iter().zip(expected) {
+            assert!((f - e).abs() <= 0.3, "{f} {e}");
+        }
+    };
+    near(of("translational"), &[770.7, 778.6, 1715.8, 1724.5, 2169.8, 2175.0]);
+    near(of("rotational"), &[1150.2, 1788.5]);
+    near(of("planet"), &[1710.4]);
+    assert!(of("mixed").is_empty());
+    let all: u64 = modes.iter().map(|m| m["multiplicity"].as_u64().unwrap()).sum();
+    assert_eq!(all, 17);
+}
+
+#[test]
+fn every_json_output_keeps_to_its_schema() {
+    let modes = csv_of_own_modes();
+    let set = scene("oh58_4p.toml");
+    let pair = scene("oh58_sun_planet_pair.toml");
+    let runs: [(&str, Vec<&str>); 10] = [
+        ("validate", vec!["validate", "--only", "table"]),
+        ("mesh", vec!["mesh", &set]),
+        ("static_set", vec!["static", &set, "--positions", "1"]),
+        ("static_pair", vec!["static", &pair, "--normal-force-n", "1e4", "--positions", "2"]),
+        ("static_approach", vec!["static", &pair, "--approach-um", "20", "--phase", "0.7"]),
+        ("impulse", vec!["impulse", &set, "--duration-ms", "10", "--band"]),
+        ("modes", vec!["modes", &set, "--carrier-speeds-rpm", "0,535.7"]),
+        ("rules", vec!["rules", &set]),
+        ("scene_check", vec!["scene", "check", &set]),
+        ("compare", vec!["compare", modes.to_str().unwrap(), "--scene", &set]),
+    ];
+    for (name, mut arguments) in runs {
+        arguments.extend(["--format", "json"]);
+        let result = json(&arguments);
+        let path = format!("{}/schemas/{name}.json", env!("CARGO_MANIFEST_DIR"));
+        let schema: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+        let validator = jsonschema::validator_for(&schema).unwrap();
+        let faults: Vec<_> = validator.iter_errors(&result).map(|e| e.to_string()).collect();
+        assert!(faults.is_empty(), "{name}: {faults:?}");
+    }
+}
+
+/// The model's own modes as somebody else's list.
+fn csv_of_own_modes() -> PathBuf {
+    let result = json(&["modes", &scene("oh58_4p.toml"), "--format", "json"]);
+    let mut text = String::from("frequency_hz,mode_type\n");
+    for m in result["modes"].as_array().unwrap() {
+        text += &format!("{},{}\n", m["frequency_hz"], m["mode_type"].as_str().unwrap());
+    }
+    let path = std::env::temp_dir().join(format!("epicyclic-own-modes-{}.csv", std::process::id()));
+    std::fs::write(&path, text).unwrap();
+    path
+}
+
+#[test]
+fn compare_agrees_with_itself_and_not_with_the_published_spacing() {
+    let own = csv_of_own_modes();
+    let own = own.to_str().unwrap();
+    let (code, out, _) = run(&["compare", own, "--scene", &scene("oh58_4p.toml")]);
+    assert_eq!(code, 0, "{out}");
+    let (code, out, _) = run(&["compare", own, "--scene", &scene("oh58_3p.toml")]);
+    assert_eq!(code, 1, "{out}");
+    assert!(out.contains("the model has no such mode"), "{out}");
+}
+
+#[test]
+fn bad_tables_of_modes_name_line_and_column() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = [
+        ("hz\n1\n", "`hz` is not known"),
+        ("frequency_hz\nabc\n", "line 2, `frequency_hz` is `abc`"),
+        ("frequency_hz\n-1\n", "line 2, `frequency_hz` is `-1`"),
+        ("frequency_hz,mode_type\n1,wobble\n", "line 2, `mode_type` is `wobble`"),
+        ("frequency_hz,multiplicity\n1,0\n", "line 2, `multiplicity` is `0`"),
+        ("frequency_hz\n", "no rows"),
+        ("", "`frequency_hz` is absent"),
+    ];
+    for (text, words) in cases {
+        let path = folder.path().join("modes.csv");
+        std::fs::write(&path, text).unwrap();
+        let set = scene("oh58_4p.toml");
+        let (code, _, err) = run(&["compare", path.to_str().unwrap(), "--scene", &set]);
+        assert_eq!(code, 2, "{text}");
+        assert!(err.contains(words), "{err}");
+    }
+}
+
+#[test]
+fn scenes_that_do_not_fit_a_verb_are_refused_with_the_key() {
+    let cases = [
+        (vec!["modes", "oh58_sun_planet_pair.toml"], "kind"),
+        (vec!["rules", "oh58_ring_planet_pair.toml"], "kind"),
+        (vec!["rules", "lin_parker_1999_4p.toml"], "teeth"),
+    ];
+    for (arguments, key) in cases {
+        let (code, _, err) = run(&[arguments[0], &scene(arguments[1])]);
+        assert_eq!(code, 2);
+        assert!(err.contains(key), "{err}");
+    }
+    let (code, _, err) = run(&["modes", "no/such/scene.toml"]);
+    assert_eq!(code, 2);
+    assert!(err.contains("no/such/scene.toml"), "{err}");
+    let (code, _, err) = run(&["rules", &scene("oh58_4p.toml"), "--harmonics", "0"]);
+    assert_eq!(code, 2);
+    assert!(err.contains("--harmonics"), "{err}");
+}
+
+#[test]
+fn every_scene_of_the_repository_is_valid() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
+    let mut count = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let (code, _, err) = run(&["scene", "check", path.to_str().unwrap()]);
+        assert_eq!(code, 0, "{err}");
+        count += 1;
+    }
+    assert!(count >= 8);
+}
+
+#[test]
+fn scene_new_writes_a_valid_scene_and_never_overwrites() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let path = path.to_str().unwrap();
+    for kind in ["planetary", "gear-pair"] {
+        let _ = std::fs::remove_file(path);
+        assert_eq!(run(&["scene", "new", path, "--kind", kind]).0, 0);
+        assert_eq!(run(&["scene", "check", path]).0, 0);
+    }
+    let (code, _, err) = run(&["scene", "new", path]);
+    assert_eq!(code, 2);
+    assert!(err.contains(path), "{err}");
+}
+
+#[test]
+fn a_fault_is_shown_with_its_line_underlined() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("bad.toml");
+    let text = std::fs::read_to_string(scene("oh58_4p.toml")).unwrap();
+    std::fs::write(&path, text.replace("poisson_ratio = 0.3", "poisson_ratio = 0.7")).unwrap();
+    let (code, out, err) = run(&["modes", path.to_str().unwrap()]);
+    assert_eq!((code, out.as_str()), (2, ""));
+    for words in ["material.poisson_ratio", "0.7", "┬", "allowed"] {
+        assert!(err.contains(words), "{err}");
+    }
+}
+
+#[test]
+fn the_binary_itself_prints_the_verdict_and_refuses_bad_input() {
+    let binary = env!("CARGO_BIN_EXE_epicyclic");
+    let good = |more: &[&str]| {
+        let arguments = [&["validate", "--only", "table3."], more].concat();
+        let output = Command::new(binary).args(arguments).output().unwrap();
+        assert_eq!(output.status.code(), Some(0));
+        let written = [output.stdout, output.stderr].map(|b| String::from_utf8(b).unwrap());
+        assert!(written.iter().all(|text| !text.contains('\u{1b}')), "colour off a terminal");
+        written
+    };
+    let [text, told] = good(&[]);
+    assert!(text.contains("\ntable3.lumped ") && text.contains("0 failed"), "{text}");
+    assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
+    // A line a suite while it runs.
+    assert!(
+        told.starts_with("table2.lumped, table3.lumped: ") && told.contains("\ntable3.explained: "),
+        "{told}"
+    );
+    let [text, _] = good(&["--details"]);
+    assert!(text.contains("table3.lumped.6") && text.contains("0 failed"), "{text}");
+    let bad = Command::new(binary).args(["modes", "nowhere.toml"]).output().unwrap();
+    assert_eq!(bad.status.code(), Some(2));
+    assert!(bad.stdout.is_empty());
+}
+
+#[test]
+fn a_report_that_cannot_be_written_is_one_message() {
+    let file = tempfile::NamedTempFile::new().unwrap();
+    let (code, _, err) =
+        run(&["validate", "--only", "table1.", "--report", file.path().to_str().unwrap()]);
+    assert_eq!(code, 2);
+    assert!(err.contains("cannot write"), "{err}");
+}
+
+/// The contract of one mesh: keys, definitions that can be checked, numbers of the right size.
+#[test]
+fn static_of_one_mesh_as_json() {
+    let pair = scene("oh58_sun_planet_pair.toml");
+    let arguments =
+        ["static", &pair, "--normal-force-n", "10700.67", "--positions", "16", "--format", "json"];
+    let result = json(&arguments);
+    let number = |key: &str| result[key].as_f64().unwrap();
+    let positions = result["positions"].as_array().unwrap();
+    assert_eq!(positions.len(), 16);
+    let errors: Vec<f64> =
+        positions.iter().map(|p| p["transmission_error_um"].as_f64().unwrap()).collect();
+    let mean = errors.iter().sum::<f64>() / 16.0;
+    assert!((mean - number("transmission_error_mean_um")).abs() < 1e-9);
+    let secant = errors.iter().map(|e| 10_700.67 / (e * 1e-6)).sum::<f64>() / 16.0;
+    assert!((secant / number("mean_secant_stiffness_n_per_m") - 1.0).abs() < 1e-12);
+    assert!(number("mean_tangent_stiffness_n_per_m") > secant);
+    let mut loaded = 0;
+    for p in positions {
+        let pairs = p["pairs"].as_array().unwrap();
+        loaded += pairs.len();
+        let total: f64 = pairs.iter().map(|l| l["force_n"].as_f64().unwrap()).sum();
+        // Arms at a corner are within 2 % of the base radius.
+        assert!((total / 10_700.67 - 1.0).abs() < 0.02);
+    }
+    let ratio = number("effective_contact_ratio");
+    assert!((ratio - loaded as f64 / 16.0).abs() < 1e-12 && ratio > 1.4565);
+}
+
+#[test]
+fn static_refuses_what_makes_no_sense_with_one_message() {
+    let (pair, set) = (scene("oh58_sun_planet_pair.toml"), scene("oh58_4p.toml"));
+    let lumped = scene("lin_parker_1999_3p.toml");
+    let cases: [(&[&str], &str); 9] = [
+        (&["static", &pair], "--normal-force-n"),
+        (&["static", &pair, "--normal-force-n", "-5"], "above 0 N"),
+        (&["static", &pair, "--torque-nm", "5"], "--normal-force-n"),
+        (&["static", &set, "--normal-force-n", "5"], "--torque-nm"),
+        (&["static", &set, "--torque-nm", "0"], "other than 0"),
+        (&["static", &set, "--torque-nm", "nan"], "finite"),
+        (&["static", &set, "--approach-um", "5"], "only a gear pair"),
+        (&["static", &lumped], "[geometry] is absent"),
+        (&["static", &pair, "--normal-force-n", "5", "--positions", "0"], "--positions"),
+    ];
+    for (arguments, words) in cases {
+        let (code, out, err) = run(arguments);
+        assert_eq!(code, 2, "{arguments:?}");
+        assert!(out.is_empty() && err.contains(words), "{arguments:?}: {err}");
+    }
+}
+
+#[test]
+fn impulse_refuses_what_makes_no_sense_with_one_message() {
+    let (pair, set) = (scene("oh58_sun_planet_pair.toml"), scene("oh58_4p.toml"));
+    let lumped = scene("lin_parker_1999_3p.toml");
+    let cases: [(&[&str], &str); 16] = [
+        (&["impulse", &pair], "`kind` is \"gear_pair\""),
+        (&["impulse", &lumped], "[geometry] is absent"),
+        (&["impulse", &set, "--torque-nm", "0"], "argument --torque-nm: 0 N·m: nothing touches"),
+        (&["impulse", &set, "--torque-nm", "-0"], "nothing touches"),
+        (&["impulse", &set, "--torque-nm", "nan"], "finite torque"),
+        (&["impulse", &set, "--torque-nm", "inf"], "finite torque"),
+        (&["impulse", &set, "--torque-nm", "1e9"], "--torque-nm"),
+        (&["impulse", &set, "--step-us", "0"], "step above 0"),
+        (&["impulse", &set, "--step-us", "-5"], "step above 0"),
+        (&["impulse", &set, "--step-us", "60"], "has 8 steps"),
+        (&["impulse", &set, "--duration-ms", "5"], "at least 9.05 ms"),
+        (&["impulse", &set, "--duration-ms", "nan"], "--duration-ms"),
+        (&["impulse", &set, "--duration-ms", "1e9"], "100000 steps"),
+        (&["impulse", &set, "--position", "2"], "from 0 to 1"),
+        (&["impulse", &set, "--band", "--format", "csv"], "--band"),
+        (&["impulse", "nowhere.toml"], "nowhere.toml"),
+    ];
+    for (arguments, words) in cases {
+        let (code, out, err) = run(arguments);
+        assert_eq!(code, 2, "{arguments:?}");
+        assert!(out.is_empty() && err.contains(words), "{arguments:?}: {err}");
+    }
+    // Every degree of freedom has no small linearisation to make a band of.
+    let folder = tempfile::tempdir().unwrap();
+    let path = with_fidelity(folder.path(), "oh58_3p.toml", "fidelity = \"full\"");
+    let (code, _, err) = run(&["impulse", &path, "--band"]);
+    assert!(code == 2 && err.contains("`dynamics.fidelity` = \"full\""), "{err}");
+}
+
+/// A scene of the repository on another fidelity, on coarse meshes.
+fn with_fidelity(folder: &Path, name: &str, fidelity: &str) -> String {
+    let text = std::fs::read_to_string(scene(name)).unwrap();
+    let path = folder.join(name);
+    let coarse = "[fe_contact]\nflank_elements = 6\nelement = \"linear\"";
+    std::fs::write(&path, format!("{text}\n{coarse}\n\n[dynamics]\n{fidelity}\n")).unwrap();
+    path.display().to_string()
+}
+
+/// The contract of the modal test: both routes agree, pulses keep to their kind, all tables are there.
+#[test]
+fn impulse_as_text_csv_and_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    let figures = folder.path().join("figures").display().to_string();
+    let set = scene("oh58_3p.toml");
+    let short = ["impulse", &set, "--torque-nm", "-1130", "--duration-ms", "20"];
+    let with = |more: &[&str]| {
+        let (code, out, err) = run(&[&short[..], more].concat());
+        assert_eq!(code, 0, "{err}");
+        out
+    };
+    let text = with(&["--band", "--figures", &figures]);
+    for words in ["-1130 N·m", "quasi_static", "sun torque", "-565, -1130, -1695 N·m", "84 of 84"]
+    {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    for (name, words) in [
+        ("spectrum", "force pulse on the carrier"),
+        ("stabilisation", "not stable"),
+        ("mode_shapes", "rotational"),
+        ("band", "565 N"),
+    ] {
+        let path = folder.path().join(format!("figures/{name}.svg"));
+        let svg = std::fs::read_to_string(path).unwrap();
+        assert!(svg.contains("<svg") && svg.contains(words) && !svg.contains("NaN"), "{name}");
+    }
+    let csv = with(&["--format", "csv"]);
+    let rows: Vec<Vec<&str>> = csv.lines().skip(1).map(|l| l.split(',').collect()).collect();
+    assert_eq!(rows.len(), 8);
+    for row in rows {
+        let apart: f64 = row[8].parse().unwrap();
+        assert!(row.len() == 10 && apart.abs() < 0.1, "{row:?}");
+    }
+}
+
+/// Every degree of freedom: the same modes, nothing to hold them against.
+#[test]
+fn impulse_without_a_small_linearisation() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = with_fidelity(folder.path(), "oh58_3p.toml", "fidelity = \"full\"");
+    let (code, text, err) =
+        run(&["impulse", &path, "--torque-nm", "1130", "--step-us", "40", "--duration-ms", "12"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(text.contains("fidelity: full") && text.contains("no small linearisation"), "{text}");
+    let rows: Vec<&str> = text.lines().filter(|l| l.contains("ational ")).collect();
+    let empty = |row: &&&str| row.matches('–').count() >= 4;
+    assert!(rows.iter().filter(empty).count() == 8, "{text}");
+}
+
+#[test]
+fn figures_and_meshes_are_written_where_asked() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let set = scene("oh58_3p.toml");
+    let drawn = run(&[
+        "static",
+        &set,
+        "--torque-nm",
+        "400,800",
+        "--positions",
+        "4",
+        "--figures",
+        &at("figures"),
+    ]);
+    assert_eq!(drawn.0, 0, "{}", drawn.2);
+    for name in ["transmission_error", "load_sharing", "mesh_stiffness", "rms_against_torque"] {
+        let text = std::fs::read_to_string(at(&format!("figures/{name}.svg"))).unwrap();
+        assert!(text.contains("<svg") && text.contains("<path"), "{name}");
+    }
+    let meshed = run(&["mesh", &set, "--svg", &at("mesh.svg"), "--vtu", &at("vtu")]);
+    assert_eq!(meshed.0, 0, "{}", meshed.2);
+    for name in ["sun", "planet", "ring", "carrier"] {
+        let text = std::fs::read_to_string(at(&format!("vtu/{name}.vtu"))).unwrap();
+        assert!(text.contains("UnstructuredGrid"), "{name}");
+    }
+    assert!(std::fs::read_to_string(at("mesh.svg")).unwrap().contains("</svg>"));
+}

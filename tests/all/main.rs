@@ -1,0 +1,8 @@
+//! The command and the facade from outside, in one binary: linking it takes longer than most tests.
+//!
+//! `cargo test --release --test all snapshots` runs the tests of one module.
+
+mod command;
+mod mutated_scenes;
+mod snapshots;
+mod sweep_command;
