@@ -1,4 +1,4 @@
-"""What the scripts that time ours in turns with a rival have in common."""
+"""Shared by the scripts that time this project and another program in turns."""
 
 import json
 import os
@@ -34,7 +34,7 @@ def build(bench):
 
 
 def problem(harness):
-    """What the harness solves, with its solution: the CSV files of its dump, by name."""
+    """The problem of the harness and its solution: the CSV files of its dump, by name."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([harness, "--dump", folder], cwd=ROOT, check=True)
         files = pathlib.Path(folder).glob("*.csv")
@@ -42,22 +42,22 @@ def problem(harness):
 
 
 def time_ours(harness, batch):
-    """Nanoseconds for one solution, as the harness measures a batch of them."""
+    """Nanoseconds per solution, measured by the harness over a batch."""
     command = [harness, "--batch", str(batch)]
     done = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True)
     return float(done.stdout)
 
 
 def time_call(run, count):
-    """Nanoseconds for one of the `count` solutions of a call."""
+    """Nanoseconds per solution of a call that computes `count` solutions."""
     start = time.perf_counter_ns()
     run()
     return (time.perf_counter_ns() - start) / count
 
 
 def in_turns(runs, rounds):
-    """Times of runs (name to a function that returns nanoseconds), the order swapped from round to
-    round; the first, ours, is what the others are compared with."""
+    """Times of runs (a dict of functions that return nanoseconds), in an order that is reversed from round to
+    round; the first run, this project, is the one that the others are compared with."""
     for run in runs.values():
         run()  # warm up
     times = {name: [] for name in runs}

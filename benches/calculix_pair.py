@@ -1,20 +1,20 @@
 #!/usr/bin/env python3
 """One gear mesh at a prescribed approach: ours against CalculiX, an independent solver.
 
-Purpose: do another program's elements and contact give the same force, load sharing and peak pressure
-for the same teeth? The deck (`fe_contact::export::calculix`) shares geometry and phase with ours, and
-nothing of the mechanics: eight-node elements throughout, contact by face-to-face penalty on elements
-a twelfth of the patch's half-width long.
+Purpose: to check whether another program's elements and contact give the same force, load sharing and peak
+pressure for the same teeth. The deck (`fe_contact::export::calculix`) has the geometry and phase of this
+project, but not its mechanics: it uses eight-node elements throughout, and contact by face-to-face penalty on
+elements whose length is a twelfth of the contact patch's half-width.
 
-Method: the driving race is turned by approach / base radius, the driven race held. CalculiX's normal
-force is the moment of the driving race's reactions over the base radius. The penalty lets flanks
-overlap by pressure / stiffness, so each deck is solved with two stiffnesses ten times apart and the
-force extrapolated to none (linearly in 1/stiffness). Peak pressure: a parabola fitted to the square
-of the mean pressures of the faces, as ours to that of the cells; only where flank meets flank, for at
-a corner pressure is singular. Ours answers the same question at its own default settings.
+Method: the driving race is turned by approach / base radius, the driven race is held. CalculiX's normal
+force is the moment of the driving race's reactions over the base radius. With a penalty, flanks overlap by
+pressure / penalty stiffness; each deck is therefore solved with two penalties a factor of ten apart, and the
+force is extrapolated to zero overlap (linearly in 1/penalty). Peak pressure: from a parabola fitted to the
+squares of the faces' mean pressures (in this project: the cells'), only for flank contact, since the pressure
+at a corner is singular. This project's program solves the same case at its default settings.
 
-Times: CalculiX's is one run with one penalty; ours is meshing, factorising and solving, and of that
-the solving alone. Both on this machine, for the ratio's order of magnitude only.
+Times: that of CalculiX is one run with one penalty; that of this project is meshing, factorising and solving,
+and solving alone. Both are measured on the same machine, for the order of magnitude of the ratio only.
 
 Needs CalculiX (Debian: calculix-ccx) and our command, built with `cargo build --release`; of Python
 only the standard library. Time: some ten minutes; `--convergence` some ten more.
@@ -22,7 +22,7 @@ only the standard library. Time: some ten minutes; `--convergence` some ten more
     python3 benches/calculix_pair.py                  # all cases
     python3 benches/calculix_pair.py --case sun_interior --convergence
     python3 benches/calculix_pair.py --write          # also reference/calculix_<version>.toml
-    python3 benches/calculix_pair.py --deck pair.inp  # a deck written before, CalculiX alone
+    python3 benches/calculix_pair.py --deck pair.inp  # an existing deck, CalculiX alone
 """
 
 import argparse
@@ -50,13 +50,13 @@ CASES = [
     Case("ring_interior", "oh58_ring_planet_pair", 0.3, 12.0, 8, "two pairs, mid-path"),
 ]
 
-# N/mm³. The lower one yields 0.1 µm under 1 GPa, the higher one 0.01 µm.
+# N/mm³. The lower one lets flanks overlap by 0.1 µm at 1 GPa, the higher one by 0.01 µm.
 PENALTIES = [1e7, 1e8]
 
 # (contact elements per half-width, elements along the other flanks)
 CONVERGENCE = [(4, 12), (6, 12), (12, 12), (24, 12), (12, 8), (12, 16)]
 
-# What was aimed at: interior force, force with a corner loaded, peak pressure. Percent.
+# Required agreement: force without corner contact, force with corner contact, peak pressure. Percent.
 WANTED = {"interior": 1.0, "corner": 2.0, "pressure": 5.0}
 
 
@@ -71,7 +71,7 @@ def version_of(ccx):
 
 
 class Deck:
-    """What the script needs of an input deck."""
+    """Data that the script needs from an input deck."""
 
     def __init__(self, text):
         self.text = text
@@ -116,7 +116,7 @@ class Deck:
 
 
 def solve(ccx, deck, penalty, folder):
-    """Runs CalculiX; returns what it found and the seconds it took."""
+    """Runs CalculiX; returns its results and the time in seconds."""
     name = "pair"
     (folder / f"{name}.inp").write_text(deck.with_penalty(penalty))
     start = time.monotonic()
@@ -164,7 +164,7 @@ def read(deck, dat):
         if faces and title in dat:
             rest = dat[dat.rindex(title):]
             force = -block(rest[:rest.index("shear force (size)") + 300], "   area,  normal")[0][1]
-        # The faces' means must add up to the force, or they are not worth a fit.
+        # Force from the faces' mean pressures, printed as a check of the data for the fit.
         total = sum(p * length for _, length, p in faces) * float(head["face_width_mm"])
         fit = fitted(faces) if pair["location"] == "path" else None
         pairs.append({
@@ -175,9 +175,9 @@ def read(deck, dat):
 
 
 def fitted(faces):
-    """(peak pressure in MPa, half-width in mm) of the ellipse through the faces' means.
+    """(peak pressure in MPa, half-width in mm) of the ellipse fitted to the faces' mean pressures.
 
-    The first and the last face are loaded on a part of their length only, so they are left out.
+    The first and the last face are left out: they are loaded on a part of their length only.
     """
     inner = faces[1:-1]
     if len(inner) < 4:
@@ -204,13 +204,13 @@ def fitted(faces):
 
 
 def hard(values):
-    """Limit for an infinite penalty of values that are linear in its inverse."""
+    """Limit at infinite penalty of values that are linear in the inverse penalty."""
     soft, stiff = (1.0 / p for p in PENALTIES)
     return values[1] + (values[1] - values[0]) * stiff / (soft - stiff)
 
 
 def export(arguments, case, folder, per_half_width=None, flank_elements=None):
-    """Deck and our own answer from our command."""
+    """Deck, result of this project and the command for both."""
     deck = folder / f"{case.id}.inp"
     command = [str(arguments.binary), "static", f"scenes/{case.scene}.toml"]
     command += ["--phase", str(case.phase), "--approach-um", str(case.approach_um)]

@@ -1,8 +1,8 @@
 //! Criterion benches of the lumped model: assembly, eigensolution, classification, N = 3 to 12.
 //!
-//! Purpose: to see which part of an analysis costs what, and how it grows with the number of
-//! planets. The LAPACK route has the same sizes in `lapack_route/benches`. Noise floor: about 5 %
-//! on a shared 2-core machine; smaller changes are not changes. Time: about a minute.
+//! Purpose: to see the time of each part of an analysis, and its growth with the number of planets. The
+//! LAPACK route has the same sizes in `lapack_route/benches`. Noise: about 5 % on a shared 2-core machine;
+//! smaller differences are not significant. Time: about a minute.
 
 use std::hint::black_box;
 use std::path::Path;

@@ -11,7 +11,7 @@ const FLANK_ELEMENTS: u32 = 8;
 const TORQUE: f64 = 1130.0;
 
 fn main() {
-    // `cargo bench … -- --test` only asks whether benches run.
+    // `cargo bench … -- --test` only tests that benches start.
     if std::env::args().any(|argument| argument == "--test") {
         return;
     }

@@ -1,10 +1,9 @@
 //! Time of one step of the lumped time-varying model: OH-58 with four planets, 17 coordinates, eight
-//! meshes whose forces are looked up in tables, 140 steps a mesh cycle.
+//! meshes whose forces are read from tables, 140 steps per mesh cycle.
 //!
-//! Purpose: the promise that parameter studies cost about a microsecond a step;
-//! `benches/lumped_step_vs_numba.py` runs this binary in turns with the same steps compiled by Numba. A
-//! plain binary rather than a criterion bench, so that the two can be interleaved; what it takes stands in
-//! `beside/mod.rs`.
+//! Purpose: to check the claim that a step costs about a microsecond. `benches/lumped_step_vs_numba.py` runs
+//! this binary and the same steps compiled by Numba in turns. It is a plain binary instead of a criterion
+//! bench so that the two can be interleaved; its arguments are described in `beside/mod.rs`.
 //!
 //! Noise: 5 % on a quiet machine. Time: some seconds.
 
@@ -21,7 +20,7 @@ use gearset::{
 };
 use lumped::{Axis, Body, LumpedModel, SpringId, TimeVarying};
 
-/// Size of a summary's batches.
+/// Steps of a batch of the summary.
 const BATCH: u32 = 100_000;
 
 const STEPS: usize = 140;
@@ -29,15 +28,15 @@ const DUMPED_CYCLES: usize = 20;
 const FREQUENCY_HZ: f64 = 565.714;
 const TORQUE_NM: f64 = 1413.0;
 
-/// One pair's stiffness, contact ratio, and tip gaps as a set like this has them.
+/// Pair stiffness, contact ratio and gaps beyond the path, typical of this set.
 const TEETH: PairSprings =
     PairSprings { stiffness: 2.2e8, contact_ratio: 1.62, gap_at_tenth: 4e-6 };
 
-/// Deflection that the tables hold (m), and their steps.
+/// Largest deflection in the tables (m), and their number of steps.
 const REACH: f64 = 60e-6;
 const NODES: usize = 64;
 
-/// How far the backside flanks stand off, m.
+/// Gap of the backside flanks, m.
 const BACKLASH: f64 = 90e-6;
 
 fn main() -> ExitCode {
@@ -73,7 +72,7 @@ fn set(scene: &Scene, backside: bool) -> Outcome<TimeVarying> {
     Ok(set)
 }
 
-/// Mean time of one step over a batch, ns, the first cycles left out; mean iterations of a step.
+/// Mean time per step over a batch after the first cycles, ns, and mean number of iterations per step.
 fn marched(backside: bool, count: u32) -> Outcome<(f64, f64)> {
     let mut set = set(&scene()?, backside)?;
     for _ in 0..DUMPED_CYCLES * STEPS {
@@ -102,9 +101,10 @@ fn summary() -> Outcome<()> {
     Ok(())
 }
 
-/// Writes the problem and its solution, every digit: M's diagonal, C, K, the meshes' rows, f, the state
-/// at rest, curves (start, step, then nodes as force and tangent), the curve of each step and mesh; the
-/// displacements, velocities and mesh forces in the end.
+/// Writes the problem and its solution with all digits: diagonal of M, C, K, the meshes' rows, f, the
+/// displacements at rest, curves (start, step, then nodes as force and tangent), index of the curve of each
+/// step and mesh, time step, β and number of steps; displacements, velocities and mesh forces after the last
+/// step.
 fn dump(folder: &Path) -> Outcome<()> {
     let scene = &scene()?;
     let model = LumpedModel::from_scene(scene)?;

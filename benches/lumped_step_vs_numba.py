@@ -1,22 +1,23 @@
 #!/usr/bin/env python3
 """One step of the lumped time-varying model, ours against the same step compiled by Numba.
 
-Purpose: the promise that a step of the lumped set with tabulated mesh forces (OH-58, four planets, 17
-coordinates, eight meshes, 140 steps a mesh cycle) costs about a microsecond. Both march the very same
-problem from the same equilibrium, Newmark's average acceleration with the meshes' forces solved for
-inside every step.
+Purpose: to check the claim that a step of the lumped set with tabulated mesh forces (OH-58, four planets, 17
+coordinates, eight meshes, 140 steps per mesh cycle) costs about a microsecond. All programs solve the same
+problem from the same equilibrium by Newmark's average acceleration, with the mesh forces solved for in every
+step.
 
-Two rivals, both @njit without fastmath, arrays preallocated, everything constant prepared beforehand:
+Two programs are compared, both @njit without fastmath, with preallocated arrays and all constants prepared
+beforehand:
 
-- "same algorithm": ours, written out in NumPy and Numba: modal coordinates, condensed to the eight
-  deflections, Newton with a kept Jacobian, forces guessed from the last two steps.
-- "dense": what one would write first: constant inverse of the 17 by 17 step matrix, condensed to the
+- "same algorithm": that of this project in NumPy and Numba: modal coordinates, condensed to the eight
+  deflections, Newton with a kept Jacobian, forces extrapolated from the last two steps.
+- "dense": a direct implementation: constant inverse of the 17 by 17 step matrix, condensed to the
   deflections as well, Newton with numpy.linalg.solve at every iteration, from the last deflections.
 
-Method: timed alternately, each over a batch long against the clock's step, the order swapped from round to
-round, so that a busy or throttled machine touches all; what is reported is the ratio within each round
-(median, quartiles). Before any timing displacements, velocities and mesh forces after 20 mesh cycles are
-compared, and a disagreement ends the run.
+Method: timed alternately, each over a batch that is long compared with the clock's resolution, in an order
+that is reversed from round to round, so that other load on the machine affects all; reported is the ratio
+within each round (median, quartiles). Before any timing displacements, velocities and mesh forces after 20
+mesh cycles are compared, and a disagreement ends the run.
 
 Noise: ratios of quartiles within 10 % of the median are usual on a quiet machine. Time: a minute after the
 build, most of it Numba's compilation.
@@ -39,15 +40,15 @@ except ImportError as missing:
 # Differences over the largest entry after 2800 steps.
 AGREEMENT = 1e-9
 
-# The step ends with one linear correction below this residual over the largest free deflection; the
-# Jacobian is kept while an iteration leaves less than KEPT of the residual.
+# A step ends with one linear correction once the residual over the largest free deflection is below NEARLY;
+# the Jacobian is kept while an iteration reduces the residual to less than the share KEPT.
 NEARLY = 1e-11
 KEPT = 0.02
 
 
 @njit(inline="always")
 def mesh_force(curves, inverse_step, curve, deflection):
-    """Force and tangent: piecewise cubic on even steps, nil before contact, straight on at the end."""
+    """Force and tangent: piecewise cubic on equal steps, zero before contact, linear beyond the last node."""
     t = (deflection - curves[curve, 0]) * inverse_step[curve]
     if t <= 0.0:
         return 0.0, 0.0
@@ -71,7 +72,7 @@ def march_modal(
     count, step, x, v, a, f, c, inverse, rows, answers, y, lag, h, curves, inverse_step, places, now, before,
     work,
 ):
-    """Ours: modes, condensation, kept Jacobian. Arrays are changed in place."""
+    """This project's algorithm: modes, condensation, kept Jacobian. Arrays are changed in place."""
     n, m = rows.shape
     inertia, rate = 4.0 / (h * h), 2.0 / h
     gain = 1.0 + lag * rate
@@ -169,7 +170,7 @@ def march_dense(
     count, step, x, v, a, f, mass, c, inverse, rows, answers, y, lag, h, curves, inverse_step, places,
     delta, p,
 ):
-    """What one would write first: dense matrices, numpy.linalg.solve. Arrays are changed in place."""
+    """A direct implementation: dense matrices, numpy.linalg.solve. Arrays are changed in place."""
     m = rows.shape[0]
     inertia, rate = 4.0 / (h * h), 2.0 / h
     gain = 1.0 + lag * rate
@@ -202,7 +203,7 @@ def march_dense(
 
 
 class Modal:
-    """Ours in NumPy and Numba, at rest."""
+    """This project's algorithm in NumPy and Numba, at rest at first."""
 
     def __init__(self, data):
         mass, rows = data["mass"], data["rows"]
@@ -235,7 +236,7 @@ class Modal:
 
 
 class Dense:
-    """The first thing one would write, at rest."""
+    """The direct implementation, at rest at first."""
 
     def __init__(self, data):
         mass, rows = data["mass"], data["rows"]
@@ -261,7 +262,7 @@ class Dense:
 
 
 def law(data):
-    """Curves with the nodes' tangents over one step, steps' inverses, curve of each step and mesh."""
+    """Curves with tangents times their step, inverse steps, index of the curve of each step and mesh."""
     curves = data["curves"].copy()
     curves[:, 3::2] *= curves[:, 1:2]
     return [curves, 1.0 / curves[:, 1], data["places"].astype(numpy.int64)]
@@ -276,7 +277,7 @@ def rest_forces(data):
 
 
 def compare(rival, data):
-    """Largest difference of displacements, velocities and forces after the dumped steps, relative."""
+    """Largest relative difference of displacements, velocities and forces after the dumped steps."""
     rival.march(int(data["numbers"][2]))
     if rival.step < 0:
         sys.exit("a rival's step did not converge")

@@ -1,4 +1,4 @@
-//! What statics cost: bodies of a whole set, one mesh cycle of it on one thread, one more torque.
+//! Time of static solutions: the bodies of a whole set, one mesh cycle of 140 positions, one position.
 //!
 //! `RAYON_NUM_THREADS=1 cargo bench --bench statics`; counts of iterations are printed by
 //! `epicyclic static`.

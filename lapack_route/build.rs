@@ -1,4 +1,4 @@
-//! Links the system's OpenBLAS, which holds BLAS and LAPACK (Debian: `libopenblas-dev`).
+//! Links the system's OpenBLAS, which contains BLAS and LAPACK (Debian: `libopenblas-dev`).
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");

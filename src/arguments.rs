@@ -24,14 +24,14 @@ pub enum Verb {
     Static(Static),
     /// Virtual modal test: pulses on the preloaded FE/contact set, modes from its free decay.
     Impulse(Impulse),
-    /// Steady states over speed: harmonics of every body and mesh; can be broken off and taken up again.
+    /// Steady states over speed: harmonics of every body and mesh; can be interrupted and resumed.
     Sweep(Sweep),
     /// Finite-element meshes of a scene: quality, mass properties, flexibility, pictures.
     Mesh(MeshVerb),
     /// Write or explain a scene file.
     #[command(subcommand)]
     Scene(SceneVerb),
-    /// Hold somebody's natural frequencies against a scene's lumped model.
+    /// Compare a list of natural frequencies with those of a scene's lumped model.
     Compare(Compare),
 }
 
@@ -48,20 +48,20 @@ pub struct Validate {
     /// Also write the verdict and the mode tables to this folder (Markdown, JSON) and draw figures.
     #[arg(long, value_name = "DIR")]
     pub report: Option<PathBuf>,
-    /// List every check instead of a line a suite.
+    /// List every check instead of one line per suite.
     #[arg(long)]
     pub details: bool,
     /// List the suites with what they ask of a model and their negative controls; run nothing.
     #[arg(long, conflicts_with_all = ["report", "details", "profile", "recorded"])]
     pub controls: bool,
-    /// Judge somebody's results instead of our own models: a folder with any of modes.csv, mesh_cycle.csv and
-    /// steady_states.csv (columns in README.md).
+    /// Judge tables of results instead of this project's models: a folder with any of modes.csv,
+    /// mesh_cycle.csv and steady_states.csv (columns in README.md).
     #[arg(long, value_name = "DIR", conflicts_with = "profile")]
     pub recorded: Option<PathBuf>,
     /// How much to run; checks left out are listed as not run.
     #[arg(long, value_enum, default_value_t = Profile::Quick)]
     pub profile: Profile,
-    /// Only checks whose id starts so, e.g. `table3.` or `fe.hertz`.
+    /// Only checks whose id starts with this prefix, e.g. `table3.` or `fe.hertz`.
     #[arg(long, value_name = "PREFIX", default_value = "", hide_default_value = true)]
     pub only: String,
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -70,9 +70,9 @@ pub struct Validate {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Profile {
-    /// Minutes.
+    /// The checks that run within minutes.
     Quick,
-    /// Everything.
+    /// Every check.
     Full,
 }
 
@@ -80,7 +80,7 @@ pub enum Profile {
 pub struct Modes {
     /// Scene file.
     pub scene: PathBuf,
-    /// Also list where each mode's energy is and what its frequency depends on.
+    /// Also list each mode's energy shares and the sensitivities of its frequency.
     #[arg(long)]
     pub details: bool,
     /// Frequencies with gyroscopic terms at these carrier speeds, rpm (Campbell data).
@@ -107,7 +107,7 @@ pub enum TableFormat {
     Text,
     /// Stable keys for programs; schemas in `schemas/`.
     Json,
-    /// One row a position and tooth pair, or a mode.
+    /// One row per position and tooth pair (`static`), mode (`impulse`) or harmonic (`sweep`).
     Csv,
 }
 
@@ -115,9 +115,9 @@ pub enum TableFormat {
 pub enum ContactSolver {
     /// Warm-started active set.
     ActiveSet,
-    /// Lemke's pivoting, the paper's family.
+    /// Lemke's complementary pivoting.
     Lemke,
-    /// Interior-point method at 1e-12; slow.
+    /// Interior-point method with a tolerance of 1e-12; slow.
     #[cfg(feature = "interior_point")]
     InteriorPoint,
 }
@@ -132,7 +132,7 @@ pub struct Static {
     /// Normal force of a gear pair, N.
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub normal_force_n: Option<f64>,
-    /// Even positions in the mesh cycle, from phase 0.
+    /// Number of evenly spaced positions in the mesh cycle, from phase 0.
     #[arg(long, default_value_t = 140, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub positions: u32,
     /// Solver of the contact problem.
@@ -142,14 +142,14 @@ pub struct Static {
     #[cfg(feature = "charts")]
     #[arg(long, value_name = "DIR", conflicts_with = "approach_um")]
     pub figures: Option<PathBuf>,
-    /// Of a gear pair: turn the driving gear's race by this approach over its base radius instead of
-    /// loading it, at one phase; µm.
+    /// Gear pair only: instead of loading the driving gear, rotate its race by this approach divided by its
+    /// base radius, at one phase; µm.
     #[arg(long, value_name = "UM", conflicts_with_all = ["normal_force_n", "torque_nm"])]
     pub approach_um: Option<f64>,
     /// Phase of that approach, cycles.
     #[arg(long, value_name = "CYCLES", requires = "approach_um", allow_negative_numbers = true)]
     pub phase: Option<f64>,
-    /// Write the same question as a CalculiX deck.
+    /// Write the same problem as a CalculiX input deck.
     #[arg(long, value_name = "FILE", requires = "approach_um")]
     pub export_inp: Option<PathBuf>,
     /// Elements per half-width of the contact in that deck.
@@ -195,7 +195,7 @@ pub struct Impulse {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Model {
-    /// FE/contact, on the fidelity of the scene.
+    /// FE/contact, at the fidelity of the scene.
     FeContact,
     /// Lumped, its mesh forces tabulated over deflection and phase by FE/contact.
     Lumped,
@@ -203,7 +203,7 @@ pub enum Model {
 
 #[derive(Debug, Args)]
 pub struct Sweep {
-    /// Scene file of a whole set; its `[dynamics]` says on which fidelity and in how many steps.
+    /// Scene file of a whole set; its `[dynamics]` gives fidelity and steps per mesh cycle.
     pub scene: PathBuf,
     /// Speeds of the input member: first, last and step, rpm.
     #[arg(long, value_name = "FROM:TO:STEP", default_value = "100:2500:25", value_parser = range,
@@ -212,20 +212,20 @@ pub struct Sweep {
     /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out.
     #[arg(long, value_name = "NM", allow_negative_numbers = true)]
     pub torque_nm: Option<f64>,
-    /// Which model turns.
+    /// Model whose motion is integrated.
     #[arg(long, value_enum, default_value_t = Model::FeContact)]
     pub model: Model,
-    /// Also sweep downwards.
+    /// Also sweep towards lower speeds.
     #[arg(long)]
     pub both_ways: bool,
-    /// Then so many more speeds about each peak, 0 for none.
+    /// Number of further speeds about each peak, 0 for none.
     #[arg(long, value_name = "N", default_value_t = 0,
           value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub refine: u32,
     /// Highest harmonic of the mesh frequency: up to 5, up to 10 with at least 560 steps in a cycle.
     #[arg(long, default_value_t = 5)]
     pub harmonics: u32,
-    /// Largest change from cycle to cycle of a steady state, in parts of the vibration.
+    /// Largest change of a steady state from cycle to cycle, over its peak-to-peak vibration.
     #[arg(long, default_value_t = 1e-9, value_parser = small)]
     pub tolerance: f64,
     /// Cycles after which a set that has not settled is recorded as it is.
@@ -234,11 +234,11 @@ pub struct Sweep {
     /// Cycles over which the energy between harmonics is measured, 0 for none.
     #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(0..=10_000))]
     pub between_cycles: u32,
-    /// Keep finished points here, then the table (CSV) and a sidecar (JSON); the same command goes on
-    /// from what it finds.
+    /// Folder for finished points, then the table (CSV) and a sidecar (JSON); the same command resumes from
+    /// the points in it.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Also draw figures into this folder (SVG, PNG): waterfalls, harmonics over frequency and apart.
+    /// Also draw figures into this folder (SVG, PNG): waterfalls and the harmonics of each quantity.
     #[cfg(feature = "charts")]
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
@@ -298,6 +298,9 @@ pub struct Compare {
     /// Largest difference that counts as agreement, percent.
     #[arg(long, default_value_t = 1.0, value_parser = tolerance)]
     pub tolerance_percent: f64,
+    /// Demand every mode of the model: without it, modes above the list's highest frequency may be absent.
+    #[arg(long)]
+    pub whole: bool,
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
 }

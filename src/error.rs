@@ -1,4 +1,4 @@
-//! Bad input, said once and clearly.
+//! Errors of the command, each shown as one message.
 
 use std::path::PathBuf;
 
@@ -16,7 +16,7 @@ pub enum CommandError {
         /// Its faults.
         source: SceneError,
     },
-    /// A scene that is valid and cannot be used for this.
+    /// A valid scene that the verb cannot use.
     #[error("{}: {reason}", path.display())]
     Unfit {
         /// Its file.
@@ -42,7 +42,7 @@ pub enum CommandError {
         /// Line, column, value, what is allowed.
         reason: String,
     },
-    /// An argument that parsed and makes no sense.
+    /// An argument that parses but whose value is not allowed.
     #[error("argument {argument}: {reason}")]
     Argument {
         /// Name of the argument.
@@ -71,7 +71,7 @@ pub enum CommandError {
 impl From<csv::Error> for CommandError {
     fn from(error: csv::Error) -> Self {
         let text = error.to_string();
-        // What the operating system said is kept: a reader that went away is no fault.
+        // The I/O error is kept, because a closed pipe must be told from other errors.
         Self::Output(match error.into_kind() {
             csv::ErrorKind::Io(error) => error,
             _ => std::io::Error::other(text),
@@ -80,7 +80,7 @@ impl From<csv::Error> for CommandError {
 }
 
 impl CommandError {
-    /// Whether the reader of our output went away, which is no fault.
+    /// Whether the reader of the output closed the pipe, which is not reported as an error.
     pub fn is_closed_pipe(&self) -> bool {
         match self {
             Self::Output(e) => e.kind() == std::io::ErrorKind::BrokenPipe,

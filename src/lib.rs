@@ -10,7 +10,7 @@
 //! | [`experiments`] | natural modes, impulse tests, speed sweeps on either model |
 //! | [`validation`] | checks against published numbers, theorems and each other |
 //!
-//! With `default-features = false` nothing else is built.
+//! With `default-features = false` only these crates are built.
 
 #[cfg(feature = "command")]
 mod arguments;

@@ -45,7 +45,7 @@ pub(crate) fn csv(
     Ok(writer.flush()?)
 }
 
-/// A strength or share for people: `–` where it is nil.
+/// A strength or share as text: `–` where three decimals would show 0.
 pub(crate) fn share(x: f64) -> String {
     if x < 5e-4 { "–".into() } else { format!("{x:.3}") }
 }

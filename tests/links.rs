@@ -74,13 +74,13 @@ fn prose(text: &str) -> Vec<(usize, &str)> {
     lines
 }
 
-/// A line with what stands in backticks left out, and what stood there.
+/// A line without its inline code, and that code.
 fn split_code(line: &str) -> (String, Vec<&str>) {
     let (mut rest, mut code) = (String::new(), Vec::new());
     for (i, part) in line.split('`').enumerate() {
         match i % 2 {
             0 => rest.push_str(part),
-            // Keeps what stands to either side apart.
+            // Keeps the text on either side apart.
             _ => {
                 rest.push('`');
                 code.push(part);
@@ -128,7 +128,7 @@ fn anchors(text: &str) -> Vec<String> {
     found
 }
 
-/// `a/b/../c` without detours; `None` if it leaves the folder it starts from.
+/// `a/b/../c` as `a/c`; `None` if the path leaves the folder it starts from.
 fn straight(path: &Path) -> Option<PathBuf> {
     let mut straight = PathBuf::new();
     for part in path.components() {
@@ -262,7 +262,7 @@ fn fault_of_id(ids: &[String], code: &str) -> Option<String> {
     if !ids.iter().any(is_of_family) || !code.chars().all(is_word) {
         return None;
     }
-    // Whole words: `lumped_from_fe` stands for `lumped_from_fe.table2.1`, `fe.fe` does not.
+    // A prefix ends at a dot: `lumped_from_fe` fits `lumped_from_fe.table2.1`, `lumped_from` does not.
     let stem = code.trim_end_matches('.');
     let is_there = ids.iter().any(|id| matches(stem, id) || matches(&format!("{stem}.*"), id));
     (!is_there).then(|| format!("{code}: no check has this id or an id that starts so"))
@@ -301,7 +301,7 @@ fn pages_point_at_what_is_there() {
     for path in pages(&root) {
         let (page, text) = (from_root(&root, &path), read(&path));
         faults.extend(faults_of_page(&root, &page, &text, &ids));
-        // The change log speaks of what was.
+        // The changelog may name files that no longer exist.
         if page != Path::new("CHANGELOG.md") {
             let folders: Vec<&str> = DATA.iter().chain(&PROGRAM).copied().collect();
             faults.extend(faults_of_quotes(&root, &page, &text, &folders));

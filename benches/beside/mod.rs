@@ -1,5 +1,5 @@
-//! What the benches that run in turns with a rival in Python have in common: a plain binary that prints
-//! one number for a batch, or the problem as CSV, so that both sides solve the same.
+//! Shared by the benches that are timed in turns with a Python program: a plain binary that prints the time
+//! per solution of a batch, or writes the problem as CSV files so that both programs solve the same problem.
 
 use std::error::Error;
 use std::path::Path;
@@ -7,20 +7,20 @@ use std::process::ExitCode;
 
 pub type Outcome<T> = Result<T, Box<dyn Error>>;
 
-/// What such a bench does.
+/// The functions of such a bench.
 pub struct Beside {
     pub name: &'static str,
-    /// Medians of a few batches, for reading.
+    /// Prints medians and quartiles over a few batches.
     pub summary: fn() -> Outcome<()>,
-    /// Nanoseconds for one solution, averaged over so many.
+    /// Nanoseconds per solution, averaged over this number of solutions.
     pub nanoseconds: fn(u32) -> Outcome<f64>,
-    /// The problem and its solution as CSV files in a folder.
+    /// Writes the problem and its solution as CSV files into a folder.
     pub dump: fn(&Path) -> Outcome<()>,
 }
 
 impl Beside {
-    /// `NAME` prints the summary, `--batch COUNT` one number, `--dump FOLDER` writes; `--test` solves
-    /// once, as benches do under `cargo bench -- --test`.
+    /// Without arguments prints the summary, with `--batch COUNT` the nanoseconds per solution; `--dump
+    /// FOLDER` writes the files; `--test` solves once, as benches do under `cargo bench -- --test`.
     pub fn main(&self) -> ExitCode {
         // `cargo bench` adds `--bench`.
         let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
@@ -57,7 +57,7 @@ pub fn quartiles(mut batch: impl FnMut() -> Outcome<f64>) -> Outcome<[f64; 3]> {
     Ok([2, 4, 6].map(|i| times[i]))
 }
 
-/// A matrix, every digit.
+/// A matrix as CSV with all digits.
 pub fn csv(rows: usize, columns: usize, entry: impl Fn(usize, usize) -> f64) -> String {
     let line = |i| (0..columns).map(|j| format!("{:e}", entry(i, j))).collect::<Vec<_>>().join(",");
     (0..rows).map(|i| line(i) + "\n").collect()

@@ -1,9 +1,9 @@
-//! Why an eigenproblem could not be solved.
+//! Errors of eigenproblems and spectra.
 
-/// Why an eigenproblem could not be solved, or its solution not be trusted.
+/// Why an eigenproblem has no solution, or none of sufficient accuracy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum EigenError {
-    /// Sizes that do not go together.
+    /// A matrix that is not square, or not of the size of the mass matrix.
     #[error("a {rows}×{columns} matrix does not go with {masses} masses")]
     Size {
         /// Rows of the matrix.
@@ -50,7 +50,7 @@ pub enum EigenError {
 /// Why a record has no spectrum.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SpectrumError {
-    /// A record without a period.
+    /// A record of fewer than two samples.
     #[error("a record of {samples} samples is too short for a spectrum")]
     TooShort {
         /// Number of samples.
@@ -68,7 +68,7 @@ pub enum SpectrumError {
         /// Its index.
         sample: usize,
     },
-    /// No padded length, or one beyond memory.
+    /// A padded length of zero, or above the limit.
     #[error("padding to {value} times the length is not possible")]
     Padding {
         /// The factor.

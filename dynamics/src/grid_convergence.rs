@@ -1,33 +1,33 @@
-//! Grid convergence index: how far a value on a grid is from its limit, from three grids.
+//! Grid convergence index: discretisation error of a value, estimated from its values on three grids.
 
-/// Lowest and highest observed order that is believed.
+/// Lowest and highest observed order that is used.
 const USABLE: [f64; 2] = [1.0, 4.0];
 
 /// Safety factor with a usable observed order, and without.
 const SAFETY: [f64; 2] = [1.25, 3.0];
 
-/// Order that is taken without a usable observed one: the fields of a point load, for which no element does
-/// better in the mean.
+/// Order assumed if the observed one is not usable: for the singular field of a point load no element
+/// converges faster in the mean.
 const FORMAL_ORDER: f64 = 2.0;
 
-/// What three grids say about the middle one.
+/// Convergence of a value over three grids.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GridConvergence {
-    /// Observed order of convergence p; `None` where the values do not approach from one side.
+    /// Observed order of convergence p; `None` if the three values are not monotonic.
     pub order: Option<f64>,
     /// Grid convergence index of the middle grid: estimated distance of its value from the limit, as a
     /// share of the value on the fine grid.
     pub index: f64,
 }
 
-/// Grid convergence index of the middle of three grids, F_s |ε| r^p/(r^p − 1) with ε the relative change from the
-/// middle to the fine grid.
+/// Grid convergence index of the middle of three grids, F_s |ε| r^p/(r^p − 1) with ε the relative change from
+/// the middle to the fine grid.
 ///
-/// `values`: on the coarse, middle and fine grid, in any unit; the last is not zero. `ratios`: of refinement r > 1
-/// from coarse to middle and from middle to fine.
+/// `values`: on the coarse, middle and fine grid, in any unit; the last is not zero. `ratios`: refinement
+/// ratios r > 1 from coarse to middle and from middle to fine.
 ///
-/// The observed order with F_s = 1.25 where the values approach monotonically at an order between 1
-/// and 4; else, as for two grids, the formal order 2 with F_s = 3.
+/// The observed order is used with F_s = 1.25 if the values are monotonic with an order between 1 and 4;
+/// otherwise, as for two grids, the order 2 with F_s = 3.
 ///
 /// Source: Roache (1994), J. Fluids Eng. 116, 405–413; the order for unequal ratios after Celik et al.
 /// (2008), J. Fluids Eng. 130, 078001, step 3.

@@ -14,7 +14,7 @@ pub struct GyroscopicMode {
     pub omega: f64,
     /// Re s, 1/s; zero up to rounding for stable motion.
     pub growth: f64,
-    /// Complex displacement (re, im), M-normalised, one entry a coordinate.
+    /// Complex displacement (re, im), M-normalised, one entry per coordinate.
     pub vector: Vec<(f64, f64)>,
 }
 
@@ -22,8 +22,8 @@ pub struct GyroscopicMode {
 ///
 /// Solved as the companion matrix of the mass-normalised problem, time scaled by the largest
 /// stiffness row so that displacement and velocity have like size. `k` may be singular or
-/// indefinite: modes that drift or diverge come out with ω = 0, once each (s = ±a is one mode, of
-/// growth +a); flutter, s = ±a ± iω, is two, of growth +a and −a.
+/// indefinite: a mode that drifts or diverges has ω = 0 and occurs once (s = ±a is one mode, of growth +a);
+/// flutter, s = ±a ± iω, is two modes, of growth +a and −a.
 ///
 /// # Errors
 /// For unusable input, no convergence, or ‖(s²M̃ + sG̃ + K̃)q‖ above 1e-10 (M̃ = I, time scaled).

@@ -1,9 +1,10 @@
-//! Numerics that know no gears: eigenproblems of vibrating systems and their subspaces, time steps,
-//! spectra of records, the modes identified from them, and how far a grid is from its limit.
+//! Numerical methods without gears: eigenproblems of vibrating systems and their subspaces, time integration,
+//! spectra of records, identification of modes from records, and discretisation errors from three grids.
 
 mod coupled;
 mod error;
 mod extrapolate;
+mod factored;
 mod grid_convergence;
 mod gyroscopic;
 pub mod identify;
@@ -19,6 +20,7 @@ mod symmetric;
 pub use coupled::{Coupled, CoupledError, CoupledState, Coupling, CouplingForce, LinearPart};
 pub use error::{EigenError, SpectrumError};
 pub use extrapolate::extrapolation_weights;
+pub use factored::{FactoredModes, SpringRow, factored_modes};
 pub use faer::c64;
 pub use grid_convergence::{GridConvergence, grid_convergence_index};
 pub use gyroscopic::{GyroscopicMode, gyroscopic_modes};

@@ -5,7 +5,7 @@ use faer::Mat;
 use crate::error::EigenError;
 use crate::symmetric::symmetric_eigen;
 
-/// A large pair of matrices, known by what they do to vectors.
+/// A pair of large matrices K and M, given by their action on vectors.
 pub trait ModalOperator {
     /// Order n.
     fn size(&self) -> usize;
@@ -24,19 +24,19 @@ pub struct LowMode {
     pub shape: Vec<f64>,
 }
 
-/// Vectors of a block: modes of periodic bodies come in pairs, and bands of tooth modes lie close.
+/// Number of vectors in a block: bodies of cyclic symmetry have double modes, and bands of close tooth modes.
 const BLOCK: usize = 4;
 
 /// Accepted ‖K⁻¹Mφ − φ/λ‖_M · λ.
 const RESIDUAL_LIMIT: f64 = 1e-9;
 
-/// Neighbours that differ by less than this are one group, and are given whole or not at all.
+/// Neighbouring eigenvalues with a smaller relative difference form a group, which is returned whole.
 const EQUAL: f64 = 1e-7;
 
 /// The lowest `count` modes, or one or two more where the last belongs to a group of equal ones.
 ///
-/// Krylov subspaces of K⁻¹M in the M-inner product, fully reorthogonalised; the start is fixed, so
-/// the same matrices give the same bits.
+/// Krylov subspaces of K⁻¹M in the M-inner product, fully reorthogonalised. The start vectors are fixed, so
+/// that results are reproducible to the bit.
 ///
 /// # Errors
 /// If the subspace reaches half the order of the matrices without converging.
@@ -95,7 +95,7 @@ pub fn lowest_modes(
     }
 }
 
-/// The wanted modes from the subspace, `None` if they are not there yet.
+/// The wanted modes from the subspace, `None` if they have not converged yet.
 fn ritz(
     operator: &dyn ModalOperator,
     basis: &[Vec<f64>],
@@ -149,7 +149,7 @@ fn ritz(
     Ok(Some(modes))
 }
 
-/// Numbers without a pattern, the same at every call (a multiplicative congruence).
+/// Pseudo-random numbers between −0.5 and 0.5, the same at every call (linear congruential generator).
 fn start_vector(n: usize, k: usize) -> Vec<f64> {
     let mut state = 0x9E37_79B9_7F4A_7C15u64.wrapping_mul(k as u64 + 1);
     let mut next = || {

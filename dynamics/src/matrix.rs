@@ -1,4 +1,4 @@
-//! Matrices at the border of this crate are nalgebra's; where faer does the work, they are copied entry by entry.
+//! The interface of this crate uses nalgebra's matrices; they are copied to faer's where faer computes.
 
 use faer::Mat;
 use nalgebra::DMatrix;

@@ -1,21 +1,21 @@
 //! Newmark's average-acceleration method (γ = ½, β = ¼), as substructures use it.
 //!
-//! Over a step h the acceleration is the mean of both ends', so that
+//! Over a step h the acceleration is the mean of its values at both ends, so that
 //!
 //! ```text
 //! ẍ₁ = (4/h²) x₁ − a*,   a* = (4/h²) x₀ + (4/h) ẋ₀ + ẍ₀
 //! ẋ₁ = (2/h)  x₁ − v*,   v* = (2/h)  x₀ + ẋ₀
 //! ```
 //!
-//! (Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67–94). The method is of second order, damps nothing
-//! of its own, and turns a frequency ω into (2/h) atan(ω h/2).
+//! (Newmark, J. Eng. Mech. Div. ASCE 85 (1959) 67–94). The method is of second order, has no numerical
+//! damping, and gives a frequency ω as (2/h) atan(ω h/2).
 
 /// A step that is not positive and finite.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error("the time step is {0} s: it must be positive and finite")]
 pub struct StepError(pub f64);
 
-/// The rule with its step.
+/// The integration rule with its time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AverageAcceleration {
     step: f64,
@@ -38,12 +38,12 @@ impl AverageAcceleration {
         self.step
     }
 
-    /// What multiplies x₁ in the new acceleration: 4/h², 1/s².
+    /// Factor of x₁ in the new acceleration: 4/h², 1/s².
     pub fn inertia(&self) -> f64 {
         4.0 / (self.step * self.step)
     }
 
-    /// What multiplies x₁ in the new velocity: 2/h, 1/s.
+    /// Factor of x₁ in the new velocity: 2/h, 1/s.
     pub fn damping(&self) -> f64 {
         2.0 / self.step
     }
@@ -90,7 +90,7 @@ impl Motion {
         }
     }
 
-    /// Moves on to new displacements at the end of the step.
+    /// Replaces the motion by that at the end of the step, with displacements `x`.
     pub fn advance(&mut self, rule: &AverageAcceleration, x: &[f64]) {
         for (i, x) in x.iter().enumerate() {
             let a = rule.acceleration_history(self.x[i], self.v[i], self.a[i]);

@@ -7,16 +7,16 @@ use rustfft::FftPlanner;
 
 use crate::error::SpectrumError;
 
-/// Longest transform, samples: 4 GiB.
+/// Longest transform, samples; its buffer takes 4 GiB.
 const LONGEST: usize = 1 << 28;
 
 /// Weights a record is multiplied with before its transform.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Window {
-    /// All weights one: exact for whole periods.
+    /// All weights are one: exact for a whole number of periods.
     #[default]
     Rectangular,
-    /// w_k = sin²(πk/n): leaks less from sines of any period; a line is four steps wide.
+    /// w_k = sin²(πk/n): less leakage for any number of periods; the main lobe is four lines wide.
     Hann,
 }
 
@@ -33,7 +33,7 @@ impl Window {
 /// One-sided complex amplitude spectrum: x(t) ≈ Re Σ X_j exp(i 2π f_j t), t from the first sample.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spectrum {
-    /// Distance of the lines, Hz: f_j = j · step.
+    /// Spacing of the lines, Hz: f_j = j · step.
     pub step: f64,
     /// X_j in the record's unit, ⌊N/2⌋ + 1 of them for N samples with padding.
     pub lines: Vec<c64>,
@@ -51,8 +51,8 @@ impl Spectrum {
 ///
 /// Amplitudes are those of sines, not their halves and not their rms: A cos(2πft + φ) over whole
 /// periods gives A exp(iφ) at its line. The lines at zero and, for an even padded length, at half
-/// the sampling rate stand alone and are not doubled: a constant c gives c. Divided by the sum of
-/// the weights, so that neither window nor padding changes the height of a line.
+/// the sampling rate have no conjugate and are not doubled: a constant c gives c. Lines are divided by the
+/// sum of the weights, so that neither window nor padding changes the height of a line.
 ///
 /// # Errors
 /// For fewer than two samples, one that is not finite, an interval that is not positive, a padding

@@ -24,15 +24,15 @@ impl StateMode {
         self.exponent.0.hypot(self.exponent.1)
     }
 
-    /// −Re s / |s|; one for what does not oscillate.
+    /// −Re s / |s|; one for a decay without oscillation.
     pub fn damping_ratio(&self) -> f64 {
         -self.exponent.0 / self.natural_frequency()
     }
 }
 
-/// All modes of A (n×n), by ascending |s|; of conjugate pairs one.
+/// All modes of A (n×n), by ascending |s|; one of each conjugate pair.
 ///
-/// The caller scales states and time so that entries have like size.
+/// The caller scales states and time so that the entries of A are of similar size.
 ///
 /// # Errors
 /// If an entry is not finite, the iteration does not converge, or ‖A y − s y‖ exceeds 1e-10 of the
@@ -89,7 +89,7 @@ pub(crate) fn complex_eigen(a: &Mat<f64>) -> Result<Eigen<f64>, EvdError> {
 mod tests {
     use super::*;
 
-    /// Two equal swings, mixed by a rotation: a complex pair that occurs twice.
+    /// Two equal oscillators, mixed by a rotation: a complex pair that occurs twice.
     #[test]
     fn a_repeated_pair_keeps_sound_vectors() {
         let (omega, zeta) = (3.0, 0.02);

@@ -6,11 +6,11 @@ use std::ops::Range;
 use crate::error::EigenError;
 use crate::symmetric::symmetric_eigen;
 
-/// A direction whose share in one kind is at least 1 − this is of that kind.
+/// A direction belongs to a kind if its share in the kind is at least 1 − `IMPURE`.
 const IMPURE: f64 = 1e-6;
 
 /// Groups of equal eigenvalues in an ascending list: neighbours that differ by no more than
-/// 1e-9 λ + 1e-11 λ_max, what eigenvalue routines leave of an exact multiplicity.
+/// 1e-9 λ + 1e-11 λ_max, the rounding error of eigenvalue routines at an exact multiplicity.
 pub fn group_equal(lambda: &[f64]) -> Vec<Range<usize>> {
     let largest = lambda.iter().fold(0.0f64, |a, l| a.max(l.abs()));
     let mut groups = Vec::new();

@@ -14,7 +14,7 @@ const RESIDUAL_LIMIT: f64 = 1e-10;
 pub struct SymmetricModes {
     /// Eigenvalues λ = ω², ascending, (rad/s)².
     pub lambda: Vec<f64>,
-    /// M-orthonormal eigenvectors, one a column (n×n).
+    /// M-orthonormal eigenvectors, one per column (n×n).
     pub vectors: DMatrix<f64>,
     /// max ‖K̃q − λq‖ / max |λ| with K̃ = M^-½ K M^-½, q = M^½ φ.
     pub residual: f64,
@@ -58,7 +58,7 @@ pub(crate) fn symmetric_eigen(
     a: impl Fn(usize, usize) -> f64,
 ) -> Result<(Vec<f64>, Mat<f64>), EigenError> {
     let matrix = DMatrix::from_fn(n, n, a);
-    // Two or three iterations an eigenvalue are usual.
+    // Two or three iterations per eigenvalue are usual.
     let limit = 100 * n.max(10);
     let solution = SymmetricEigen::try_new(matrix, f64::EPSILON, limit)
         .ok_or(EigenError::NoConvergence { size: n })?;
@@ -68,7 +68,7 @@ pub(crate) fn symmetric_eigen(
     Ok((values, Mat::from_fn(n, n, |i, j| solution.eigenvectors[(i, order[j])])))
 }
 
-/// The largest of non-negative numbers, NaN if one of them is: `f64::max` would pass over it.
+/// The largest of non-negative numbers, NaN if one of them is NaN, which `f64::max` would ignore.
 pub(crate) fn largest_or_nan(values: impl IntoIterator<Item = f64>) -> f64 {
     values.into_iter().fold(0.0, |a, x| if a.is_nan() || x <= a { a } else { x })
 }
@@ -104,7 +104,7 @@ pub(crate) fn check_input(k: &DMatrix<f64>, mass: &[f64]) -> Result<(), EigenErr
 pub(crate) fn sign_of_largest(components: impl Iterator<Item = f64>) -> f64 {
     let (mut largest, mut sign) = (0.0f64, 1.0);
     for x in components {
-        // Components equal to rounding must not let noise choose between them.
+        // Of components equal to rounding the first is taken, so that noise does not decide the sign.
         if x.abs() > largest * (1.0 + 1e-9) {
             (largest, sign) = (x.abs(), x.signum());
         }
@@ -146,7 +146,7 @@ mod tests {
         let refused = generalized_symmetric(&nan, &[1.0, 1.0]);
         assert!(matches!(refused, Err(EigenError::NotFinite { .. })));
     }
-    /// Stiffnesses and masses over eight decades, at sizes where divide and conquer loses its way.
+    /// Stiffnesses and masses over eight decades, at sizes where divide and conquer loses accuracy.
     #[test]
     fn graded_systems_keep_their_residual_and_orthonormality() {
         for n in [21, 150, 300] {
@@ -186,7 +186,7 @@ mod tests {
         assert!((0..2).all(|j| modes.vectors[(0, j)] > 0.7) && modes.vectors[(1, 1)] < -0.7);
     }
 
-    /// Finite entries whose mass-normalised form overflows: no mode may come out of that.
+    /// Finite entries whose mass-normalised form overflows: an error is required, not a mode.
     #[test]
     fn an_overflow_is_an_error_and_not_a_mode() {
         let k = DMatrix::from_fn(2, 2, |i, j| if i == j { 1e200 } else { 0.5e200 });

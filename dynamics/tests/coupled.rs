@@ -1,14 +1,14 @@
-//! The coupled stepper against closed forms: order, energy, the linear limit, separation.
+//! Coupled systems in time against closed forms: order of convergence, energy, linear limit, loss of contact.
 
 use dynamics::{AverageAcceleration, Coupled, CoupledError, Coupling, CouplingForce, LinearPart};
 use nalgebra::DMatrix;
 
-/// k δ, from contact on: with a one-sided spring nil below δ = 0.
+/// Force k (δ + c δ³); zero for δ ≤ 0 if one-sided.
 #[derive(Debug, Clone)]
 struct Spring {
     stiffness: f64,
     is_one_sided: bool,
-    /// Part of δ³ that is added: k (δ + c δ³).
+    /// c, 1/m².
     cubic: f64,
 }
 
@@ -67,7 +67,7 @@ fn the_linear_limit_is_the_closed_form_at_second_order() {
     assert!(fine < 2e-3, "{fine:e}");
 }
 
-/// A chain whose last spring is a coupling is the chain: same Newmark steps to rounding.
+/// A chain with its last spring replaced by a linear coupling makes the same Newmark steps, to rounding.
 #[test]
 fn a_coupling_of_constant_stiffness_is_a_spring() {
     let (mass, k) = ([1.0, 2.0, 0.5], 4e7);
@@ -100,7 +100,8 @@ fn a_coupling_of_constant_stiffness_is_a_spring() {
     }
 }
 
-/// Without damping the energy of a stiffening coupling is kept to second order, and a lag takes it.
+/// Without damping the energy with a stiffening coupling is conserved to second order in the step; a lag
+/// dissipates it.
 #[test]
 fn energy_is_kept_to_second_order_and_a_lag_takes_it() {
     let cubic = 3e9;
@@ -133,8 +134,8 @@ fn energy_is_kept_to_second_order_and_a_lag_takes_it() {
     assert!(spread(2000, 2e-6).1 < 0.9);
 }
 
-/// Pressed by gravity onto a one-sided spring and thrown up: parabola in the air, half a sine in
-/// contact, over and over.
+/// A mass pressed by a constant force onto a one-sided spring, with an initial velocity: its motion is a
+/// parabola in the air and part of a sine in contact, in turns.
 #[test]
 fn a_bouncing_mass_follows_the_piecewise_solution() {
     let (m, k, weight, thrown, end) = (0.5f64, 1e8f64, 600.0, 0.4f64, 2.2e-3f64);
@@ -203,7 +204,7 @@ fn rest_is_the_static_solution_and_stays() {
     assert!(set.rest().is_err());
 }
 
-/// The skew part of C leaves the modes coupled: against the same system step by step in full.
+/// A skew-symmetric C couples the modes: a step must satisfy the full equations of motion and Newmark's rule.
 #[test]
 fn unsymmetric_damping_is_solved_in_full() {
     let (h, m, k, g) = (3e-5, [1.0, 1.0], 6e7, 900.0);

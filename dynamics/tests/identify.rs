@@ -1,4 +1,4 @@
-//! Modes identified from sums of damped cosines, against the parameters they were made from.
+//! Modes identified from sums of damped cosines, against the parameters of these cosines.
 
 mod synthetic;
 
@@ -13,14 +13,14 @@ use synthetic::{Damped, Numbers, decays, disturb};
 /// Sample interval, s.
 const INTERVAL: f64 = 5e-6;
 
-/// Wanted band, Hz, and the modes in it: two pairs of one frequency, four within 3 %.
+/// Wanted band, Hz, and the frequencies of the modes in it: two double ones, and four within 3 %.
 const BAND: (f64, f64) = (500.0, 2500.0);
 const WANTED: [f64; 9] = [780.0, 780.0, 1104.0, 1695.0, 1708.0, 1717.0, 1743.0, 2145.0, 2145.0];
 
 /// Modes above the band: frequency, Hz, and damping ratio.
 const ABOVE: [(f64, f64); 4] = [(5200.0, 0.01), (7400.0, 0.03), (9800.0, 0.06), (12800.0, 0.09)];
 
-/// The wanted modes at 2 % and those above, shapes and participations without pattern.
+/// The wanted modes with 2 % damping and those above, with pseudo-random shapes and participations.
 fn set(inputs: usize, outputs: usize, seed: u64) -> Vec<Damped> {
     let mut numbers = Numbers::new(seed);
     let below = WANTED.iter().map(|f| (*f, 0.02));
@@ -167,7 +167,7 @@ fn a_mode_one_input_does_not_excite_has_no_share_of_it() {
     assert!(silent.participation[1].norm() < 1e-9 && other.participation[1].norm() > 1e-3);
 }
 
-/// One input a kind of modes: the translational of one direction each, the rotational, the rest.
+/// One input per kind of mode: translational in either direction, rotational, and the others.
 #[test]
 fn inputs_adapted_to_the_symmetry_find_all_kinds() {
     let mut made = set(4, 12, 4);
@@ -182,7 +182,7 @@ fn inputs_adapted_to_the_symmetry_find_all_kinds() {
     disturb(&mut records, 1e-4, 3);
     let found = run(&records, &Options::new(BAND, 20));
     assert_poles(&found.modes, &wanted(), 5e-5, 3e-3);
-    // An input of nothing but rounding spoils nothing.
+    // An input whose response is rounding alone does not change the modes.
     records.push(
         decays(&made, 4000, INTERVAL)[0]
             .iter()
@@ -217,7 +217,8 @@ fn a_single_mode_needs_one_record() {
     }
 }
 
-/// With one input the two modes of a pole move as one: no more can be seen, and one is reported.
+/// With one input the two modes of a repeated pole respond in a fixed combination: they cannot be separated,
+/// and one mode is reported.
 #[test]
 fn a_repeated_pole_under_one_input_comes_out_once() {
     let made: Vec<Damped> = set(1, 17, 1).into_iter().filter(|m| m.frequency < 1200.0).collect();
@@ -248,13 +249,14 @@ fn outputs_of_small_unit_do_not_drown() {
         mode.shape.iter_mut().enumerate().for_each(|(o, x)| *x *= unit(o));
     }
     assert_shapes(&scaled.modes, &made, 1e-4);
-    // Unscaled, one output is left, and a repeated pole has but one shape on it.
+    // Unscaled, the force output dominates, on which a repeated pole has only one shape.
     let ones = Options { scaling: Scaling::Given(vec![1.0; 8]), ..Options::new(BAND, 20) };
     let blind = run(&records, &ones);
     assert!(blind.modes.iter().all(|m| m.multiplicity == 1));
 }
 
-/// At 10 kHz, 7400 Hz fold to 2600, 9800 to 200 and 12 800 to 2800 Hz; the filter leaves nothing.
+/// At a sampling rate of 10 kHz, 7400 Hz fold to 2600 Hz, 9800 Hz to 200 Hz and 12 800 Hz to 2800 Hz; the
+/// filter removes them.
 #[test]
 fn what_folds_into_the_band_is_filtered_out() {
     let made = set(4, 8, 8);

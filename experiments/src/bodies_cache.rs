@@ -7,14 +7,15 @@ use fe_contact::FeError;
 use fe_contact::statics::Bodies;
 use gearset::Scene;
 
-/// Gears by what they are made of: scenes that differ in planets, supports or load share theirs.
+/// Gears by the scene data they depend on: scenes that differ only in planet positions, supports or load
+/// share them.
 #[derive(Debug, Default)]
 pub struct BodiesCache {
     known: Mutex<HashMap<String, Arc<Bodies>>>,
 }
 
 impl BodiesCache {
-    /// The gears of a scene, made if they are not known.
+    /// The gears of a scene, computed if they are not in the cache.
     ///
     /// # Errors
     /// As [`Bodies::new`].
@@ -33,7 +34,7 @@ impl BodiesCache {
         Ok(bodies)
     }
 
-    /// Forgets gears that nobody holds.
+    /// Drops gears that are not in use elsewhere.
     pub fn drop_unused(&self) {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         known.retain(|_, bodies| Arc::strong_count(bodies) > 1);

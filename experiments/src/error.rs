@@ -1,6 +1,6 @@
-//! Why an experiment could not be made.
+//! Errors of experiments.
 
-/// Why an experiment could not be made.
+/// Why an experiment could not be carried out.
 #[derive(Debug, thiserror::Error)]
 pub enum ExperimentError {
     /// The scene lacks something the experiment needs.
@@ -9,7 +9,7 @@ pub enum ExperimentError {
     /// The scene has no operating point, or no motion follows from it.
     #[error(transparent)]
     Kinematics(#[from] gearset::KinematicsError),
-    /// A model that was asked, in its own words.
+    /// An error of the model under test, passed on unchanged.
     #[error("the model: {0}")]
     Model(#[source] crate::model::ModelError),
     /// The FE/contact model.
@@ -21,7 +21,7 @@ pub enum ExperimentError {
     /// Settings of an impulse test.
     #[error(transparent)]
     Settings(#[from] crate::modal::SettingsError),
-    /// A preload under which the set moves by itself.
+    /// A preload under which the set does not stay at rest, or does not return to it after a small pulse.
     #[error(
         "{torque_nm} N·m: under this torque the set does not stay at rest, or small pulses leave it in large motion: there is no state to find modes about"
     )]
@@ -29,7 +29,7 @@ pub enum ExperimentError {
         /// Torque on the sun, N m.
         torque_nm: f64,
     },
-    /// Modes from records.
+    /// Identification of modes from records.
     #[error("identification: {0}")]
     Identify(#[from] dynamics::identify::IdentifyError),
     /// A spectrum.

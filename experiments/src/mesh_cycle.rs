@@ -1,12 +1,12 @@
-//! A mesh cycle at rest, whichever model it is of.
+//! Static equilibrium over a mesh cycle, of any model.
 
 use gearset::{LoadCase, MeshKind};
 use serde::{Deserialize, Serialize};
 
-/// Static equilibrium at even positions of one mesh cycle.
+/// Static equilibrium at evenly spaced positions of one mesh cycle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MeshCycle {
-    /// Torque; the speed means nothing here.
+    /// Torque; the speed is not used.
     pub case: LoadCase,
     /// Positions in order, at least one.
     pub states: Vec<RestState>,
@@ -19,14 +19,14 @@ pub struct RestState {
     pub position: f64,
     /// Displacement of the sun: x, y (m), rotation (rad), in the carrier frame, counter-clockwise.
     pub sun: [f64; 3],
-    /// Forces of the sun meshes along their lines of action, one a planet, N.
+    /// Forces of the sun meshes along their lines of action, one per planet, N.
     pub sun_mesh_n: Vec<f64>,
     /// Forces of the ring meshes, N.
     pub ring_mesh_n: Vec<f64>,
 }
 
 impl RestState {
-    /// Forces of one kind of mesh, one a planet, N.
+    /// Forces of one kind of mesh, one per planet, N.
     pub fn forces(&self, kind: MeshKind) -> &[f64] {
         match kind {
             MeshKind::SunPlanet => &self.sun_mesh_n,

@@ -105,3 +105,14 @@ pub(crate) fn gather<E>(
     }
     Ok(all)
 }
+
+/// One request of a model whose own way is [`SteadyStateModel::explore`].
+pub(crate) fn one_request(
+    model: &dyn SteadyStateModel,
+    scene: &Scene,
+    case: &LoadCase,
+    request: &SpeedRequest<'_>,
+) -> Result<Vec<SteadyState>, ModelError> {
+    let mut speeds = Some(request.speeds_rpm.to_vec());
+    model.explore(scene, case, (request.harmonics, request.tolerance), &mut |_| speeds.take())
+}

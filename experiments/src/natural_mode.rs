@@ -1,4 +1,4 @@
-//! A natural frequency with its kind, whichever model it is of.
+//! Natural frequencies with their kinds, of any model.
 
 use lumped::ModeType;
 
@@ -11,7 +11,7 @@ pub struct NaturalMode {
     pub mode_type: ModeType,
 }
 
-/// A frequency with how often it occurs.
+/// A frequency with its multiplicity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DistinctMode {
     /// Frequency, Hz.
@@ -22,10 +22,10 @@ pub struct DistinctMode {
     pub multiplicity: usize,
 }
 
-/// Frequencies of one kind are the same within this part of them, or within this many Hz.
+/// Frequencies of one kind count as equal within this relative difference, or within this difference in Hz.
 const SAME: (f64, f64) = (1e-8, 1e-5);
 
-/// Modes by frequency, ascending, those of one kind and one frequency taken together.
+/// Modes by ascending frequency; those of equal kind and frequency are one entry.
 pub fn distinct(modes: &[NaturalMode]) -> Vec<DistinctMode> {
     let mut sorted = modes.to_vec();
     sorted.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));

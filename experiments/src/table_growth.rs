@@ -1,39 +1,40 @@
-//! Tables of contact laid out anew where a load outgrows them.
+//! Contact tables that are laid out again for twice the load if a load exceeds them.
 
 use fe_contact::FeError;
 
 use crate::error::ExperimentError;
 
-/// How often tables may be laid out for twice the load.
+/// Number of table sizes that are tried, each for twice the load of the one before.
 pub const SIZES: usize = 5;
 
-/// Whether a fault is that the tables are too small for the load.
+/// An error that can mean that the contact tables are too small for the load.
 pub trait Outgrown {
-    /// Whether it is.
+    /// Whether the contact tables are too small for the load.
     fn is_too_small(&self) -> bool;
 }
 
 impl Outgrown for FeError {
-    /// Whether it is.
+    /// Whether the contact tables are too small for the load.
     fn is_too_small(&self) -> bool {
         matches!(self, Self::GridOverflow { .. })
     }
 }
 
 impl Outgrown for ExperimentError {
-    /// Whether it is.
+    /// Whether the contact tables are too small for the load.
     fn is_too_small(&self) -> bool {
         matches!(self, Self::Fe(e) if e.is_too_small())
     }
 }
 
-/// The first of growing sizes (0: as the load is, each further one for twice the load) that will do.
+/// Result of `attempt` with the smallest table size (0: for the given load, each further one for twice the
+/// load) that is large enough.
 pub fn large_enough<T, E: Outgrown>(attempt: impl Fn(usize) -> Result<T, E>) -> Result<T, E> {
     let mut outgrown = None;
     for size in 0..SIZES {
         match attempt(size) {
             Err(error) if error.is_too_small() => outgrown = outgrown.or(Some(error)),
-            // Larger tables may be impossible; what asked for them is the reason.
+            // Larger tables may fail otherwise; the error that required them is reported.
             Err(error) => return Err(outgrown.unwrap_or(error)),
             Ok(found) => return Ok(found),
         }

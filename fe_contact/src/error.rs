@@ -3,7 +3,7 @@
 use crate::complementarity::ComplementarityError;
 use crate::element::DistortedElement;
 
-/// Why a mesh, a body or an equilibrium could not be had.
+/// Why a mesh, a body, an equilibrium or a time step could not be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FeError {
     /// The scene lacks something FE/contact needs.
@@ -26,7 +26,7 @@ pub enum FeError {
         /// Cause and remedy.
         why: String,
     },
-    /// An element came out inside out.
+    /// An element is turned inside out: det J ≤ 0 at an integration point.
     #[error(
         "the mesh of the {body} folds over itself in tooth element {element}: {cause}; a smaller fillet or another `fe_contact.flank_elements` may mend it"
     )]
@@ -35,17 +35,17 @@ pub enum FeError {
         body: &'static str,
         /// Element within the tooth's sector.
         element: usize,
-        /// Where.
+        /// Integration point and det J.
         cause: DistortedElement,
     },
-    /// No loaded configuration repeats itself.
+    /// The iteration for the mean loaded configuration did not converge.
     #[error(
         "no mean configuration under {torque_nm} N·m is found: phases still change by {change:.4} cycles; stiffer bearings or a smaller torque keep the gears nearer their places"
     )]
     NoReference {
         /// Torque on the sun, N·m.
         torque_nm: f64,
-        /// Largest change of a phase in the last try, cycles.
+        /// Largest change of a mesh phase in the last iteration, cycles.
         change: f64,
     },
     /// Displacements too large for linear kinematics.
@@ -56,7 +56,7 @@ pub enum FeError {
     BeyondLinear {
         /// Largest difference, µm.
         rest_um: f64,
-        /// The same over the sun's peak-to-peak motion, if there is any.
+        /// The same divided by the sun's peak-to-peak motion; `None` if that is 0.
         share: Option<f64>,
     },
     /// The factorisation broke down.
@@ -64,10 +64,10 @@ pub enum FeError {
     Factorisation {
         /// Body.
         body: &'static str,
-        /// What the solver said.
+        /// Cause, as the solver reports it.
         cause: String,
     },
-    /// The modes of a body did not come out.
+    /// The modes of a body with its race held could not be computed.
     #[error("the modes of the {body} with its race held: {cause}")]
     Modes {
         /// Body.
@@ -75,7 +75,7 @@ pub enum FeError {
         /// Why.
         cause: dynamics::EigenError,
     },
-    /// Motion left all bounds.
+    /// A displacement is not a number or exceeds the bound for a vibration.
     #[error(
         "the motion diverges: at {time_s:e} s the {quantity} of the {body} is {value:e}; a smaller step (`dynamics.steps_per_cycle`) or more damping may hold it"
     )]
@@ -101,7 +101,7 @@ pub enum FeError {
         /// Depth, mm.
         depth_mm: f64,
     },
-    /// The loaded patch reached the end of its grid where the flanks go on.
+    /// A loaded patch reaches an end of its grid of contact cells where the flanks continue.
     #[error(
         "at mesh phase {phase:.4} the contact patch of pair {pair} reaches the end of its grid of ±{reach_mm:.3} mm under {force_n:.0} N"
     )]
@@ -110,7 +110,7 @@ pub enum FeError {
         phase: f64,
         /// Pair.
         pair: i64,
-        /// Half the grid, mm.
+        /// Half the length of the grid, mm.
         reach_mm: f64,
         /// Force of the pair, N.
         force_n: f64,
@@ -139,7 +139,7 @@ pub enum FeError {
         /// Why.
         cause: ComplementarityError,
     },
-    /// A table of mesh force came out unfit.
+    /// A tabulated curve of mesh force cannot be used.
     #[error("mesh law at mesh phase {phase:.4}: {cause}")]
     Curve {
         /// Mesh phase, cycles.
@@ -147,10 +147,10 @@ pub enum FeError {
         /// Why.
         cause: gearset::CurveError,
     },
-    /// Tables of mesh force do not go together.
+    /// The curves of mesh force do not form a mesh law.
     #[error(transparent)]
     Law(#[from] gearset::MeshLawError),
-    /// A set with tabulated mesh forces does not move on.
+    /// The time integration of a set with tabulated mesh forces failed.
     #[error(transparent)]
     Coupled(#[from] dynamics::CoupledError),
     /// The scene asks for tabulated mesh forces where contact is to be solved.
@@ -158,17 +158,18 @@ pub enum FeError {
         "`dynamics.fidelity` = \"mesh_law\" looks mesh forces up in tables and solves no contact: this needs \"quasi_static\", \"modal\" or \"full\""
     )]
     NoContact,
-    /// Nothing holds a motion that the load drives.
+    /// There is no equilibrium, or a matrix that must be definite is not; the text names the cause.
     #[error("no equilibrium: {0}")]
     NoEquilibrium(String),
-    /// Equilibrium iterations did not end.
+    /// An iteration for equilibrium or for a time step did not converge.
     #[error(
         "equilibrium not reached in {iterations} iterations: residual {residual:e} of the load"
     )]
     NotConverged {
         /// Iterations.
         iterations: usize,
-        /// Largest residual relative to the load.
+        /// Largest residual relative to the load; with exact kinematics and in a time step the last
+        /// change of displacements or approaches, m.
         residual: f64,
     },
 }

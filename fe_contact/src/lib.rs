@@ -1,4 +1,5 @@
-//! Finite-element/contact simulator of planetary gears: meshes, elements, bodies, contact.
+//! Finite-element/contact simulator of planetary gears: meshes, elements, bodies, contact, statics
+//! and vibration.
 
 pub mod body;
 pub mod complementarity;

@@ -1,11 +1,12 @@
-//! Rows that name two bodies of three coordinates, as tooth pairs do.
+//! Rows with non-zero entries on the coordinates of two bodies only, as a tooth pair's approach has
+//! them.
 
 use nalgebra::DVector;
 
-/// Coordinates of the two bodies that meet in a tooth pair.
+/// Most non-zero entries of a row: three coordinates of each of the two bodies of a tooth pair.
 const SHORT: usize = 6;
 
-/// A row that names two bodies of three coordinates.
+/// A row with at most six non-zero entries, stored as places and values.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct ShortRow {
     places: [u16; SHORT],
@@ -13,7 +14,7 @@ pub(crate) struct ShortRow {
 }
 
 impl ShortRow {
-    /// `None` if more coordinates take part.
+    /// `None` if more than six entries are non-zero.
     pub(crate) fn new(row: impl Iterator<Item = f64>) -> Option<Self> {
         let mut short = Self::default();
         let nonzero = row.enumerate().filter(|(_, value)| *value != 0.0);

@@ -1,4 +1,4 @@
-//! The time step allocates nothing once its maps are known.
+//! A time step allocates no memory once its contact maps exist.
 
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{

@@ -6,10 +6,11 @@ use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
 const PROBLEMS: u64 = 10_000;
-/// Above this condition forces are not judged, only separations and the KKT residual.
+/// Condition number above which forces are not compared, only separations and the KKT residual.
 const SINGULAR: f64 = 1e10;
 
-/// A problem with the numbers that decide how closely its solutions can agree.
+/// A problem with the extreme eigenvalues of its compliance, which limit how closely its solutions
+/// can agree.
 struct Case {
     compliance: DMatrix<f64>,
     gaps: Vec<f64>,
@@ -87,7 +88,7 @@ fn gaps(rng: &mut Rng, c: &DMatrix<f64>, singular: bool) -> (Vec<f64>, &'static 
         0 => ((0..n).map(|_| normal(rng)).collect(), "random"),
         1 => (vec![-1.0; n], "equal"),
         2 => {
-            // A parabola, symmetric to the last bit, that touches some places exactly.
+            // A parabola, exactly symmetric, that is exactly 0 at one or two cells.
             let touched = rng.usize(0..=n);
             let square = |i: usize| (2 * i as i64 + 1 - n as i64).pow(2) as f64;
             ((0..n).map(|i| square(i) - square(touched.min(n - 1))).collect(), "parabola")
@@ -105,7 +106,7 @@ fn gaps(rng: &mut Rng, c: &DMatrix<f64>, singular: bool) -> (Vec<f64>, &'static 
         }
         6 => (solved((0..n).map(|_| 0.1 + rng.f64()).collect(), vec![0.0; n]), "full patch"),
         7 => {
-            // A third each presses, is apart, and just touches.
+            // A third of the cells each carries force, is apart, and just touches.
             let (mut p, mut w) = (vec![0.0; n], vec![0.0; n]);
             for i in 0..n {
                 match rng.u32(0..3) {
@@ -117,7 +118,7 @@ fn gaps(rng: &mut Rng, c: &DMatrix<f64>, singular: bool) -> (Vec<f64>, &'static 
             (solved(p, w), "just touching")
         }
         _ => {
-            // Solvable, though not by these forces.
+            // A solution exists, but it is not these forces.
             let p = (0..n).map(|_| rng.f64()).collect();
             (solved(p, (0..n).map(|_| rng.f64()).collect()), "solvable")
         }
@@ -134,7 +135,7 @@ fn sized(seed: u64, n: usize) -> Case {
     let values = c.clone().symmetric_eigenvalues();
     let singular = values.min() <= values.max() / SINGULAR;
     let (g, second) = gaps(&mut rng, &c, singular);
-    // Units of contact every other time: m/N and m.
+    // In about every other case the magnitudes of contact in m/N and m.
     let (per_force, length) = if rng.bool() { (3e-9, 2e-5) } else { (1.0, 1.0) };
     Case {
         compliance: c * per_force,
@@ -184,7 +185,7 @@ fn agree(case: &Case, seen: &mut Worst) {
             assert!(*active || *p <= 1e-4 * peak, "{}: force outside contact", case.kind);
         }
     }
-    // Unique whatever the compliance.
+    // Separations are unique for every compliance.
     let pivoting = difference(&w, &separations(case, &l.forces)) / gap;
     let interior = difference(&w, &separations(case, &i.forces)) / gap;
     seen.note("separations, Lemke", pivoting, case);
@@ -200,8 +201,8 @@ fn agree(case: &Case, seen: &mut Worst) {
     let limit = f64::max(1e-9, 1e-14 * condition);
     assert!(pivoting <= limit, "{}: forces differ by {pivoting:e} of the peak", case.kind);
     let interior = difference(&a.forces, &i.forces) / peak;
-    // Where a place just touches, p and w fall only as the root of the duality gap t: then
-    // |Δp|² ≤ 2t/λ. Else they fall as t.
+    // Where a cell just touches, its p and w are only of the order of the root of the duality gap
+    // t, with |Δp|² ≤ 2t/λ; elsewhere the error is of the order of t.
     let strict = (0..w.len()).all(|k| (a.forces[k] / peak).max(w[k] / gap) > 1e-3);
     let limit = if strict {
         seen.note(
@@ -221,7 +222,7 @@ fn agree(case: &Case, seen: &mut Worst) {
     assert!(interior <= limit, "{}: forces differ by {interior:e} > {limit:e}", case.kind);
 }
 
-/// Largest values by name, and where.
+/// Largest deviations by name, with the case in which they occurred.
 #[derive(Default)]
 struct Worst(Vec<(&'static str, f64, String)>);
 
@@ -247,7 +248,8 @@ impl Worst {
 #[test]
 fn the_solvers_agree_on_random_and_degenerate_problems() {
     let mut seen = Worst::default();
-    // Beyond: gaps only just solvable, and forces that a singular compliance leaves open.
+    // The two further cases: gaps for which a solution only just exists, and forces that a singular
+    // compliance does not determine.
     for seed in (0..PROBLEMS).chain([13_992, 24_372]) {
         agree(&case(seed), &mut seen);
     }
@@ -330,7 +332,7 @@ const SOLVERS: [&dyn ComplementaritySolver; 3] = [&ActiveSet, &Lemke, &InteriorP
 
 #[test]
 fn a_problem_solved_by_hand_comes_out() {
-    // The second place is lifted off by the first: w₂ = 1·2 − 1.5.
+    // The force on the first cell separates the second: w₂ = 1·2 − 1.5.
     let compliance = DMatrix::from_row_slice(2, 2, &[2.0, 1.0, 1.0, 2.0]);
     let problem = Problem { compliance: &compliance, gaps: &[-4.0, -1.5] };
     for solver in SOLVERS {
@@ -376,7 +378,7 @@ fn unusable_input_is_refused() {
     );
     assert_eq!(fault(&one, &[-1.0]), ComplementarityError::SizeMismatch { order: 2, gaps: 1 });
     for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-        // Even where nothing would touch.
+        // Refused even if nothing would touch.
         assert_eq!(fault(&one, &[1.0, bad]), ComplementarityError::GapNotFinite { index: 1 });
         let mut compliance = one.clone();
         compliance[(0, 1)] = bad;
@@ -400,7 +402,8 @@ fn overlaps_that_no_forces_close_are_errors() {
         let fault = InteriorPoint.solve(&problem, None).unwrap_err();
         assert!(matches!(fault, ComplementarityError::InteriorPoint(_)), "{fault}");
     }
-    // C 1 = 0 to rounding, so the sum of separations stays that of the gaps, which is negative.
+    // C times the vector of ones is 0 to rounding, so that the sum of the separations is that of
+    // the gaps for all forces, and negative.
     for seed in 0..500 {
         let mut rng = Rng::with_seed(seed);
         let n = rng.usize(2..=24);

@@ -207,7 +207,8 @@ fn patch_test() {
                 let grid = Grid::new(bent, (3, 3), family, slope);
                 let value = |n: usize| {
                     let u = linear(grid.points[n]);
-                    // Derivatives of the field: its gradient alone.
+                    // Derivative nodes have the field's gradient times dP/ds, without the constant
+                    // part.
                     let zero = linear([0.0; 2]);
                     if grid.is_derivative[n] { [u[0] - zero[0], u[1] - zero[1]] } else { u }
                 };
@@ -242,14 +243,15 @@ fn three_rigid_motions_and_no_other_free_one() {
             let turn =
                 DVector::from_iterator(2 * nodes.len(), points.iter().flat_map(|[x, y]| [-y, *x]));
             assert!((&k.stiffness * &turn).amax() < 1e-9 * largest);
-            // ωᵀMω is the polar inertia: ρ ∫ r² dA of the element.
+            // With ω = `turn`, ωᵀMω is the polar inertia ρ ∫ r² dA of the element.
             let shift = DVector::from_iterator(
                 2 * nodes.len(),
                 nodes.iter().flat_map(|n| [f64::from(u8::from(!grid.is_derivative[*n])), 0.0]),
             );
             let (mass, inertia) = (shift.dot(&(&k.mass * &shift)), turn.dot(&(&k.mass * &turn)));
             if family == ElementFamily::Quadratic && hermite {
-                // The mapped area by a fine polygon: the straight-sided families cut corners.
+                // Area and polar moment of the mapped patch by a fine grid of polygons. Elements
+                // with straight sides only approximate them, and are not compared.
                 let (mut area, mut polar) = (0.0, 0.0);
                 let n = 400;
                 for i in 0..n {

@@ -1,4 +1,4 @@
-//! Every fidelity turns every set; bodies with all degrees of freedom turn as quasi-static ones do.
+//! Every level of fidelity runs with every kind of set; full bodies move as quasi-static ones do.
 
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
@@ -7,7 +7,7 @@ use gearset::{Facing, Fidelity, Freedom, Kinematics, Scene, Torsional};
 
 const TORQUE: f64 = 1130.0;
 
-/// Coarse, since nothing here depends on the mesh.
+/// A scene with a coarse FE mesh, which suffices: no statement tested here depends on it.
 fn scene(name: &str, flank_elements: u32) -> Scene {
     let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let mut scene = Scene::from_file(path.as_ref()).unwrap();
@@ -28,7 +28,8 @@ fn turning<'b>(scene: &Scene, bodies: &'b Bodies, steps_per_cycle: usize) -> Vib
     set
 }
 
-/// A few steps on every fidelity: what moves is finite, every mesh presses. The sun starts in balance.
+/// A few steps at every fidelity: displacements are finite, and every mesh carries force. At the
+/// start the forces of the sun meshes balance the torque.
 fn every_fidelity_turns(mut scene: Scene) {
     let bodies = Bodies::new(&scene).unwrap();
     let radius = bodies.geometry.sun.as_ref().unwrap().base_radius;
@@ -39,7 +40,8 @@ fn every_fidelity_turns(mut scene: Scene) {
         let mut set = turning(&scene, &bodies, 16);
         assert_eq!(set.elastic_unknowns() == 0, fidelity == Fidelity::QuasiStatic);
         set.mesh_forces(&mut forces);
-        // Corner contacts press with an arm of their own: 0.09 % seen with four planets.
+        // Corner contacts have moment arms other than the base radius: a difference of 0.09 % was
+        // observed with four planets.
         let carried = radius * forces[..planets].iter().sum::<f64>();
         assert!((carried - TORQUE).abs() < 2e-3 * TORQUE, "{fidelity:?}: {carried} N m");
         for step in 1..=3 {
@@ -87,10 +89,11 @@ fn a_carrier_without_shape() {
     every_fidelity_turns(scene);
 }
 
-/// Released from rest the sun's rotation moves by some tenths of a µm at its base radius; full and
-/// quasi-static bodies part by 9 nm of it, rms, a thousandth of what the mesh cycle makes of it at rest.
-/// What is left rings in the modes that meshes rule, above 8 kHz: elastic inertia moves them by a few
-/// percent, and 28 steps a cycle do not resolve them.
+/// After release from rest the sun rotates by some tenths of a µm at its base radius. With full and
+/// quasi-static bodies the rotation differs by 9 nm rms, a thousandth of its range over the mesh
+/// cycle at rest. The difference oscillates in the modes above 8 kHz that the mesh stiffness
+/// governs: elastic inertia changes their frequencies by a few percent, and 28 steps per cycle do
+/// not resolve them.
 #[test]
 fn full_bodies_turn_as_quasi_static_ones() {
     let mut scene = scene("oh58_3p", 8);

@@ -13,7 +13,7 @@ use gearset::{Facing, Fidelity, FlankSide, Scene};
 
 const TORQUE: f64 = 1413.0;
 
-/// Tables of contact for a force of each mesh.
+/// Loading with contact tables laid out for a force (N) of each mesh.
 fn loading(mesh_force: f64) -> Loading {
     Loading { torque_nm: TORQUE, mesh_force }
 }
@@ -24,7 +24,7 @@ const STEPS: usize = 140;
 fn scene(name: &str) -> Scene {
     let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let mut scene = Scene::from_file(path.as_ref()).unwrap();
-    // Coarse, since nothing here depends on the mesh.
+    // A coarse FE mesh suffices: no statement tested here depends on it.
     scene.fe_contact.flank_elements = 8;
     scene
 }
@@ -52,7 +52,7 @@ fn size(z: [f64; 2]) -> f64 {
     z[0].hypot(z[1])
 }
 
-/// Sun rotation and all front mesh forces over the last of so many mesh cycles.
+/// Sun rotation and the forces of all front meshes over the last of `cycles` mesh cycles.
 fn record(cycles: usize, mut step: impl FnMut(&mut Vec<f64>)) -> Vec<Vec<f64>> {
     let mut row = Vec::new();
     (0..(cycles - 1) * STEPS).for_each(|_| step(&mut row));
@@ -86,7 +86,7 @@ fn harmonics_are_those_of_the_quasi_static_fidelity() {
     let mut full =
         VibratingSet::new(&scene, &bodies, sense, none, rotation, loading(force)).unwrap();
     full.rest(TORQUE).unwrap();
-    // At rest alike.
+    // The sun has the same rotation in equilibrium.
     let (a, b) = (fast.displacements().0[2][2], full.displacements().0[2][2]);
     println!("sun's rotation at rest: {a:.6e} and {b:.6e} rad, {:.2e} apart", (a / b - 1.0).abs());
     assert!((a / b - 1.0).abs() < 2e-3);
@@ -132,9 +132,10 @@ fn harmonics_are_those_of_the_quasi_static_fidelity() {
                 apart / scale
             );
             assert!(apart / scale < if h == 0 { 2e-3 } else { 0.15 }, "{name}, harmonic {h}");
-            // The second harmonic stands on a resonance, 5 to 7 % low here: half of it is the loads beside
-            // the line of action, which follow the vibration in contact and the position alone here, half
-            // the lag of βK, which acts on each pair there and on the mesh as a whole here.
+            // The second harmonic is near a resonance, and the mesh law gives it 5 to 7 % low.
+            // About half of this is due to the side loads, which depend on the vibration with
+            // contact but on the position only with the mesh law; half to the lag of βK, which acts
+            // on each pair with contact but on the mesh as a whole with the mesh law.
             if k == 0 {
                 assert!((size(one[h]) - size(two[h])).abs() < 0.08 * largest.max(size(two[h])));
             }
@@ -142,7 +143,8 @@ fn harmonics_are_those_of_the_quasi_static_fidelity() {
     }
 }
 
-/// Tables made for either sense of a torque, or twice, are what they must be: the same.
+/// Tables computed twice are equal, and have front and backside flanks with the expected first
+/// contact.
 #[test]
 fn laws_are_deterministic_and_have_both_flanks() {
     let scene = scene("oh58_3p");
@@ -154,11 +156,11 @@ fn laws_are_deterministic_and_have_both_flanks() {
     for mesh in 0..6 {
         let front = law.first_contact_m(mesh, FlankSide::Front).unwrap();
         let backside = law.first_contact_m(mesh, FlankSide::Backside).unwrap();
-        // Pairs whose corners approach ahead of the mesh touch early.
+        // Corner contacts may begin before the mesh has a deflection.
         assert!((-6e-6..0.2e-6).contains(&front), "{front:e}");
         assert!((70e-6..100e-6).contains(&backside), "{backside:e}");
         assert!((0.3..1.0).contains(&law.damping_share(mesh)));
-        // The largest force is held.
+        // The tables reach three times the mean force, and at most 3 % more.
         for step in 0..28 {
             let curve = law.front(mesh, step);
             let largest = curve.force(curve.end_m()).0;
@@ -167,8 +169,8 @@ fn laws_are_deterministic_and_have_both_flanks() {
     }
 }
 
-/// A law that holds a set at rest at any speed keeps its energy in bounds, and resumes exactly; the
-/// mirrored torque gives the mirrored motion.
+/// A run that is resumed from a stored state gives exactly the same motion, and a torque of the
+/// opposite sense the opposite rotation of the sun.
 #[test]
 fn both_senses_and_resumed_runs_agree() {
     let scene = scene("oh58_3p");
@@ -211,7 +213,8 @@ fn statics_are_those_of_contact() {
     let scene = scene("oh58_4p");
     let bodies = Bodies::new(&scene).unwrap();
     let sense = Facing::CounterClockwise;
-    // Grids as large as those of the contact it is held against: larger ones are coarser.
+    // Grids of about the size of those in statics, with which it is compared: larger grids have
+    // wider cells.
     let settings = MeshLawSettings { reach: 1.3, ..MeshLawSettings::at(TORQUE) };
     let law = mesh_law(&scene, &bodies, sense, 28, &settings).unwrap();
     let mut fast = MeshLawSet::new(&scene, &bodies, sense, FREQUENCY, TORQUE, law).unwrap();
@@ -232,6 +235,6 @@ fn statics_are_those_of_contact() {
         }
     }
     println!("static transmission error {worst:.2e} of its range apart, forces {worst_force:.2e}");
-    // Forces are counted along the path here, along each pair's own normal there.
+    // The mesh law counts forces along the line of action, statics along each pair's own normal.
     assert!(worst < 0.015 && worst_force < 0.01);
 }

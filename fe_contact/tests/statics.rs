@@ -90,7 +90,8 @@ fn one_thread_and_two_give_the_same_bits() {
     assert_eq!(run(1), run(2));
 }
 
-/// A force along the flank's normal turns the body by its base radius, whatever the point.
+/// A force along the normal of a gear's flank has that gear's base radius as its moment arm, at
+/// every point of the flank.
 #[test]
 fn arms_are_base_radii_on_the_path_and_the_opposing_flanks_at_corners() {
     for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
@@ -106,7 +107,7 @@ fn arms_are_base_radii_on_the_path_and_the_opposing_flanks_at_corners() {
                 use fe_contact::contact::Location;
                 match frame.location {
                     Location::Path => assert!((a - 1.0).abs() < 1e-12 && (b - 1.0).abs() < 1e-12),
-                    // The gear whose flank is pressed on has its base radius.
+                    // The arm of the gear whose flank is pressed on is its base radius.
                     Location::Corner(gearset::MeshMember::Driver) => {
                         assert!((b - 1.0).abs() < 1e-12);
                     }
@@ -136,8 +137,8 @@ fn gaps_follow_the_relative_curvature() {
     }
 }
 
-/// Maxwell–Betti: the matched compliance is symmetric to a fraction of a percent before its
-/// symmetric part is taken, and positive definite after.
+/// Maxwell–Betti: before its symmetric part is taken, the matched compliance is symmetric to within
+/// 2 % of its largest entry; afterwards it is positive definite.
 #[test]
 fn compliance_is_nearly_reciprocal() {
     let b = bodies();
@@ -180,8 +181,8 @@ fn without_a_bore_there_is_no_race() {
     assert!(refused.contains("geometry.planet.bore_diameter_mm"), "{refused}");
 }
 
-/// Coupling through the rim dies out tooth by tooth: what is kept, four teeth on either side, holds
-/// all of a mesh, and what other meshes of the same gear do to it, half a dozen teeth away or more,
+/// Coupling through the rim decays from tooth to tooth. The four teeth kept on either side contain
+/// all pairs of a mesh. Other meshes of the same gear are at least six teeth away; their influence
 /// is left out.
 #[test]
 fn coupling_through_the_rim_dies_out() {
@@ -209,14 +210,14 @@ fn a_ring_of_material_weighs_what_it_should() {
     let gear = ring.mesh.outline.gear();
     let area = |inner: f64, outer: f64| std::f64::consts::PI * (outer * outer - inner * inner);
     let unit = m.density * b.geometry.face_width;
-    // Between the solid rim and the rim with solid teeth.
+    // Between the mass of the rim alone and that of the rim with its tooth spaces filled.
     let rim = gear.body_radius.unwrap();
     let (least, most) = (unit * area(gear.root_radius, rim), unit * area(gear.tip_radius, rim));
     assert!(ring.mass > least && ring.mass < most);
 }
 
-/// A planet pressed 300 µm into the sun meets it on both flanks, whose backlash is 91 µm; one left in
-/// its place meets it on the loaded flanks alone.
+/// A planet displaced by 300 µm towards the sun touches it on both flanks, whose backlash is 91 µm;
+/// a planet in its nominal place touches it on the loaded flanks only.
 #[test]
 fn backside_flanks_press_where_the_backlash_is_used_up() {
     let scene = scene("oh58_3p.toml");
@@ -233,7 +234,7 @@ fn backside_flanks_press_where_the_backlash_is_used_up() {
         assert!(state.residual < 1e-9);
         let jammed: Vec<_> = state.backside.iter().filter(|m| m.force > 0.0).collect();
         assert!(jammed.iter().any(|m| m.kind == MeshKind::SunPlanet && m.planet == 1));
-        // Opposite flanks press against each other: both carry more than the torque asks for.
+        // Opposite flanks press against each other: both carry more than the torque requires.
         let front = state.meshes.iter().find(|m| m.kind == MeshKind::SunPlanet && m.planet == 1);
         assert!(front.unwrap().force > 200.0 / 3.0 / 35.2e-3);
     }
@@ -258,8 +259,8 @@ fn without_backlash_the_load_opens_the_backside_flanks() {
     }
 }
 
-/// A factor on the flexibility scales what the finite elements give, between pairs too, and leaves the
-/// half-planes, which know their own pair alone; 1 changes no bit.
+/// A flexibility factor scales the FE part of the compliance, also between pairs, and leaves the
+/// part of the half-planes, which acts within one pair only; a factor of 1 changes no bit.
 #[test]
 fn a_factor_scales_the_fe_part_of_one_mesh_alone() {
     let b = bodies();
@@ -301,8 +302,8 @@ fn a_factor_that_is_no_flexibility_is_refused() {
     }
 }
 
-/// What figures show of one mesh comes from its cells: pressures add up to the pair's force, and the way of
-/// one tooth pair holds the forces of all pairs.
+/// The figures of one mesh are consistent with its cells: pressures add up to the pair's force, and
+/// the forces over the passage of one tooth pair are those of all pairs.
 #[test]
 fn pressures_and_loads_of_tooth_pairs_add_up() {
     let cycle = pair_cycle(bodies(), MeshKind::SunPlanet, FORCE, 8, &ActiveSet).unwrap();
@@ -339,7 +340,7 @@ fn ranges_over_the_cycle_of_a_set_hold_its_positions() {
     assert!(list.contains(&error.least) && list.contains(&error.largest));
     assert!(error.least < error.mean && error.mean < error.largest);
     assert_eq!(error.peak_to_peak(), error.largest - error.least);
-    // Even sharing: the mean over planets of either kind of mesh is that of the set.
+    // The mean over the sun meshes of the four planets is the mean of the set.
     let own = (0..4).map(|mesh| cycle.mesh_secant_stiffness(mesh).mean).sum::<f64>() / 4.0;
     assert!((own / cycle.mean_secant_stiffness(MeshKind::SunPlanet) - 1.0).abs() < 1e-12);
     let force = cycle.mesh_force(0);

@@ -10,7 +10,7 @@ const TORQUE: f64 = 1130.0;
 fn scene(name: &str, fidelity: Fidelity) -> Scene {
     let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let mut scene = Scene::from_file(path.as_ref()).unwrap();
-    // Coarse, since nothing here depends on the mesh.
+    // A coarse FE mesh suffices: no statement tested here depends on it.
     scene.fe_contact.flank_elements = 8;
     scene.dynamics.fidelity = fidelity;
     scene
@@ -39,7 +39,7 @@ fn turning(steps_per_cycle: usize) -> NominalRotation {
     NominalRotation::Turning { mesh_frequency: 500.0, steps_per_cycle }
 }
 
-/// Every fidelity stays at rest in its own equilibrium.
+/// At every fidelity a set stays at rest in its equilibrium.
 #[test]
 fn a_set_at_rest_stays_at_rest() {
     for fidelity in [Fidelity::QuasiStatic, Fidelity::Modal(3), Fidelity::Full] {
@@ -58,7 +58,8 @@ fn a_set_at_rest_stays_at_rest() {
     }
 }
 
-/// A torque that swells by a thousandth and back; the races' displacements after it.
+/// Displacements of the races after the torque has risen by a thousandth and fallen back within 1
+/// ms.
 fn after_swell(scene: &Scene, bodies: &Bodies, steps: usize) -> Vec<f64> {
     let span = 1e-3;
     let step = span / steps as f64;
@@ -92,7 +93,8 @@ fn newmark_is_of_second_order_with_and_without_lag() {
     }
 }
 
-/// T + V changes by what forces did, in every step, standing or turning.
+/// In every step of a turning set, kinetic energy and energy of the bearings change by the work
+/// done.
 #[test]
 fn the_discrete_energy_identity_holds() {
     let scene = scene("oh58_4p", Fidelity::QuasiStatic);
@@ -113,7 +115,7 @@ fn the_discrete_energy_identity_holds() {
     assert!(worst < 1e-10 * size, "{worst:e} of {size:e}");
 }
 
-/// Three planets in phase: the sun does not leave its centre, and planets move alike.
+/// With three planets in phase the sun stays in its centre, and all planets move alike.
 #[test]
 fn three_planets_keep_the_sun_in_its_centre() {
     let scene = scene("oh58_3p", Fidelity::QuasiStatic);
@@ -133,7 +135,8 @@ fn three_planets_keep_the_sun_in_its_centre() {
     }
 }
 
-/// The tangent of the linearised set is what statics does under a little more torque.
+/// The stiffness of the linearised set gives the change of equilibrium under a slightly larger
+/// torque.
 #[test]
 fn linearisation_is_the_derivative_of_statics() {
     let scene = scene("oh58_4p", Fidelity::QuasiStatic);
@@ -151,13 +154,14 @@ fn linearisation_is_the_derivative_of_statics() {
     assert!(off < 1e-4, "{off:e}");
 }
 
-/// A linearised set without the turning of its meshes' forces, a stiffness that nothing damps.
+/// A linearised set without the turning of its mesh forces, whose stiffness is undamped.
 fn undamped_turning_left_out(mut linear: LinearSet) -> LinearSet {
     linear.supports -= &linear.turning;
     linear
 }
 
-/// Damping by α and β alone: every low mode is proportionally damped but for the half-planes.
+/// With damping by α and β, the low modes are damped proportionally, except that half-planes are
+/// undamped.
 #[test]
 fn linear_damping_is_near_that_of_proportional_damping() {
     let scene = scene("oh58_3p", Fidelity::QuasiStatic);
@@ -176,7 +180,7 @@ fn linear_damping_is_near_that_of_proportional_damping() {
 
 #[test]
 fn modes_and_full_bodies_answer_alike() {
-    // Every mode there is would be the full body; a few dozen come near.
+    // All modes together would be the full body; twelve come closer to it than none.
     let run = |fidelity| {
         let scene = scene("oh58_3p", fidelity);
         let bodies = Bodies::new(&scene).unwrap();
@@ -203,8 +207,8 @@ fn modes_and_full_bodies_answer_alike() {
     assert!(more < 0.8 * few, "{few} {more}");
 }
 
-/// What modes do not carry of a body is given statically, between its meshes as within them: statics
-/// know nothing of how many there are.
+/// The flexibility that the modes of a body leave out acts statically, between its meshes as within
+/// them, so that the equilibrium does not depend on the number of modes.
 #[test]
 fn equilibrium_is_that_of_full_bodies_with_any_number_of_modes() {
     let at_rest = |fidelity| {
@@ -224,12 +228,13 @@ fn equilibrium_is_that_of_full_bodies_with_any_number_of_modes() {
         let apart = apart(Fidelity::Modal(n));
         assert!(apart < 1e-9, "{n} modes: {apart:e}");
     }
-    // Quasi-static bodies know each mesh alone.
+    // Quasi-static bodies leave out the coupling between different meshes.
     let apart = apart(Fidelity::QuasiStatic);
     assert!(apart > 1e-5 && apart < 1e-2, "{apart:e}");
 }
 
-/// Bending of one tooth is spread over a band of modes, one for each tooth of the gear, far below the next.
+/// The lowest modes of a gear with its race held are a band of tooth bending modes, one per tooth,
+/// well below the next mode.
 #[test]
 fn teeth_bend_in_a_band_of_as_many_modes() {
     let scene = scene("oh58_4p", Fidelity::QuasiStatic);
@@ -257,7 +262,7 @@ fn divergence_names_time_body_and_quantity() {
     let bodies = Bodies::new(&scene).unwrap();
     let mut set = set(&scene, &bodies, standing(5e-6));
     set.rest(TORQUE).unwrap();
-    // A sun pushed aside by a thousand tonnes.
+    // A lateral force of 1e10 N on the sun.
     let sun = set.races().of(fe_contact::statics::SUN, 0).unwrap();
     set.external[sun] = 1e10;
     let said = (0..200).find_map(|_| set.step().err()).unwrap().to_string();
@@ -284,8 +289,7 @@ fn what_cannot_run_is_refused_with_its_key() {
     }
 }
 
-/// Without torque the flanks stand apart and the set floats in its backlash; there is nothing to
-/// linearise about.
+/// Without torque no flanks touch, the set does not move, and it cannot be linearised.
 #[test]
 fn without_torque_nothing_touches() {
     let scene = scene("oh58_3p", Fidelity::QuasiStatic);
@@ -302,12 +306,13 @@ fn without_torque_nothing_touches() {
     assert!(set.linearised().unwrap_err().to_string().contains("no mesh touches"));
 }
 
-/// The sun thrown across its backlash meets the other flanks and comes back.
+/// A reversed torque drives the sun through the backlash onto the backside flanks, from which it
+/// returns.
 #[test]
 fn a_sun_thrown_back_meets_the_other_flanks() {
     let scene = scene("oh58_3p", Fidelity::QuasiStatic);
     let bodies = Bodies::new(&scene).unwrap();
-    // Grids wide enough for the blow.
+    // Grids wide enough for the force of the impact.
     let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
     let mut set =
         VibratingSet::new(&scene, &bodies, sense, none, standing(5e-6), loading(4e4)).unwrap();
@@ -323,8 +328,8 @@ fn a_sun_thrown_back_meets_the_other_flanks() {
         })
         .collect();
     assert!(set.counts.with_backside > 0);
-    // It swings about where the reversed torque holds it, across both backlashes (0.2 mm along the
-    // line of action), and is thrown back.
+    // It oscillates about its equilibrium under the reversed torque, on the other side of both
+    // backlashes (0.2 mm along the line of action), and returns.
     let backlash = 2.0 * bodies.geometry.normal_backlash(gearset::MeshKind::SunPlanet).unwrap();
     let (lowest, at) =
         path.iter().zip(0..).fold((0.0, 0), |a, x| if *x.0 < a.0 { (*x.0, x.1) } else { a });
@@ -333,8 +338,8 @@ fn a_sun_thrown_back_meets_the_other_flanks() {
     assert!(path[at..].iter().any(|x| *x > middle), "it stays");
 }
 
-/// Clockwise torque on a mirrored set is the mirror of the motion, in a carrier frame that turns as
-/// well.
+/// A clockwise torque on the mirrored set gives the mirrored motion, with and without gyroscopic
+/// terms.
 #[test]
 fn a_mirrored_set_under_reversed_torque_moves_as_the_mirror() {
     let mut scene = scene("oh58_4p", Fidelity::QuasiStatic);
@@ -368,11 +373,12 @@ fn a_mirrored_set_under_reversed_torque_moves_as_the_mirror() {
     }
     let [still, turning] = [paths[0], paths[1]];
     let moved = (still[0] - turning[0]).hypot(still[1] - turning[1]);
-    // Far more than the mirror may be off by.
+    // The gyroscopic terms change the motion by far more than the tolerance above.
     assert!(moved > 1e-2 * still[0].hypot(still[1]), "gyroscopic terms: {moved:e}");
 }
 
-/// Factors on the meshes' flexibility: rest, linearisation and damping see one and the same mesh.
+/// Flexibility factors apply equally to the meshes in equilibrium, in motion, in the linearisation
+/// and in the damping.
 #[test]
 fn a_set_with_softer_meshes_is_one_set_at_rest_and_in_motion() {
     let mut soft = scene("oh58_3p", Fidelity::QuasiStatic);
@@ -389,7 +395,7 @@ fn a_set_with_softer_meshes_is_one_set_at_rest_and_in_motion() {
     for (x, y) in set.motion().x.iter().zip(&start) {
         assert!((x - y).abs() < 1e-9 * size, "{x} {y}");
     }
-    // βK holds the softer flexibility: damping stays that of the set as a whole, half-planes apart.
+    // βK acts on the softer flexibility: damping stays proportional, except for the half-planes.
     let (alpha, beta) = (142.9, 2.21e-6);
     let linear = undamped_turning_left_out(set.linearised().unwrap());
     for mode in linear.damped().unwrap().iter().take(8) {
@@ -408,7 +414,8 @@ fn a_set_with_softer_meshes_is_one_set_at_rest_and_in_motion() {
     }
 }
 
-/// What is fixed to the planets' races moves with them and changes no equilibrium.
+/// Mass and inertia added to the planets' races appear in the masses and do not change the
+/// equilibrium.
 #[test]
 fn added_mass_rides_on_the_planets_races() {
     let plain = scene("oh58_3p", Fidelity::QuasiStatic);

@@ -1,4 +1,4 @@
-//! Where planets can be put, and whether they have room.
+//! Angular positions at which planets can be assembled, and clearances between neighbouring planets.
 
 use std::f64::consts::TAU;
 

@@ -39,7 +39,7 @@ fn tooth_geometry(document: &Document<'_>, scene: &Scene, geometry: &Geometry) {
         }
     }
     if !sound {
-        return; // What follows would only repeat the cause.
+        return; // Further checks would only report consequences of these faults.
     }
     for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
         if let Some(mesh) = geometry.mesh(kind) {
@@ -64,7 +64,7 @@ fn tooth_geometry(document: &Document<'_>, scene: &Scene, geometry: &Geometry) {
     }
 }
 
-/// An annulus that holds its pin seats, and seats that stay apart.
+/// Checks that the carrier's annulus contains its pin seats and that the seats do not overlap.
 fn carrier(document: &Document<'_>, scene: &Scene, a: f64) {
     let Some(carrier) = scene.geometry.as_ref().and_then(|g| g.carrier) else { return };
     let seat = carrier.pin_seat_radius;
@@ -87,7 +87,7 @@ fn carrier(document: &Document<'_>, scene: &Scene, a: f64) {
     }
 }
 
-/// Circles of one gear in their order, a tooth with a land, a fillet that fits.
+/// Checks the order of one gear's circles, its tip land, root fillets and tip relief; true without a fault.
 fn one_gear(document: &Document<'_>, name: &str, gear: &Gear, body_key: &str) -> bool {
     let key = |k: &str| format!("geometry.{name}.{k}");
     let sound = std::cell::Cell::new(true);
@@ -158,7 +158,7 @@ fn one_gear(document: &Document<'_>, name: &str, gear: &Gear, body_key: &str) ->
     sound.get()
 }
 
-/// Contact ratio, interference, clearances and backlash of one mesh.
+/// Checks interference, clearances, contact ratio and backlash of one mesh.
 fn one_mesh(document: &Document<'_>, geometry: &Geometry, mesh: &Mesh) {
     let (driver, driven) = match mesh.kind {
         MeshKind::SunPlanet => ("sun", "planet"),
@@ -210,7 +210,8 @@ fn one_mesh(document: &Document<'_>, geometry: &Geometry, mesh: &Mesh) {
     }
 }
 
-/// Bodies with elastic states of their own serve several meshes at once.
+/// Refuses flexibility factors at every fidelity but `quasi_static`: elastic states of a body act in several
+/// meshes at once and cannot be scaled for one mesh.
 fn factors_need_quasi_static(document: &Document<'_>, scene: &Scene) {
     let factor = scene.fe_contact.flexibility_factor;
     if scene.dynamics.fidelity == Fidelity::QuasiStatic {

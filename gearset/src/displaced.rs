@@ -1,20 +1,21 @@
-//! A mesh whose gears stand off their nominal places: exact kinematics of two involutes at any
-//! displacement, with first and second derivatives.
+//! A mesh of displaced gears: exact kinematics of two involutes at displacements of any size, with first and
+//! second derivatives.
 //!
-//! Two rigid involute gears know of each other only three numbers. With D = c_planet − c_central, its
-//! length a' and direction λ, and the sum (external) or difference (internal) R of the base radii,
+//! The relative position of two rigid involute gears enters their contact through three quantities only: δ, σ
+//! and a'. With D = c_planet − c_central, its length a' and direction λ, and the sum (external) or difference
+//! (internal) R of the base radii,
 //!
 //! ```text
-//! cos α' = R/a',  L = a' sin α' = √(a'² − R²)                    operating angle, length between tangent points
-//! s₁ = roll length of the driver, s₂ = roll length of the driven gear, each counted from its own tangent point
+//! cos α' = R/a',  L = a' sin α' = √(a'² − R²)    operating angle, length between tangent points
+//! s₁, s₂ = roll lengths of driver and driven gear, each counted from its own tangent point
 //! external: tangent points at λ − α' and λ + π − α',  δ = s₁ + s₂ − L
 //! internal: tangent points at λ + α' on both gears,   δ = s₁ − s₂ + L
 //! ```
 //!
-//! δ is the approach along the actual line of action (the overlap of all pairs on the path), σ = s₁ − δ/2
-//! is where on the actual line of action the pairs stand once each gear is turned back by half of δ, so
-//! that the flanks touch, and a' places the ends of the path. Everything is taken in the mesh frame of
-//! [`Mesh`] (nominal line of centres along x) with displacements (x, y, θ) of driver, then driven.
+//! δ is the approach along the actual line of action (the overlap of all pairs on the path). σ = s₁ − δ/2 is
+//! the driver's roll length after each gear is turned back by half of δ, so that the flanks just touch. a'
+//! determines the ends of the path. All quantities are in the mesh frame of [`Mesh`] (nominal line of centres
+//! along x), with displacements (x, y, θ) of driver, then driven gear.
 
 use crate::gear::Flank;
 use crate::mesh::{Mesh, NoMesh};
@@ -77,7 +78,7 @@ pub struct MeshHessians {
     pub center_distance: [[f64; 6]; 6],
 }
 
-/// How δ or σ depends on (a', λ), through which alone the centres enter.
+/// Derivatives of δ, s₁ or a' with respect to a' and λ; the centres enter only through these two.
 #[derive(Clone, Copy)]
 struct OfCentres {
     by_distance: f64,
@@ -86,7 +87,8 @@ struct OfCentres {
 }
 
 impl Mesh {
-    /// The same gears at another centre distance a' (m): path, angle and contact ratio are those there.
+    /// The same gears at another centre distance a' (m), with the path, pressure angle and contact ratio that
+    /// belong to it.
     ///
     /// # Errors
     /// If the base circles leave no operating angle at a'.
@@ -149,7 +151,7 @@ impl Mesh {
 }
 
 impl DisplacedMesh {
-    /// The same gears rolled on by some mesh cycles, the approach as it is.
+    /// The same gears rolled on by `cycles` mesh cycles at unchanged approach.
     pub fn turned_by(&self, cycles: f64) -> Self {
         let along = cycles * self.base_pitch;
         let mate = match self.kind {
@@ -196,8 +198,8 @@ impl DisplacedMesh {
         (self.touching_roll_length() - self.path()[0]) / self.base_pitch
     }
 
-    /// How far pair `index` has its driver's tip corner beyond the end of the path, and its driven
-    /// gear's beyond the start, m; negative inside. Each is measured on the corner's own gear.
+    /// Distances of the driver's tip corner of pair `index` beyond the end of the path, and of the driven
+    /// gear's beyond the start, m; negative inside. Each is measured in roll length of the corner's own gear.
     pub fn beyond(&self, index: i64) -> [f64; 2] {
         let along = index as f64 * self.base_pitch;
         let end = self.driver_roll_length + along - self.tip_roll_lengths[0];
@@ -250,8 +252,8 @@ impl DisplacedMesh {
     }
 
     /// Clearance of pair `index` as it stands, without relief, m: −δ on the path, at a corner the gap
-    /// from the mating flank to the corner along that flank's base tangent. `None` if the corner is inside the
-    /// mate's base circle.
+    /// from the mating flank to the corner along that flank's base tangent. `None` if the corner is inside
+    /// the mate's base circle.
     pub fn clearance(&self, mesh: &Mesh, index: i64) -> Option<f64> {
         let (driver, driven) = self.flanks(mesh, index);
         match self.location(index) {
@@ -271,7 +273,7 @@ impl DisplacedMesh {
         ([cos, sin], [-sin / self.center_distance, cos / self.center_distance])
     }
 
-    /// −1 or +1 for the centre of driver and driven in D.
+    /// Signs with which the centres of driver and driven gear enter D.
     fn senses(&self) -> [f64; 2] {
         match self.kind {
             MeshKind::SunPlanet => [-1.0, 1.0],
@@ -279,7 +281,7 @@ impl DisplacedMesh {
         }
     }
 
-    /// δ and s₁ over (a', λ).
+    /// Derivatives of δ and s₁ with respect to a' and λ.
     fn of_centres(&self) -> [OfCentres; 2] {
         let (radii, reach, a) = (self.radii(), self.reach(), self.center_distance);
         let [r1, _] = self.base_radii;
@@ -351,7 +353,7 @@ impl DisplacedMesh {
         }
     }
 
-    /// Second derivatives; rotations enter linearly.
+    /// Second derivatives; those with respect to rotations are zero.
     pub fn hessians(&self) -> MeshHessians {
         let (along, across) = self.along_and_across();
         let a = self.center_distance;

@@ -25,7 +25,7 @@ impl fmt::Display for Fault {
     }
 }
 
-/// Why a scene could not be had.
+/// Why a scene could not be read.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
     /// The file could not be read.
@@ -33,7 +33,7 @@ pub enum SceneError {
     Unreadable {
         /// The path asked for.
         path: PathBuf,
-        /// What the operating system said.
+        /// Error of the operating system.
         #[source]
         cause: std::io::Error,
     },

@@ -33,7 +33,7 @@ pub struct Gear {
     pub tip_radius: f64,
     /// r_f.
     pub root_radius: f64,
-    /// Bore of an external gear, rim of the ring.
+    /// Bore radius of an external gear, rim radius of the ring.
     pub body_radius: Option<f64>,
     /// Root fillet radius.
     pub fillet_radius: f64,
@@ -103,7 +103,8 @@ impl Gear {
         let rho = self.fillet_radius;
         let half_pitch = PI / f64::from(self.teeth);
         let half = match (self.side, self.form_roll_length()) {
-            // The centre lies on the involute offset by ρ: origin moved by ρ/r_b.
+            // The fillet's centre lies on the flank's involute offset by ρ, which is the same involute with
+            // its origin turned by ρ/r_b.
             (ToothSide::External, Some(s)) => {
                 let alpha = ((s + rho) / self.base_radius).atan();
                 half_pitch - (self.half_angle_base + rho / self.base_radius - inv(alpha))
@@ -136,7 +137,7 @@ impl Gear {
     }
 }
 
-/// Which of a lobe's two flanks, by the way it faces.
+/// Which of a lobe's two flanks: the one at its counter-clockwise or at its clockwise end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Facing {
@@ -202,7 +203,8 @@ impl<'g> Flank<'g> {
     /// Gap from the unrelieved flank to a point, measured along the base tangent through the point,
     /// positive on the free side, m. `None` inside the base circle.
     ///
-    /// The point lies on an involute with origin θ₀'; the two are r_b (θ₀' − θ₀) apart everywhere.
+    /// The point lies on an involute of the same base circle with origin angle θ₀'; along every base tangent
+    /// this involute and the flank are r_b (θ₀' − θ₀) apart.
     pub fn gap_to(&self, point: [f64; 2]) -> Option<f64> {
         let [x, y] = [point[0] - self.centre[0], point[1] - self.centre[1]];
         let r = x.hypot(y);

@@ -42,7 +42,7 @@ pub enum GeometryError {
     NoMesh(#[from] NoMesh),
 }
 
-/// Profile-shift sums for zero backlash, rack given (ring with the internal-gear sign).
+/// Profile-shift sums for zero backlash with a given rack (ring with the internal-gear sign).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ProfileShiftSums {
     /// x_s + x_p.
@@ -62,7 +62,7 @@ impl Geometry {
         Ok(Self::new(input, teeth)?)
     }
 
-    /// Works the geometry out.
+    /// Computes gears and meshes from the scene's input.
     ///
     /// # Errors
     /// If the base circles leave no operating pressure angle at the centre distance.
@@ -161,7 +161,8 @@ fn set_thickness(
                 let mesh = Mesh::ring_planet(ring, planet, a)?;
                 let r_planet = mesh.pitch_radius(MeshMember::Driver);
                 if sun.is_none() {
-                    // Without a sun the share is that of the ring–planet pitch.
+                    // Without a sun, `planet_share` is the planet tooth's share of the operating pitch of
+                    // the ring mesh less backlash.
                     let both = r_planet * planet.pitch_angle() - ring_planet;
                     set_arc(planet, r_planet, planet_share * both, mesh.pressure_angle);
                 }
@@ -172,7 +173,7 @@ fn set_thickness(
             }
         }
         ThicknessInput::ProfileShift { sun: x_s, planet: x_p, ring: x_r } => {
-            // A rack is required with profile shifts; the reader sees to it.
+            // The reader refuses profile shifts without a rack.
             let alpha = input.rack.map_or(0.0, |rack| rack.pressure_angle);
             // β_b = t/(2r) + inv α₀ with t = m (π/2 + 2 x tan α₀) on r = m Z/2
             let shifted = |gear: &mut Gear, x: f64| {

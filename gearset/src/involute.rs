@@ -9,7 +9,7 @@ pub fn inv(alpha: f64) -> f64 {
 ///
 /// Zero at and inside the base circle.
 pub fn pressure_angle_at(base_radius: f64, radius: f64) -> f64 {
-    // α = atan(√(r² − r_b²) / r_b) keeps its digits near the base circle, where acos does not.
+    // α = atan(√(r² − r_b²) / r_b) is accurate near the base circle, where acos(r_b/r) is not.
     (roll_length_at(base_radius, radius) / base_radius).atan()
 }
 

@@ -10,9 +10,9 @@ use crate::mesh_kind::{MeshKind, MeshMember};
 /// Basic rack of a gear.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BasicRack {
-    /// m, m.
+    /// Module m, m.
     pub module: f64,
-    /// α_P, degrees.
+    /// Pressure angle α_P, degrees.
     pub pressure_angle_deg: f64,
 }
 
@@ -30,12 +30,13 @@ impl BasicRack {
 /// Theoretical mean mesh stiffness c_γ of a spur mesh per face width, N/(mm µm).
 ///
 /// q' = C₁ + C₂/z₁ + C₃/z₂ + C₄x₁ + C₅x₁/z₁ + C₆x₂ + C₇x₂/z₂ + C₈x₁² + C₉x₂², c'_th = 1/q'; an
-/// internal gear has z₂ = ∞ and x₂ = 0. The basic rack factor C_B = [1 + 0.5 (1.2 − h_f/m)][1 − 0.02 (20° − α_P)]
-/// takes the dedendum h_f of the driver's root circle, and c_γ = c' (0.75 ε_α + 0.25). The gears are solid
-/// discs (C_R = 1). The factor C_M = 0.8, which turns theory into measurement, is left out.
+/// internal gear has z₂ = ∞ and x₂ = 0. The basic rack factor is
+/// C_B = [1 + 0.5 (1.2 − h_f/m)][1 − 0.02 (20° − α_P)] with the dedendum h_f from the driver's root circle,
+/// and c_γ = c' (0.75 ε_α + 0.25). The gears are solid discs (C_R = 1). The correction factor C_M = 0.8,
+/// which adjusts theoretical values to measured ones, is left out.
 ///
 /// The standard fits the polynomial to external spur gears of x₁ ≥ x₂, −0.5 ≤ x₁ + x₂ ≤ 2; outside these
-/// limits, which are not looked at here, c_γ is extrapolated.
+/// limits, which are not checked here, c_γ is extrapolated.
 pub fn mean_mesh_stiffness(mesh: &Mesh, rack: &BasicRack) -> f64 {
     let (driver, driven) = (mesh.gear(MeshMember::Driver), mesh.gear(MeshMember::Driven));
     let (z1, x1) = (f64::from(driver.teeth), rack.profile_shift(driver));

@@ -11,7 +11,7 @@
 //!
 //! Everything is absolute (inertial frame) and counter-clockwise positive unless a name says
 //! otherwise. The relations hold at any pressure angle and profile shift: they use tooth numbers
-//! alone, and Z_r = Z_s + 2 Z_p is not asked for.
+//! alone, and Z_r = Z_s + 2 Z_p is not required.
 
 use std::f64::consts::TAU;
 
@@ -31,7 +31,7 @@ pub enum KinematicsError {
     /// The speed is not a number.
     #[error("input speed {0} rpm is not finite")]
     SpeedNotFinite(f64),
-    /// The scene lacks what motion follows from.
+    /// The scene lacks data from which speeds follow.
     #[error(
         "{0} is absent: motion follows from the numbers of teeth and the operating point of a planetary set"
     )]
@@ -121,7 +121,7 @@ pub struct Kinematics {
     pub fixed: Member,
     /// The member whose speed is given.
     pub input: Member,
-    /// The third one.
+    /// The member that is neither held nor driven.
     pub output: Member,
     /// Speeds, rpm.
     pub speeds_rpm: MemberSpeeds,
@@ -166,7 +166,8 @@ impl Kinematics {
         };
         let (sun, ring, carrier) = (of(Member::Sun), of(Member::Ring), of(Member::Carrier));
 
-        // Z_s (ω_s − ω_c) = −Z_r (ω_r − ω_c); the member at rest spares the difference.
+        // Z_s (ω_s − ω_c) = −Z_r (ω_r − ω_c), from the side on which the held member's ω = 0 leaves one
+        // term, so that no speeds are subtracted.
         let (z_s, z_p, z_r) =
             (f64::from(teeth_sun), f64::from(teeth_planet), f64::from(teeth_ring));
         let passing = match fixed {
@@ -235,7 +236,7 @@ fn torque_share(member: Member, teeth_sun: u32, teeth_ring: u32) -> f64 {
     }
 }
 
-/// The central member that is neither of two; `None` if the two are one.
+/// The central member that is neither `fixed` nor `input`; `None` if these are the same.
 fn third(fixed: Member, input: Member) -> Option<Member> {
     [Member::Sun, Member::Ring, Member::Carrier]
         .into_iter()

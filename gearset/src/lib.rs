@@ -26,6 +26,7 @@ mod reader;
 mod rules;
 mod scene;
 mod template;
+mod text_file;
 
 pub use displaced::{DisplacedMesh, Displacements, MeshGradients, MeshHessians, PairLocation};
 pub use fault::{Fault, SceneError};
@@ -42,3 +43,4 @@ pub use phasing::{GearAngles, MeshPhases, Phasing};
 pub use rules::*;
 pub use scene::*;
 pub use template::template;
+pub use text_file::read_text;

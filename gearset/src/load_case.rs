@@ -1,5 +1,5 @@
-//! How a set is driven and loaded. The sense of a torque, its sign on every member and the mesh frequency of a
-//! speed are decided here and nowhere else.
+//! How a set is driven and loaded. The sense of the load, the sign of the torque on every member and the mesh
+//! frequency at a speed are defined only here.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -63,7 +63,8 @@ impl LoadCase {
         Ok(case.with_input_torque(operation.torque_nm).at_speed(operation.speed_rpm))
     }
 
-    /// A set that stands under a torque on its sun, N m; its supports say what holds it.
+    /// A standing set under a torque on its sun, N m. No member is named as held: that follows from the
+    /// scene's supports.
     pub fn standing(sun_torque_nm: f64) -> Self {
         Self {
             driven: Member::Sun,
@@ -77,7 +78,7 @@ impl LoadCase {
         }
     }
 
-    /// A set driven at its sun, of which torque (N m), speed (rpm) and mesh frequency (Hz) are known: results
+    /// A set driven at its sun with known torque (N m), speed (rpm) and mesh frequency (Hz), as for results
     /// read from a table.
     pub fn turning(sun_torque_nm: f64, speed_rpm: f64, mesh_frequency_hz: f64) -> Self {
         let mesh_frequency_per_rpm_hz = mesh_frequency_hz / speed_rpm;
@@ -102,13 +103,13 @@ impl LoadCase {
         Self { speed_rpm, mesh_frequency_hz, ..self }
     }
 
-    /// Sense in which the sun is loaded, which says which flanks press: counter-clockwise for a torque
+    /// Sense of the torque on the sun, which decides which flanks are loaded: counter-clockwise for a torque
     /// above or equal to 0.
     pub fn sense(&self) -> Facing {
         if self.sun_torque_nm < 0.0 { Facing::Clockwise } else { Facing::CounterClockwise }
     }
 
-    /// Size of the torque on the sun, N m: what acts in [`sense`](Self::sense).
+    /// Magnitude of the torque on the sun, N m; it acts in the direction of [`sense`](Self::sense).
     pub fn sun_load_nm(&self) -> f64 {
         self.sun_torque_nm.abs()
     }

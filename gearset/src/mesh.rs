@@ -110,8 +110,8 @@ impl Mesh {
     pub fn driven_roll_length(&self, roll_length: f64) -> f64 {
         let reach = self.center_distance * self.pressure_angle.sin();
         match self.kind {
-            MeshKind::SunPlanet => reach - roll_length, // between two tangent points
-            MeshKind::RingPlanet => reach + roll_length, // both on the same side
+            MeshKind::SunPlanet => reach - roll_length, // between the two tangent points
+            MeshKind::RingPlanet => reach + roll_length, // both tangent points on the same side
         }
     }
 
@@ -187,8 +187,8 @@ impl Mesh {
         ]
     }
 
-    /// Length by which the path of contact overruns what the flanks of `member` offer, m:
-    /// positive if the mate's tip digs below the member's form circle (for the ring: beyond it).
+    /// Length by which the path of contact extends beyond the involute part of the flanks of `member`, m:
+    /// positive if the mate's tip touches `member` inside its form circle (the ring: outside it).
     pub fn interference(&self, member: MeshMember) -> f64 {
         let gear = self.gear(member);
         let form = gear.form_roll_length().unwrap_or(0.0);

@@ -2,13 +2,13 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Why a table is no curve.
+/// Why a table is not a valid mesh curve.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CurveError {
     /// Too few nodes for a cubic.
     #[error("a mesh curve of {0} nodes: at least 2 are needed")]
     TooFew(usize),
-    /// Forces and tangents that do not go together.
+    /// Unequal numbers of forces and tangents.
     #[error("a mesh curve with {forces} forces and {tangents} tangents")]
     Lengths {
         /// Number of forces.
@@ -19,13 +19,13 @@ pub enum CurveError {
     /// A step that is not positive and finite.
     #[error("the deflections of a mesh curve are {0} m apart: that must be positive and finite")]
     Step(f64),
-    /// A first contact that is no number.
+    /// A deflection of first contact that is not finite.
     #[error("a mesh curve starts at {0} m")]
     Start(f64),
-    /// A node that is no number, or a force at first contact.
+    /// A force or tangent that is not finite, or a force at first contact that is not zero.
     #[error("node {node} of a mesh curve has force {force_n} N and tangent {tangent_n_per_m} N/m")]
     Node {
-        /// Which.
+        /// Index of the node.
         node: usize,
         /// Its force, N.
         force_n: f64,
@@ -34,7 +34,7 @@ pub enum CurveError {
     },
 }
 
-/// What a curve says at one deflection.
+/// Mesh force and its derivatives at one deflection.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct CurvePoint {
     /// F, N.
@@ -46,14 +46,14 @@ pub struct CurvePoint {
 }
 
 /// Force of one flank of one mesh over its deflection δ, at one phase: piecewise cubic (Hermite) on
-/// even steps of δ, nil below the deflection of first contact, straight on beyond the last node.
+/// equal steps of δ, zero below the deflection of first contact, linear beyond the last node.
 ///
-/// Force and tangent are continuous, but for the tangent at first contact.
+/// Force and tangent are continuous, except that the tangent jumps at first contact.
 ///
 /// ```
 /// use gearset::MeshCurve;
 ///
-/// // F = δ² from 0 to 2, which a cubic holds exactly.
+/// // F = δ² from 0 to 2, which a cubic represents exactly.
 /// let curve = MeshCurve::new(0.0, 1.0, &[0.0, 1.0, 4.0], &[0.0, 2.0, 4.0]).unwrap();
 /// assert_eq!(curve.force(1.5), (2.25, 3.0));
 /// assert_eq!(curve.force(-1.0), (0.0, 0.0));
@@ -69,7 +69,7 @@ pub struct MeshCurve {
     nodes: Vec<[f64; 2]>,
 }
 
-/// A curve as files hold it.
+/// A curve as stored in files.
 #[derive(Clone, Serialize, Deserialize)]
 struct Nodes {
     start_m: f64,
@@ -102,7 +102,8 @@ impl MeshCurve {
     /// `step_m` in deflection. The first tangent is the one just after contact.
     ///
     /// # Errors
-    /// If the nodes make no curve, or the first force is not nil.
+    /// If there are fewer than two nodes, unequal numbers of forces and tangents, a number that is not
+    /// finite, a step that is not positive, or a first force that is not zero.
     pub fn new(
         start_m: f64,
         step_m: f64,
@@ -145,7 +146,7 @@ impl MeshCurve {
     #[inline]
     pub fn at(&self, deflection_m: f64) -> CurvePoint {
         let t = (deflection_m - self.start) * self.per_step;
-        // What is no number must not pass for a mesh without contact.
+        // False for NaN, which then gives a NaN force instead of a mesh without contact.
         if t <= 0.0 {
             return CurvePoint::default();
         }
@@ -166,7 +167,7 @@ impl MeshCurve {
         }
     }
 
-    /// Straight on beyond the table.
+    /// Linear continuation beyond the last node.
     #[cold]
     fn beyond(&self, t: f64) -> CurvePoint {
         let last = self.nodes.len() - 1;
@@ -188,12 +189,12 @@ impl MeshCurve {
         self.start + (self.nodes.len() - 1) as f64 * self.step
     }
 
-    /// Distance of the nodes, m.
+    /// Spacing of the nodes, m.
     pub fn step_m(&self) -> f64 {
         self.step
     }
 
-    /// Whether the table holds this deflection (m), or the flanks stand apart at it.
+    /// Whether this deflection (m) is not beyond the last node; below first contact it always is not.
     pub fn reaches(&self, deflection_m: f64) -> bool {
         deflection_m <= self.end_m()
     }
@@ -218,7 +219,7 @@ fn pair(nodes: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
 mod tests {
     use super::*;
 
-    /// F = k (δ − s)^1.1, whose tangent is the exact one.
+    /// F = k x (1 + 10⁴ x) with x = δ − s in m, and its exact tangent.
     fn hertzian(nodes: usize) -> MeshCurve {
         let (k, start, end) = (3e8, 2e-6, 40e-6);
         let step = (end - start) / (nodes - 1) as f64;
@@ -239,7 +240,7 @@ mod tests {
             assert!((curve.force(d).0 - exact).abs() < 1e-9 * 3e8 * 38e-6, "{d:e}");
             let e = 1e-10;
             let (low, high, here) = (curve.at(d - e), curve.at(d + e), curve.at(d));
-            // A node, or first contact, between the two.
+            // Left out: a node or first contact lies between the two deflections.
             if low.slope_n_per_m2 != high.slope_n_per_m2 {
                 continue;
             }

@@ -9,16 +9,16 @@ use crate::mesh_curve::MeshCurve;
 use crate::mesh_kind::MeshKind;
 use crate::phasing::Phasing;
 
-/// Phases nearer than this part of a cycle are the same phase, rounded differently.
+/// Resolution of phases, 1/cycle: phases that round to the same multiple of its inverse count as equal.
 const PHASE_RESOLUTION: f64 = 1e12;
 
 /// Which flanks of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FlankSide {
-    /// Those that the torque presses.
+    /// The flanks loaded by the torque.
     Front,
-    /// Those behind them, a backlash away.
+    /// The flanks on the non-driving side, the backlash apart.
     Backside,
 }
 
@@ -38,15 +38,15 @@ pub struct CurveKey {
 pub struct MeshStart {
     /// Mesh.
     pub kind: MeshKind,
-    /// Phase of the front flanks, which runs on with the position, cycles.
+    /// Phase of the front flanks, cycles; it increases with the position.
     pub front: f64,
-    /// Phase of the backside flanks, which runs back, cycles; `None` leaves them out.
+    /// Phase of the backside flanks, cycles; it decreases with the position. `None` leaves them out.
     pub backside: Option<f64>,
 }
 
 impl MeshStart {
-    /// Front flanks of all meshes, sun meshes first, where planet 0's sun mesh starts its cycle; seen
-    /// with the torque counter-clockwise.
+    /// Phases of the front flanks of all meshes, sun meshes first, at position 0, where planet 0's sun mesh
+    /// starts its cycle, under counter-clockwise torque on the sun.
     pub fn of_set(phasing: &Phasing<'_>) -> Vec<Self> {
         let phases = phasing.phases(0.0, Facing::CounterClockwise);
         let first = phases.sun_planet.first().copied().unwrap_or(0.0);
@@ -58,7 +58,8 @@ impl MeshStart {
     }
 }
 
-/// Which curves the meshes of a set need at even positions of a mesh cycle, equal phases sharing one.
+/// The curves that the meshes of a set need at evenly spaced positions of a mesh cycle; meshes share a curve
+/// where their phases are equal.
 ///
 /// Every (mesh, step) has the curve of its exact phase: nothing is interpolated in phase.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,26 +67,26 @@ pub struct MeshLawPlan {
     /// Distinct curves, in order of first use.
     pub curves: Vec<CurveKey>,
     meshes: usize,
-    /// By step, then mesh.
+    /// Index of the curve of each front flank, by step, then mesh.
     front: Vec<u32>,
     backside: Vec<u32>,
 }
 
-/// Why curves make no law.
+/// Why a mesh law cannot be made.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum MeshLawError {
-    /// Nothing to tabulate.
+    /// No meshes or no steps.
     #[error("a mesh law of {meshes} meshes and {steps} steps: each must be at least 1")]
     Empty {
         /// Meshes.
         meshes: usize,
-        /// Steps a cycle.
+        /// Steps per cycle.
         steps: usize,
     },
     /// Backside flanks of some meshes only.
     #[error("a mesh law holds the backside flanks of all meshes or of none")]
     SomeBackside,
-    /// Not one curve for each key.
+    /// The number of curves is not the number of keys.
     #[error("{got} curves for a mesh law that needs {wanted}")]
     Curves {
         /// Curves given.
@@ -93,7 +94,7 @@ pub enum MeshLawError {
         /// Curves asked for.
         wanted: usize,
     },
-    /// A share that is none.
+    /// A damping share outside 0 to 1.
     #[error("damping share {value} of mesh {mesh} is not in [0, 1]")]
     Share {
         /// Mesh.
@@ -101,13 +102,13 @@ pub enum MeshLawError {
         /// Value given.
         value: f64,
     },
-    /// A table of a file that points nowhere.
+    /// Tables whose lengths do not match, or an index without a curve.
     #[error("the tables of a mesh law do not fit each other")]
     Places,
 }
 
 impl MeshLawPlan {
-    /// Plan for meshes (sun meshes by planet, then ring meshes) at `steps` even positions.
+    /// Plan for meshes (sun meshes by planet, then ring meshes) at `steps` evenly spaced positions.
     ///
     /// # Errors
     /// Without meshes or steps, or if only some meshes have backside flanks.
@@ -160,30 +161,30 @@ impl MeshLawPlan {
     }
 }
 
-/// Phase in [0, 1), what rounds to 1 being 0.
+/// Phase reduced to [0, 1); a phase that rounds to 1 at the resolution becomes 0.
 fn cycle(phase: f64) -> f64 {
     let reduced = phase - phase.floor();
     if reduced * PHASE_RESOLUTION >= PHASE_RESOLUTION - 0.5 { 0.0 } else { reduced }
 }
 
-/// Mesh forces of a set over (deflection, step of the mesh cycle, flank). Meshes count as everywhere:
-/// sun meshes by planet, then ring meshes.
+/// Mesh forces of a set over (deflection, step of the mesh cycle, flank). Meshes are numbered sun meshes by
+/// planet, then ring meshes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "StoredMeshLaw")]
 pub struct MeshLaw {
     meshes: usize,
     curves: Vec<MeshCurve>,
-    /// Curve of each mesh, by step, then mesh.
+    /// Index of the curve of each mesh's front flanks, by step, then mesh.
     front: Vec<u32>,
-    /// The same of the backside flanks; empty if they are left out.
+    /// The same for the backside flanks; empty if they are left out.
     backside: Vec<u32>,
-    /// Share of each mesh's flexibility that is damped.
+    /// Share of each mesh's flexibility that stiffness-proportional damping acts on.
     damping_share: Vec<f64>,
-    /// By curve; empty if there are none.
+    /// Side load of each curve, N; empty without side loads.
     side_loads: Vec<[f64; 6]>,
 }
 
-/// A law as files hold it.
+/// A law as stored in files, before its tables are checked.
 #[derive(Deserialize)]
 struct StoredMeshLaw {
     meshes: usize,
@@ -218,11 +219,11 @@ impl TryFrom<StoredMeshLaw> for MeshLaw {
 }
 
 impl MeshLaw {
-    /// The same law with the share of each mesh's flexibility that stiffness-proportional damping
-    /// acts on; 1 unless said otherwise.
+    /// The same law with the share of each mesh's flexibility that stiffness-proportional damping acts on.
+    /// In a new law every share is 1.
     ///
     /// # Errors
-    /// If a share is outside [0, 1], or there is not one for each mesh.
+    /// If a share is outside 0 to 1, or the number of shares is not that of meshes.
     pub fn with_damping_share(mut self, share: &[f64]) -> Result<Self, MeshLawError> {
         if share.len() != self.meshes {
             return Err(MeshLawError::Places);
@@ -234,11 +235,11 @@ impl MeshLaw {
         Ok(self)
     }
 
-    /// The same law with loads beside the line of action, one for each curve: on the central gear's
-    /// (radial, tangential, u = r θ) towards the planet, then on the planet's (ζ, η, u), N.
+    /// The same law with side loads, one for each curve, N: on the central gear (radial towards the planet,
+    /// tangential, u = r θ), then on the planet (ζ, η, u).
     ///
-    /// Pairs that touch with a corner press along other normals than those on the path. What that
-    /// amounts to under the mean load, as a function of phase alone, is a load of its own.
+    /// A pair in corner contact presses along another normal than the line of action. The load that the
+    /// difference causes under the mean torque is taken as a function of phase alone.
     ///
     /// # Errors
     /// If there is not one finite load for each curve.
@@ -251,13 +252,13 @@ impl MeshLaw {
         Ok(self)
     }
 
-    /// Load beside the line of action of a mesh's front flanks at a step; nil unless it was given.
+    /// Side load of a mesh's front flanks at a step, N; zero if the law has none.
     pub fn side_load(&self, mesh: usize, step_in_cycle: usize) -> [f64; 6] {
         let place = self.front[step_in_cycle * self.meshes + mesh] as usize;
         self.side_loads.get(place).copied().unwrap_or_default()
     }
 
-    /// Number of meshes, twice that of planets.
+    /// Number of meshes, two per planet.
     pub fn meshes(&self) -> usize {
         self.meshes
     }
@@ -267,7 +268,7 @@ impl MeshLaw {
         self.front.len() / self.meshes
     }
 
-    /// Whether the backside flanks are there.
+    /// Whether the law includes the backside flanks.
     pub fn has_backside(&self) -> bool {
         !self.backside.is_empty()
     }
@@ -288,15 +289,15 @@ impl MeshLaw {
         &self.curves[self.front[step_in_cycle * self.meshes + mesh] as usize]
     }
 
-    /// Curve of a mesh's backside flanks, over how far they approach each other; `None` if left out.
+    /// Curve of a mesh's backside flanks over their approach; `None` if they are left out.
     #[inline]
     pub fn backside(&self, mesh: usize, step_in_cycle: usize) -> Option<&MeshCurve> {
         let place = self.backside.get(step_in_cycle * self.meshes + mesh)?;
         self.curves.get(*place as usize)
     }
 
-    /// Curve of a flank at a step of the cycle, front flanks of all meshes counted first, then backside
-    /// flanks; `None` if left out.
+    /// Curve of flank number `flank` at a step of the cycle: the front flanks of all meshes are numbered
+    /// first, then the backside flanks. `None` for a backside flank that is left out.
     #[inline]
     pub fn curve(&self, flank: usize, step_in_cycle: usize) -> Option<&MeshCurve> {
         match flank.checked_sub(self.meshes) {
@@ -305,13 +306,13 @@ impl MeshLaw {
         }
     }
 
-    /// Force (N) and tangent (N/m) of a flank so counted.
+    /// Force (N) and tangent (N/m) of a flank, numbered as in [`curve`](Self::curve).
     #[inline]
     pub fn force(&self, flank: usize, step_in_cycle: usize, deflection: f64) -> (f64, f64) {
         self.curve(flank, step_in_cycle).map_or((0.0, 0.0), |curve| curve.force(deflection))
     }
 
-    /// Deflection up to which a flank so counted never touches, m.
+    /// Deflection up to which a flank, numbered as in [`curve`](Self::curve), touches at no step, m.
     pub fn silent_up_to_m(&self, flank: usize) -> f64 {
         let (mesh, side) = match flank.checked_sub(self.meshes) {
             None => (flank, FlankSide::Front),
@@ -320,7 +321,7 @@ impl MeshLaw {
         self.first_contact_m(mesh, side).unwrap_or(f64::INFINITY)
     }
 
-    /// Least deflection of first contact of a mesh's flanks over the cycle, m; `None` without them.
+    /// Least deflection of first contact of a mesh's flanks over the cycle, m; `None` if they are left out.
     pub fn first_contact_m(&self, mesh: usize, side: FlankSide) -> Option<f64> {
         let starts = (0..self.steps()).map(|step| match side {
             FlankSide::Front => Some(self.front(mesh, step).start_m()),
@@ -344,7 +345,8 @@ mod tests {
         let one = |kind| {
             move |n: u32| MeshStart {
                 kind,
-                // Seventh parts of a cycle: shared on a grid they divide, exact on any other.
+                // Offsets of 3/7 cycle: the meshes share curves where the number of steps is a multiple
+                // of 7, and have curves of their own otherwise.
                 front: f64::from(n) * 3.0 / 7.0,
                 backside: backside.then_some(-f64::from(n) * 3.0 / 7.0),
             }

@@ -1,16 +1,17 @@
-//! The simplest law of a mesh with a changing number of pairs: springs with tip gaps.
+//! The simplest law of a mesh with a changing number of pairs: linear springs with gaps beyond the path of
+//! contact.
 
 use crate::mesh_curve::{CurveError, MeshCurve};
 
-/// A mesh of tooth pairs that are springs each: constant stiffness on the path of contact, a gap that
-/// opens with the square of the distance beyond its ends.
+/// A mesh whose tooth pairs are springs of constant stiffness: without gap on the path of contact, with a gap
+/// that grows with the square of the distance beyond its ends.
 ///
-/// A closed form to test and to time solvers with; real teeth come as tables.
+/// A closed form for tests and timing of solvers; forces of real teeth are tabulated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairSprings {
     /// Stiffness of one pair, N/m.
     pub stiffness: f64,
-    /// Contact ratio ε: a pair is on the path for so many cycles.
+    /// Contact ratio ε: the number of cycles for which a pair is on the path.
     pub contact_ratio: f64,
     /// Gap one tenth of a cycle beyond the path, m.
     pub gap_at_tenth: f64,
@@ -35,7 +36,8 @@ impl PairSprings {
         })
     }
 
-    /// The same as a table of so many steps, rounded where a pair begins to touch.
+    /// The same as a table of `steps` equal steps from first contact to `reach_m`; the table smooths the kink
+    /// where a further pair begins to touch.
     ///
     /// # Errors
     /// As [`MeshCurve::new`].
@@ -55,7 +57,8 @@ mod tests {
     #[test]
     fn pairs_come_and_go() {
         let mesh = PairSprings { stiffness: 2e8, contact_ratio: 1.6, gap_at_tenth: 5e-6 };
-        // Two pairs for 0.6 of a cycle, one for the rest; a third and a second by their gaps.
+        // On the path are two pairs for 0.6 of a cycle and one for the rest; at phase 0.7 a second pair,
+        // 0.1 cycle beyond the end of the path, touches from a deflection of 5 µm on.
         assert_eq!(mesh.force(0.3, 1e-6).1, 4e8);
         assert_eq!(mesh.force(0.8, 1e-6).1, 2e8);
         assert_eq!(mesh.force(0.7, 4e-6).1, 2e8);

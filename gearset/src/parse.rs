@@ -13,6 +13,10 @@ use crate::parse_geometry::geometry;
 use crate::parse_lumped::lumped;
 use crate::reader::{Bound, Document, Section};
 use crate::scene::*;
+use crate::text_file::read_text;
+
+/// Longest scene file that is read, bytes; the longest of this project has some 4 kB.
+const MOST_BYTES: u64 = 1_000_000;
 
 /// Most planets a scene may have; a circle of more would not fit any real set.
 const MOST_PLANETS: i64 = 64;
@@ -25,7 +29,7 @@ impl Scene {
     /// fault found otherwise.
     pub fn from_file(path: &Path) -> Result<Self, SceneError> {
         let unreadable = |cause| SceneError::Unreadable { path: path.to_owned(), cause };
-        Self::from_toml(&std::fs::read_to_string(path).map_err(unreadable)?)
+        Self::from_toml(&read_text(path, MOST_BYTES).map_err(unreadable)?)
     }
 
     /// Reads and validates scene text.

@@ -28,7 +28,7 @@ pub(crate) fn dynamics(s: Section<'_, '_>) -> DynamicsInput {
     if name == Some(Name::Modal) && !s.has("modes") {
         s.fault("modes", "a whole number from 1 to 400", "fidelity = \"modal\" needs it");
     }
-    // Fewer steps than this leave nothing of a mesh cycle.
+    // Fewer than 16 steps do not resolve the changing number of pairs in a mesh cycle.
     let steps = s.integer("steps_per_cycle", (16, 100_000), "time steps in a mesh cycle");
     let switch = [("off", false), ("on", true)];
     let gyroscopic = s.choice("gyroscopic", &switch, "terms of the turning carrier frame");

@@ -11,7 +11,7 @@ pub(crate) fn geometry(s: Section<'_, '_>, teeth: Option<&Teeth>) -> Option<Geom
     let face_width = millimetres("face_width_mm", "width of the teeth");
     let rack = s.section("rack").and_then(rack);
     let base_pitch = base_pitch(&s, teeth, rack);
-    // 0.3 m cos α, the usual rack's tip rounding, where the scene is silent.
+    // Default fillet radius 0.3 p_b/π = 0.3 m cos α, a usual tip rounding of the rack.
     let default_fillet = base_pitch.map_or(0.0, |p| 0.3 * p / PI);
     let one = |key: &'static str, body: &'static str, wanted: bool| match s
         .section(key)
@@ -61,7 +61,7 @@ fn rack(s: Section<'_, '_>) -> Option<Rack> {
     Some(Rack { module: module? * 1e-3, pressure_angle: angle?.to_radians() })
 }
 
-/// The one base pitch, from whichever key gives it.
+/// The base pitch common to all gears, from the one key that gives it.
 fn base_pitch(s: &Section<'_, '_>, teeth: Option<&Teeth>, rack: Option<Rack>) -> Option<f64> {
     let keys = ["base_pitch_mm", "planet_base_diameter_mm", "rack"];
     let pitch = s.number("base_pitch_mm", Bound::Positive, "base pitch of every gear");
@@ -153,7 +153,7 @@ fn thickness(
         if rack.is_none() {
             t.fault("profile_shift", "with geometry.rack given", "a shift is counted in modules");
         }
-        // Known here, so that `finish` reports only what no scene may hold.
+        // These keys are read so that `finish` does not report them as unknown as well.
         for key in others {
             t.number(key, Bound::Finite, "thickness");
         }
@@ -166,7 +166,7 @@ fn thickness(
         };
         return Some(input);
     }
-    // 0.04 m cos α: a usual backlash, where the scene is silent.
+    // Default backlash 0.04 p_b/π = 0.04 m cos α, a usual value.
     let default = base_pitch? * 0.08 / TAU;
     let (mut sun_planet, mut ring_planet, mut planet_share) = (default, default, 0.5);
     if let Some(t) = t {

@@ -1,4 +1,4 @@
-//! The `[lumped]` table: given values joined with what the geometry says.
+//! The `[lumped]` table: given values, completed from the geometry.
 
 use crate::geometry::Geometry;
 use crate::reader::{Bound, Section};
@@ -22,8 +22,8 @@ fn per_body(s: Option<Section<'_, '_>>, why: &str, scale: f64) -> PerBody {
 /// The entry of one body.
 type Entry = fn(&mut PerBody) -> &mut Option<f64>;
 
-/// Reads the table. Angles and radii not given are the geometry's; they must be given where
-/// `must_give_angles` says that there is no geometry to take them from.
+/// Reads the table. Pressure angles and radii that are not given are taken from the geometry; with
+/// `must_give_angles`, for a scene without geometry, the angles must be given.
 pub(crate) fn lumped(
     s: Section<'_, '_>,
     geometry: Option<&Geometry>,
@@ -121,12 +121,12 @@ pub(crate) fn lumped(
     })
 }
 
-/// Adds a fault about `table.name`, unless the table itself is at fault already.
+/// Adds a fault about the key `table.name`.
 fn fault_in(s: &Section<'_, '_>, table: &str, name: &str, allowed: &str, why: &str) {
     s.fault(&format!("{table}.{name}"), allowed, why);
 }
 
-/// A torsional stiffness per angle becomes one per u by r².
+/// Reports torsional stiffnesses per angle whose body has no radius r: per u = r·θ they are k_θ/r².
 fn torsional_needs_radius(s: &Section<'_, '_>, supports: &Supports, radius: &PerBody) {
     let members = [
         ("carrier", supports.carrier, radius.carrier),

@@ -24,9 +24,9 @@ use crate::scene::PlanetPositions;
 /// Phases of all meshes at one sun angle, in cycles, each in [0, 1).
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeshPhases {
-    /// φ_sn, one a planet.
+    /// φ_sn, one per planet.
     pub sun_planet: Vec<f64>,
-    /// φ_rn, one a planet.
+    /// φ_rn, one per planet.
     pub ring_planet: Vec<f64>,
 }
 
@@ -53,7 +53,7 @@ pub struct GearAngles {
 }
 
 impl<'g> Phasing<'g> {
-    /// Phasing of a whole set; `None` unless sun and ring are both there.
+    /// Phasing of a whole set; `None` without a sun or a ring.
     pub fn new(geometry: &'g Geometry, positions: &'g PlanetPositions) -> Option<Self> {
         Some(Self {
             sun: geometry.sun.as_ref()?,
@@ -149,10 +149,11 @@ impl<'g> Phasing<'g> {
         }
     }
 
-    /// Normal gaps of planet n's mesh along the two lines of action, m: on the flanks loaded when
-    /// those that face `loaded` on the sun are, and on the others. Reduced to ± half a base pitch.
+    /// Normal gaps of planet n's mesh along its two lines of action, m: first of the flanks that are loaded
+    /// if the sun's flanks facing `loaded` are, then of the opposite flanks. Reduced to ± half a base pitch.
     ///
-    /// On a line of action the two roll lengths must add up (sun) or differ (ring) by a sin α.
+    /// Flanks touch where the roll lengths of the two gears add up to a sin α (sun mesh) or differ by it
+    /// (ring mesh).
     pub fn normal_gaps(
         &self,
         angles: &GearAngles,
@@ -161,7 +162,7 @@ impl<'g> Phasing<'g> {
         loaded: Facing,
     ) -> [f64; 2] {
         [loaded, loaded.opposite()].map(|facing| {
-            // Seen in the mirror, the clockwise flanks are counter-clockwise ones.
+            // Mirroring turns clockwise flanks into counter-clockwise ones.
             let sign = facing.sign();
             let psi = sign * self.positions.psi_rad[n];
             let theta_p = sign * angles.planets[n];

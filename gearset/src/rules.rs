@@ -31,16 +31,18 @@ use serde::Serialize;
 
 use crate::scene::{PlanetPositions, Scene, SceneKind, Teeth};
 
-/// Strengths at or below this are forbidden: rounding is under 1e-12 wherever a rule holds.
+/// A strength at or below this counts as zero: rounding leaves less than 1e-12 where phasors cancel.
 pub const FORBIDDEN_UP_TO: f64 = 1e-9;
 
-/// Two angles closer than this are one position, rad; also how far a partner may be off π.
+/// Angles that differ by less than this count as one position, rad; also the tolerance on the angle π between
+/// the two planets of a diametrical pair.
 const SAME_ANGLE_RAD: f64 = 1e-9;
 
-/// Smallest part of a unit vector that still counts as a direction of its own.
+/// A vector counts as linearly independent of others if more than this part of its length remains after
+/// projection onto them.
 const INDEPENDENT: f64 = 1e-7;
 
-/// Why planet positions make no spacing.
+/// Why planet positions are not valid.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SpacingError {
     /// No planet at all.
@@ -128,7 +130,7 @@ impl Spacing {
         }
     }
 
-    /// Whether the planets stand evenly around, in whatever order they are counted.
+    /// Whether the planets are equally spaced, in whatever order they are numbered.
     pub fn is_equal(&self) -> bool {
         let count = self.planets();
         let mut turns = self.turns();
@@ -143,7 +145,7 @@ impl Spacing {
     /// Whether every planet has its own partner across the carrier, at ψ_n + π.
     pub fn is_diametrical(&self) -> bool {
         let turns = self.turns();
-        // How many planets stand `ahead` of planet n, a fraction of a turn (distances wrapped).
+        // Number of planets at `from` + `ahead`, both in turns; distances are taken modulo one turn.
         let standing = |from: f64, ahead: f64| {
             let off = |turn: f64| turn - from - ahead;
             let near = |turn: &&f64| TAU * (off(**turn) - off(**turn).round()).abs();
@@ -152,8 +154,8 @@ impl Spacing {
         turns.iter().all(|&from| standing(from, 0.5) == standing(from, 0.0))
     }
 
-    /// Whether Σ e^{iψ_n} = 0, which keeps rotations, translations and planet motions of a set of
-    /// equal planets apart; without it modes are mixed.
+    /// Whether Σ e^{iψ_n} = 0, which uncouples rotations, translations and planet motions of a set of equal
+    /// planets; otherwise modes are mixed.
     pub fn is_balanced(&self) -> bool {
         mean_magnitude(&self.phasors(1)) <= FORBIDDEN_UP_TO
     }
@@ -216,9 +218,10 @@ pub struct ExcitationStrengths {
     pub harmonic: u32,
     /// |Σ e^{i l Z_s ψ_n}|/N: net torque on the central members; drives rotational modes.
     pub net_torque: f64,
-    /// |Σ e^{i (l Z_s + 1) ψ_n}|/N: net force turning one way; drives translational modes.
+    /// |Σ e^{i (l Z_s + 1) ψ_n}|/N: the part of the net force that rotates in one sense; drives translational
+    /// modes.
     pub net_force_plus: f64,
-    /// |Σ e^{i (l Z_s − 1) ψ_n}|/N: net force turning the other way; drives translational modes.
+    /// |Σ e^{i (l Z_s − 1) ψ_n}|/N: the part that rotates in the other sense; drives translational modes.
     pub net_force_minus: f64,
     /// ‖a − proj a‖/‖a‖, a_n = e^{i l Z_s ψ_n} projected on span{1, cos ψ_n, sin ψ_n}: what moves
     /// planets without any net force or torque; drives planet modes.
@@ -296,7 +299,7 @@ fn planet_part(spacing: &Spacing, order: i128) -> f64 {
         places.iter().map(|p| p[0]).collect::<Vec<f64>>(),
         places.iter().map(|p| p[1]).collect::<Vec<f64>>(),
     ];
-    // Gram–Schmidt, twice over; directions that the earlier ones already hold are dropped.
+    // Gram–Schmidt with a second pass; linearly dependent vectors are dropped.
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(3);
     for mut v in candidates {
         let before = norm(&v);
@@ -319,7 +322,7 @@ fn planet_part(spacing: &Spacing, order: i128) -> f64 {
     (squared / count as f64).sqrt()
 }
 
-/// Takes the components along orthonormal directions out of `v`.
+/// Subtracts from `v` its components along orthonormal directions.
 fn remove(v: &mut [f64], basis: &[Vec<f64>]) {
     for _ in 0..2 {
         for direction in basis {
@@ -350,7 +353,7 @@ pub enum Table4 {
 }
 
 impl Table4 {
-    /// The same as a verdict.
+    /// The rule as allowed kinds of modes.
     pub fn allowed(self) -> AllowedKinds {
         AllowedKinds {
             rotational: self == Self::RotationalOnly,
@@ -380,17 +383,17 @@ pub fn table4(planets: u32, sun_teeth: u32, harmonic: u32) -> Option<Table4> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DiametricalRule {
-    /// l Z_s even: partners push in step, the net force cancels.
+    /// l Z_s even: the mesh forces of a pair are in phase, the net force cancels.
     TranslationalForbidden,
-    /// l Z_s odd: partners push in turns, the net torque cancels.
+    /// l Z_s odd: the mesh forces of a pair are in antiphase, the net torque cancels.
     RotationalForbidden,
 }
 
 /// The rule for sets of diametrical pairs ([`Spacing::is_diametrical`]), equally spaced or not.
 ///
-/// It follows from e^{i l Z_s (ψ + π)} = (−1)^{l Z_s} e^{i l Z_s ψ} and only forbids: whether the
-/// other kind is excited, and how strongly, is for [`excitation`] to say. OH-58, l Z_s even:
-/// rotation 0.62 at l = 2 and 0.22 at l = 4; four equal planets with l Z_s = 30: nothing at all.
+/// It follows from e^{i l Z_s (ψ + π)} = (−1)^{l Z_s} e^{i l Z_s ψ} and only forbids: whether and how
+/// strongly the other kind is excited is given by [`excitation`]. Examples with l Z_s even: the net torque of
+/// OH-58 is 0.62 at l = 2 and 0.22 at l = 4; that of four equally spaced planets with l Z_s = 30 is zero.
 pub fn diametrical_rule(sun_teeth: u32, harmonic: u32) -> DiametricalRule {
     if sun_teeth.is_multiple_of(2) || harmonic.is_multiple_of(2) {
         DiametricalRule::TranslationalForbidden

@@ -46,44 +46,45 @@ pub struct Scene {
     pub operation: Option<Operation>,
     /// Choices of the FE/contact model.
     pub fe_contact: FeContactInput,
-    /// Choices of its motion in time.
+    /// Choices for simulation in time.
     pub dynamics: DynamicsInput,
 }
 
-/// What stands behind the teeth when the set vibrates: the fidelities of the fidelity ladder.
+/// Level of detail of the bodies behind the teeth when the set vibrates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fidelity {
-    /// As quasi-static, each mesh's force looked up in a table over deflection and phase.
+    /// As `QuasiStatic`, but each mesh force is read from a table over deflection and phase.
     MeshLaw,
     /// Rigid inertia, FE flexibility without inertia of its own.
     QuasiStatic,
-    /// Besides, so many modes of each body with its race held.
+    /// As `QuasiStatic`, and this number of modes of each body with its race held.
     Modal(u32),
-    /// Every FE degree of freedom.
+    /// Every FE degree of freedom, with its inertia.
     Full,
 }
 
-/// Choices of motion in time.
+/// Choices for simulation in time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct DynamicsInput {
-    /// Bodies.
+    /// Level of detail of the bodies.
     pub fidelity: Fidelity,
     /// Time steps in a mesh cycle.
     pub steps_per_cycle: u32,
     /// Whether the carrier frame's gyroscopic and centripetal terms act.
     pub gyroscopic: bool,
-    /// How meshes follow the displaced gears in a sweep.
+    /// How approaches of tooth pairs follow from displacements of the gears in a sweep.
     pub kinematics: MeshKinematics,
 }
 
-/// How meshes follow the displaced gears.
+/// How approaches of tooth pairs follow from displacements of the gears.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MeshKinematics {
-    /// Exact for the mean configuration under load, linear (quadratic at corners) about it.
+    /// Exact in the mean configuration under load; linear (at tip corners quadratic) in the displacements
+    /// from it.
     AboutMean,
-    /// Exact at every time step: slow.
+    /// Exact at every time step; slow.
     Exact,
 }
 
@@ -113,7 +114,7 @@ pub enum PlaneState {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ElementFamily {
-    /// Four nodes, bilinear: the paper's; too stiff in bending.
+    /// Four nodes, bilinear, as in Parker, Agashe & Vijayakar (2000); too stiff in bending.
     Linear,
     /// Four nodes and incompatible bending modes.
     Incompatible,
@@ -121,12 +122,12 @@ pub enum ElementFamily {
     Quadratic,
 }
 
-/// Choices of the FE/contact model; `None` is worked out from the geometry.
+/// Choices of the FE/contact model; a value of `None` is derived from the geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct FeContactInput {
     /// Plane strain or plane stress.
     pub plane: PlaneState,
-    /// Elements.
+    /// Element family behind the flanks.
     pub element: ElementFamily,
     /// Elements along one flank; the rest of the mesh follows their size.
     pub flank_elements: u32,
@@ -134,9 +135,10 @@ pub struct FeContactInput {
     pub contact_cells: u32,
     /// Depth below the flank at which half-plane and FE are matched, m.
     pub matching_depth: Option<f64>,
-    /// Matching points below each cell: 1 as in the paper, 2 to extrapolate to the surface.
+    /// Matching points below each cell: 1 as in eq. (1) of Parker, Agashe & Vijayakar (2000), 2 to
+    /// extrapolate to the surface.
     pub matching_points: u32,
-    /// Factors on the FE part of each mesh's flexibility, the half-plane part left as it is.
+    /// Factors on the FE part of each mesh's flexibility; the half-plane part is unchanged.
     pub flexibility_factor: PerMesh,
 }
 
@@ -164,7 +166,7 @@ pub struct PlanetPositions {
 }
 
 impl PlanetPositions {
-    /// N planets at ψ_n = 2πn/N, without saying anything about teeth.
+    /// N planets at ψ_n = 2πn/N, without assembly steps.
     pub fn equally_spaced(count: usize) -> Self {
         let psi_rad = (0..count).map(|n| std::f64::consts::TAU * n as f64 / count as f64).collect();
         Self { psi_rad, steps: None }
@@ -354,7 +356,7 @@ pub struct Supports {
     pub sun: Support,
     /// Stiffness between each planet and the carrier, N/m.
     pub planet_bearing: f64,
-    /// What is fixed to each planet's rigid race.
+    /// Mass and inertia fixed to each planet's rigid race.
     pub planet_added: AddedMass,
 }
 
@@ -367,7 +369,7 @@ pub struct AddedMass {
     pub inertia_kg_m2: f64,
 }
 
-/// One value for each body kind; `None` where the scene says nothing.
+/// One value for each kind of body; `None` where the scene gives none.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct PerBody {
     /// Carrier.
@@ -479,13 +481,13 @@ pub struct Operation {
 }
 
 impl Scene {
-    /// A copy to be changed, whose title says in what: results that are kept by title are not those of another
-    /// set.
+    /// A copy to be modified, with `what` added to the title: recorded results are found by title, and must
+    /// not be taken for those of the modified set.
     pub fn variant(&self, what: &str) -> Self {
         Self { title: format!("{}: {what}", self.title), ..self.clone() }
     }
 
-    /// What this scene lacks and therefore cannot be used for, one sentence each.
+    /// What the scene lacks and what therefore cannot be computed, one entry each.
     pub fn limits(&self) -> Vec<String> {
         let mut limits = Vec::new();
         if self.kind == SceneKind::GearPair {

@@ -1,5 +1,5 @@
-//! Displaced meshes pinned by flanks placed explicitly and measured as plain polylines, and by
-//! difference quotients: neither knows of operating angles, roll lengths or ends of the path.
+//! Displaced meshes checked against rigid flanks placed explicitly and measured as polylines, without use of
+//! operating angles or ends of the path; their derivatives checked against difference quotients.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -58,9 +58,10 @@ fn front_flanks<'m>(mesh: &'m Mesh, roll_length: f64, x: &Displacements) -> [Fla
     [moved(driver, &x[..3]), moved(driven, &x[3..])]
 }
 
-/// The pair of backside flanks, of the very teeth whose working flanks touch, that a mirror (y → −y)
-/// would show at the driver's roll length; gears displaced to the mirror image of `x`, except
-/// that the driven gear's rotation counts from where the backside flanks, not the working ones, touch.
+/// Backside flanks of the pair of teeth whose working flanks touch, chosen so that their mirror image
+/// (y → −y) stands at the driver's `roll_length`. The gears are displaced to the mirror image of `x`, but the
+/// rotation of the driven gear counts from contact of the backside flanks, `gap` (m) from that of the working
+/// flanks.
 fn backside_flanks<'m>(
     mesh: &'m Mesh,
     gap: f64,
@@ -85,9 +86,10 @@ fn backside_flanks<'m>(
     [moved(driver, &[x[0], -x[1], -x[2]]), moved(driven, &[x[3], -x[4], -x[5] - slack])]
 }
 
-/// Turns one flank until it touches the other: smallest angle, about its centre, between points at
-/// the same radius; polylines refined about the place found. Turn times base radius (positive if
-/// the flanks stood clear), roll lengths touching; `None` if that is at a form circle.
+/// Turns one flank about its gear's centre until it touches the other, by the smallest angle between points
+/// of the two polylines at the same radius; the polylines are refined about the point found. Returns the turn
+/// times the base radius (m, positive if the flanks were apart) and the roll lengths of the touching points;
+/// `None` if one of these is at a form circle.
 fn touch(still: &Flank<'_>, turned: &Flank<'_>) -> Option<(f64, [f64; 2])> {
     let polar = |p: [f64; 2]| {
         let [x, y] = [p[0] - turned.centre[0], p[1] - turned.centre[1]];
@@ -133,7 +135,8 @@ fn deviations(mesh: &Mesh, d: &DisplacedMesh, k: i64, flanks: &[Flank<'_>; 2]) -
     let [driver, driven] = flanks;
     let turns = [touch(driver, driven)?, touch(driven, driver)?];
     let [end, start] = d.beyond(k);
-    // The nearer corner's gear is left as it stands; its mate is turned.
+    // The gear whose tip corner is nearer to, or farther beyond, its end of the path stands still; its
+    // mate is turned.
     let standing = usize::from(start > end);
     let (clearance, roll_lengths) = turns[standing];
     let roll_length = match end.max(start) {
@@ -148,7 +151,7 @@ fn deviations(mesh: &Mesh, d: &DisplacedMesh, k: i64, flanks: &[Flank<'_>; 2]) -
     Some([clearance - d.clearance(mesh, k).unwrap(), roll_length])
 }
 
-/// Checks one mesh at many random places.
+/// Checks one mesh at many random displacements.
 fn agrees_with_polylines(
     mesh: &Mesh,
     place: impl for<'m> Fn(&'m Mesh, f64, &Displacements) -> [Flank<'m>; 2],
@@ -175,7 +178,7 @@ fn agrees_with_polylines(
 }
 
 /// Clearances of displaced pairs, on the path and at the tip corners, are those of polylines
-/// displaced rigidly, and the flanks touch where the mesh says.
+/// displaced rigidly, and the flanks touch at the roll lengths that the mesh gives.
 #[test]
 fn clearances_are_those_of_displaced_polylines() {
     let geometry = oh58();
@@ -219,7 +222,7 @@ fn derivatives_are_difference_quotients() {
                     (d.center_distance, g.center_distance),
                 ]
             };
-            // Step, and half of it to cancel the leading error.
+            // Richardson extrapolation from two steps cancels the leading error.
             let slope = |i: usize, of: &dyn Fn([(f64, [f64; 6]); 3]) -> f64| {
                 let quotient = |h: f64| (of(at(i, h)) - of(at(i, -h))) / (2.0 * h);
                 (4.0 * quotient(1e-5) - quotient(2e-5)) / 3.0
@@ -291,7 +294,8 @@ fn mounting_at_the_displaced_centre_distance_gives_the_same_path() {
             ] {
                 assert!((one - other).abs() < 1e-15, "{one} {other}");
             }
-            // The driver stands where it would at s₁, the driven gear where it would at s₁ − δ.
+            // The driver's flank is that of the mounted mesh at roll length s₁, the driven gear's that at
+            // s₁ − δ.
             let (driver, driven) = d.flanks(mesh, 1);
             let roll_length = d.driver_roll_length + mesh.base_pitch;
             let (own, mate) =
@@ -315,13 +319,14 @@ fn mounting_at_the_displaced_centre_distance_gives_the_same_path() {
     }
 }
 
-/// Control: kinematics linear about the unloaded place misses the polylines by more than
-/// 0.5 µm at pairs 0.4 mm and more beyond the path when the mesh is wound up by 0.7 mm.
+/// Negative control: kinematics linearised about the unloaded position is off the polylines by more than
+/// 0.5 µm for pairs 0.4 mm and more beyond the path, if both gears are turned by 0.7 mm along the line of
+/// action.
 #[test]
 fn linear_kinematics_misses_the_corners_of_a_wound_up_mesh() {
     let geometry = oh58();
     for mesh in MESHES.map(|kind| geometry.mesh(kind).unwrap()) {
-        // Driver wound up by 0.7 mm along the line of action, the driven gear carried along.
+        // The driver is turned by 0.7 mm along the line of action, the driven gear to an approach of 20 µm.
         let mut x = [0.0; 6];
         x[2] = 0.7e-3 / mesh.gear(MeshMember::Driver).base_radius;
         turn_driven_to(mesh, 0.0, &mut x, 20e-6);

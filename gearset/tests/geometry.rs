@@ -1,4 +1,4 @@
-//! Table 1 of the OH-58 set, closed on itself and on an independent description of the same teeth.
+//! Table 1 of the OH-58 set: consistency of its values, also with a description of the same teeth by a rack.
 
 use std::path::Path;
 

@@ -14,13 +14,13 @@ fn set(teeth: (u32, u32, u32), fixed: Member, input: Member, rpm: f64) -> Kinema
     Kinematics::new(teeth.0, teeth.1, teeth.2, fixed, input, rpm).unwrap()
 }
 
-/// Every (fixed, input) pair that moves.
+/// Every pair (fixed, input) of different members.
 fn drives() -> impl Iterator<Item = (Member, Member)> {
     let pairs = MEMBERS.into_iter().flat_map(|f| MEMBERS.into_iter().map(move |i| (f, i)));
     pairs.filter(|(fixed, input)| fixed != input)
 }
 
-/// Every drive of several sets, forwards and backwards, standard centre distances or not.
+/// Every drive of several sets in both directions, with Z_r = Z_s + 2 Z_p and without.
 fn many_sets() -> impl Iterator<Item = Kinematics> {
     let teeth = [OH_58, (30, 20, 70), (12, 60, 132), (61, 17, 96)];
     teeth.into_iter().flat_map(|teeth| {
@@ -88,7 +88,7 @@ fn external_torques_balance_and_lose_no_power() {
 #[test]
 fn a_common_speed_added_to_all_members_changes_no_mesh() {
     for k in many_sets() {
-        // Bring every other central member to rest in turn by turning the frame with it.
+        // In a frame that turns with one central member this member is at rest: each in turn.
         for (fixed, input) in drives() {
             let frame = k.speeds_rpm.of(fixed);
             let input_rpm = k.speeds_rpm.of(input) - frame;
@@ -152,7 +152,7 @@ fn a_scene_moves_when_it_has_teeth_and_an_operating_point() {
     let scene = oh_58_scene();
     let k = Kinematics::from_scene(&scene).unwrap();
     assert_eq!(k, set(OH_58, Member::Ring, Member::Sun, 2500.0));
-    // 3 planets, Z_s = 27: every harmonic turns, none pushes.
+    // With 3 planets and Z_s = 27 every harmonic has a net torque and none a net force.
     let strengths = excitation_of_scene(&scene, 5).unwrap();
     assert_eq!(strengths.iter().map(|e| e.harmonic).collect::<Vec<_>>(), [1, 2, 3, 4, 5]);
     assert!(strengths.iter().all(|e| e.allowed().rotational && !e.allowed().translational));

@@ -1,5 +1,5 @@
-//! γ, the phases and their senses, pinned by rigid polygons: gears placed from the phases alone,
-//! then measured as plain polylines that know nothing of phases, roll lengths or base pitch.
+//! γ, the mesh phases and their signs, checked with rigid polygons: gears are placed from the phases alone,
+//! and their gaps are measured between polylines, without use of phases or base pitch.
 
 use std::path::Path;
 
@@ -88,7 +88,7 @@ fn mesh_gap(a: &Placed<'_>, b: &Placed<'_>, facing: Facing, towards: [f64; 2]) -
     let mut best = f64::INFINITY;
     for fa in &on_a {
         for fb in &on_b {
-            // Only flanks that could be mates: coarse screen by a mid-flank distance.
+            // Only flanks that could be mates: within 3 mm of each other, by coarse polylines.
             best = best.min(if screen(fa, fb) < 3e-3 { flank_distance(fa, fb) } else { best });
         }
     }
@@ -122,7 +122,7 @@ fn both_flanks_show_the_backlash(
         for (n, &psi) in positions.psi_rad.iter().enumerate() {
             let centre = [a * psi.cos(), a * psi.sin()];
             let planet = Placed { gear: &geometry.planet, centre, angle: angles.planets[n] };
-            // The sun pushes with the loaded flank; the planet passes it on with its other one.
+            // The sun's loaded flank drives the planet, whose opposite flank drives the ring.
             let back = psi + std::f64::consts::PI;
             for (kind, other, facing, towards) in [
                 (MeshKind::SunPlanet, &sun, loaded, [psi, back]),

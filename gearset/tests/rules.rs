@@ -44,7 +44,7 @@ fn equally_spaced_planets_give_table_4_exactly() {
                 let e = excitation(&spacing, sun_teeth, harmonic);
                 let rule = table4(planets, sun_teeth, harmonic).unwrap();
                 let is = |kind| f64::from(u8::from(rule == kind));
-                // Each strength is all or nothing, so both directions are tested.
+                // Every strength is 0 or 1, so that allowed and forbidden harmonics are both tested.
                 let expected = [
                     (e.net_torque, is(Table4::RotationalOnly)),
                     (net_force(&e), is(Table4::TranslationalOnly)),
@@ -84,7 +84,7 @@ fn planet_modes_need_four_planets_and_the_right_k() {
             }
         }
     }
-    // N = 4, k = 2: the planets push in turns and nothing else moves.
+    // N = 4, k = 2: neighbouring planets are in antiphase, which excites planet modes alone.
     let four = excitation(&Spacing::equal(nz(4)), 30, 1);
     assert!((four.planet - 1.0).abs() <= ROUNDING);
     // N = 5, Z_s = 42, k = 2; no planet part at k = 1 (l = 3).
@@ -165,14 +165,14 @@ fn spacings_recognise_themselves() {
     assert!(angles(&[0.0, 0.4, PI, PI + 0.4]).is_diametrical());
     assert!(angles(&[0.0, -0.4, PI - 0.4, -PI]).is_diametrical());
     assert!(!angles(&[0.0, 0.4, PI, PI + 0.4 + 1e-6]).is_diametrical());
-    // Pure kinds of modes ask for less than either: a pair beside three equally spaced planets.
+    // Σ e^{iψ_n} = 0 requires neither: here a diametrical pair and three equally spaced planets.
     assert!(steps(&[0, 60, 7, 47, 87], 120).is_balanced());
     assert!(!steps(&[0, 60, 7, 47, 87], 120).is_diametrical());
     assert!(oh_58().is_balanced() && Spacing::equal(nz(3)).is_balanced());
     assert!(!Spacing::equal(nz(1)).is_balanced() && !steps(&[0, -31, 63, 33], 126).is_balanced());
-    // An odd number of steps a turn has no opposite place.
+    // With an odd number of steps per turn no two positions are opposite.
     assert!(!steps(&[0, 62], 125).is_diametrical());
-    // Equal angles become exact whichever way round they are written.
+    // Equal spacing is recognised for angles of either sign.
     let equal = PlanetPositions::equally_spaced(7);
     assert_eq!(Spacing::of(&equal, None), Ok(Spacing::equal(nz(7))));
     assert_eq!(angles(&[0.0, PI / 2.0, PI, -PI / 2.0]), Spacing::equal(nz(4)));
@@ -271,7 +271,7 @@ proptest! {
         for strength in [e.net_torque, e.net_force_plus, e.net_force_minus, e.planet] {
             prop_assert!((0.0..=1.0 + ROUNDING).contains(&strength));
         }
-        // Every phasor vector is seen by something.
+        // Every phasor vector has a part in at least one kind of mode.
         let allowed = e.allowed();
         prop_assert!(allowed.rotational || allowed.translational || allowed.planet);
         // Turning the whole set changes nothing.

@@ -1,4 +1,4 @@
-//! Every fault of a scene is found at once, named by key, and nothing in a file makes it panic.
+//! All faults of a scene are reported at once, each with its key, and no file makes the reader panic.
 
 use gearset::{Scene, SceneKind, template};
 use proptest::prelude::*;
@@ -204,7 +204,7 @@ fn parameter_only_sets_are_valid_and_say_what_they_lack() {
     let scene = Scene::from_toml(text).unwrap();
     assert!(scene.limits().iter().any(|l| l.contains("[geometry]")));
     assert!(scene.limits().iter().any(|l| l.contains("[teeth]")));
-    // What is fixed to the planets turns with them: their radius is then needed.
+    // An inertia added to the planets requires their radius.
     let keys = faulty_keys(
         &text.replace("_per_m = 1e8\n[ring]", "_per_m = 1e8\nadded_inertia_kg_m2 = 1\n[ring]"),
     );
@@ -273,7 +273,7 @@ const VALUES: [&str; 20] = [
 proptest! {
     #![proptest_config(ProptestConfig { cases: 10_000, failure_persistence: None, ..ProptestConfig::default() })]
 
-    /// Up to three edits of a valid scene: accepted whole, or refused with keys and sound spans.
+    /// Up to three edits of a valid scene: it is accepted, or refused with a key and a valid span per fault.
     #[test]
     fn mutated_scenes_never_panic(
         pair in any::<bool>(),

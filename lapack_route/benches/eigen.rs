@@ -1,8 +1,8 @@
-//! Time of one natural-mode solution, with vectors, for 3 to 12 planets: LAPACK's `dsygv` beside
-//! the project's own route.
+//! Time of one natural-mode solution, with vectors, for 3 to 12 planets: LAPACK's `dsygv` and the project's
+//! own route (nalgebra).
 //!
-//! Purpose: orientation, and a second opinion on whether the faer route is the right default at
-//! these sizes. Noise: 5 % on a quiet machine. Time: about a minute.
+//! Purpose: to see whether the project's own route is a good default at these sizes. Noise: 5 % on a quiet
+//! machine. Time: about a minute.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -27,7 +27,7 @@ fn eigen(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::new("dsygv", planets), |b| {
             b.iter(|| dsygv_pairs(black_box(&k), black_box(&m)));
         });
-        // More than dsygv does: mode types as well.
+        // Includes the mode types, which `dsygv` does not give.
         group.bench_function(BenchmarkId::new("faer_and_mode_types", planets), |b| {
             b.iter(|| NaturalModes::with_stiffness(black_box(&model), black_box(&k)));
         });

@@ -1,4 +1,4 @@
-//! Safe face of `dsygv`.
+//! Safe interface to `dsygv`.
 
 use nalgebra::DMatrix;
 
@@ -26,7 +26,7 @@ pub(crate) fn values(k: &DMatrix<f64>, m: &DMatrix<f64>) -> Result<Vec<f64>, Lap
     call(k, m, b'N').map(|(values, _)| values)
 }
 
-/// Runs the driver; the matrix comes back holding the vectors if `jobz` asks for them.
+/// Runs the driver; returns the eigenvalues, and the eigenvectors as columns if `jobz` is `V`.
 #[allow(unsafe_code)]
 fn call(
     k: &DMatrix<f64>,

@@ -1,5 +1,5 @@
-//! The symmetric-definite eigenproblem K φ = λ M φ by LAPACK: the second route to the numbers that
-//! the rest of the project gets from nalgebra.
+//! The symmetric-definite eigenproblem K φ = λ M φ by LAPACK: a second route to the eigenvalues that the rest
+//! of the project computes with nalgebra.
 
 mod dsygv;
 
@@ -8,7 +8,7 @@ use nalgebra_lapack::SymmetricEigen;
 
 pub use dsygv::{EigenPairs, dsygv_pairs};
 
-/// Which LAPACK driver does the work.
+/// LAPACK driver.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Driver {
     /// `dsygv` on (K, M): Cholesky, reduction and QL iteration all LAPACK's.
@@ -18,7 +18,7 @@ pub enum Driver {
 }
 
 impl Driver {
-    /// All of them.
+    /// All drivers.
     pub const ALL: [Self; 2] = [Self::Dsygv, Self::Dsyev];
 }
 
@@ -39,7 +39,7 @@ pub enum LapackError {
     /// M has no Cholesky factor.
     #[error("M is not positive definite")]
     MassNotPositive,
-    /// The driver gave up, or its arguments were refused.
+    /// The driver did not converge, or refused its arguments.
     #[error("the LAPACK driver failed with info = {0}")]
     Failed(i32),
 }
@@ -63,7 +63,7 @@ pub fn lapack_generalized(
     Ok(values)
 }
 
-/// Refuses what a driver would stumble over.
+/// Refuses matrices that are not square, not of one size, or not finite.
 fn check(k: &DMatrix<f64>, m: &DMatrix<f64>) -> Result<(), LapackError> {
     if !k.is_square() || k.shape() != m.shape() {
         return Err(LapackError::Shape { k: k.shape(), m: m.shape() });
@@ -85,7 +85,7 @@ fn dsyev(k: &DMatrix<f64>, m: &DMatrix<f64>) -> Result<Vec<f64>, LapackError> {
     // A = L⁻¹ K L⁻ᵀ = L⁻¹ (L⁻¹ K)ᵀ, K symmetric
     let half = l.solve_lower_triangular(&full).ok_or(LapackError::MassNotPositive)?;
     let a = l.solve_lower_triangular(&half.transpose()).ok_or(LapackError::MassNotPositive)?;
-    // With vectors: asked for values alone, nalgebra-lapack 0.28 passes a `jobz` LAPACK refuses.
+    // With vectors: for values alone nalgebra-lapack 0.28 passes a `jobz` that LAPACK refuses.
     let eigen = SymmetricEigen::try_new(a).ok_or(LapackError::Failed(1))?;
     Ok(eigen.eigenvalues.iter().copied().collect())
 }

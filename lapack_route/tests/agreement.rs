@@ -1,4 +1,4 @@
-//! LAPACK against the project's own route (nalgebra) on lumped models, and LAPACK against print.
+//! LAPACK against the project's own route (nalgebra) on lumped models, and against published frequencies.
 //!
 //! Reference kind: other code for the comparison, published for Lin & Parker (1999).
 
@@ -13,7 +13,7 @@ use lumped::{LumpedModel, NaturalModes};
 use nalgebra::DMatrix;
 
 /// Allowed |Δω²|/ω²_max. Backward stable solvers differ by a few n·ε (1e-14 at 45 coordinates);
-/// what is more than a hundred times that is a mistake.
+/// a difference of more than a hundred times that is an error.
 const TOLERANCE: f64 = 1e-12;
 
 /// K and M for LAPACK.
@@ -65,7 +65,7 @@ fn tolerance_hz(checks: &str) -> f64 {
     found["absolute"].as_float().unwrap()
 }
 
-/// Printed values of one kind, but for listed misses (`checks/misses.toml`), where our own is expected.
+/// Printed values of one kind; for listed misses (`checks/misses.toml`) the project's own value instead.
 fn printed_or_missed(table: &toml::Value, set: &str, kind: &str) -> Vec<f64> {
     let misses = data("checks/misses.toml");
     let misses = misses["miss"].as_array().unwrap();
@@ -77,7 +77,7 @@ fn printed_or_missed(table: &toml::Value, set: &str, kind: &str) -> Vec<f64> {
     list(table, &format!("{kind}_hz")).into_iter().enumerate().map(value).collect()
 }
 
-/// Each printed value as often as its modes occur, ascending.
+/// Every value repeated by its multiplicity, ascending.
 fn with_multiplicity(values: impl IntoIterator<Item = (f64, usize)>) -> Vec<f64> {
     let repeated = values.into_iter().flat_map(|(f, times)| std::iter::repeat_n(f, times));
     let mut all: Vec<f64> = repeated.collect();

@@ -1,4 +1,4 @@
-//! The drivers by themselves, on problems with known answers.
+//! The LAPACK drivers on problems with known solutions.
 
 use std::f64::consts::PI;
 

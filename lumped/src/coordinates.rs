@@ -1,4 +1,4 @@
-//! Which coordinate stands where.
+//! Bodies, their coordinates and the numbering of the free coordinates.
 
 use serde::Serialize;
 

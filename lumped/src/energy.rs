@@ -1,4 +1,4 @@
-//! Where a mode's energy is.
+//! Distribution of a mode's energy over bodies and springs.
 
 use serde::Serialize;
 

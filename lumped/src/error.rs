@@ -1,8 +1,8 @@
-//! Why there is no lumped model or no modes.
+//! Errors of the lumped model and its modes.
 
 use crate::springs::SpringId;
 
-/// Why a scene has no lumped model, or its modes could not be had.
+/// Why a scene has no lumped model, or its modes or motion could not be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LumpedError {
     /// The scene has no lumped parameters.
@@ -16,8 +16,8 @@ pub enum LumpedError {
         /// Body.
         body: &'static str,
     },
-    /// A torsional stiffness or an added inertia per angle without the radius that turns it into one
-    /// per u = r·θ.
+    /// A torsional stiffness per angle or an added inertia, without the radius r that converts it to
+    /// u = r·θ.
     #[error(
         "`lumped.radius_mm.{body}` is absent: the torsional stiffness or added inertia needs it"
     )]
@@ -33,7 +33,7 @@ pub enum LumpedError {
         /// Its stiffness, N/m.
         value: f64,
     },
-    /// An override names a planet that is not there.
+    /// An override for a planet that does not exist.
     #[error("`planet_override` names planet {planet}, and there are {count}")]
     NoSuchPlanet {
         /// Index given.
@@ -41,7 +41,7 @@ pub enum LumpedError {
         /// Number of planets.
         count: usize,
     },
-    /// A motion in angles without the radius that turns u = r·θ into one.
+    /// No radius r of a body that can rotate, to convert between u = r·θ and torque or angle.
     #[error("`lumped.radius_mm.{body}` is absent: torque and rotation in time need it")]
     NoRotation {
         /// Body.
@@ -55,7 +55,7 @@ pub enum LumpedError {
         /// Its value.
         value: f64,
     },
-    /// A mesh law for another set.
+    /// A mesh law with another number of meshes than the set.
     #[error("a mesh law of {got} meshes does not go with {wanted}")]
     Law {
         /// Meshes of the law.

@@ -6,8 +6,8 @@
 //! M q̈ + Ω G q̇ + (K − Ω² K_Ω) q = 0,   G_xy = −2m, G_yx = +2m, K_Ω = diag(m, m, 0)
 //! ```
 //!
-//! for the central members and, in ζ and η, for the planets. Bearings are isotropic, so a spring
-//! to ground looks the same from the turning frame.
+//! for the central members and, in ζ and η, for the planets. Bearings are isotropic, so that a spring to
+//! ground has the same stiffness matrix in the rotating frame.
 
 use std::f64::consts::TAU;
 
@@ -27,6 +27,9 @@ use crate::modes::Participation;
 pub struct SpeedMode {
     /// Frequency in the carrier frame, Hz.
     pub frequency_hz: f64,
+    /// What rounding may have changed of the frequency, Hz: the eigenvalues of the state matrix are good to a part
+    /// of the largest, so that s² is good to n ε ω_max².
+    pub uncertainty_hz: f64,
     /// Growth rate, 1/s; zero up to rounding for stable motion.
     pub growth_per_s: f64,
     /// Shares in the kinds.
@@ -40,6 +43,23 @@ pub struct SpeedModes {
     pub carrier_speed_rad_per_s: f64,
     /// Modes.
     pub modes: Vec<SpeedMode>,
+}
+
+/// Growth rates below this part of the largest ω are rounding: s = 0, which rigid-body motion has twice, comes out
+/// as the root of what rounding leaves of s².
+const GROWTH_FLOOR: f64 = 1e-6;
+
+impl SpeedModes {
+    /// Largest growth rate of any mode, 1/s.
+    pub fn largest_growth_per_s(&self) -> f64 {
+        self.modes.iter().fold(0.0, |a, m| a.max(m.growth_per_s))
+    }
+
+    /// Whether a mode grows faster than rounding explains.
+    pub fn is_unstable(&self) -> bool {
+        let largest = self.modes.iter().fold(0.0f64, |a, m| a.max(TAU * m.frequency_hz));
+        self.largest_growth_per_s() > GROWTH_FLOOR * largest
+    }
 }
 
 /// Campbell data: modes with gyroscopic terms at each carrier speed (rad/s).
@@ -74,6 +94,9 @@ fn at_speed(
         }
     }
     let modes = gyroscopic_modes(&model.mass, &g, &k)?;
+    let largest = modes.iter().fold(0.0f64, |a, mode| a.max(mode.omega));
+    // d(s²) = 2 s ds, and at s = 0 the root of it
+    let unsure = n as f64 * f64::EPSILON * largest * largest;
     let modes = modes
         .iter()
         .map(|mode| {
@@ -87,6 +110,7 @@ fn at_speed(
                 .map(|rows| rows.iter().flatten().map(|p| p * p).sum::<f64>());
             SpeedMode {
                 frequency_hz: mode.omega / TAU,
+                uncertainty_hz: (unsure / (2.0 * mode.omega)).min(unsure.sqrt()) / TAU,
                 growth_per_s: mode.growth,
                 participation: Participation {
                     rotational,

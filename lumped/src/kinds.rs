@@ -1,9 +1,9 @@
 //! The kinds of modes as invariant subspaces (Lin & Parker 1999; 2000 for unequal spacing).
 //!
-//! For equal planets that stand so that Σ e^{iψ_n} = 0, the space of all motions falls apart into
-//! three subspaces that do not exchange energy: rotations of the central members with all planets
-//! alike; translations of the central members with planets following cos ψ_n and sin ψ_n; and
-//! planet motions that neither push nor turn anything. Held coordinates only drop out of them.
+//! For equal planets at positions with Σ e^{iψ_n} = 0, the space of all motions splits into three uncoupled
+//! subspaces: rotations of the central members with equal motion of all planets; translations of the central
+//! members with planet motions proportional to cos ψ_n and sin ψ_n; and planet motions without net force or
+//! torque on the central members. Held coordinates are left out of them.
 
 use serde::Serialize;
 

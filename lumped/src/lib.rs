@@ -1,9 +1,9 @@
 //! The Lin–Parker lumped-parameter model of a planetary gear set: rigid bodies, springs at meshes
-//! and bearings, natural modes and what they depend on; and the same set in time, its mesh springs
+//! and bearings, natural modes and their sensitivities; and the same set in time, its mesh springs
 //! replaced by tables of mesh force.
 //!
 //! Source of the equations: Lin & Parker (1999), J. Vib. Acoust. 121, 316–321. Coordinates and
-//! signs are fixed in [`springs`](Spring) and pinned by hand matrices in the tests.
+//! signs are defined in [`springs`](Spring) and checked in the tests against matrices derived by hand.
 
 mod coordinates;
 mod energy;

@@ -17,7 +17,7 @@ pub struct LumpedModel {
     pub coordinates: Coordinates,
     /// Diagonal of M, kg (mass, mass, I/r² of each body).
     pub mass: Vec<f64>,
-    /// Springs; public so that studies can change one and see what breaks.
+    /// Springs; public so that studies can change single stiffnesses.
     pub springs: Vec<Spring>,
 }
 
@@ -42,7 +42,7 @@ impl LumpedModel {
                 (Some(Freedom::Held), _) => false,
             }
         });
-        // Fixed to every planet, whatever its own mass.
+        // Added to every planet, also to one with a mass of its own.
         let piece = supports.planet_added;
         let added = |axis: Axis| match (axis, lumped.radius.planet) {
             (Axis::First | Axis::Second, _) => Ok(piece.mass_kg),
@@ -106,7 +106,7 @@ impl LumpedModel {
                 rows: rows.planet_bearing(n, psi),
             });
         }
-        // Scenes can be built in memory, past the reader's checks.
+        // A scene built in memory has not passed the reader's checks.
         match springs.iter().find(|s| !(s.stiffness >= 0.0 && s.stiffness.is_finite())) {
             Some(Spring { id, stiffness, .. }) => {
                 Err(LumpedError::Stiffness { spring: *id, value: *stiffness })

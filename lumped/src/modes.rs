@@ -1,15 +1,17 @@
 //! Natural frequencies, mode types and multiplicities.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use nalgebra::DMatrix;
 use serde::Serialize;
 
-use dynamics::{generalized_symmetric, group_equal, split};
+use dynamics::{SpringRow, factored_modes, generalized_symmetric, group_equal, split};
 
 use crate::error::LumpedError;
 use crate::kinds::{Kinds, ModeType};
 use crate::model::LumpedModel;
+use crate::springs::Spring;
 
 /// Shares of a mode's kinetic energy in the three kinds; they sum to one.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -27,15 +29,17 @@ pub struct Participation {
 pub struct ModeGroup {
     /// f = √λ / 2π, Hz.
     pub frequency_hz: f64,
-    /// λ = ω², (rad/s)²; rigid-body modes may come out as ± rounding.
+    /// What rounding may have changed of the frequency, as a part of it.
+    pub uncertainty: f64,
+    /// λ = ω², (rad/s)².
     pub lambda: f64,
     /// Kind.
     pub mode_type: ModeType,
-    /// How often the frequency occurs with this type.
+    /// Number of modes of this type with this frequency.
     pub multiplicity: usize,
     /// Shares in the kinds, averaged over the group.
     pub participation: Participation,
-    /// M-orthonormal mode shapes, one a column (n×multiplicity).
+    /// M-orthonormal mode shapes, one per column (n×multiplicity).
     pub vectors: DMatrix<f64>,
 }
 
@@ -46,39 +50,83 @@ pub struct NaturalModes {
     pub groups: Vec<ModeGroup>,
     /// All eigenvalues with multiplicity, ascending.
     pub lambda: Vec<f64>,
-    /// Largest relative residual ‖Kφ − λMφ‖ of the eigensolution.
-    pub residual: f64,
+}
+
+/// Parts by which the squares of two frequencies may differ that are one frequency of several modes.
+const EQUAL: f64 = 1e-9;
+
+/// Eigenvalues ascending with what they are worth, and M-orthonormal shapes.
+struct Solution {
+    lambda: Vec<f64>,
+    uncertainty: Vec<f64>,
+    vectors: DMatrix<f64>,
+    /// Modes that share a frequency.
+    equal: Vec<Range<usize>>,
 }
 
 impl NaturalModes {
-    /// Solves and classifies a model.
+    /// Solves and classifies a model, from its springs: each frequency keeps its own relative accuracy.
+    ///
+    /// # Errors
+    /// If the eigenproblem cannot be solved.
+    pub fn of(model: &LumpedModel) -> Result<Self, LumpedError> {
+        let of = |spring| {
+            let Spring { stiffness, rows, .. }: &Spring = spring;
+            rows.iter().map(|row| SpringRow { stiffness: *stiffness, row })
+        };
+        let springs: Vec<SpringRow<'_>> = model.springs.iter().flat_map(of).collect();
+        let found = factored_modes(&springs, &model.mass)?;
+        // Neighbours that differ by no more than EQUAL, or by what rounding may have done to them.
+        let splits = |i: &usize| {
+            let (low, high) = (found.omega[i - 1], found.omega[*i]);
+            let unsure = found.uncertainty[i - 1] + found.uncertainty[*i];
+            high - low > (0.5 * EQUAL + unsure) * high
+        };
+        let ends = (1..found.omega.len()).filter(splits).chain([found.omega.len()]);
+        let equal = ends
+            .scan(0, |start, end| Some(std::mem::replace(start, end)..end))
+            .filter(|range| !range.is_empty())
+            .collect();
+        let lambda = found.omega.iter().map(|omega| omega * omega).collect();
+        let (uncertainty, vectors) = (found.uncertainty, found.vectors);
+        Self::classified(model, Solution { lambda, uncertainty, vectors, equal })
+    }
+
+    /// The same for a stiffness matrix of one's own on the model's coordinates: eigenvalues are good to a part of
+    /// the largest, and those below 1e-12 of it count as rigid-body motion.
     ///
     /// # Errors
     /// If the eigenproblem cannot be solved to a residual of 1e-10.
-    pub fn of(model: &LumpedModel) -> Result<Self, LumpedError> {
-        Self::with_stiffness(model, &model.stiffness())
+    pub fn with_stiffness(model: &LumpedModel, k: &DMatrix<f64>) -> Result<Self, LumpedError> {
+        let mut found = generalized_symmetric(k, &model.mass)?;
+        let equal = group_equal(&found.lambda);
+        let largest = found.lambda.last().copied().unwrap_or(0.0);
+        for range in &equal {
+            let mean = found.lambda[range.clone()].iter().sum::<f64>() / range.len() as f64;
+            if mean.abs() < 1e-12 * largest {
+                found.lambda[range.clone()].fill(0.0);
+            }
+        }
+        let part = found.lambda.len() as f64 * f64::EPSILON * largest;
+        let uncertainty =
+            found.lambda.iter().map(|l| if *l > 0.0 { part / l } else { 0.0 }).collect();
+        let (lambda, vectors) = (found.lambda, found.vectors);
+        Self::classified(model, Solution { lambda, uncertainty, vectors, equal })
     }
 
-    /// The same for a stiffness matrix of one's own on the model's coordinates.
-    ///
-    /// # Errors
-    /// As [`NaturalModes::of`].
-    pub fn with_stiffness(model: &LumpedModel, k: &DMatrix<f64>) -> Result<Self, LumpedError> {
-        let solution = generalized_symmetric(k, &model.mass)?;
+    fn classified(model: &LumpedModel, solution: Solution) -> Result<Self, LumpedError> {
         let n = model.mass.len();
         let root: Vec<f64> = model.mass.iter().map(|m| m.sqrt()).collect();
         let kinds = Kinds::of(model);
-        let largest = solution.lambda.last().copied().unwrap_or(0.0);
         let mut groups = Vec::with_capacity(n);
-        for range in group_equal(&solution.lambda) {
+        for range in solution.equal {
             let m = range.len();
             let first = range.start;
             let phi = |i: usize, j: usize| solution.vectors[(i, first + j)];
             let projections = kinds.projections(m, |i, j| root[i] * phi(i, j));
             let directions = split(m, &projections)?;
-            let mean = solution.lambda[range].iter().sum::<f64>() / m as f64;
-            // Rigid-body modes are zero up to rounding of the largest eigenvalue.
-            let lambda = if mean.abs() < 1e-12 * largest { 0.0 } else { mean };
+            let lambda = solution.lambda[range.clone()].iter().sum::<f64>() / m as f64;
+            let uncertainty = solution.uncertainty[range].iter().fold(0.0f64, |a, u| a.max(*u));
             let types =
                 [ModeType::Rotational, ModeType::Translational, ModeType::Planet, ModeType::Mixed];
             for mode_type in types {
@@ -94,6 +142,7 @@ impl NaturalModes {
                 });
                 groups.push(ModeGroup {
                     frequency_hz: lambda.max(0.0).sqrt() / TAU,
+                    uncertainty,
                     lambda,
                     mode_type,
                     multiplicity: own.len(),
@@ -106,7 +155,7 @@ impl NaturalModes {
                 });
             }
         }
-        Ok(Self { groups, lambda: solution.lambda, residual: solution.residual })
+        Ok(Self { groups, lambda: solution.lambda })
     }
 
     /// The groups of one type, ascending.

@@ -1,9 +1,9 @@
-//! What a natural frequency depends on, in closed form.
+//! Sensitivities of natural frequencies to stiffnesses and inertias, in closed form.
 //!
 //! For M-orthonormal modes Φ of a group with eigenvalue λ and multiplicity m, a parameter p moves
 //! the group's eigenvalues at the rates given by the eigenvalues of Φᵀ(∂K/∂p − λ ∂M/∂p)Φ; their
-//! mean is trace/m. A family (all sun meshes, …) keeps the symmetry that made them equal, so there
-//! the mean is the rate of each.
+//! mean is trace/m. A common change of a family (all sun meshes, …) keeps the symmetry that makes the
+//! eigenvalues of the group equal; the mean is then the rate of each.
 
 use std::collections::BTreeMap;
 
@@ -28,7 +28,7 @@ pub enum Parameter {
     InertiaFamily(String),
 }
 
-/// How a group's mean eigenvalue follows one parameter.
+/// Sensitivity of a group's mean eigenvalue to one parameter.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Sensitivity {
     /// The parameter p.

@@ -93,13 +93,13 @@ impl Rows<'_> {
         ])
     }
 
-    /// How far the backside flanks of a sun mesh approach each other: the mesh seen in the mirror along the
-    /// line of centres, where y, u and η turn round.
+    /// Approach of the backside flanks of a sun mesh: that of the mesh mirrored about the line of centres,
+    /// for which tangential displacements and u change sign.
     pub(crate) fn sun_backside(&self, n: usize, psi: f64, alpha: f64) -> Vec<(usize, f64)> {
         turned(self.sun_mesh(n, psi, -alpha))
     }
 
-    /// The same of a ring mesh.
+    /// The same for a ring mesh.
     pub(crate) fn ring_backside(&self, n: usize, psi: f64, alpha: f64) -> Vec<(usize, f64)> {
         turned(self.ring_mesh(n, psi, -alpha))
     }

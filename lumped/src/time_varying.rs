@@ -4,12 +4,12 @@
 //! M q̈ + (α M + β_b K_s) q̇ + K_s q + Σ b P = f,   P = F(phase, δ + s β δ̇),   δ = bᵀ q
 //! ```
 //!
-//! with K_s of supports and bearings, rows b of the meshes as in the eigen model, and F from whatever
-//! made the law; f holds the torque and, if the law has them, the loads of corners beside the line of
-//! action. Stepped by Newmark's average acceleration, as many steps a mesh cycle as the law has.
+//! with K_s of supports and bearings, rows b of the meshes as in the eigen model, F from the mesh law and s
+//! the damping share of the mesh. f is the torque on the sun and, if the law has them, the side loads.
+//! Integrated by Newmark's average acceleration, with as many steps per mesh cycle as the law has.
 //!
-//! Everything is seen so that the torque on the sun is counter-clockwise: for the other sense the set is
-//! mirrored, and displacements are mirrored back.
+//! Computed with counter-clockwise torque on the sun: for clockwise torque the set is mirrored, and its
+//! displacements are mirrored back.
 
 use nalgebra::DMatrix;
 
@@ -23,7 +23,7 @@ use crate::error::LumpedError;
 use crate::model::LumpedModel;
 use crate::springs::{Rows, SpringId};
 
-/// Front flanks, then backside flanks, as couplings.
+/// Front flanks of all meshes, then backside flanks, as couplings.
 #[derive(Debug, Clone)]
 struct MeshLawCouplings(MeshLaw);
 
@@ -38,23 +38,24 @@ impl CouplingForce for MeshLawCouplings {
     }
 }
 
-/// A lumped set whose meshes follow a law, in time.
+/// A lumped set in time, its mesh forces given by a mesh law.
 #[derive(Debug, Clone)]
 pub struct TimeVarying {
     coordinates: Coordinates,
     system: Coupled<MeshLawCouplings>,
-    /// r in u = r θ by the body order, one for all planets, m.
+    /// r in u = r θ of carrier, ring, sun and planet, m.
     radii: [f64; 4],
     sign: f64,
     planets: usize,
 }
 
 impl TimeVarying {
-    /// A set at rest without load at step 0 of a mesh cycle, under a torque on the sun of the given
-    /// sense; as many steps a cycle as the law has.
+    /// A set at rest without load at step 0 of a mesh cycle, for torques on the sun of the given sense, with
+    /// as many steps per cycle as the law has.
     ///
     /// # Errors
-    /// If the scene lacks lumped parameters or radii, the law is for another set, or a number is unfit.
+    /// If the scene lacks lumped parameters or radii, the law has another number of meshes, or frequency or
+    /// damping is out of range.
     pub fn new(
         scene: &Scene,
         sense: Facing,
@@ -87,7 +88,7 @@ impl TimeVarying {
         }
         let radius = |body: Body, given: Option<f64>| match given {
             Some(r) => Ok(r),
-            // What does not turn needs none.
+            // A body that cannot rotate needs no radius.
             None if model.coordinates.of(body, Axis::Rotation).is_none() => Ok(1.0),
             None => Err(LumpedError::NoRotation { body: body.kind_name() }),
         };
@@ -171,12 +172,13 @@ impl TimeVarying {
         out.extend_from_slice(self.system.forces());
     }
 
-    /// Deflections in the same order, m; of backside flanks, how far they approach each other.
+    /// Deflections in the same order, m; for backside flanks their approach.
     pub fn mesh_deflections(&self) -> Vec<f64> {
         self.system.deflections()
     }
 
-    /// Whether the law's tables hold all deflections of the present step; beyond they go straight on.
+    /// Whether the law's tables contain all deflections of the present step; beyond their last node forces
+    /// are extrapolated linearly.
     pub fn is_within_tables(&self) -> bool {
         let (tables, step) = (self.system.law(), self.step_in_cycle());
         let deflections = self.system.deflections();
@@ -194,12 +196,12 @@ impl TimeVarying {
         self.system.time()
     }
 
-    /// Everything that decides how the set goes on, exactly.
+    /// The state from which the motion can be continued exactly.
     pub fn state(&self) -> &CoupledState {
         self.system.state()
     }
 
-    /// Goes on from a state of this set, bit by bit as it did before.
+    /// Continues from an earlier state of this set; the motion repeats bit by bit.
     ///
     /// # Errors
     /// If the state is of another set.
@@ -207,13 +209,13 @@ impl TimeVarying {
         Ok(self.system.set_state(state)?)
     }
 
-    /// Displacements, velocities and accelerations of the free coordinates (u = r θ; seen with the
-    /// torque counter-clockwise), m and s.
+    /// Displacements, velocities and accelerations of the free coordinates (u = r θ; of the set mirrored to
+    /// counter-clockwise torque), m and s.
     pub fn motion(&self) -> Motion {
         self.system.motion()
     }
 
-    /// Puts the set into motion at a step of the cycle, on the same coordinates.
+    /// Sets displacements (m) and velocities (m/s) of the same coordinates at a step of the cycle.
     ///
     /// # Errors
     /// If there is not one number for each coordinate.
@@ -231,14 +233,14 @@ impl TimeVarying {
         &self.coordinates
     }
 
-    /// Mean iterations of a step so far, and steps in which backside flanks took part.
+    /// Mean number of iterations per step so far, and number of steps with backside flanks in the solution.
     pub fn counts(&self) -> (f64, u64) {
         let steps = self.system.state().steps.max(1) as f64;
         (self.system.iterations as f64 / steps, self.system.with_rare)
     }
 }
 
-/// The law's loads beside the lines of action on the free coordinates, by step, N.
+/// The law's side loads on the free coordinates, by step, N.
 fn side_loads(model: &LumpedModel, law: &MeshLaw) -> Vec<Vec<f64>> {
     let planets = model.psi.len();
     let of_step = |step: usize| {
@@ -262,7 +264,7 @@ fn side_loads(model: &LumpedModel, law: &MeshLaw) -> Vec<Vec<f64>> {
     (0..law.steps()).map(of_step).collect()
 }
 
-/// Front and backside flanks of all meshes as couplings, the lag of each its damped share of β.
+/// Front and backside flanks of all meshes as couplings; the lag of each is its damping share times β, s.
 fn couplings(
     model: &LumpedModel,
     lumped: &gearset::LumpedInput,

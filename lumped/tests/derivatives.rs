@@ -1,4 +1,4 @@
-//! Sensitivities against differences, energies, and gyroscopic terms against closed forms.
+//! Sensitivities against difference quotients, sums of energies, gyroscopic terms against closed forms.
 
 mod common;
 
@@ -29,7 +29,8 @@ fn sensitivities_are_the_differences_they_stand_for() {
                 continue;
             }
             for s in sensitivities(&model, group) {
-                let relative = 1e-6; // close pairs curve: a coarser step would see it
+                // Small: eigenvalues of close pairs depend nonlinearly on the parameter.
+                let relative = 1e-6;
                 let change = |sign: f64| {
                     let factor = 1.0 + sign * relative;
                     shifted(&model, index, |m| match &s.parameter {
@@ -114,8 +115,8 @@ fn a_standing_carrier_gives_the_natural_frequencies() {
 
 #[test]
 fn an_unsupported_set_seen_from_the_carrier_whirls_at_carrier_speed() {
-    // Without springs to ground the whole set can stand still in space: from the turning frame it
-    // circles at Ω. The mode is double and defective (it may also drift), hence the tolerance.
+    // Without springs to ground the whole set can be at rest in space: in the rotating frame it moves on a
+    // circle at Ω. The eigenvalue is double and defective (the set may also drift), hence the tolerance.
     let mut scene = scene("lin_parker_1999_4p.toml");
     for support in [&mut scene.supports.carrier, &mut scene.supports.ring, &mut scene.supports.sun]
     {

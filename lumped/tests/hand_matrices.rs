@@ -1,4 +1,5 @@
-//! Signs and coefficients pinned by a one-planet set worked out by hand, and by plain geometry.
+//! Signs and coefficients of the stiffness matrix, against a one-planet set derived by hand and against the
+//! motion of material points.
 
 use std::path::Path;
 
@@ -63,8 +64,8 @@ fn stiffness_matrix_of_one_planet_at_zero() {
     }
 }
 
-/// Deflections from the motion of material points, knowing nothing of δ: the sun tooth pushes along
-/// the line of action, and what counts is how much the two contact points approach along it.
+/// Mesh deflections are the approaches, along the line of action, of the two material points in contact;
+/// computed from rigid-body motion without the formulas for δ.
 #[test]
 fn mesh_deflections_are_what_the_material_points_do() {
     let (psi, a, b) = (0.7f64, 0.41f64, 0.33f64);
@@ -73,7 +74,7 @@ fn mesh_deflections_are_what_the_material_points_do() {
     let of = |body, axis| q[model.coordinates.of(body, axis).unwrap()];
     let turn =
         |v: [f64; 2], t: f64| [v[0] * t.cos() - v[1] * t.sin(), v[0] * t.sin() + v[1] * t.cos()];
-    // Any radii will do: u = r_b θ.
+    // With u = r_b θ the radii may be chosen freely.
     let (r_s, r_r, r_p) = (0.0352, 0.129, 0.0456);
     let central = |body: Body, r_b: f64, point: [f64; 2]| {
         let theta = of(body, Axis::Rotation) / r_b;
@@ -97,7 +98,7 @@ fn mesh_deflections_are_what_the_material_points_do() {
     };
     assert!((spring(0) - approach).abs() < 1e-18, "{} {approach}", spring(0));
     // Ring mesh: the planet pushes the ring along (sin α_r, −cos α_r); base circles are touched at
-    // r (cos α_r, sin α_r) from either centre. The spring counts the ring's +u as loading.
+    // r (cos α_r, sin α_r) from either centre. Positive u of the ring loads the spring.
     let push = turn([b.sin(), -b.cos()], psi);
     let on_ring = turn([r_r * b.cos(), r_r * b.sin()], psi);
     let on_planet = turn([r_p * b.cos(), r_p * b.sin()], psi);

@@ -98,7 +98,7 @@ fn exact_rotational(scene: &Scene) -> f64 {
 
 #[test]
 fn a_rotational_mode_on_top_of_a_translational_pair_is_told_apart() {
-    // To rounding, where the eigenvectors come out mixed; and to 4 digits, where they do not.
+    // Equal to rounding, where the solver's eigenvectors are mixed, and 3e-5 apart, where they are not.
     for apart in [0.0, 3e-5] {
         let scene = coinciding(apart);
         let (_, found) = modes(&scene);
@@ -139,7 +139,7 @@ fn one_and_two_planets_are_classified_too() {
         let all: usize = found.groups.iter().map(|g| g.multiplicity).sum();
         assert_eq!(all, 9 + 3 * count);
         assert_eq!(of_type(&found, ModeType::Planet), []);
-        // Two opposite planets balance; a single one cannot.
+        // Σ e^{iψ_n} = 0 for two opposite planets, not for a single one.
         assert_eq!(of_type(&found, ModeType::Mixed).is_empty(), count == 2);
     }
 }
@@ -194,7 +194,7 @@ proptest! {
     }
 }
 
-/// Scenes built in memory pass no reader: what is not a stiffness is refused by name.
+/// A scene built in memory has not passed the reader's checks: an invalid stiffness is refused by name.
 #[test]
 fn stiffnesses_that_are_none_are_refused() {
     for value in [f64::NAN, -1.0, f64::INFINITY] {
@@ -209,7 +209,7 @@ fn stiffnesses_that_are_none_are_refused() {
     }
 }
 
-/// A rotation that is held has no torsional spring, so no radius is asked for.
+/// A rotation that is held has no torsional spring, so that no radius is required.
 #[test]
 fn a_held_rotation_needs_no_radius() {
     let mut set = scene("oh58_4p.toml");

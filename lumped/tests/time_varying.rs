@@ -1,4 +1,4 @@
-//! The lumped set in time against its own eigen model, its static solution, and itself.
+//! The lumped set in time, checked against its static solution, its natural modes and its symmetries.
 
 use std::f64::consts::TAU;
 use std::path::Path;
@@ -29,7 +29,7 @@ fn law(scene: &Scene, steps: usize, curve: impl Fn(f64) -> MeshCurve) -> MeshLaw
     plan.law(curves).unwrap()
 }
 
-/// Springs of the scene's own constant stiffness, which pull as well.
+/// The scene's sun mesh stiffness for all meshes, at all phases; no force below deflection 0.
 fn constant(scene: &Scene, steps: usize) -> MeshLaw {
     let k = scene.lumped.as_ref().unwrap().mesh.sun_planet;
     law(scene, steps, |_| MeshCurve::new(0.0, 1e-3, &[0.0, k * 1e-3], &[k, k]).unwrap())
@@ -61,7 +61,7 @@ fn static_deflection_is_the_stiffness_matrix_solved() {
     for i in 0..n {
         assert!((motion.x[i] - exact[i]).abs() < 1e-10 * largest, "{i}");
     }
-    // Constant stiffness leaves it at rest.
+    // With constant stiffness the set stays at rest.
     (0..300).for_each(|_| set.step().unwrap());
     for (x, start) in set.motion().x.iter().zip(&motion.x) {
         assert!((x - start).abs() < 1e-10 * largest);
@@ -73,8 +73,8 @@ fn static_deflection_is_the_stiffness_matrix_solved() {
     assert!((forces[..4].iter().sum::<f64>() / share - 1.0).abs() < 1e-9);
 }
 
-/// Thrown into one mode about the preloaded state, without damping: it swings in that mode alone, at
-/// the frequency Newmark's rule turns the mode's into.
+/// Released from a displacement in one mode about the preloaded state, without damping, the set vibrates in
+/// that mode alone, at the frequency (2/h) atan(ωh/2) of Newmark's rule.
 #[test]
 fn natural_modes_are_those_of_the_eigen_model() {
     let mut scene = scene("oh58_4p.toml");
@@ -107,8 +107,8 @@ fn natural_modes_are_those_of_the_eigen_model() {
     }
 }
 
-/// Light load at a resonance throws the teeth apart; the marching stays sound, forces never pull, and
-/// what was lost on one step is back on another.
+/// At light load and large initial displacement contact is lost and backside flanks touch; all steps
+/// converge, no mesh force is negative, and contact is regained.
 #[test]
 fn loss_of_contact_at_high_excitation_stays_sound() {
     let mut scene = scene("oh58_4p.toml");
@@ -179,8 +179,9 @@ fn mirrored_sets_move_mirrored() {
     }
 }
 
-/// Three equal planets a third of a cycle apart, on a grid that divides it: in steady motion planet n
-/// repeats planet 0's forces a third of a cycle later, to rounding; on a grid that does not, it cannot.
+/// Three equal planets a third of a cycle apart: in steady motion the mesh forces of planet n are those of
+/// planet 0 shifted by n/3 cycle. They agree to rounding if the number of steps per cycle is a multiple of 3,
+/// and otherwise not.
 #[test]
 fn planets_follow_their_exact_phases() {
     let mut scene = scene("oh58_3p.toml");

@@ -11,6 +11,9 @@ use crate::output;
 
 use super::{modes, read_scene, unfit};
 
+/// Longest list that is read, bytes.
+const MOST_BYTES: u64 = 1_000_000;
+
 const TYPES: [&str; 4] = ["rotational", "translational", "planet", "mixed"];
 
 pub(crate) fn run(arguments: &Compare, out: &mut dyn Write) -> Result<bool, CommandError> {
@@ -26,7 +29,7 @@ pub(crate) fn run(arguments: &Compare, out: &mut dyn Write) -> Result<bool, Comm
             multiplicity: g.multiplicity,
         })
         .collect();
-    let result = compare(&listed, &model, arguments.tolerance_percent);
+    let result = compare(&listed, &model, arguments.tolerance_percent, arguments.whole);
     match arguments.format {
         Format::Json => output::json(out, &result)?,
         Format::Text => write_text(&result, &scene.title, out)?,
@@ -57,7 +60,15 @@ fn write_text(result: &Comparison, title: &str, out: &mut dyn Write) -> std::io:
         result.disagreed,
         result.largest_difference_percent,
         result.tolerance_percent
-    )
+    )?;
+    if result.beyond_list > 0 {
+        writeln!(
+            out,
+            "{} of the model above the list's highest frequency, which a list may leave out (--whole demands them)",
+            result.beyond_list
+        )?;
+    }
+    Ok(())
 }
 
 /// Reads somebody's modes; the first fault of the table is reported with its line and column.
@@ -65,15 +76,19 @@ fn read_modes(path: &Path) -> Result<Vec<ListedMode>, CommandError> {
     let bad = |reason: String| CommandError::Table { path: path.to_owned(), reason };
     let unreadable =
         |source| CommandError::File { what: "cannot read", path: path.to_owned(), source };
-    let text = std::fs::read_to_string(path).map_err(unreadable)?;
+    let text = gearset::read_text(path, MOST_BYTES).map_err(unreadable)?;
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .comment(Some(b'#'))
         .from_reader(text.as_bytes());
     let header = reader.headers().map_err(|e| bad(e.to_string()))?.clone();
-    let column = |name: &str| header.iter().position(|h| h == name);
+    let column = |name: &str| header.iter().position(|h| h.eq_ignore_ascii_case(name));
     let known = ["frequency_hz", "mode_type", "multiplicity"];
-    if let Some(strange) = header.iter().find(|h| !known.contains(h)) {
+    // pandas writes its index as a first column without a name.
+    let is_index = |(i, h): (usize, &str)| i == 0 && (h.is_empty() || h == "Unnamed: 0");
+    let named = header.iter().enumerate().filter(|column| !is_index(*column));
+    let is_known = |h: &str| known.iter().any(|name| name.eq_ignore_ascii_case(h));
+    if let Some(strange) = named.map(|(_, h)| h).find(|h| !is_known(h)) {
         let allowed = known.join(", ");
         return Err(bad(format!("column `{strange}` is not known: allowed: {allowed}")));
     }
@@ -94,17 +109,20 @@ fn read_modes(path: &Path) -> Result<Vec<ListedMode>, CommandError> {
             .filter(|f| f.is_finite() && *f >= 0.0)
             .ok_or_else(|| refuse("frequency_hz", frequency, "a finite number, 0 or above"))?;
         let mode_type = match mode_type {
-            Some(i) if TYPES.contains(&cell(i)) => Some(cell(i).to_owned()),
-            Some(i) => return Err(refuse("mode_type", i, &TYPES.join(", "))),
+            Some(i) => match TYPES.into_iter().find(|name| name.eq_ignore_ascii_case(cell(i))) {
+                Some(name) => Some(name.to_owned()),
+                None => return Err(refuse("mode_type", i, &TYPES.join(", "))),
+            },
             None => None,
         };
         let multiplicity = match multiplicity {
-            Some(i) => cell(i)
-                .parse()
-                .ok()
-                .filter(|m| (1..=1000).contains(m))
-                .ok_or_else(|| refuse("multiplicity", i, "a whole number from 1 to 1000"))?,
-            None => 1,
+            Some(i) if cell(i).is_empty() => None,
+            Some(i) => {
+                let count = cell(i).parse().ok().filter(|m| (1..=1000).contains(m));
+                let allowed = "a whole number from 1 to 1000, or nothing";
+                Some(count.ok_or_else(|| refuse("multiplicity", i, allowed))?)
+            }
+            None => None,
         };
         modes.push(ListedMode { frequency_hz, mode_type, multiplicity });
     }

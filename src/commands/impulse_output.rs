@@ -21,11 +21,11 @@ pub(crate) struct ImpulseOutput {
     pub(super) band_limits_hz: [f64; 2],
     /// quasi_static, modal or full.
     pub(super) fidelity: String,
-    /// Modes of each body with its race held; null on other fidelities than modal.
+    /// Modes of each body with its race held; null at fidelities other than modal.
     pub(super) body_modes: Option<u32>,
     /// Time steps taken in all.
     pub(super) steps: u64,
-    /// Whether the linearised modes are given; they are not on the fidelity full.
+    /// Whether the linearised modes are given; they are not at fidelity full.
     pub(super) has_linearisation: bool,
     /// Modes in the band, identified from the decays, linearised, or both; ascending.
     pub(super) modes: Vec<ModeEntry>,
@@ -78,7 +78,7 @@ pub(super) struct KindShares {
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct PulseEntry {
     pub(super) pulse: String,
-    /// For one time step; a torque as its force at the base radius.
+    /// Force, applied for one time step; of a torque, the torque over the base radius.
     pub(super) force_n: f64,
     /// Largest change of a mesh force over the largest mesh force.
     pub(super) force_change: f64,
@@ -90,12 +90,12 @@ pub(super) struct PulseEntry {
     pub(super) sun_rotation_um: Option<f64>,
 }
 
-/// How the identification went.
+/// Model orders of the identification.
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct IdentificationEntry {
-    /// States of the order the modes are taken from.
+    /// Order (number of states) of the model from which the modes are taken.
     pub(super) order: usize,
-    /// Orders of the stabilisation chart.
+    /// Number of orders in the stabilisation chart.
     pub(super) orders: usize,
 }
 
@@ -120,20 +120,21 @@ pub(super) struct BandMode {
     pub(super) lowest_hz: f64,
     pub(super) mean_hz: f64,
     pub(super) highest_hz: f64,
-    /// States with so many modes of its type; fewer than there are if types change on the way.
+    /// Number of (torque, position) states that have a mode of this type and place; fewer than all states if
+    /// the types of modes change between them.
     pub(super) states: usize,
     /// One for each torque.
     pub(super) torques: Vec<BandTorque>,
 }
 
-/// One mode over the positions under one torque; nulls where it has no such mode.
+/// One mode over the positions under one torque; null where a state has no such mode.
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct BandTorque {
     pub(super) torque_nm: f64,
     pub(super) lowest_hz: Option<f64>,
     pub(super) mean_hz: Option<f64>,
     pub(super) highest_hz: Option<f64>,
-    /// By position.
+    /// Frequency at each position.
     pub(super) frequency_hz: Vec<Option<f64>>,
 }
 
@@ -169,7 +170,7 @@ impl ImpulseOutput {
     }
 }
 
-/// Modes of both routes beside each other.
+/// Identified and linearised modes, matched.
 fn modes(identified: &[FeMode], linear: &[(FeMode, f64)]) -> Vec<ModeEntry> {
     let linearised: Vec<&FeMode> = linear.iter().map(|(mode, _)| mode).collect();
     let entry = |(i, j): (Option<usize>, Option<usize>)| {

@@ -7,7 +7,7 @@ use crate::output::{self, share};
 
 use super::impulse_output::{BandMode, BandOutput, ImpulseOutput, ModeEntry, PulseEntry};
 
-/// What stands where there is nothing.
+/// Text of a cell without a value.
 const NOTHING: &str = "–";
 
 pub(super) fn text(
@@ -42,7 +42,7 @@ pub(super) fn text(
     }
 }
 
-/// A number without the digits that conversion of units adds.
+/// A number without the digits that a conversion of units adds by rounding.
 fn plain(x: f64) -> String {
     let text = format!("{x:.6}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -94,7 +94,7 @@ fn pulses(pulses: &[PulseEntry], out: &mut dyn Write) -> std::io::Result<()> {
     let header = ["pulse", "force N", "force change", "nonlinearity", "the sun's other motion"];
     let mut table = output::table(&header, &[1, 2, 3]);
     for p in pulses {
-        // A force should leave rotation alone, a torque translation.
+        // With planets in phase a force excites no rotation and a torque no translation.
         let other = match p.sun_translation_um.zip(p.sun_rotation_um) {
             Some((t, r)) if p.pulse.ends_with("torque") => {
                 format!("translation {:.1e} of rotation", t / r)

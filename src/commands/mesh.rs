@@ -28,18 +28,18 @@ struct BodyOutput {
     /// sun, planet, ring or carrier.
     body: String,
     elements: usize,
-    /// Displacements that are free.
+    /// Number of free nodal displacements.
     degrees_of_freedom: usize,
     mass_kg: f64,
-    /// About the centre.
+    /// Polar moment of inertia about the body's centre.
     polar_inertia_kg_m2: f64,
     /// The scene's lumped values, if it has them.
     lumped_mass_kg: Option<f64>,
     lumped_inertia_kg_m2: Option<f64>,
-    /// Of gears.
+    /// Only for gears.
     #[serde(skip_serializing_if = "Option::is_none")]
     teeth: Option<TeethOutput>,
-    /// Of the carrier: mean displacement of a pin seat along a unit force on it.
+    /// Only for the carrier: mean displacement of a pin seat along a unit force on it.
     #[serde(skip_serializing_if = "Option::is_none")]
     seat_flexibility_m_per_n: Option<f64>,
 }
@@ -53,11 +53,11 @@ struct TeethOutput {
     least_corner_angle_deg: f64,
     largest_corner_angle_deg: f64,
     largest_aspect_ratio: f64,
-    /// Smallest det J over the largest in one element.
+    /// Least ratio of the smallest to the largest det J within one element.
     least_jacobian_ratio: f64,
     /// Normal displacement at matching depth below mid-flank under a unit normal force there.
     flexibility_m_per_n: f64,
-    /// The same point of the neighbouring tooth, over that.
+    /// Displacement of the same point of the neighbouring tooth, over `flexibility_m_per_n`.
     neighbour_share: f64,
 }
 

@@ -1,4 +1,4 @@
-//! One module a verb.
+//! One module per verb.
 
 mod compare;
 mod impulse;
@@ -48,7 +48,7 @@ where
         Err(refusal) => {
             let asked_for_help = !refusal.use_stderr();
             let styled = refusal.render().ansi().to_string();
-            // Nothing sensible is left to do if even this cannot be written.
+            // If this cannot be written either, only the exit code is left.
             let _ = if asked_for_help { write!(out, "{styled}") } else { write!(err, "{styled}") };
             return if asked_for_help { 0 } else { 2 };
         }
@@ -97,12 +97,12 @@ fn save(path: &Path, text: &str) -> Result<(), CommandError> {
     std::fs::write(path, text).map_err(failed)
 }
 
-/// A scene that FE/contact cannot work with, or cannot be solved.
+/// The error for a scene that FE/contact cannot use or cannot solve.
 fn fe_refused(path: &Path) -> impl Fn(fe_contact::FeError) -> CommandError + '_ {
     |e| unfit(path, e.to_string())
 }
 
-/// A valid scene that this verb cannot use.
+/// The error for a valid scene that this verb cannot use.
 fn unfit(path: &Path, reason: impl Into<String>) -> CommandError {
     CommandError::Unfit { path: path.to_owned(), reason: reason.into() }
 }

@@ -23,10 +23,8 @@ use super::{read_scene, unfit};
 pub(crate) struct ModesOutput {
     /// One entry for each distinct frequency (and type, should two types coincide).
     pub(crate) modes: Vec<ModeEntry>,
-    /// Largest ‖Kφ − λMφ‖ of the solution, relative to the largest eigenvalue.
-    residual: f64,
     /// With `--carrier-speeds-rpm`: frequencies with gyroscopic terms.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     campbell: Vec<CampbellEntry>,
 }
 
@@ -34,6 +32,8 @@ pub(crate) struct ModesOutput {
 #[derive(Debug, Serialize, JsonSchema)]
 pub(crate) struct ModeEntry {
     pub(crate) frequency_hz: f64,
+    /// What rounding may have changed of it, Hz; above 0.005 Hz the text output shows it.
+    uncertainty_hz: f64,
     /// rotational, translational, planet or mixed.
     pub(crate) mode_type: String,
     pub(crate) multiplicity: usize,
@@ -59,8 +59,12 @@ struct Shares {
 struct CampbellEntry {
     carrier_speed_rpm: f64,
     frequency_hz: Vec<f64>,
-    /// Largest growth rate of any mode, 1/s: above rounding, the set is unstable at this speed.
+    /// What rounding may have changed of each, Hz.
+    uncertainty_hz: Vec<f64>,
+    /// Largest growth rate of any mode, 1/s.
     largest_growth_per_s: f64,
+    /// Whether that is above rounding.
+    is_unstable: bool,
 }
 
 pub(crate) fn run(arguments: &Modes, out: &mut dyn Write) -> Result<(), CommandError> {
@@ -79,7 +83,9 @@ pub(crate) fn run(arguments: &Modes, out: &mut dyn Write) -> Result<(), CommandE
         let entry = |(rpm, at): (&f64, &lumped::SpeedModes)| CampbellEntry {
             carrier_speed_rpm: *rpm,
             frequency_hz: at.modes.iter().map(|m| m.frequency_hz).collect(),
-            largest_growth_per_s: at.modes.iter().map(|m| m.growth_per_s).fold(0.0, f64::max),
+            uncertainty_hz: at.modes.iter().map(|m| m.uncertainty_hz).collect(),
+            largest_growth_per_s: at.largest_growth_per_s(),
+            is_unstable: at.is_unstable(),
         };
         result.campbell = arguments.carrier_speeds_rpm.iter().zip(&found).map(entry).collect();
     }
@@ -104,7 +110,6 @@ pub(crate) fn solve(scene: &Scene) -> Result<(LumpedModel, NaturalModes), String
 pub(crate) fn describe(model: &LumpedModel, modes: &NaturalModes) -> ModesOutput {
     ModesOutput {
         modes: modes.groups.iter().map(|group| entry(model, group)).collect(),
-        residual: modes.residual,
         campbell: Vec::new(),
     }
 }
@@ -127,6 +132,7 @@ fn entry(model: &LumpedModel, group: &ModeGroup) -> ModeEntry {
     let p = group.participation;
     ModeEntry {
         frequency_hz: group.frequency_hz,
+        uncertainty_hz: group.uncertainty * group.frequency_hz,
         mode_type: group.mode_type.name().to_owned(),
         multiplicity: group.multiplicity,
         participation: Shares {
@@ -151,8 +157,7 @@ fn write_text(result: &ModesOutput, details: bool, out: &mut dyn Write) -> std::
     header.extend(["moves most", "strained most"]);
     let mut table = output::table(&header, &right);
     for m in &result.modes {
-        let mut row =
-            vec![format!("{:.2}", m.frequency_hz), m.mode_type.clone(), m.multiplicity.to_string()];
+        let mut row = vec![frequency(m), m.mode_type.clone(), m.multiplicity.to_string()];
         if is_mixed {
             let p = &m.participation;
             row.extend([p.rotational, p.translational, p.planet].map(share));
@@ -173,17 +178,55 @@ fn write_text(result: &ModesOutput, details: bool, out: &mut dyn Write) -> std::
         header.extend(&names);
         let mut table = output::table(&header, &(0..header.len()).collect::<Vec<_>>());
         for m in &result.modes {
-            let mut row = vec![format!("{:.2}", m.frequency_hz)];
+            let mut row = vec![frequency(m)];
             row.extend(names.iter().map(|n| format!("{:.3}", plain_zero(m.sensitivity[*n]))));
             table.add_row(row);
         }
         writeln!(out, "{table}")?;
     }
     for c in &result.campbell {
-        let list: Vec<_> = c.frequency_hz.iter().map(|f| format!("{f:.2}")).collect();
+        let both = c.frequency_hz.iter().zip(&c.uncertainty_hz);
+        let list: Vec<_> = both.map(|(f, u)| shown_hz(*f, *u)).collect();
         writeln!(out, "carrier at {} rpm: {} Hz", c.carrier_speed_rpm, list.join(", "))?;
+        if c.is_unstable {
+            let growth = c.largest_growth_per_s;
+            writeln!(out, "  unstable: a mode grows by e every {:.3} s", 1.0 / growth)?;
+        }
     }
-    writeln!(out, "residual of the eigensolution {:.1e}", result.residual)
+    let unsure = |u: &f64| *u > SHOWN_HZ;
+    let mut turning = result.campbell.iter().flat_map(|c| &c.uncertainty_hz);
+    if result.modes.iter().any(|m| unsure(&m.uncertainty_hz)) || turning.any(unsure) {
+        let why =
+            "stiffnesses and masses are spread so widely that rounding reaches the digits shown";
+        writeln!(
+            out,
+            "± and <: {why}; a rigid support (`motion`) says what a huge stiffness is to say"
+        )?;
+    }
+    Ok(())
+}
+
+/// Half a unit of the last digit that is printed of a frequency, Hz.
+const SHOWN_HZ: f64 = 0.005;
+
+/// The frequency of a mode as far as it is known, Hz.
+fn frequency(m: &ModeEntry) -> String {
+    if m.frequency_hz == 0.0 {
+        "0 (rigid)".into()
+    } else {
+        shown_hz(m.frequency_hz, m.uncertainty_hz)
+    }
+}
+
+/// A frequency as far as it is known, Hz.
+fn shown_hz(f: f64, unsure: f64) -> String {
+    match (f, unsure) {
+        (_, u) if u <= SHOWN_HZ && f < SHOWN_HZ && u > 0.1 * f => "0.00".into(),
+        (_, u) if u > 0.1 * f => format!("< {:.1e}", f + u),
+        (_, u) if u > SHOWN_HZ => format!("{f:.2} ± {u:.2}"),
+        (f, _) if f < 1.0 => format!("{f:.2e}"),
+        _ => format!("{f:.2}"),
+    }
 }
 
 /// What rounds to zero in three digits, without a sign.

@@ -37,7 +37,7 @@ struct HarmonicRule {
     planet: f64,
     /// Kinds of modes that can be excited.
     excites: Vec<String>,
-    /// What the printed table or rule says, where one applies.
+    /// What the printed table or rule says; null where none applies.
     printed_rule: Option<String>,
 }
 

@@ -43,7 +43,7 @@ fn new(path: &Path, kind: Kind, out: &mut dyn Write) -> Result<(), CommandError>
     Ok(())
 }
 
-/// What a scene says, worked out: `scene check --format json`.
+/// What a scene describes, with the quantities that follow from it: `scene check --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
 pub(crate) struct SceneSummary {
     title: String,

@@ -1,4 +1,4 @@
-//! `static --approach-um`: a gear pair at one phase, its race turned; the same as a CalculiX deck.
+//! `static --approach-um`: a gear pair at one phase with its driving race rotated, also as a CalculiX deck.
 
 use std::io::Write;
 use std::time::Instant;
@@ -20,19 +20,19 @@ use super::{fe_refused, save, statics, unfit};
 pub(crate) struct ApproachOutput {
     /// Torque on the driving gear over its base radius.
     force_n: f64,
-    /// Meshing, factorising and solving on this machine: for comparing two programs in one run.
+    /// Time of meshing, factorising and solving, to compare two programs in one run.
     seconds: f64,
-    /// Solving alone.
+    /// Time of solving alone.
     solve_seconds: f64,
     pairs: Vec<ApproachPair>,
 }
 
-/// One pair within reach.
+/// One tooth pair within reach of the approach.
 #[derive(Debug, Serialize, JsonSchema)]
 struct ApproachPair {
     index: i64,
     force_n: f64,
-    /// Of the ellipse fitted to the pressures; null at a corner, where they are singular.
+    /// Peak of the ellipse fitted to the pressures; null at a corner, where they are singular.
     peak_pressure_pa: Option<f64>,
 }
 

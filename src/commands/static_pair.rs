@@ -31,7 +31,7 @@ pub(crate) struct PairOutput {
     transmission_error_peak_to_peak_um: f64,
     /// Mean number of loaded pairs.
     effective_contact_ratio: f64,
-    /// Even phases from 0, where pair 0 starts the theoretical path of contact.
+    /// Evenly spaced phases from 0, where pair 0 starts the theoretical path of contact.
     positions: Vec<PairPosition>,
 }
 
@@ -146,7 +146,7 @@ fn text(
     writeln!(out, "effective contact ratio: {:.4}", cycle.effective_contact_ratio())?;
     let header = ["phase", "δ µm", "ΔF/Δδ 1e6 N/m", "pairs: force N (peak pressure MPa)"];
     let mut table = output::table(&header, &[0, 1, 2]);
-    // A screenful; the other formats hold every position.
+    // About 20 rows; the other formats give every position.
     let step = count.div_ceil(20);
     for p in cycle.positions.iter().step_by(step) {
         let pairs: Vec<String> = p

@@ -28,8 +28,8 @@ pub(crate) struct SetOutput {
 struct TorqueOutput {
     /// On the sun.
     torque_nm: f64,
-    /// By how much windup moves the phase of planet 0's sun mesh, from whose start of path under load
-    /// positions count.
+    /// Shift of the phase of planet 0's sun mesh by windup; positions count from where this mesh starts its
+    /// path of contact under load.
     loaded_phase_shift_cycles: f64,
     /// Root mean square about the mean over the cycle.
     sun_rotation_rms_urad: f64,
@@ -40,7 +40,7 @@ struct TorqueOutput {
     transmission_error_peak_to_peak_um: f64,
     /// All 2N meshes: sun meshes, then ring meshes.
     meshes: Vec<MeshSummary>,
-    /// Even positions from 0, where planet 0's sun mesh is at phase 0.
+    /// Evenly spaced positions from 0, where planet 0's sun mesh is at phase 0.
     positions: Vec<SetPosition>,
     work: Work,
 }
@@ -92,16 +92,16 @@ struct MeshPosition {
     pairs: Vec<PairLoad>,
 }
 
-/// What the result took.
+/// Iterations and residuals of the result.
 #[derive(Debug, Serialize, JsonSchema)]
 struct Work {
     equilibrium_iterations: usize,
     /// Factorisations or pivots of the contact solver.
     contact_iterations: usize,
-    /// Largest imbalance of any race over the load.
+    /// Largest imbalance of force or moment on any race, over the load.
     worst_residual: f64,
-    /// What approaches of tooth pairs are off their linear form about the mean loaded configuration at
-    /// most, µm.
+    /// Largest error that the linearisation about the mean loaded configuration leaves in the approach of a
+    /// tooth pair, µm.
     kinematic_rest_um: f64,
     /// The same over the transmission error's peak-to-peak value.
     kinematic_rest_share: Option<f64>,

@@ -1,4 +1,4 @@
-//! What `validate` is at: a line a suite as it ends and, on a terminal, the suite that runs.
+//! Progress of `validate`: one line per finished suite and, on a terminal, the suite that is running.
 
 use std::io::{IsTerminal, Write};
 use std::sync::{Mutex, PoisonError};
@@ -10,7 +10,7 @@ use validation::Progress;
 /// How often the seconds on a terminal are redrawn.
 const TICK: Duration = Duration::from_millis(200);
 
-/// Tells `err` of suites.
+/// Writes the progress of the suites to `err`.
 pub(super) struct SuiteProgress<'e> {
     err: Mutex<&'e mut (dyn Write + Send)>,
     running: ProgressBar,
@@ -51,7 +51,7 @@ impl<'e> SuiteProgress<'e> {
         }
     }
 
-    /// Takes the running suite off the terminal.
+    /// Removes the line of the running suite from the terminal.
     pub(super) fn finish(self) {
         self.running.finish_and_clear();
     }

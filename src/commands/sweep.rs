@@ -21,10 +21,13 @@ use super::sweep_output::{SweepOutput, text, write_csv};
 use super::sweep_store::{Folder, Manifest, write_whole};
 use super::{fe_refused, read_scene, unfit};
 
-/// How far to either side of a peak the second manifest goes, in parts of its speed.
+/// Longest scene file that is kept beside its results, bytes: no longer one is read as a scene.
+const MOST_BYTES: u64 = 1_000_000;
+
+/// Half-width of the refinement about a peak, as a share of its speed.
 const SPAN: f64 = 0.04;
 
-/// What stands out by this ratio is worth a second look.
+/// Peaks at least this many times as high as the curve to either side are refined.
 const PROMINENT: f64 = 1.25;
 
 pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(), CommandError> {
@@ -93,7 +96,7 @@ fn draw(
     use crate::figures::{SweepContext, of_sweep, save};
     let mut linear = scene.clone();
     if matches!(scene.dynamics.fidelity, Fidelity::Full | Fidelity::MeshLaw) {
-        // No small linearisation: the quasi-static one stands in for lines in a picture.
+        // These have no linearisation of small order: the figure shows the quasi-static frequencies instead.
         linear.dynamics.fidelity = Fidelity::QuasiStatic;
     }
     let found = experiments::sweep::naturals(&linear, bodies, case)?;
@@ -102,7 +105,7 @@ fn draw(
     Ok(save(&of_sweep(sweep, &context), folder)?)
 }
 
-/// What is asked for.
+/// A sweep as requested.
 struct Task<'a> {
     arguments: &'a SweepArguments,
     /// The scene file.
@@ -149,11 +152,11 @@ impl<'a> Task<'a> {
         };
         let plan = Plan::new(&speeds, directions, steady).map_err(refuse("--speeds-rpm"))?;
         let failed = |source| CommandError::File { what: "cannot read", path: path.into(), source };
-        let text = std::fs::read_to_string(path).map_err(failed)?;
+        let text = gearset::read_text(path, MOST_BYTES).map_err(failed)?;
         Ok(Self { arguments, text, case, plan })
     }
 
-    /// Runs one manifest, keeping its points if there is a folder for them.
+    /// Runs one plan and stores its points if a folder is given.
     fn march(
         &self,
         model: &dyn SweepModel,

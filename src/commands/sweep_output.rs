@@ -15,7 +15,7 @@ use crate::output;
 pub struct SweepOutput {
     /// Scene.
     scene: String,
-    /// Fidelity of the ladder.
+    /// Name of the fidelity or model.
     fidelity: String,
     /// Version of the program.
     version: String,
@@ -23,9 +23,9 @@ pub struct SweepOutput {
     torque_nm: f64,
     /// Steps in a mesh cycle.
     steps_per_cycle: u32,
-    /// Largest change from cycle to cycle of a steady state, in parts of the vibration.
+    /// Largest change of a steady state from cycle to cycle, over its peak-to-peak vibration.
     tolerance: f64,
-    /// Cycles after which a march is given up.
+    /// Largest number of mesh cycles integrated at one speed.
     most_cycles: usize,
     /// Highest harmonic.
     harmonics: usize,
@@ -44,7 +44,7 @@ struct ChainOutput {
     points: Vec<SweepPoint>,
 }
 
-/// What stands beside the table of a sweep.
+/// The JSON file beside the table of a sweep.
 #[derive(Debug, Serialize)]
 pub(super) struct Sidecar<'a> {
     #[serde(flatten)]
@@ -55,7 +55,7 @@ pub(super) struct Sidecar<'a> {
     points: Vec<PointHead<'a>>,
 }
 
-/// A point without its lines.
+/// A point without its harmonics.
 #[derive(Debug, Serialize)]
 struct PointHead<'a> {
     chain: &'a str,
@@ -160,7 +160,7 @@ pub(super) fn write_csv(
     Ok(writer.flush()?)
 }
 
-/// A line a speed: the strongest harmonic of the sun's motion, and what it took.
+/// One line per speed: strongest harmonics of the sun's motion, contact loss, cycles and residual.
 pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), CommandError> {
     writeln!(out, "{}: {}, {} N·m on the sun\n", result.scene, result.fidelity, result.torque_nm)?;
     let header = [

@@ -1,4 +1,4 @@
-//! Finished points of a sweep in a folder: each is there whole or not at all.
+//! Finished points of a sweep in a folder: each is written completely or not at all.
 
 use std::fs;
 use std::io::{self, Write};
@@ -12,12 +12,12 @@ use crate::error::CommandError;
 /// Format of the folder; another one is refused.
 const FORMAT: u32 = 2;
 
-/// What a folder holds points of.
+/// What the points in a folder were computed from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Manifest {
     /// Format of the folder.
     pub(super) format: u32,
-    /// Version of the program, whose numbers are kept.
+    /// Version of the program that computed the points.
     pub(super) version: String,
     /// The scene file's text.
     pub(super) scene: String,
@@ -40,8 +40,8 @@ pub(super) struct Folder {
 }
 
 impl Folder {
-    /// Opens a folder for a plan, or takes up what an earlier run of the same plan left in it.
-    /// `name`: of the manifest's file.
+    /// Opens a folder for a plan; points that an earlier run of the same plan left in it are used.
+    /// `name`: name of the manifest's file.
     pub(super) fn open(folder: &Path, name: &str, wanted: &Manifest) -> Result<Self, CommandError> {
         let path = folder.join(name);
         match fs::read_to_string(&path) {
@@ -72,7 +72,7 @@ impl Folder {
     }
 }
 
-/// In what a manifest differs from the one wanted.
+/// The first difference of a manifest from the one wanted.
 fn difference(text: &str, wanted: &Manifest) -> Option<String> {
     let Ok(value) = serde_json::from_str::<serde_json::Value>(text) else {
         return Some("its manifest is no JSON".into());
@@ -116,7 +116,7 @@ pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     match written.and_then(|()| fs::rename(&part, path)) {
         Ok(()) => Ok(()),
         Err(error) => {
-            // What is left of the attempt is of no use; that it stays would be no further harm.
+            // If the partial file cannot be removed, the next attempt overwrites it.
             let _ = fs::remove_file(&part);
             Err(error)
         }

@@ -71,7 +71,7 @@ pub(crate) fn run(
     Ok(verdict.is_sound())
 }
 
-/// Tables of somebody's results, asked every question that they answer.
+/// Judges the tables in a folder by every suite whose scenes they contain.
 fn recorded(folder: &Path, only: &str) -> Result<Verdict, CommandError> {
     let refused = |reason: String| CommandError::Argument { argument: "--recorded", reason };
     let tables = Recorded::read(folder).map_err(|e| refused(e.to_string()))?;
@@ -92,7 +92,7 @@ struct SuiteControls {
     controls: Vec<ControlOutput>,
 }
 
-/// What is spoilt, and the check that must fail for it.
+/// A negative control: what is spoilt, and the check that must fail.
 #[derive(Serialize)]
 struct ControlOutput {
     id: String,

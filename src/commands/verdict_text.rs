@@ -1,4 +1,4 @@
-//! A verdict that fits a screen: a line a suite, then what was missed and what failed in full.
+//! Summary of a verdict: one line per suite, then every miss and failure in full.
 
 use std::io::Write;
 
@@ -7,13 +7,13 @@ use validation::{Check, Miss, Status, Value, Verdict};
 
 use super::verdict_table::cells;
 
-/// Columns of a terminal that nothing here exceeds.
+/// Largest width of a line, in columns.
 const WIDTH: usize = 100;
 
 /// Longest name of a suite that is not cut.
 const LONGEST_NAME: usize = 33;
 
-/// Columns between a suite's name and its check furthest off.
+/// Columns of the counts between a suite's name and its check furthest off.
 const COUNTS: usize = 33;
 
 /// The suite an id belongs to: its first two parts (`fe.hertz` of `fe.hertz.width.sun`), the first alone
@@ -38,7 +38,7 @@ impl Suite<'_> {
         self.checks.iter().filter(|check| check.status == status).count()
     }
 
-    /// The check furthest off in parts of its tolerance, with that part.
+    /// The check with the largest deviation relative to its tolerance, and that ratio.
     fn worst(&self) -> Option<(&Check, f64)> {
         let parts =
             self.checks.iter().filter_map(|check| Some((*check, part_of_tolerance(check)?)));
@@ -46,8 +46,8 @@ impl Suite<'_> {
     }
 }
 
-/// |actual − expected| over the tolerance; infinite for a statement that does not hold and for what is no
-/// number, `None` for one that holds and for what has not run.
+/// |actual − expected| over the tolerance; infinite for a statement that does not hold and for a value that
+/// is not a number, `None` for a statement that holds and for a check that has not run.
 fn part_of_tolerance(check: &Check) -> Option<f64> {
     let tolerance = check.tolerance.absolute;
     match (&check.expected, check.actual.as_ref()?) {
@@ -131,7 +131,7 @@ fn named(check: &Check, suite: &str, room: usize) -> String {
     cut(whole.strip_prefix(suite).unwrap_or(&whole).trim_start_matches('.'), room)
 }
 
-/// A check off its expectation: what it is about, its values, and for a miss why that is so.
+/// A missed or failed check: title, values, tolerance, source and, for a miss, its analysis.
 fn in_full(
     check: &Check,
     word: String,
@@ -164,7 +164,7 @@ fn in_full(
     writeln!(out)
 }
 
-/// All of a value.
+/// A value written out in full.
 fn words(value: &Value) -> String {
     match value {
         Value::Number(x) => x.to_string(),
@@ -173,7 +173,7 @@ fn words(value: &Value) -> String {
     }
 }
 
-/// A part of a tolerance; that of a statement that does not hold is no number.
+/// A deviation over its tolerance as text; `–` for a statement that does not hold.
 fn shown(part: f64) -> String {
     match part {
         p if !p.is_finite() => "–".into(),
@@ -217,7 +217,7 @@ fn wrapped(text: &str, room: usize) -> Vec<String> {
     lines
 }
 
-/// A word in the colour of a status, if it says something; the stream drops colour off a terminal.
+/// A word in the colour of a status, except `–`; anstream removes the colour where there is no terminal.
 pub(super) fn coloured(word: &str, status: Status) -> String {
     let colour = match status {
         Status::Pass => AnsiColor::Green,
@@ -242,7 +242,7 @@ mod tests {
     fn kept() -> Verdict {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/verdict.snap");
         let text = std::fs::read_to_string(path).unwrap();
-        // A snapshot's own head stands before the JSON.
+        // The header that insta writes precedes the JSON.
         serde_json::from_str(&text[text.find("\n{").unwrap()..]).unwrap()
     }
 
@@ -288,7 +288,7 @@ mod tests {
         let last = text.lines().last().unwrap();
         let Verdict { passed, missed, failed, .. } = verdict;
         assert_eq!(last, format!("{passed} passed, {missed} missed, {failed} failed"));
-        // A suite a line, all checks counted.
+        // One line per suite, so far fewer lines than checks.
         let rule = "─".repeat(WIDTH);
         let lines = text.lines().skip(2).take_while(|line| *line != rule);
         assert!(lines.count() < verdict.checks.len() / 4);

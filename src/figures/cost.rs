@@ -4,17 +4,17 @@ use validation::{Ladder, LadderFidelity};
 
 use super::drawing::{Anchor, Axes, Canvas, Pen, Picture, Pixel, Scale, Type, colour};
 
-/// A fidelity at some steps and cells.
+/// A fidelity with a number of steps per cycle and of contact cells.
 struct Setting {
     /// Steps, and cells where they are not the default.
     label: String,
     group: usize,
     cost: f64,
-    /// Percent, no smaller than the truth is certain.
+    /// Error, percent; at least the uncertainty of the reference.
     error: f64,
 }
 
-/// What is off: a title, how it is read, what the truth leaves open, and where it is good enough.
+/// One kind of error: title, how it is read, uncertainty of the reference and wanted limit, both in percent.
 struct Panel {
     title: &'static str,
     error: fn(&LadderFidelity, &Ladder) -> f64,
@@ -31,7 +31,7 @@ const LEGEND: f64 = 190.0;
 const LINE: f64 = 11.0;
 const LETTER: f64 = 5.4;
 
-/// Errors over costs, logarithmic both ways; settings that none is both cheaper and better than
+/// Error over cost, both axes logarithmic; settings on the Pareto front (none is both cheaper and better) are
 /// ringed and joined.
 pub fn cost(ladder: &Ladder) -> Picture {
     let panels = [
@@ -118,7 +118,7 @@ fn draw(canvas: &mut Canvas, ladder: &Ladder, panel: &Panel, groups: &[&str], co
         }
     }
     let mut taken: Vec<[f64; 4]> = settings.iter().map(|s| around(at(s), 5.0)).collect();
-    // Those that matter choose their places first.
+    // Labels of ringed settings are placed first.
     let (first, others): (Vec<_>, Vec<_>) = settings.iter().partition(|s| is_efficient(s));
     for s in first.into_iter().chain(others) {
         let length = LETTER * s.label.chars().count() as f64;

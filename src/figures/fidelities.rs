@@ -5,9 +5,9 @@ use validation::{Ladder, LadderFidelity, Value, Verdict};
 
 use super::drawing::{Curve, Labels, Panel, Picture, panels};
 
-/// Standing, largest difference of a tabled frequency to `full`, one curve a set; turning, place and
-/// height of a peak to `full` at as many steps. `None` unless a verdict holds more than the quasi-static
-/// fidelity, as the full profile's does.
+/// Two panels over the number of modes: for standing sets the largest difference of a tabled frequency from
+/// `full`, one curve per set; for a turning set the differences of a peak's speed and height from `full` at
+/// equal steps. `None` unless the verdict has more fidelities than `quasi_static`, as in the full profile.
 pub fn fidelities(verdict: &Verdict, ladder: &Ladder) -> Option<Picture> {
     let standing = ["three", "four"].map(|name| of_verdict(verdict, name));
     if standing.iter().any(|c| c.points.len() < 2) {
@@ -63,7 +63,7 @@ fn of_ladder(
     Curve::new(name, ladder.fidelity.iter().filter(alike).filter_map(point).collect())
 }
 
-/// Number of modes behind the name of a fidelity.
+/// Number of modes that the name of a fidelity stands for.
 fn modes(fidelity: &str, before: &str, after: &str) -> Option<f64> {
     match fidelity {
         "quasi_static" | "quasi-static" => Some(0.0),

@@ -5,8 +5,8 @@ use experiments::modal::{FrequencyBand, ModeBand};
 use super::ModalTest;
 use super::drawing::{Curve, Labels, Panel, Picture, colour, panels};
 
-/// Each mode of the test's band over the mesh cycle, then all modes above it as points: what a place
-/// among those of its type means may change there from state to state.
+/// Each mode within the test's band over the mesh cycle, then all modes above the band as points, because
+/// there the same rank within a type may denote different modes in different states.
 pub(super) fn picture(of: &ModalTest<'_>, band: &FrequencyBand) -> Picture {
     let (low, high) = of.test.settings.band_hz;
     let points = |mode: &ModeBand, t: usize| -> Vec<(f64, f64)> {

@@ -1,4 +1,4 @@
-//! Harmonics of one quantity below one another, natural frequencies marked where they meet them.
+//! The harmonics of one quantity, one panel each, with marks where they meet natural frequencies.
 
 use super::drawing::{Anchor, Axes, Canvas, Pen, Picture, Scale, Type, colour_of, spread};
 use super::sweep::{Quantity, Spot, Subject, key_of_types};
@@ -12,13 +12,13 @@ const PANEL: f64 = 120.0;
 const LABELS: f64 = 40.0;
 const HEAD: f64 = 78.0;
 
-/// Panels reach at least to this part of the largest amplitude: what is absent looks absent.
+/// Least range of a panel as a share of the largest amplitude, so that an absent harmonic looks absent.
 const FLOOR: f64 = 0.02;
 
 const CURVE: Pen = Pen::new("#000000", 1.4);
 const DOWN: Pen = Pen::new("#d55e00", 1.2).dashed("6 3");
 
-/// SVG of all harmonics of a quantity.
+/// All harmonics of a quantity.
 pub(super) fn picture(subject: &Subject, quantity: &Quantity) -> Picture {
     let count = quantity.harmonics.len() as f64;
     let mut canvas = Canvas::new([WIDTH, HEAD + count * (PANEL + LABELS) + 56.0]);

@@ -23,13 +23,13 @@ pub struct ModalTest<'a> {
 }
 
 impl ModalTest<'_> {
-    /// Of the identified modes, Hz.
+    /// Frequencies of the identified modes, Hz.
     pub(super) fn frequencies(&self) -> Vec<f64> {
         self.test.modes.iter().map(|m| m.frequency_hz).collect()
     }
 }
 
-/// All that an impulse test shows: `spectrum` (if sun or carrier can be pushed), `stabilisation`,
+/// Figures of an impulse test: `spectrum` (if a force pulse on sun or carrier was possible), `stabilisation`,
 /// `mode_shapes`, and `band` if there is one.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! The meshes of a scene set together.
+//! The finite-element meshes of a scene, assembled.
 
 use std::collections::HashSet;
 
@@ -20,7 +20,7 @@ const CARRIER: &str = "#b9c4cc";
 const WIDTH: f64 = 1000.0;
 const LINE: f64 = 0.4;
 
-/// A mesh with its place.
+/// A mesh with its position.
 struct Placed<'d> {
     drawn: &'d Drawn,
     /// Centre, m.
@@ -56,7 +56,7 @@ pub fn meshes(scene: &Scene, bodies: &Bodies, carrier: Option<&CarrierBody>) -> 
     picture(&placed)
 }
 
-/// Every element edge once, as the parabola through its middle.
+/// Every element edge once, as the parabola through its mid-side node.
 fn picture(bodies: &[Placed<'_>]) -> Picture {
     let lists: Vec<Vec<[[f64; 2]; 3]>> = bodies.iter().map(edges).collect();
     let mut reach = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
@@ -102,7 +102,7 @@ fn edges(body: &Placed<'_>) -> Vec<[[f64; 2]; 3]> {
     list
 }
 
-/// Angles of the teeth 0: sun, ring (a tooth, half a pitch from its space), planets.
+/// Angles of tooth 0 of sun, ring (half a pitch from tooth space 0) and planets, rad.
 fn angles(scene: &Scene, bodies: &Bodies) -> [Vec<f64>; 3] {
     let geometry = &bodies.geometry;
     if let Some(phasing) = Phasing::new(geometry, &scene.planets).filter(|_| scene.pair.is_none()) {

@@ -1,5 +1,5 @@
-//! Figures, a file each, drawn in one way and saved as SVG and PNG: of the verdict's report, of a mesh
-//! cycle at rest, of impulse tests and of speed sweeps.
+//! Figures of the verdict's report, of a mesh cycle at rest, of impulse tests and of speed sweeps, one module
+//! per figure; all are saved as SVG and PNG.
 
 mod campbell;
 mod cost;

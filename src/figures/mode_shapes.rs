@@ -9,7 +9,7 @@ use fe_contact::statics::{CARRIER, PLANETS, RING, SUN};
 use super::ModalTest;
 use super::drawing::{Anchor, Canvas, Pen, Picture, Pixel, Type};
 
-/// Side of a panel, px, and panels beside each other.
+/// Side of a panel, px, and number of panels in a row.
 const SIDE: f64 = 300.0;
 const COLUMNS: usize = 4;
 
@@ -59,7 +59,7 @@ pub(super) fn picture(of: &ModalTest<'_>) -> Picture {
     canvas.picture()
 }
 
-/// Operating pitch circles of the gears, the carrier through its seats.
+/// Operating pitch circles of the gears and, for the carrier, the circle through its pin seats.
 fn circles(of: &ModalTest<'_>) -> Vec<Circle> {
     let (geometry, races) = (of.geometry, of.races);
     let a = geometry.center_distance;
@@ -137,9 +137,9 @@ fn shape(
     }
 }
 
-/// Where metres lie in the picture.
+/// Transformation from metres to pixels.
 struct View {
-    /// Of the set's centre.
+    /// Place of the set's centre.
     middle: Pixel,
     /// Pixels in a metre.
     to_pixels: f64,

@@ -6,8 +6,8 @@ use gearset::MeshKind;
 use super::Figure;
 use super::drawing::{Curve, Labels, Picture, chart};
 
-/// Of the last cycle `transmission_error`, `load_sharing` and `mesh_stiffness`; of several cycles under
-/// different torques `rms_against_torque`.
+/// Figures of the last cycle: `transmission_error`, `load_sharing` and `mesh_stiffness`; of several cycles
+/// under different torques also `rms_against_torque`.
 ///
 /// `title` names the scene; `sun_base_radius` in m.
 pub fn of_set_cycles(title: &str, cycles: &[SetCycle], sun_base_radius: f64) -> Vec<Figure> {

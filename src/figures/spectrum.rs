@@ -7,11 +7,11 @@ use fe_contact::statics::SUN;
 use super::ModalTest;
 use super::drawing::{Curve, Labels, Panel, Picture, panels};
 
-/// Zeros behind a decay before its spectrum is taken, in lengths of the decay.
+/// Length of a decay after zero padding, over its own length.
 const PADDING: usize = 8;
 
-/// What the sun's translation holds after a force on the sun and after one on the carrier, as in
-/// Fig. 3 of Parker, Agashe & Vijayakar (2000); `None` if neither is there to be pushed.
+/// Spectra of the sun's translation after a force pulse on the sun and after one on the carrier, as in Fig. 3
+/// of Parker, Agashe & Vijayakar (2000); `None` if the test has neither pulse.
 pub(super) fn picture(of: &ModalTest<'_>) -> Result<Option<Picture>, SpectrumError> {
     let test = &of.test;
     let pulses = [

@@ -1,4 +1,4 @@
-//! Stabilisation chart of an identification: poles by order, those that stay marked.
+//! Stabilisation chart of an identification: poles over model order; those stable from order to order marked.
 
 use super::ModalTest;
 use super::drawing::{Curve, Labels, Panel, Picture, panels};

@@ -1,5 +1,5 @@
-//! Figures of a speed sweep, arranged as Figs 4 to 11 of Parker, Agashe & Vijayakar (2000): harmonics
-//! behind one another, over their own frequency, and each by itself.
+//! Figures of a speed sweep, arranged as Figs 4 to 11 of Parker, Agashe & Vijayakar (2000): waterfalls of the
+//! harmonics over the mesh frequency and over the frequency of each harmonic, and one panel per harmonic.
 
 use experiments::sweep::{Coordinate, Part, Sweep, SweepPoint};
 use gearset::Scene;
@@ -8,10 +8,10 @@ use lumped::ModeType;
 use super::drawing::{Anchor, Canvas, Pen, Type, colour_of};
 use super::{Figure, harmonics, waterfall};
 
-/// Amplitudes below this part of the largest of their kind are nothing to draw a panel for.
+/// A quantity whose largest amplitude is below this share of the largest in its unit is not drawn.
 const NOTHING: f64 = 1e-9;
 
-/// Natural frequencies of one type nearer than this (in parts) are drawn as one.
+/// Natural frequencies of one type that differ by less than this share are drawn as one.
 const SAME: f64 = 1e-3;
 
 /// What a sweep was run on.
@@ -19,13 +19,13 @@ const SAME: f64 = 1e-3;
 pub struct SweepContext<'a> {
     /// Scene of the set.
     pub scene: &'a Scene,
-    /// On the sun, N m.
+    /// Torque on the sun, N m.
     pub torque_nm: f64,
     /// Natural frequencies (Hz) with their types; may be empty.
     pub natural: &'a [(f64, ModeType)],
 }
 
-/// A steady state's amplitude in one harmonic, as far as pictures need it.
+/// A steady state's amplitude in one harmonic, with what the figures need of the state.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Spot {
     pub(super) mesh_hz: f64,
@@ -41,7 +41,7 @@ pub(super) struct Quantity {
     name: String,
     /// µm or µrad.
     pub(super) unit: &'static str,
-    /// By harmonic from 1, by branch: speeds growing first.
+    /// By harmonic from 1, then by branch: increasing speeds first.
     pub(super) harmonics: Vec<Vec<Vec<Spot>>>,
 }
 
@@ -57,7 +57,7 @@ impl Quantity {
     }
 }
 
-/// All that the pictures of a sweep share.
+/// What all figures of a sweep share.
 pub(super) struct Subject {
     pub(super) title: String,
     /// Fidelity, torque, speeds.
@@ -68,11 +68,11 @@ pub(super) struct Subject {
     pub(super) top_mesh_hz: f64,
     /// Speed of the input member at a mesh frequency of 1 Hz, rpm.
     pub(super) rpm_per_hz: f64,
-    /// By frequency.
+    /// Natural frequencies (Hz) with their types, ascending.
     pub(super) natural: Vec<(f64, ModeType)>,
 }
 
-/// Says what the colours of natural frequencies mean, about the middle of a line.
+/// Draws the colour key of the mode types, centred at `at`.
 pub(super) fn key_of_types(canvas: &mut Canvas, subject: &Subject, at: [f64; 2]) {
     let mut types: Vec<ModeType> = Vec::new();
     for (_, mode_type) in &subject.natural {
@@ -90,7 +90,7 @@ pub(super) fn key_of_types(canvas: &mut Canvas, subject: &Subject, at: [f64; 2])
     }
 }
 
-/// All that a sweep shows: `waterfalls`, `frequencies` and one `harmonics_*` a quantity; none of a sweep
+/// Figures of a sweep: `waterfalls`, `frequencies` and one `harmonics_*` per quantity; none for a sweep
 /// without points.
 pub fn of_sweep(sweep: &Sweep, context: &SweepContext<'_>) -> Vec<Figure> {
     let Some(subject) = subject(sweep, context) else { return Vec::new() };
@@ -138,7 +138,7 @@ fn subject(sweep: &Sweep, context: &SweepContext<'_>) -> Option<Subject> {
     })
 }
 
-/// Points in the direction of growing speeds (with those about peaks), then of falling ones; by speed.
+/// Points of chains of increasing speed (those about peaks included), then of decreasing; by speed.
 fn branches(sweep: &Sweep) -> Vec<Vec<&SweepPoint>> {
     let (mut up, mut down): (Vec<&SweepPoint>, Vec<&SweepPoint>) = (Vec::new(), Vec::new());
     for (name, points) in &sweep.chains {
@@ -153,7 +153,7 @@ fn branches(sweep: &Sweep) -> Vec<Vec<&SweepPoint>> {
     both
 }
 
-/// Bodies' rotations and translations that are not nothing, planets by planet 0.
+/// Rotations and translations of the bodies that are large enough to be drawn; of the planets, planet 0.
 fn quantities(sweep: &Sweep, planets: usize) -> Vec<Quantity> {
     use Coordinate::{Radial, Rotation, Tangential};
     let branches = branches(sweep);

@@ -1,4 +1,4 @@
-//! Where over mesh compliance and γ the statements on growth with torque hold
+//! Map over mesh compliance and γ of where the statements on growth with torque hold
 //! (`kept/torque_map.toml`).
 
 use validation::{MapCell, TorqueMap};
@@ -21,7 +21,7 @@ struct Panel {
     number: fn(&MapCell) -> f64,
 }
 
-/// Last over first.
+/// Growth up to the last torque; lists are kept divided by their first value.
 fn grown(list: &[f64]) -> f64 {
     list.last().copied().unwrap_or(f64::NAN)
 }
@@ -77,12 +77,12 @@ pub fn torque_map(map: &TorqueMap, paper_gamma: f64) -> Picture {
     canvas.picture()
 }
 
-/// γ about nil: whole cycles are nothing.
+/// γ reduced to −0.5 to 0.5 cycles; whole cycles do not matter.
 fn gamma(cell: &MapCell) -> f64 {
     cell.gamma_cycles - cell.gamma_cycles.round()
 }
 
-/// Values that occur, growing.
+/// Distinct values, ascending.
 fn values(of: impl Iterator<Item = f64>) -> Vec<f64> {
     let mut list: Vec<f64> = of.collect();
     list.sort_by(f64::total_cmp);
@@ -125,7 +125,7 @@ fn draw(canvas: &mut Canvas, panel: &Panel, cells: &[&MapCell], [left, top]: Pix
     }
 }
 
-/// Place of a value among growing ones, in cells from the edge of the first; `None` outside.
+/// Place of a value among ascending ones, in cells from the edge of the first; `None` outside their range.
 fn place(values: &[f64], value: f64) -> Option<f64> {
     let after = values.iter().position(|v| *v >= value)?;
     let Some(before) = after.checked_sub(1) else {

@@ -4,8 +4,8 @@ use validation::{TorquePeak, TorquePeaks};
 
 use super::drawing::{Anchor, Axes, Canvas, Pen, Picture, Scale, Type, colour, spread};
 
-/// The kept peaks of one system (`kept/torque_peaks.toml`): sun and planet 0, and the harmonics of
-/// the static deflection that drive them.
+/// The kept peaks of one system (`kept/torque_peaks.toml`): of the sun and of planet 0, and the same
+/// harmonics of the sun at rest.
 pub fn torque_peaks(kept: &TorquePeaks, system: &str) -> Picture {
     let panel = |title: &str, of: fn(&TorquePeak) -> &[f64]| PeakPanel {
         title: title.into(),
@@ -58,7 +58,7 @@ const FOOT: f64 = 56.0;
 
 const PROPORTIONAL: Pen = Pen::new("#9aa0a6", 1.2).dashed("2 3");
 
-/// SVG of peaks over torque, each over its own at its lowest torque.
+/// Peaks over torque, each divided by its amplitude at the lowest torque.
 fn draw(title: &str, caption: &str, panels: &[PeakPanel]) -> Picture {
     let cell = LEFT + PEAKS[0] + NAMES;
     let mut canvas = Canvas::new([cell * panels.len().max(1) as f64, HEAD + PEAKS[1] + FOOT]);
@@ -69,7 +69,7 @@ fn draw(title: &str, caption: &str, panels: &[PeakPanel]) -> Picture {
     canvas.picture()
 }
 
-/// Points over that at the lowest torque, by torque; empty if that one is nothing.
+/// Amplitudes divided by that at the lowest torque, by torque; empty if that one is 0.
 fn normalised(series: &PeakSeries) -> Vec<(f64, f64)> {
     let mut points = series.points.clone();
     points.retain(|(torque, amplitude)| torque.is_finite() && amplitude.is_finite());

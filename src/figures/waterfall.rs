@@ -1,4 +1,4 @@
-//! Harmonics behind one another in oblique projection.
+//! Waterfall plots: curves of the harmonics behind one another in oblique projection.
 
 use lumped::ModeType;
 
@@ -35,7 +35,7 @@ struct Oblique {
 }
 
 impl Oblique {
-    /// As high as its curves let it be; `curves`: depth and height of their points.
+    /// A box as high as its cell allows for the highest curve; `curves`: depth and amplitude of all points.
     fn new(
         cell: Pixel,
         foot: f64,
@@ -65,7 +65,7 @@ impl Oblique {
         ]
     }
 
-    /// Floor's edges, ticks of x in front and of the height at its left.
+    /// Edges of the floor, ticks of x at its front and of the height at its left.
     fn frame(&self, canvas: &mut Canvas, ends: [f64; 2]) {
         let [low, high] = ends;
         let floor = [(low, 0.0), (high, 0.0), (high, 1.0), (low, 1.0), (low, 0.0)];
@@ -123,7 +123,7 @@ fn cells(
     canvas.picture()
 }
 
-/// One curve on its own base line, what is behind it hidden.
+/// One curve on its own base line; if opaque, it hides the curves behind it.
 fn sheet(
     canvas: &mut Canvas,
     spots: &[Spot],
@@ -249,7 +249,7 @@ fn end_of_frequencies(subject: &Subject, count: usize) -> f64 {
     }
 }
 
-/// Lines on the floor, their frequencies and types named before it.
+/// Lines of the natural frequencies on the floor, labelled with frequency and type in front of it.
 fn natural_lines(canvas: &mut Canvas, view: &Oblique, subject: &Subject) {
     let inside: Vec<&(f64, ModeType)> =
         subject.natural.iter().filter(|(f, _)| view.x.contains(*f)).collect();

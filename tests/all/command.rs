@@ -73,7 +73,7 @@ fn every_json_output_keeps_to_its_schema() {
     }
 }
 
-/// The model's own modes as somebody else's list.
+/// The model's own modes as a list to compare with.
 fn csv_of_own_modes() -> PathBuf {
     let result = json(&["modes", &scene("oh58_4p.toml"), "--format", "json"]);
     let mut text = String::from("frequency_hz,mode_type\n");
@@ -193,7 +193,7 @@ fn the_binary_itself_prints_the_verdict_and_refuses_bad_input() {
     let [text, told] = good(&[]);
     assert!(text.contains("\ntable3.lumped ") && text.contains("0 failed"), "{text}");
     assert!(text.lines().all(|line| line.chars().count() <= 100), "{text}");
-    // A line a suite while it runs.
+    // One line per finished suite.
     assert!(
         told.starts_with("table2.lumped, table3.lumped: ") && told.contains("\ntable3.explained: "),
         "{told}"
@@ -236,7 +236,7 @@ fn static_of_one_mesh_as_json() {
         let pairs = p["pairs"].as_array().unwrap();
         loaded += pairs.len();
         let total: f64 = pairs.iter().map(|l| l["force_n"].as_f64().unwrap()).sum();
-        // Arms at a corner are within 2 % of the base radius.
+        // Moment arms of corner contacts are within 2 % of the base radius.
         assert!((total / 10_700.67 - 1.0).abs() < 0.02);
     }
     let ratio = number("effective_contact_ratio");
@@ -292,14 +292,14 @@ fn impulse_refuses_what_makes_no_sense_with_one_message() {
         assert_eq!(code, 2, "{arguments:?}");
         assert!(out.is_empty() && err.contains(words), "{arguments:?}: {err}");
     }
-    // Every degree of freedom has no small linearisation to make a band of.
+    // Fidelity `full` has no linearisation of small order, from which a band could be computed.
     let folder = tempfile::tempdir().unwrap();
     let path = with_fidelity(folder.path(), "oh58_3p.toml", "fidelity = \"full\"");
     let (code, _, err) = run(&["impulse", &path, "--band"]);
     assert!(code == 2 && err.contains("`dynamics.fidelity` = \"full\""), "{err}");
 }
 
-/// A scene of the repository on another fidelity, on coarse meshes.
+/// A scene of the repository at another fidelity, with coarse meshes.
 fn with_fidelity(folder: &Path, name: &str, fidelity: &str) -> String {
     let text = std::fs::read_to_string(scene(name)).unwrap();
     let path = folder.join(name);
@@ -308,7 +308,7 @@ fn with_fidelity(folder: &Path, name: &str, fidelity: &str) -> String {
     path.display().to_string()
 }
 
-/// The contract of the modal test: both routes agree, pulses keep to their kind, all tables are there.
+/// The contract of the modal test: both routes agree within 0.1 %, all tables and figures are written.
 #[test]
 fn impulse_as_text_csv_and_pictures() {
     let folder = tempfile::tempdir().unwrap();
@@ -344,7 +344,7 @@ fn impulse_as_text_csv_and_pictures() {
     }
 }
 
-/// Every degree of freedom: the same modes, nothing to hold them against.
+/// Fidelity `full`: as many modes are identified, and the columns of the linearised set are empty.
 #[test]
 fn impulse_without_a_small_linearisation() {
     let folder = tempfile::tempdir().unwrap();

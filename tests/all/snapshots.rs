@@ -12,26 +12,26 @@ use insta::{Settings, Snapshot};
 use serde_json::Value;
 use validation::{Figure, Ledger};
 
-/// Relative tolerance of numbers whose key ends so; the longest match counts.
+/// Relative tolerance of numbers whose key contains this text; the longest match counts.
 const RELATIVE: [(&str, f64); 15] = [
     // Frequencies and geometry: an eigenvalue solver's rounding is 1e-13.
     ("", 1e-9),
-    // Shares and sensitivities follow eigenvectors, which close pairs blur.
+    // Shares and sensitivities depend on eigenvectors, which are less accurate at close frequencies.
     ("energy", 1e-7),
     ("sensitivity", 1e-7),
     ("participation", 1e-7),
-    // Contact: which cells just touch may hang on the last digit.
+    // Contact: whether a cell at the edge of the patch touches may depend on rounding.
     ("force_n", 1e-6),
     ("_um", 1e-6),
     ("_urad", 1e-6),
     ("stiffness", 1e-5),
     ("pressure", 1e-5),
-    // Identified from transients; which of several good orders is taken hangs on rounding.
+    // Identified from transients: which of several equally good orders is taken depends on rounding.
     ("identified", 1e-6),
     ("identification/order", 0.5),
     ("identified/shares", 1e-3),
     ("linearised/shares", 1e-5),
-    // 100 times a difference of identified frequencies, some 1e-4 of them.
+    // 100 times a relative difference, about 1e-4, of identified frequencies.
     ("difference_percent", 0.05),
     ("force_change", 1e-4),
 ];
@@ -42,7 +42,7 @@ const DRIFT: f64 = 1e-3;
 /// Numbers this small are zero: shares, phases and rigid-body frequencies.
 const ZERO: f64 = 1e-9;
 
-/// Keys whose numbers are rounding noise: only that they stay below a limit is held.
+/// Keys whose numbers are rounding noise: only an upper limit is checked.
 const NOISE: [(&str, f64); 3] =
     [("residual", 1e-12), ("worst_residual", 1e-10), ("nonlinearity", 1e-6)];
 
@@ -125,7 +125,7 @@ fn verdict() {
     assert_json("verdict", &["validate"]);
 }
 
-/// The verdict as kept: what the test above has just been held against.
+/// The kept verdict, with which the test above compares.
 fn kept_verdict() -> Value {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots/verdict.snap");
     let text = std::fs::read_to_string(path).unwrap();
@@ -160,7 +160,7 @@ fn the_ledger_of_assumptions_has_the_figures_of_the_verdict() {
     let page = Ledger::load().unwrap().page(&figure);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/assumptions.md");
     let kept = std::fs::read_to_string(path).unwrap();
-    // Figures of two machines differ in digits that no check looks at.
+    // Numbers differ between machines by rounding and are compared by the test above.
     let words = |text: &str| -> Vec<String> {
         let is_word = |word: &&str| word.parse::<f64>().is_err();
         text.split_whitespace().filter(is_word).map(String::from).collect()

@@ -1,4 +1,4 @@
-//! The verb `sweep` as people run it: broken off, on other folders, with bad input.
+//! The verb `sweep` as people run it: interrupted, with folders of other results, with bad input.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -122,7 +122,7 @@ fn folders_that_hold_other_results_or_cannot_be_written_are_left_alone() {
         assert!(text.contains(words) && text.contains("nothing was changed"), "{text}");
         assert_eq!(std::fs::read_to_string(out.join("plan.json")).unwrap(), manifest);
     }
-    // A file where a folder should be stands for every place that cannot be written.
+    // A file in place of the folder represents every path that cannot be written.
     let file = folder.path().join("file");
     std::fs::write(&file, "kept").unwrap();
     assert!(run(file.to_str().unwrap()).contains("cannot read"));
@@ -140,7 +140,7 @@ fn a_place_that_cannot_be_written_is_named() {
     all.extend(range);
     let text = refused(&all);
     assert!(text.contains("cannot write `/proc/self/nowhere/plan.json`"), "{text}");
-    // Finished points are of no use to a file that cannot be replaced, and stay.
+    // A result file that cannot be replaced is an error; the finished points stay.
     let out = folder.path().join("out");
     std::fs::create_dir_all(out.join("sweep.csv/in_the_way")).unwrap();
     all[3] = out.to_str().unwrap();

@@ -1,17 +1,17 @@
-//! Somebody's list of natural frequencies held against a model's.
+//! A list of natural frequencies compared with those of a model.
 
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// One frequency of somebody's list.
+/// One frequency of the list.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ListedMode {
     /// Hz.
     pub frequency_hz: f64,
     /// Mode type, if the list has one.
     pub mode_type: Option<String>,
-    /// How often this entry stands for a frequency; 1 if the list does not say.
-    pub multiplicity: usize,
+    /// How often the frequency occurs, if the list says so.
+    pub multiplicity: Option<usize>,
 }
 
 /// One distinct frequency of the model.
@@ -38,8 +38,10 @@ pub struct Match {
     pub listed_hz: Vec<f64>,
     /// 100 (listed − model)/model, of the worst; absent without a match or for zero frequency.
     pub difference_percent: Option<f64>,
-    /// Whether it agrees: matched, within tolerance, multiplicity not exceeded.
+    /// Whether it agrees: matched, within tolerance, as often as the list says.
     pub agrees: bool,
+    /// Whether it lies above the highest listed frequency, where a list that ends there says nothing.
+    pub is_beyond_list: bool,
     /// What is wrong, if anything.
     pub remark: Option<String>,
 }
@@ -55,6 +57,8 @@ pub struct Comparison {
     pub agreed: usize,
     /// Lines that do not.
     pub disagreed: usize,
+    /// Modes of the model above the list's highest frequency; no disagreement unless a whole list is demanded.
+    pub beyond_list: usize,
     /// Largest |difference| of all matched lines, percent.
     pub largest_difference_percent: f64,
 }
@@ -67,8 +71,16 @@ const ZERO_SHARE: f64 = 1e-4;
 ///
 /// Within a type both sides are sorted, and the cheapest order-preserving alignment is taken, an
 /// unmatched entry costing as much as a difference of five tolerances. A listed frequency may stand
-/// for a model frequency as often as that occurs, or once for all of them.
-pub fn compare(listed: &[ListedMode], model: &[ModelMode], tolerance_percent: f64) -> Comparison {
+/// for a model frequency as often as that occurs, or once for all of them unless the list says how often it
+/// occurs. Modes of the model above the highest listed frequency are no disagreement, for published tables end
+/// somewhere, unless `is_whole` says that the list is to hold them all.
+pub fn compare(
+    listed: &[ListedMode],
+    model: &[ModelMode],
+    tolerance_percent: f64,
+    is_whole: bool,
+) -> Comparison {
+    let end = listed.iter().fold(0.0f64, |a, l| a.max(l.frequency_hz));
     let typed = listed.iter().any(|l| l.mode_type.is_some());
     let mut kinds: Vec<Option<String>> = vec![None];
     if typed {
@@ -94,7 +106,12 @@ pub fn compare(listed: &[ListedMode], model: &[ModelMode], tolerance_percent: f6
         let zero = ZERO_SHARE * highest;
         let (taken, left) = align(&entries, &side, tolerance_percent, zero);
         for (mode, own) in side.iter().zip(taken) {
-            matches.push(judge(mode, &own, tolerance_percent, zero));
+            let mut found = judge(mode, &own, tolerance_percent, zero);
+            if own.is_empty() && !is_whole && !listed.is_empty() && mode.frequency_hz > end {
+                found.is_beyond_list = true;
+                found.remark = Some("above the list's highest".into());
+            }
+            matches.push(found);
         }
         strays.extend(left.into_iter().map(|l| Match {
             model_hz: None,
@@ -103,16 +120,19 @@ pub fn compare(listed: &[ListedMode], model: &[ModelMode], tolerance_percent: f6
             listed_hz: vec![l.frequency_hz],
             difference_percent: None,
             agrees: false,
+            is_beyond_list: false,
             remark: Some("the model has no such mode".into()),
         }));
     }
     matches.sort_by(|a, b| a.model_hz.unwrap_or(0.0).total_cmp(&b.model_hz.unwrap_or(0.0)));
     matches.extend(strays);
     let agreed = matches.iter().filter(|m| m.agrees).count();
+    let beyond_list = matches.iter().filter(|m| m.is_beyond_list).count();
     let worst = matches.iter().filter_map(|m| m.difference_percent).map(f64::abs);
     Comparison {
         agreed,
-        disagreed: matches.len() - agreed,
+        disagreed: matches.len() - agreed - beyond_list,
+        beyond_list,
         largest_difference_percent: worst.fold(0.0, f64::max),
         matches,
         tolerance_percent,
@@ -186,12 +206,14 @@ fn judge(mode: &ModelMode, own: &[&ListedMode], tolerance_percent: f64, zero: f6
         .iter()
         .map(|l| difference(l.frequency_hz, mode.frequency_hz, zero))
         .max_by(|a, b| a.abs().total_cmp(&b.abs()));
-    let stated: usize = own.iter().map(|l| l.multiplicity).sum();
+    // An entry that says nothing stands for one mode or for all that share its frequency.
+    let least: usize = own.iter().map(|l| l.multiplicity.unwrap_or(1)).sum();
+    let is_stated = !own.is_empty() && own.iter().all(|l| l.multiplicity.is_some());
     let remark = match worst {
         None => Some("not in the list".to_owned()),
         Some(d) if d.abs() > tolerance_percent => Some("outside tolerance".to_owned()),
-        _ if stated > mode.multiplicity => {
-            Some(format!("listed {stated} times, occurs {} times", mode.multiplicity))
+        _ if least > mode.multiplicity || (is_stated && least < mode.multiplicity) => {
+            Some(format!("listed {least} times, occurs {} times", mode.multiplicity))
         }
         _ => None,
     };
@@ -202,6 +224,7 @@ fn judge(mode: &ModelMode, own: &[&ListedMode], tolerance_percent: f64, zero: f6
         listed_hz: own.iter().map(|l| l.frequency_hz).collect(),
         difference_percent: worst,
         agrees: remark.is_none(),
+        is_beyond_list: false,
         remark,
     }
 }
@@ -221,7 +244,7 @@ mod tests {
     }
 
     fn listed(frequency_hz: f64, kind: Option<&str>) -> ListedMode {
-        ListedMode { frequency_hz, mode_type: kind.map(str::to_owned), multiplicity: 1 }
+        ListedMode { frequency_hz, mode_type: kind.map(str::to_owned), multiplicity: None }
     }
 
     #[test]
@@ -231,7 +254,7 @@ mod tests {
             listed(1714.0, Some("translational")),
             listed(1790.0, Some("rotational")),
         ];
-        let result = compare(&list, &model(), 1.0);
+        let result = compare(&list, &model(), 1.0, true);
         assert_eq!(result.disagreed, 0, "{result:?}");
         assert_eq!(result.matches[0].listed_hz, [1716.0]);
         assert!((result.largest_difference_percent - 100.0 * 5.6 / 1710.4).abs() < 1e-9);
@@ -240,21 +263,49 @@ mod tests {
     #[test]
     fn a_pair_may_be_listed_once_or_twice_but_not_three_times() {
         let once = [listed(1710.4, None), listed(1715.8, None), listed(1788.5, None)];
-        assert_eq!(compare(&once, &model(), 0.1).disagreed, 0);
+        assert_eq!(compare(&once, &model(), 0.1, true).disagreed, 0);
         let twice: Vec<_> = once.iter().cloned().chain([listed(1715.9, None)]).collect();
-        assert_eq!(compare(&twice, &model(), 0.1).disagreed, 0);
+        assert_eq!(compare(&twice, &model(), 0.1, true).disagreed, 0);
         let thrice: Vec<_> = twice.iter().cloned().chain([listed(1716.0, None)]).collect();
-        assert_eq!(compare(&thrice, &model(), 0.1).disagreed, 1);
+        assert_eq!(compare(&thrice, &model(), 0.1, true).disagreed, 1);
     }
 
     #[test]
     fn missing_strange_and_distant_entries_disagree() {
         let list = [listed(1710.4, None), listed(1760.0, None), listed(3000.0, None)];
-        let result = compare(&list, &model(), 1.0);
+        let result = compare(&list, &model(), 1.0, true);
         let remarks: Vec<_> = result.matches.iter().filter_map(|m| m.remark.clone()).collect();
         assert!(remarks.iter().any(|r| r.contains("no such mode")), "{remarks:?}");
         assert!(result.disagreed >= 2);
-        assert_eq!(compare(&[], &model(), 1.0).disagreed, 3);
+        assert_eq!(compare(&[], &model(), 1.0, true).disagreed, 3);
+    }
+
+    #[test]
+    fn a_multiplicity_that_is_stated_must_be_that_of_the_model() {
+        let list = |multiplicity| {
+            let mut list = [listed(1710.4, None), listed(1715.8, None), listed(1788.5, None)];
+            list[1].multiplicity = multiplicity;
+            compare(&list, &model(), 0.1, true)
+        };
+        assert_eq!(list(None).disagreed, 0);
+        assert_eq!(list(Some(2)).disagreed, 0);
+        let once = list(Some(1));
+        assert_eq!(once.disagreed, 1);
+        assert_eq!(once.matches[1].remark.as_deref(), Some("listed 1 times, occurs 2 times"));
+        assert_eq!(list(Some(3)).disagreed, 1);
+    }
+
+    #[test]
+    fn modes_above_a_lists_end_disagree_only_where_the_whole_list_is_demanded() {
+        let list = [listed(1710.4, None), listed(1715.8, None)];
+        let found = compare(&list, &model(), 0.1, false);
+        assert_eq!((found.agreed, found.disagreed, found.beyond_list), (2, 0, 1));
+        assert!(found.matches[2].is_beyond_list && !found.matches[2].agrees);
+        assert_eq!(compare(&list, &model(), 0.1, true).disagreed, 1);
+        // A gap below the end is one whatever is demanded, and an empty list agrees with nothing.
+        let list = [listed(1710.4, None), listed(1788.5, None)];
+        assert_eq!(compare(&list, &model(), 0.1, false).disagreed, 1);
+        assert_eq!(compare(&[], &model(), 0.1, false).disagreed, 3);
     }
 
     #[test]
@@ -264,6 +315,6 @@ mod tests {
             listed(1715.8, Some("translational")),
             listed(1788.5, Some("rotational")),
         ];
-        assert!(compare(&list, &model(), 1.0).disagreed >= 1);
+        assert!(compare(&list, &model(), 1.0, true).disagreed >= 1);
     }
 }

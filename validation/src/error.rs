@@ -5,7 +5,7 @@
 pub enum ValidationError {
     /// Reference data.
     #[error(transparent)]
-    Reference(#[from] crate::reference::ReferenceError),
+    Reference(#[from] crate::reference_file::ReferenceError),
     /// A scene of the catalogue.
     #[error("scene of the catalogue: {0}")]
     Scene(#[from] gearset::SceneError),
@@ -15,7 +15,7 @@ pub enum ValidationError {
     /// A scene of the catalogue has no operating point.
     #[error(transparent)]
     Kinematics(#[from] gearset::KinematicsError),
-    /// A model that was asked, in its own words.
+    /// The model under test failed; its own error.
     #[error("the model: {0}")]
     Model(#[source] experiments::ModelError),
     /// A plan of a sweep.
@@ -42,7 +42,7 @@ pub enum ValidationError {
 }
 
 impl ValidationError {
-    /// Whether a table was asked for what it does not hold.
+    /// Whether recorded tables were asked for results that they do not contain.
     pub(crate) fn is_not_recorded(&self) -> bool {
         let source = match self {
             Self::Model(source) | Self::Experiment(experiments::ExperimentError::Model(source)) => {

@@ -1,4 +1,4 @@
-//! A declared check on its way to a verdict.
+//! A declared check before its values are compared.
 
 use crate::check::{Check, Subject, Value};
 use crate::registry::CheckEntry;
@@ -32,7 +32,7 @@ impl<'a> Judged<'a> {
         Self { source: source.into(), ..self }
     }
 
-    /// What else came out.
+    /// A remark for people; nothing is judged by it.
     pub fn note(self, note: impl Into<String>) -> Self {
         Self { note: Some(note.into()), ..self }
     }
@@ -46,8 +46,8 @@ impl<'a> Judged<'a> {
         Check { note: self.note.clone(), ..check }
     }
 
-    /// A number against a number, within the declared tolerance. Where that is a band of parameters, printed p
-    /// and ours f agree if, h the tolerance without it,
+    /// A number against a number, within the declared tolerance. Where a band of open parameters widens it,
+    /// the printed value p and ours f agree if, with h the tolerance without the band,
     ///
     /// ```text
     /// f (1 + lower/100) − h ≤ p ≤ f (1 + upper/100) + h

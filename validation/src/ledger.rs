@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use crate::reference::{ReferenceError, parse};
+use crate::reference_file::{ReferenceError, parse};
 
 /// `checks/assumptions.toml`.
 #[derive(Debug, Clone, Deserialize)]
@@ -62,7 +62,7 @@ impl Ledger {
             for id in &own.checks {
                 page += &match figure(id) {
                     Some(Figure { actual, unit, tolerance }) => {
-                        // Limits as they are kept: 1 or 1e-9, never a row of nils.
+                        // Small limits with an exponent: 1e-9 instead of 0.000000001.
                         let limit = if tolerance.abs() < 1e-3 {
                             format!("{tolerance:e}")
                         } else {

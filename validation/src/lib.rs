@@ -8,10 +8,13 @@ mod error;
 mod glob;
 mod judged;
 mod ledger;
+mod mode_type;
 mod own_truth;
 pub mod parameter_bands;
 mod progress;
+mod published_table;
 mod reference;
+mod reference_file;
 mod registry;
 mod suites;
 mod verdict;
@@ -28,12 +31,13 @@ pub use own_truth::{
     RotationalPeak, TorqueMap, TorquePeak, TorquePeaks,
 };
 pub use progress::Progress;
-pub use reference::{Frequencies, Miss, ModeTable, Reference, ReferenceError};
+pub use published_table::Table;
+pub use reference::{Frequencies, Miss, ModeTable, Reference};
+pub use reference_file::ReferenceError;
 pub use registry::{Asks, CheckEntry, ControlEntry, Registry, SuiteEntry};
 pub use suites::Models;
 pub use suites::explained::{Step, steps};
 pub use suites::statements::{Statement, judge};
-pub use suites::tables::Table;
 pub use verdict::Verdict;
 pub use worst::{paired, peak_to_peak, worst};
 

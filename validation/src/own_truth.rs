@@ -3,7 +3,7 @@
 
 use serde::Deserialize;
 
-use crate::reference::{ReferenceError, parse};
+use crate::reference_file::{ReferenceError, parse};
 use experiments::sweep::top_of_three;
 
 /// `full_impulse.toml`.

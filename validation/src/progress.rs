@@ -1,16 +1,16 @@
-//! What a run of checks is at, for those who wait for it.
+//! Progress of a run of checks.
 
 use std::time::Instant;
 
 use crate::check::Check;
 use crate::error::ValidationError;
 
-/// What a run of checks is at.
+/// An event in a run of checks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Progress<'a> {
     /// A suite begins: what its ids start with.
     SuiteStarted(&'a str),
-    /// A suite is through.
+    /// A suite has ended.
     SuiteEnded {
         /// What its ids start with.
         name: &'a str,
@@ -21,10 +21,10 @@ pub enum Progress<'a> {
     },
 }
 
-/// Who is told.
+/// Function that is told of the progress.
 pub(crate) type Listener<'l> = &'l (dyn Fn(Progress<'_>) + Sync);
 
-/// Runs suites that are made together, by their names, and says so before and after.
+/// Runs suites that are computed together and tells the listener when they start and end.
 pub(crate) fn told(
     prefixes: &[&str],
     listener: Listener<'_>,

@@ -6,27 +6,8 @@ use crate::check::{Check, ReferenceKind, Status, Subject, Tolerance};
 use crate::judged::Judged;
 use crate::own_truth::{ExactPeaks, FullImpulse, FullSweep, Ladder, TorqueMap, TorquePeaks};
 use crate::parameter_bands::ParameterBands;
+use crate::reference_file::{ReferenceError, parse};
 use crate::registry::{ControlEntry, Registry};
-
-/// Why the reference data could not be used.
-#[derive(Debug, thiserror::Error)]
-pub enum ReferenceError {
-    /// A file of `reference/`, `kept/` or `checks/` is not what the code expects.
-    #[error("{file} cannot be read: {cause}")]
-    Unreadable {
-        /// File name.
-        file: &'static str,
-        /// What the TOML reader said.
-        #[source]
-        cause: Box<toml::de::Error>,
-    },
-    /// A check or control that is declared nowhere.
-    #[error("checks/registry.toml declares no check or control `{0}`")]
-    Undeclared(String),
-    /// A check that is judged by a band of parameters which is not kept.
-    #[error("kept/parameter_bands.toml has no band for `{0}`")]
-    NoBand(String),
-}
 
 /// All reference data.
 #[derive(Debug)]
@@ -218,14 +199,6 @@ pub struct Miss {
 #[serde(deny_unknown_fields)]
 struct MissFile {
     miss: Vec<Miss>,
-}
-
-pub(crate) fn parse<T: serde::de::DeserializeOwned>(
-    file: &'static str,
-    text: &str,
-) -> Result<T, ReferenceError> {
-    toml::from_str(text)
-        .map_err(|cause| ReferenceError::Unreadable { file, cause: Box::new(cause) })
 }
 
 impl Reference {

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::Profile;
 use crate::check::{ReferenceKind, Tolerance};
 use crate::glob::matches;
-use crate::reference::{ReferenceError, parse};
+use crate::reference_file::{ReferenceError, parse};
 
 /// What a suite asks of a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -37,7 +37,7 @@ pub struct Registry {
 pub struct SuiteEntry {
     /// What all its ids begin with, without the last dot.
     pub name: String,
-    /// What is held against what, in a few words.
+    /// What is compared with what, in a few words.
     pub about: String,
     /// What it asks of a model.
     pub asks: Asks,
@@ -67,13 +67,13 @@ pub struct CheckEntry {
     /// The range of actual − expected that unknown parameters explain, from `kept/parameter_bands.toml`.
     #[serde(default)]
     pub parameter_band: bool,
-    /// Why so much; a statement or a count needs none.
+    /// Reason for the tolerance; a statement or a count needs none.
     #[serde(default)]
     pub reason: String,
     /// The lowest profile that runs them.
     #[serde(default)]
     pub profile: Profile,
-    /// Those of them that the quick profile runs all the same.
+    /// Ids of these checks that the quick profile runs nevertheless.
     #[serde(default)]
     pub quick: Vec<String>,
 }

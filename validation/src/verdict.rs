@@ -13,16 +13,16 @@ pub struct Verdict {
     pub checks: Vec<Check>,
     /// How many passed.
     pub passed: usize,
-    /// How many published values, and limits beside truth of our own, are listed misses.
+    /// How many published values, and limits against kept results of our own, are listed misses.
     pub missed: usize,
     /// How many failed.
     pub failed: usize,
 }
 
 impl Verdict {
-    /// Counts, after turning listed misses from `fail` into `miss`, and failing every listed miss
-    /// that now passes, that drifted from its pinned value, that is not about a published value,
-    /// or whose check is gone.
+    /// Counts, after turning listed misses from `fail` into `miss`, and failing every listed miss that now
+    /// passes, that drifted from its pinned value, whose reference is analytic or a hand calculation, or
+    /// whose check is gone.
     pub fn new(mut checks: Vec<Check>, misses: &[Miss]) -> Self {
         for miss in misses {
             match checks.iter_mut().find(|c| c.id == miss.id) {
@@ -47,7 +47,7 @@ fn judge_miss(check: &mut Check, miss: &Miss) {
         Some(Value::Number(x)) => (x - miss.value).abs() <= miss.tolerance,
         _ => false,
     };
-    // What others printed, and what our own routes are to reach beside each other; no theorem.
+    // A published value or a limit between own results may be missed, a theorem or hand calculation may not.
     let may_miss = !matches!(check.kind, ReferenceKind::Analytic | ReferenceKind::HandCalculation);
     check.status = match check.status {
         Status::Fail if may_miss && pinned => Status::Miss,

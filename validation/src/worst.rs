@@ -1,4 +1,4 @@
-//! The one way to reduce many differences to the one that is judged.
+//! Reduction of many differences to the one that is judged.
 
 /// The largest magnitude. Not a number, so that whatever is judged by it fails, if there is nothing to reduce
 /// or a value is not finite.
@@ -36,8 +36,8 @@ pub fn peak_to_peak(values: impl IntoIterator<Item = f64>) -> f64 {
     ends.map_or(f64::NAN, |(low, high)| high - low)
 }
 
-/// Pairs of two lists, and not a shorter list if their lengths differ: then one pair that compares nothing,
-/// whose values are not numbers.
+/// Pairs of two lists of equal length. If the lengths differ, one pair whose values are not numbers, so that
+/// a check on it fails instead of comparing the shorter list.
 pub fn paired<'a>(a: &'a [f64], b: &'a [f64]) -> Box<dyn Iterator<Item = (f64, f64)> + 'a> {
     if a.len() == b.len() {
         Box::new(a.iter().copied().zip(b.iter().copied()))

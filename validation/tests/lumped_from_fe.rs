@@ -1,4 +1,4 @@
-//! The lumped model with parameters from FE where the two models must be one: signs, inertias, senses.
+//! The lumped model with parameters from FE where the two models must be equal: signs, inertias, senses.
 
 use experiments::modal::{Preload, agreement, lumped_from_fe};
 use fe_contact::statics::Bodies;
@@ -15,12 +15,13 @@ fn where_all_pairs_press_along_the_line_of_action_the_models_are_one() {
         position: 0.0,
         step_s: 5e-6,
     };
-    // The sun turning either way: the mirrored set is another with the same frequencies.
+    // Both senses of torque, which load opposite flanks.
     for torque in [1130.0, -1130.0] {
         let found = agreement(&three, &bodies, &at(torque)).unwrap();
         assert_eq!(found.modes, 2 + 3 + 9);
         assert!(found.along_the_line_percent.abs() < 1e-9, "{}", found.along_the_line_percent);
-        // Slopes of the deformed flanks turn every pair a little; no corner presses here.
+        // The slopes of the deformed flanks rotate the force of every pair slightly; no corner contact
+        // presses.
         assert!(found.worst_percent.abs() < 0.2, "{}", found.worst_percent);
     }
     let from_fe = lumped_from_fe(&three, &bodies, &at(1130.0)).unwrap();
@@ -30,10 +31,10 @@ fn where_all_pairs_press_along_the_line_of_action_the_models_are_one() {
     assert_eq!(lumped.mass.planet, Some(planet.mass));
     assert!((lumped.inertia_over_r2.planet.unwrap() * r * r / planet.inertia - 1.0).abs() < 1e-14);
     let angle = bodies.geometry.mesh(MeshKind::RingPlanet).unwrap().pressure_angle;
-    // The loaded planets have orbited by some 0.2 mm on an arm of 89 mm, and lines of centres with them.
+    // The loaded planets have orbited by some 0.2 mm on an arm of 89 mm, which rotates the lines of centres.
     let moved = (lumped.pressure_angle.ring_planet - angle).abs();
     assert!(moved > 0.0 && moved < 5e-3, "{moved}");
-    // Phases alike: meshes alike; tangents of steel teeth an inch wide.
+    // All meshes are in phase, hence equally stiff; the range is that of steel teeth one inch wide.
     for own in &from_fe.overrides {
         for (k, first) in [
             (own.sun_mesh, from_fe.overrides[0].sun_mesh),

@@ -1,4 +1,4 @@
-//! Scenes whose numbers were found rather than printed still do what they were found for.
+//! Scenes with fitted parameters still have the properties to which these were fitted.
 
 use experiments::modal::{Preload, linear_modes, lumped_frequencies, of_type, preloaded};
 use fe_contact::complementarity::ActiveSet;

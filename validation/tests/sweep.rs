@@ -1,4 +1,4 @@
-//! Sweeps: plans give the same numbers however they are run; tooth errors come round with the sun.
+//! Sweeps: a plan gives the same numbers however it is run; a pitch error repeats with the sun's teeth.
 
 use std::collections::HashMap;
 use std::sync::Mutex;
@@ -26,7 +26,7 @@ fn settings() -> SteadySettings {
     SteadySettings { tolerance: 1e-6, most_cycles: 400, harmonics: 4, between_cycles: 4 }
 }
 
-/// Keeps points as text, and breaks off after so many.
+/// Keeps points as text, and refuses further ones after `most`.
 struct Breaking {
     kept: Mutex<HashMap<(String, usize), String>>,
     most: usize,
@@ -75,8 +75,8 @@ fn single(model: &dyn SweepModel, settings: SteadySettings) -> Sweep {
     run(model, &plan, &Memory, &|_| ()).unwrap()
 }
 
-/// With a tooth out of place nothing repeats before the sun's teeth do, and energy lies between mesh
-/// harmonics; without, none does.
+/// With a pitch error of one sun tooth the motion repeats only with the teeth of the sun, and there is energy
+/// between mesh harmonics; without it there is none.
 #[test]
 fn a_tooth_out_of_place_makes_sidebands() {
     let scene = scene(28);

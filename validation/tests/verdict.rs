@@ -1,4 +1,4 @@
-//! What others rely on: ids, prefixes, profiles. The whole verdict is run by the snapshot tests.
+//! Ids, prefixes and profiles of a verdict. The snapshot tests run the whole verdict.
 
 use std::sync::Mutex;
 

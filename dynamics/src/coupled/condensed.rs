@@ -3,15 +3,15 @@
 use super::coupling::Coupling;
 use super::linear::{LANES, Modes};
 
-/// Sizes that the solver is made for.
+/// Numbers of couplings (widths) for which the solver is compiled.
 pub(super) const WIDTHS: [usize; 9] = [4, 6, 8, 10, 12, 16, 24, 32, 48];
 
-/// Couplings as one step sees them, padded with silent ones to a width of the solver.
+/// Couplings in modal coordinates, padded with couplings without force to a width of the solver.
 #[derive(Debug, Clone)]
 pub(super) struct Condensed {
-    /// Couplings.
+    /// Number of couplings.
     pub(super) count: usize,
-    /// The same, padded.
+    /// The same with padding.
     pub(super) width: usize,
     /// R Φ: by mode, then coupling.
     pub(super) rows: Vec<f64>,
@@ -23,11 +23,11 @@ pub(super) struct Condensed {
     pub(super) offsets: Vec<f64>,
     /// τ, s.
     pub(super) lags: Vec<f64>,
-    /// Whether any lag is there.
+    /// Whether any lag is not zero.
     pub(super) has_lag: bool,
 }
 
-/// Width for so many couplings.
+/// Least width for `count` couplings.
 pub(super) fn width(count: usize) -> Option<usize> {
     WIDTHS.into_iter().find(|w| *w >= count)
 }

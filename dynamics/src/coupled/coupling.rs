@@ -1,4 +1,4 @@
-//! What couples, and with what force.
+//! Couplings and their force law.
 
 /// Forces of couplings over their deflections.
 pub trait CouplingForce {
@@ -6,7 +6,7 @@ pub trait CouplingForce {
     /// of the cycle and a deflection (m).
     fn answer(&self, coupling: usize, step_in_cycle: usize, deflection: f64) -> (f64, f64);
 
-    /// A deflection (m) up to which a coupling is silent at every step of the cycle.
+    /// A deflection (m) up to which a coupling has no force at any step of the cycle.
     fn silent_up_to(&self, coupling: usize) -> f64 {
         let _ = coupling;
         f64::NEG_INFINITY

@@ -1,34 +1,34 @@
-//! Why a coupled system cannot be, or did not move on.
+//! Errors of coupled systems.
 
 use crate::error::EigenError;
 
-/// Why a coupled system cannot be, or did not move on.
+/// Why a coupled system cannot be set up, put to rest or stepped.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CoupledError {
-    /// Modes of the linear part.
+    /// The modes of the linear part cannot be computed.
     #[error("modes of the linear part: {0}")]
     Modes(#[from] EigenError),
-    /// Sizes that do not go together.
+    /// A list or matrix of the wrong size.
     #[error("{what} has {got} entries, the system {wanted}")]
     Size {
-        /// What.
+        /// Name of the list or matrix.
         what: &'static str,
         /// Its length.
         got: usize,
-        /// Length of the system.
+        /// The length it must have.
         wanted: usize,
     },
-    /// A number that is none, or a lag that is negative.
+    /// A number that is not finite, or a negative lag.
     #[error("{what} of coupling {coupling} is {value}")]
     Coupling {
-        /// What.
+        /// Name of the quantity.
         what: &'static str,
         /// Which coupling.
         coupling: usize,
         /// Its value.
         value: f64,
     },
-    /// More couplings than steps are made for.
+    /// More couplings than the solver is compiled for.
     #[error("{got} couplings: at most {most} are solved for")]
     TooMany {
         /// Couplings given.
@@ -45,7 +45,7 @@ pub enum CoupledError {
     /// The load drives a motion that nothing holds.
     #[error("no equilibrium: the load drives a motion that neither support nor coupling holds")]
     NothingHolds,
-    /// Static iterations did not end.
+    /// The static iteration did not converge.
     #[error("no equilibrium in {iterations} iterations: {residual:e} of the load is left")]
     NoEquilibrium {
         /// Iterations.
@@ -53,7 +53,7 @@ pub enum CoupledError {
         /// Largest imbalance over the load.
         residual: f64,
     },
-    /// Iterations of a step did not end.
+    /// The iteration of a time step did not converge.
     #[error(
         "at {time_s:e} s the coupled step is not solved in {iterations} iterations: coupling {coupling} is off by {residual_m:e} m"
     )]
@@ -67,7 +67,7 @@ pub enum CoupledError {
         /// Its residual, m.
         residual_m: f64,
     },
-    /// Motion left all bounds.
+    /// A displacement above its bound, or not a number.
     #[error("the motion diverges: at {time_s:e} s coordinate {coordinate} is {value:e} m")]
     Diverged {
         /// Time, s.

@@ -9,7 +9,7 @@ use crate::matrix::to_faer;
 use crate::newmark::AverageAcceleration;
 use crate::symmetric::generalized_symmetric;
 
-/// M ẍ + C ẋ + K x with diagonal M and symmetric K; C is any.
+/// M ẍ + C ẋ + K x with diagonal M, symmetric K and arbitrary C.
 #[derive(Debug, Clone)]
 pub struct LinearPart {
     /// Diagonal of M, kg.
@@ -23,10 +23,10 @@ pub struct LinearPart {
 /// Off-diagonal modal damping below this part of the largest entry is rounding.
 const PROPORTIONAL: f64 = 1e-11;
 
-/// Numbers are kept in fours.
+/// Vectors are padded to multiples of this length.
 pub(super) const LANES: usize = 4;
 
-/// The linear part in modal coordinates q, x = Φ q, ΦᵀMΦ = I, padded with nils to whole fours.
+/// The linear part in modal coordinates q, x = Φ q, ΦᵀMΦ = I, padded with zeros to a multiple of [`LANES`].
 #[derive(Debug, Clone)]
 pub(super) struct Modes {
     /// n.
@@ -39,7 +39,7 @@ pub(super) struct Modes {
     pub(super) mass: Vec<f64>,
     /// ΦᵀCΦ, n×n.
     pub(super) damping: Mat<f64>,
-    /// Its diagonal, padded, if it is all there is.
+    /// Its diagonal, padded, if C is proportional.
     pub(super) own_damping: Option<Vec<f64>>,
     /// A⁻¹ = ((4/h²) I + (2/h) ΦᵀCΦ + Λ)⁻¹, n×n.
     pub(super) inverse: Mat<f64>,
@@ -118,7 +118,7 @@ impl Modes {
         }
     }
 
-    /// A⁻¹ g with all of C.
+    /// A⁻¹ g with the full ΦᵀCΦ.
     pub(super) fn solve_full(&self, g: &[f64], out: &mut [f64]) {
         for (i, out) in out.iter_mut().enumerate().take(self.count) {
             *out = (0..self.count).map(|j| self.inverse[(i, j)] * g[j]).sum();

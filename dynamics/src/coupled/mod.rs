@@ -4,19 +4,19 @@
 //! M ẍ + C ẋ + K x + Σ_m r_m P_m = f,   δ_m = r_mᵀ x − o_m,   P_m = F_m(step, δ_m + τ_m δ̇_m)
 //! ```
 //!
-//! with forces F_m that grow with deflection, nil up to where a one-sided coupling touches. To first
-//! order in the lag τ_m the force is F + τ F' δ̇: damping in proportion to the coupling's stiffness,
-//! which ends with contact, never pulls, and always takes energy since F grows.
+//! with forces F_m that do not fall with deflection; that of a one-sided coupling is zero up to first
+//! contact. To first order in the lag τ_m the force is F + τ F' δ̇: damping in proportion to the coupling's
+//! stiffness. It ends with contact, makes no force tensile, and dissipates energy since F does not fall.
 //!
-//! Newmark's average acceleration makes a step of it linear but for the couplings, so that with
+//! With Newmark's average acceleration a step is linear except for the couplings, so that with
 //! A = (4/h²) M + (2/h) C + K
 //!
 //! ```text
 //! δ = b − Y P(δ),   b_m = r_mᵀ A⁻¹ (history) − o_m,   Y = R A⁻¹ Rᵀ
 //! ```
 //!
-//! is all that is iterated. Y is constant. In the modes of (K, M) A is diagonal when C is
-//! proportional, so a step costs little more than the couplings' laws.
+//! is all that is solved iteratively. Y is constant. In the modes of (K, M) A is diagonal if C is
+//! proportional, so that a step costs little more than the evaluation of the forces F_m.
 
 mod condensed;
 mod coupling;

@@ -1,37 +1,38 @@
-//! Newton's method for δ = b − Y P(δ), of fixed width.
+//! Newton's method for δ = b − Y P(δ), with the number of couplings (width W) fixed at compile time.
 
 use super::condensed::Condensed;
 use super::coupling::CouplingForce;
 
-/// Iterations before a step is given up.
+/// Iterations after which a step fails.
 const MOST_ITERATIONS: usize = 60;
 
-/// Residual over the largest free deflection below which one more linear correction ends it.
+/// Residual over the largest free deflection below which one linear correction ends the iteration.
 const NEARLY: f64 = 1e-11;
 
-/// Deflections below which residuals are rounding, m.
+/// Least deflection to which residuals are related, m: below it they are rounding.
 const NOTHING: f64 = 1e-13;
 
-/// A Jacobian is kept while each iteration leaves less than this of the residual.
+/// A Jacobian is kept while each iteration reduces the residual to less than this share.
 const KEPT: f64 = 0.02;
 
-/// From here on steps are halved: sets of touching couplings may alternate.
+/// Iteration from which corrections are halved, since the set of touching couplings may alternate.
 const ALTERNATING: usize = 14;
 
-/// What a step starts the solver with.
+/// Data of one time step for the solver.
 pub(super) struct Start<'a> {
     pub(super) step_in_cycle: usize,
     /// 2/h, 1/s.
     pub(super) rate: f64,
-    /// Free displacements and v* of the modes.
+    /// Modal displacements without coupling forces, and v* of the modes.
     pub(super) free: &'a [f64],
     pub(super) velocity_history: &'a [f64],
 }
 
-/// A residual that would not go away: iterations, coupling, residual (m).
+/// A step that did not converge: iterations, coupling, residual (m).
 pub(super) type Left = (usize, usize, f64);
 
-/// Solves, from forces guessed in `forces`, which takes the answer; iterations it took.
+/// Solves for the coupling forces from the estimate in `forces`, which receives the solution; returns the
+/// number of iterations.
 #[inline]
 pub(super) fn solve<const W: usize, L: CouplingForce>(
     group: &Condensed,
@@ -86,7 +87,7 @@ pub(super) fn solve<const W: usize, L: CouplingForce>(
             r[k] = delta[k] - wanted[k];
             worst = worst.max(r[k].abs());
         }
-        // max() passes over what is no number.
+        // `f64::max` ignores NaN.
         if !r.iter().sum::<f64>().is_finite() {
             return Err((iteration, place_of_worst(&r), f64::NAN));
         }
@@ -94,7 +95,7 @@ pub(super) fn solve<const W: usize, L: CouplingForce>(
             *own = p;
             return Ok(iteration);
         }
-        // The Jacobian is kept while it serves.
+        // The Jacobian is kept while the residual falls fast enough.
         if !(is_fresh && worst < KEPT * last) {
             inverse = inverted(y, &d);
             is_fresh = true;
@@ -107,7 +108,7 @@ pub(super) fn solve<const W: usize, L: CouplingForce>(
             delta[k] += change[k];
         }
         if ends {
-            // One linear correction, which turns no press into a pull.
+            // One linear correction, which makes no compressive force tensile.
             for k in 0..W {
                 let least = if p[k] >= 0.0 { 0.0 } else { f64::NEG_INFINITY };
                 p[k] = (p[k] + d[k] * change[k]).max(least);
@@ -155,7 +156,7 @@ fn times<const W: usize>(n: &[[f64; W]; W], r: &[f64; W], part: f64) -> [f64; W]
 /// skew part of unsymmetric damping, D ≥ 0, so all leading minors are at least about 1.
 #[inline]
 fn inverted<const W: usize>(y: &[[f64; W]; W], d: &[f64; W]) -> [[f64; W]; W] {
-    // Columns of I + Y D are rows of its transpose, and inverse and transpose change places.
+    // Columns of I + Y D are the rows of its transpose, whose inverse is the transpose of the inverse.
     let mut g = [[0.0; W]; W];
     for j in 0..W {
         for k in 0..W {

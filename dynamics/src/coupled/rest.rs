@@ -9,10 +9,10 @@ use super::coupling::CouplingForce;
 use super::error::CoupledError;
 use super::system::Coupled;
 
-/// Iterations before equilibrium is given up.
+/// Iterations after which the search for equilibrium fails.
 const MOST_ITERATIONS: usize = 200;
 
-/// Imbalance over the load that counts as nil.
+/// Imbalance over the load that counts as zero.
 const NIL: f64 = 1e-12;
 
 impl<L: CouplingForce> Coupled<L> {
@@ -28,7 +28,8 @@ impl<L: CouplingForce> Coupled<L> {
         let lambda = DVector::from_column_slice(&self.modes.lambda[..n]);
         let step = self.state.step_in_cycle;
         let load = DVector::from_column_slice(&self.external(step)[..n]);
-        // Stiffness lent to couplings out of contact where nothing else holds the system.
+        // Auxiliary stiffness of couplings out of contact, N/m, for iterations in which nothing else holds
+        // the system.
         let widest = rows.column_iter().map(|r| r.norm_squared()).fold(0.0, f64::max);
         let lent = if widest > 0.0 { lambda.amax() / widest } else { 0.0 };
         let answer = |q: &DVector<f64>| -> (DVector<f64>, DVector<f64>, DVector<f64>) {
@@ -67,7 +68,8 @@ impl<L: CouplingForce> Coupled<L> {
                 }
             };
             let along = factor.solve(&r);
-            // Potential's slope along the direction: falling at the start, to be near nil at the end.
+            // The potential's slope along the direction is −slope at the start and −there at the trial, where
+            // it should be near zero.
             let slope = along.dot(&r);
             let mut part = 1.0;
             (r, d, p) = loop {
@@ -78,7 +80,7 @@ impl<L: CouplingForce> Coupled<L> {
                     q = trial;
                     break found;
                 }
-                // Past the least: back by the secant.
+                // The minimum is overshot: the step is shortened by the secant rule.
                 part *= (slope / (slope - there)).clamp(0.1, 0.7);
             };
         }

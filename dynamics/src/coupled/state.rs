@@ -1,4 +1,4 @@
-//! What a coupled system is doing, and how to make it do something else.
+//! The motion of a coupled system: reading it and setting it.
 
 use super::coupling::CouplingForce;
 use super::error::CoupledError;
@@ -11,7 +11,7 @@ impl<L: CouplingForce> Coupled<L> {
         self.modes.count
     }
 
-    /// The law.
+    /// The force law of the couplings.
     pub fn law(&self) -> &L {
         &self.law
     }
@@ -33,7 +33,8 @@ impl<L: CouplingForce> Coupled<L> {
         Motion { x: all(&modal.x), v: all(&modal.v), a: all(&modal.a) }
     }
 
-    /// Puts the system into motion at a step of the cycle, accelerations by balance of forces.
+    /// Sets displacements and velocities at a step of the cycle; accelerations follow from the balance of
+    /// forces.
     ///
     /// # Errors
     /// If there is not one number for each coordinate.
@@ -52,7 +53,7 @@ impl<L: CouplingForce> Coupled<L> {
         Ok(())
     }
 
-    /// Forces and accelerations that go with displacements and velocities.
+    /// Computes coupling forces and accelerations from displacements and velocities.
     pub(super) fn balance(&mut self) {
         let all = self.rare.as_ref().map_or(&self.usual, |(_, all)| all);
         let Motion { x, v, a } = &mut self.state.modal;
@@ -79,12 +80,12 @@ impl<L: CouplingForce> Coupled<L> {
         self.state.forces = [forces.clone(), forces];
     }
 
-    /// Everything that decides how it goes on.
+    /// The state from which the motion can be continued exactly.
     pub fn state(&self) -> &CoupledState {
         &self.state
     }
 
-    /// Goes on from a state of this system, exactly.
+    /// Continues exactly from an earlier state of this system.
     ///
     /// # Errors
     /// If the state is of another system.
@@ -119,7 +120,7 @@ impl<L: CouplingForce> Coupled<L> {
         out
     }
 
-    /// Kinetic energy and strain energy of the linear part, J; couplings keep their own.
+    /// Kinetic energy, and strain energy of the linear part, J; that of the couplings is not included.
     pub fn energies(&self) -> [f64; 2] {
         let Motion { x, v, .. } = &self.state.modal;
         let strain = x.iter().zip(&self.modes.lambda).map(|(q, l)| 0.5 * l * q * q).sum();

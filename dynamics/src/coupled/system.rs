@@ -7,13 +7,14 @@ use super::linear::{LANES, LinearPart, Modes};
 use super::newton::{self, Left, Start};
 use crate::newmark::{AverageAcceleration, Motion};
 
-/// Displacements above this (m) are no vibration.
+/// Displacements above this (m) count as divergence.
 const BOUND: f64 = 1e-2;
 
 /// A linear system with couplings, stepped by Newmark's average acceleration.
 ///
-/// Couplings come in two groups: those that usually act, and those that rarely do (backside flanks, stops),
-/// which cost a look at their deflections until they touch. The law counts them through.
+/// Couplings come in two groups: those that usually act, and those that rarely do (backside flanks, stops).
+/// Of the latter only deflections are computed until one touches. The law numbers all couplings
+/// consecutively, the usual ones first.
 #[derive(Debug, Clone)]
 pub struct Coupled<L> {
     pub(super) law: L,
@@ -23,13 +24,13 @@ pub struct Coupled<L> {
     least_mass: f64,
     /// Those that usually act.
     pub(super) usual: Condensed,
-    /// The others, and all of them, if there are others.
+    /// The rare couplings, and all couplings; `None` without rare ones.
     pub(super) rare: Option<(Condensed, Condensed)>,
-    /// Deflections up to which the rare ones are silent, m.
+    /// Deflections up to which the rare couplings have no force, m.
     silent: Vec<f64>,
     pub(super) steps_per_cycle: usize,
-    /// External forces on the modes, padded: the steady ones, and those at each step of the cycle with
-    /// the steady ones, one after the other.
+    /// External forces on the modes, padded: the steady ones; and step by step of the cycle, the sum of the
+    /// steady ones and those of the step.
     pub(super) steady: Vec<f64>,
     pub(super) cycle: Vec<f64>,
     pub(super) state: CoupledState,
@@ -40,14 +41,14 @@ pub struct Coupled<L> {
     pub with_rare: u64,
 }
 
-/// All that decides how a coupled system goes on, bit by bit; of use to the system it came from.
+/// The state from which a coupled system continues bit by bit; valid only for the system it was taken from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CoupledState {
     /// Step in the cycle.
     pub step_in_cycle: usize,
     /// Steps since the start.
     pub steps: u64,
-    /// Displacements, velocities and accelerations of the modes, padded with nils.
+    /// Displacements, velocities and accelerations of the modes, padded with zeros.
     pub modal: Motion,
     /// Forces of all couplings at the last two steps, the later first, N.
     pub forces: [Vec<f64>; 2],
@@ -68,7 +69,8 @@ impl<L: CouplingForce> Coupled<L> {
     /// A system at rest at the origin, at step 0 of a cycle.
     ///
     /// # Errors
-    /// If sizes do not go together, a number is none, or the linear part has no modes.
+    /// If sizes do not match, a number is not finite, a lag is negative, there are too many couplings, or the
+    /// modes of the linear part cannot be computed.
     pub fn new(
         linear: &LinearPart,
         usual: &[Coupling],
@@ -157,7 +159,7 @@ impl<L: CouplingForce> Coupled<L> {
         Ok(())
     }
 
-    /// Adds forces on the coordinates (N) that return at a step of every cycle.
+    /// Adds forces on the coordinates (N) that act at one step of every cycle.
     ///
     /// # Errors
     /// If there is not one for each coordinate.
@@ -214,7 +216,7 @@ impl<L: CouplingForce> Coupled<L> {
         self.check()
     }
 
-    /// Histories and the free displacements.
+    /// Computes a*, v* and the displacements without coupling forces.
     #[inline]
     fn predict(&mut self, step_in_cycle: usize) {
         let n = self.steady.len();
@@ -249,7 +251,7 @@ impl<L: CouplingForce> Coupled<L> {
         }
     }
 
-    /// Forces as they would go on.
+    /// First estimate of the coupling forces: extrapolated linearly from the last two steps.
     #[inline]
     fn guess(&mut self, count: usize) {
         let [now, before] = &self.state.forces;
@@ -260,7 +262,7 @@ impl<L: CouplingForce> Coupled<L> {
         guessed[count..].fill(0.0);
     }
 
-    /// x = free − A⁻¹ Rᵀ P of the usual ones, or of all.
+    /// x = free − A⁻¹ Rᵀ P with the usual couplings, or with all.
     #[inline]
     fn apply(&mut self, with_rare: bool) {
         let group = match &self.rare {
@@ -334,7 +336,7 @@ impl<L: CouplingForce> Coupled<L> {
         now[taking_part..].fill(0.0);
     }
 
-    /// Refuses motion beyond all bounds: Σ m x² = Σ q² bounds every coordinate.
+    /// Refuses displacements above the bound: Σ m x² = Σ q² bounds every coordinate.
     #[inline]
     fn check(&self) -> Result<(), CoupledError> {
         let size: f64 = self.state.modal.x.iter().map(|q| q * q).sum();

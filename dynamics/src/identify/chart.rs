@@ -1,4 +1,5 @@
-//! Stabilisation chart: the poles of every order and what of them stays from order to order.
+//! Stabilisation chart: the poles of every order, and which of their properties are stable from order to
+//! order.
 
 use std::f64::consts::TAU;
 
@@ -10,19 +11,19 @@ use super::realisation::Realisation;
 use super::records::Records;
 use super::shape::share_in_span;
 
-/// What of a pole is as it was at the order before.
+/// Which properties of a pole agree with a pole of the order before.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Stability {
-    /// There is a pole near in frequency.
+    /// The frequency agrees.
     pub frequency: bool,
-    /// It is near in damping as well.
+    /// The damping ratio agrees as well.
     pub damping: bool,
-    /// Its shape is the same, or lies in the span of the shapes if it is a repeated pole.
+    /// The shape agrees, or lies in the span of the shapes of a repeated pole.
     pub shape: bool,
 }
 
 impl Stability {
-    /// Stable in everything.
+    /// Whether frequency, damping and shape are all stable.
     pub fn all(self) -> bool {
         self.frequency && self.damping && self.shape
     }
@@ -39,15 +40,15 @@ pub struct Pole {
     pub damping: f64,
     /// Modal amplitude coherence, 0 to 1.
     pub coherence: f64,
-    /// Largest amplitude over inputs and outputs at the first sample, both scaled to like size.
+    /// Largest amplitude over inputs and outputs at the first sample, both scaled.
     pub amplitude: f64,
-    /// What of it is stable.
+    /// Which of its properties are stable.
     pub stable: Stability,
     /// Shape over the scaled outputs.
     pub shape: Vec<c64>,
     /// Participation of the scaled inputs.
     pub(super) participation: Vec<c64>,
-    /// Index of its like at the order before.
+    /// Index of the matching pole at the order before.
     pub(super) before: Option<usize>,
 }
 
@@ -69,7 +70,7 @@ pub(super) fn chart(
     let step = options.decimation.stride() as f64 * records.interval;
     let mut chart: Vec<ChartOrder> = Vec::new();
     let highest = realisation.highest();
-    // The highest order may be odd: a state of no oscillation.
+    // The highest order may be odd: at least one of its states does not oscillate.
     let odd = Some(highest).filter(|n| n % 2 == 1);
     for order in (2..=highest).step_by(2).chain(odd) {
         let mut poles = Vec::new();
@@ -101,7 +102,7 @@ pub(super) fn chart(
     Ok(chart)
 }
 
-/// Finds the like of a pole among those of the order before.
+/// Matches a pole with the nearest one of the order before and compares the two.
 fn compare(pole: &mut Pole, before: &[Pole], tolerances: &Tolerances) {
     let distance = |other: &Pole| (other.s - pole.s).norm();
     let nearest =

@@ -4,10 +4,10 @@ use std::f64::consts::PI;
 
 use faer::c64;
 
-/// Attenuation of what would fold into the band, dB.
+/// Attenuation at frequencies that fold into the band, dB.
 const ATTENUATION: f64 = 140.0;
 
-/// Samples the filter reaches to either side: it passes up to `high` (Hz) and stops from
+/// Half length of the filter, samples: its pass band ends at `high` (Hz), its stop band begins at
 /// 1/(stride·interval) − high, the lowest frequency that folds into the band.
 pub(super) fn half_length(high: f64, stride: usize, interval: f64) -> usize {
     let width = 1.0 / stride as f64 - 2.0 * high * interval; // cycles a sample
@@ -42,13 +42,13 @@ fn bessel_i0(x: f64) -> f64 {
     sum
 }
 
-/// The record under the filter, where all weights find a sample.
+/// The filtered record, at the samples for which all weights apply.
 pub(super) fn filter(record: &[f64], weights: &[f64]) -> Vec<f64> {
     let sum = |part: &[f64]| part.iter().zip(weights).map(|(x, h)| x * h).sum();
     record.windows(weights.len()).map(sum).collect()
 }
 
-/// What the filter multiplies exp(st) with: Σ h_j exp(s j·interval).
+/// Factor by which the filter multiplies exp(st): Σ h_j exp(s j·interval).
 pub(super) fn gain(weights: &[f64], s: c64, interval: f64) -> c64 {
     let term = |(j, h): (usize, &f64)| (s * (j as f64 * interval)).exp() * *h;
     weights.iter().enumerate().map(term).sum()

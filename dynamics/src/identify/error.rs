@@ -1,4 +1,4 @@
-//! Why modes could not be identified.
+//! Errors of identification.
 
 /// Why no modes could be identified from a set of records.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -28,7 +28,7 @@ pub enum IdentifyError {
         /// That of the first record.
         expected: usize,
     },
-    /// Records that end before the wanted matrices are filled.
+    /// Records too short for the filter and the block Hankel matrix.
     #[error("records of {samples} samples are too short, {needed} are needed")]
     TooShort {
         /// Samples of a record.
@@ -91,13 +91,13 @@ pub enum IdentifyError {
         /// Number of outputs.
         outputs: usize,
     },
-    /// Singular values or eigenvalues that did not converge.
+    /// A singular value or eigenvalue decomposition that did not converge.
     #[error("the decomposition of a matrix of size {size} did not converge")]
     NoConvergence {
         /// Size of the matrix.
         size: usize,
     },
-    /// Vectors that do not satisfy their equation.
+    /// Singular vectors or eigenvectors with too large a residual.
     #[error("the residual {residual:e} of the {of} is above {limit:e}")]
     Residual {
         /// Which vectors.

@@ -9,18 +9,19 @@ use super::records::Records;
 /// Rows put through one QR step at a time: bounds the memory.
 const CHUNK: usize = 2048;
 
-/// The matrix of the states and the same one row block later, both times one orthogonal matrix.
+/// The matrix whose singular vectors span the states, and the same one block row later, both multiplied by
+/// the same orthogonal matrix.
 pub(super) struct Compressed {
     /// p·r rows.
     pub now: Mat<f64>,
-    /// The same rows one stride later.
+    /// The same, one stride later.
     pub next: Mat<f64>,
     /// First columns: p·r × inputs, the decays from their first sample.
     pub first: Mat<f64>,
 }
 
 /// Lays H with the block y_j(t_c + i·stride) in block row i, for every column start t_c and
-/// input j, and compresses it by H = L Q, whose Q no later step needs.
+/// input j, and compresses it by H = L Q; Q is not needed further.
 pub(super) fn compressed(records: &Records, options: &Options) -> Compressed {
     let (p, r, m) = (options.block_rows, records.outputs, records.inputs);
     let stride = options.decimation.stride();
@@ -55,7 +56,7 @@ pub(super) fn compressed(records: &Records, options: &Options) -> Compressed {
     let (now, next) = match options.method {
         // H = Rᵀ Qᵀ
         Method::Hankel => (part(rank, 0), part(rank, r)),
-        // Rows of the past are R[..pr]ᵀ Q[..pr]ᵀ: H Q[..pr] is H on the rows of the past.
+        // The rows of the past are R[..pr]ᵀ Q[..pr]ᵀ, so that H Q[..pr] projects H onto them.
         Method::Correlation => (part(p * r, p * r), part(p * r, p * r + r)),
     };
     let (now, next) = (now.transpose().to_owned(), next.transpose().to_owned());

@@ -16,8 +16,8 @@ pub struct Identification {
     pub modes: Vec<Mode>,
     /// The order they are taken from; zero if there are none.
     pub order: usize,
-    /// Singular values of the block Hankel matrix, descending: those of the highest order, fewer if
-    /// the rest is rounding.
+    /// Singular values of the block Hankel matrix, descending: as many as the highest order, fewer if the
+    /// rest is rounding.
     pub singular_values: Vec<f64>,
     /// Poles of all orders.
     pub chart: Vec<ChartOrder>,
@@ -26,11 +26,11 @@ pub struct Identification {
 /// Identifies the modes in `options.band` from free decays `records[input][output]`, all of the
 /// same number of samples, `interval` s apart, from the same moment after each input's pulse.
 ///
-/// ERA with a balanced realisation (Juang & Pappa, J. Guidance 8, 1985). The order is the one with
-/// most poles that last `options.persistence` orders; the modes are those poles of it.
+/// ERA with a balanced realisation (Juang & Pappa, J. Guidance 8, 1985). The order is the one with most poles
+/// that are stable over `options.persistence` orders; these poles are the modes.
 ///
 /// # Errors
-/// For unusable records or options, and decompositions that fail. Finding no mode is no error.
+/// For unusable records or options, and decompositions that fail. Finding no mode is not an error.
 pub fn identify(
     records: &[Vec<Vec<f64>>],
     interval: f64,

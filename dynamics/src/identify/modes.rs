@@ -1,4 +1,4 @@
-//! Modes made of poles, those of one pole told apart.
+//! Modes from poles; the modes of a repeated pole are separated.
 
 use std::f64::consts::TAU;
 
@@ -21,11 +21,11 @@ pub struct Mode {
     pub s: c64,
     /// Number of modes that share the pole, itself included.
     pub multiplicity: usize,
-    /// Largest |Δs|/|s| of the poles taken for one; zero for a simple pole.
+    /// Largest |Δs|/|s| of the poles merged into one; zero for a simple pole.
     pub spread: f64,
-    /// Amplitudes of the outputs in their units under the input that excites the mode most, at the
-    /// first sample; the largest over its scale is real and positive. Shapes of a repeated pole are
-    /// orthogonal over the scaled outputs, a basis of what it can do.
+    /// Amplitudes of the outputs in their units under the input that excites the mode most, at the first
+    /// sample; the entry that is largest over its output's scale is real and positive. Shapes of a repeated
+    /// pole are orthogonal over the scaled outputs: a basis of its space of shapes.
     pub shape: Vec<c64>,
     /// Share of each input, the largest of magnitude one.
     pub participation: Vec<c64>,
@@ -35,7 +35,7 @@ pub struct Mode {
     pub strength: f64,
 }
 
-/// Poles of one order (by ascending frequency) as modes, equal ones taken together.
+/// Modes of the poles of one order, ascending in frequency; equal poles are merged.
 pub(super) fn modes(
     poles: &[&Pole],
     records: &Records,
@@ -57,7 +57,7 @@ pub(super) fn modes(
     }
     let strongest = modes.iter().fold(0.0f64, |a, m| a.max(m.strength));
     modes.iter_mut().for_each(|m| m.strength /= strongest);
-    // A pole found twice, but with one shape or one input, leaves a mode of nothing.
+    // A pole found twice with only one shape or one input gives a second mode of negligible amplitude.
     modes.retain(|m| m.strength >= options.weakest);
     let left: Vec<c64> = modes.iter().map(|m| m.s).collect();
     for mode in &mut modes {
@@ -70,7 +70,7 @@ pub(super) fn modes(
 /// The modes of one pole: residues Σ φ pᵀ of the group, split by their singular values.
 fn group_modes(group: &[&Pole], records: &Records) -> Result<Vec<Mode>, IdentifyError> {
     let multiplicity = group.len();
-    // The mean moves with the square of what splits a repeated pole.
+    // A perturbation that splits a repeated pole changes the mean by the square of the split only.
     let s = group.iter().map(|p| p.s).sum::<c64>() / multiplicity as f64;
     let spread = group.iter().map(|p| (p.s - s).norm() / s.norm()).fold(0.0f64, f64::max);
     let coherence = group.iter().map(|p| p.coherence).fold(f64::INFINITY, f64::min);
@@ -80,7 +80,7 @@ fn group_modes(group: &[&Pole], records: &Records) -> Result<Vec<Mode>, Identify
         // C Aᵏ B = Σ φ p λᵏ over both of each conjugate pair: 2 Re over one of them.
         group.iter().map(|p| p.shape[o] * p.participation[i]).sum::<c64>() * 2.0 / gain
     });
-    // Turned to where it is most real: then shapes of a system with normal modes come out real.
+    // Divided by the phase that makes it as real as possible: normal modes then have real shapes.
     let square: c64 = residue.col_iter().flat_map(|c| c.iter()).map(|x| x * x).sum();
     let turn = c64::from_polar(1.0, 0.5 * square.arg());
     let turned = Mat::from_fn(rows, columns, |o, i| residue[(o, i)] / turn);
@@ -119,7 +119,7 @@ fn group_modes(group: &[&Pole], records: &Records) -> Result<Vec<Mode>, Identify
 /// The entry of largest magnitude, the first of equals.
 fn largest(values: &[c64]) -> c64 {
     values.iter().fold(c64::new(0.0, 0.0), |a, x| {
-        // Equal to rounding must not let noise choose.
+        // Of entries equal to rounding the first is taken, so that noise does not decide.
         if x.norm() > a.norm() * (1.0 + 1e-9) { *x } else { a }
     })
 }

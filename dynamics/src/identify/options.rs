@@ -3,18 +3,18 @@
 use super::decimation::half_length;
 use super::error::IdentifyError;
 
-/// How the records are thinned out before the block rows are laid. Rows stand `stride` samples
-/// apart; columns may start at any sample, so no sample is lost.
+/// How the records are decimated. Block rows of the Hankel matrix are `stride` samples apart; columns may
+/// start at any sample, so that no sample is lost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Decimation {
-    /// Every `stride`-th sample, unfiltered: modes above half the new rate come out at the
-    /// frequency they fold to, maybe into the band.
+    /// Every `stride`-th sample, unfiltered: modes above half the new sampling rate appear at their alias
+    /// frequency, possibly in the band.
     Plain {
         /// Samples from one block row to the next.
         stride: usize,
     },
-    /// A low-pass filter first. It looks only forward, so a decay stays a sum of the same
-    /// exponentials; its gain at each pole is taken out of the shapes again.
+    /// Low-pass filtered first. The filter uses later samples only, so that a decay stays a sum of the same
+    /// exponentials; shapes are divided by its gain at each pole.
     Filtered {
         /// Samples from one block row to the next.
         stride: usize,
@@ -35,15 +35,15 @@ impl Decimation {
 pub enum Method {
     /// The block Hankel matrix itself.
     Hankel,
-    /// Its correlation with the block rows before it (ERA/DC: Juang, Cooper & Wright 1988), whose
-    /// noise is another. Needs twice as many samples a column.
+    /// Its correlation with the block rows before it, whose noise is independent (ERA/DC: Juang, Cooper &
+    /// Wright 1988). Needs twice as many samples per column.
     Correlation,
 }
 
-/// What the outputs are divided by, so that those of small unit do not drown.
+/// Scales by which the outputs are divided, so that those with small numbers count as much as others.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Scaling {
-    /// Their root mean squares over all inputs. Not for outputs that hold nothing but rounding.
+    /// Their root mean squares over all inputs. Unsuitable for outputs that are rounding errors only.
     Rms,
     /// Given numbers in the units of the outputs, best in the ratio of their noise.
     Given(Vec<f64>),
@@ -62,18 +62,18 @@ pub struct Tolerances {
     pub repeated: f64,
 }
 
-/// What to identify and how; [`Options::new`] fills in what usually does.
+/// What to identify and how; [`Options::new`] gives the usual values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// Lowest and highest frequency wanted, Hz.
     pub band: (f64, f64),
-    /// Thinning of the records.
+    /// Decimation of the records.
     pub decimation: Decimation,
     /// Number of block rows p of the Hankel matrix.
     pub block_rows: usize,
     /// Largest number of block columns, spread evenly over the records.
     pub block_columns: usize,
-    /// Highest number of states of the chart, two a mode; those out of the band count.
+    /// Highest number of states of the chart, two per mode; modes outside the band count as well.
     pub highest_order: usize,
     /// Which matrix.
     pub method: Method,
@@ -83,7 +83,7 @@ pub struct Options {
     pub tolerances: Tolerances,
     /// Orders in a row at which a pole must be stable to be a mode.
     pub persistence: usize,
-    /// Modes of higher damping ratio are not wanted, nor those that are not damped.
+    /// Modes of higher damping ratio are discarded, and so are undamped ones.
     pub highest_damping: f64,
     /// Least coherence of a mode, 0 to 1.
     pub coherence: f64,
@@ -92,8 +92,8 @@ pub struct Options {
 }
 
 impl Options {
-    /// The usual options for a band (Hz) and a stride (samples). Close modes in noise want block
-    /// rows that reach far in time: a stride of half of what the band allows does well.
+    /// The usual options for a band (Hz) and a stride (samples). To separate close modes in noise, the block
+    /// rows must span a long time: half the largest stride that the band allows is a good choice.
     pub fn new(band: (f64, f64), stride: usize) -> Self {
         Options {
             band,
@@ -111,9 +111,8 @@ impl Options {
         }
     }
 
-    /// Samples that records `interval` s a sample must have, of each of so many inputs: what the
-    /// filter takes, the block rows, and one column for every state, the least that can tell the
-    /// states apart.
+    /// Number of samples, `interval` s apart, that each record of a test with `inputs` inputs must have: for
+    /// the filter, the block rows, and one column per state, the fewest that can distinguish the states.
     pub fn samples_needed(&self, interval: f64, inputs: usize) -> usize {
         let blocks = match self.method {
             Method::Hankel => self.block_rows,
@@ -125,7 +124,7 @@ impl Options {
         filter.saturating_add(rows).saturating_add(columns)
     }
 
-    /// Samples the filter reaches to either side.
+    /// Half length of the filter, samples.
     pub(super) fn filter_half_length(&self, interval: f64) -> usize {
         match self.decimation {
             Decimation::Filtered { stride } if stride > 1 => {
@@ -135,7 +134,7 @@ impl Options {
         }
     }
 
-    /// Refuses options out of their range, for records `interval` s a sample.
+    /// Refuses options out of range, for records with samples `interval` s apart.
     pub(super) fn check(&self, interval: f64) -> Result<(), IdentifyError> {
         if !(interval > 0.0 && interval.is_finite()) {
             return Err(IdentifyError::Interval { value: interval });
@@ -185,7 +184,7 @@ impl Options {
         }
         let stride = self.decimation.stride();
         let limit = 0.5 / (stride as f64 * interval);
-        // A filter needs room between the band and what folds into it.
+        // A filter needs a transition band between the band and the lowest frequency that folds into it.
         let room = if matches!(self.decimation, Decimation::Filtered { .. }) { 0.9 } else { 1.0 };
         if high > room * limit {
             return Err(IdentifyError::Stride { high, limit: room * limit, stride });
@@ -211,7 +210,7 @@ mod tests {
             let found = refused(Options { decimation, ..usual.clone() });
             assert!(matches!(found, IdentifyError::Stride { stride: 60, .. }), "{found}");
         }
-        // 1000 Hz fit below 1020 Hz, but no filter fits between.
+        // 1000 Hz is below 1020 Hz, but leaves no transition band for a filter.
         let decimation = Decimation::Filtered { stride: 49 };
         let found = refused(Options { decimation, ..usual.clone() });
         assert!(matches!(found, IdentifyError::Stride { stride: 49, .. }));

@@ -6,7 +6,7 @@ use faer::{Mat, MatRef, c64};
 use super::error::IdentifyError;
 use super::hankel::Compressed;
 
-/// Singular vectors and eigenvectors that miss their equation by more are refused.
+/// Singular vectors and eigenvectors with a larger residual are refused.
 const RESIDUAL_LIMIT: f64 = 1e-10;
 
 /// States whose singular value is below this share of the largest are rounding.
@@ -29,9 +29,9 @@ pub(super) struct Realisation {
 pub(super) struct RawPole {
     /// Eigenvalue from one block row to the next.
     pub multiplier: c64,
-    /// C ψ, one an output.
+    /// C ψ, one per output.
     pub shape: Vec<c64>,
-    /// Row of Ψ⁻¹ B, one an input.
+    /// Row of Ψ⁻¹ B, one per input.
     pub participation: Vec<c64>,
     /// Coherence of the rows with powers of the multiplier, 0 to 1.
     pub coherence: f64,
@@ -54,7 +54,7 @@ impl Realisation {
             return Err(IdentifyError::Silent);
         }
         let n = (0..highest.min(size)).take_while(|&k| s[k] > ROUNDING * largest).count();
-        // The next one is rounding already, not just beyond the wish.
+        // Complete if the next singular value is rounding, not if `highest` limits the order.
         let complete = n < size.min(highest);
         let (u, v) = (u.subcols(0, n), v.subcols(0, n));
         let off = now.as_ref() * v - Mat::from_fn(u.nrows(), n, |i, j| u[(i, j)] * s[j]);
@@ -73,7 +73,7 @@ impl Realisation {
         Ok(Realisation { a, b, observability, outputs, sigma, complete })
     }
 
-    /// Highest order there is.
+    /// Highest order.
     pub fn highest(&self) -> usize {
         self.sigma.len()
     }
@@ -95,7 +95,7 @@ impl Realisation {
         let participation = psi.partial_piv_lu().solve(&complex(self.b.subrows(0, n)));
         let rows = complex(self.observability.subcols(0, n)) * psi;
         let mut poles = Vec::new();
-        // Of a conjugate pair one; a real eigenvalue has an imaginary part of rounding.
+        // One of each conjugate pair; the imaginary part of a real eigenvalue is rounding.
         for j in (0..n).filter(|&j| values[j].im > 1e-12 * values[j].norm()) {
             let row: Vec<c64> = (0..rows.nrows()).map(|i| rows[(i, j)]).collect();
             poles.push(RawPole {
@@ -150,8 +150,8 @@ fn coherence(rows: &[c64], multiplier: c64, outputs: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// A = X D X⁻¹ with every pair of D there twice: all eigenvectors must satisfy their equation
-    /// and be independent. Solved as a real matrix, half of them do not.
+    /// A = X D X⁻¹ in which every complex pair of D occurs twice: all eigenvectors must satisfy their
+    /// equation and be independent. Solved as a real matrix, half of them do not.
     #[test]
     fn exactly_repeated_pairs_have_eigenvectors() {
         for n in [4, 8, 26, 60] {

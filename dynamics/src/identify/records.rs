@@ -67,7 +67,7 @@ impl Records {
         })
     }
 
-    /// What the filter has multiplied the amplitude of a pole with.
+    /// Factor by which the filter has multiplied the amplitude of a pole.
     pub fn gain(&self, s: c64) -> c64 {
         gain(&self.weights, s, self.interval)
     }
@@ -94,7 +94,7 @@ fn check_shape(raw: &[Vec<Vec<f64>>]) -> Result<usize, IdentifyError> {
     Ok(first.len())
 }
 
-/// Root mean square without overflow; zero for silence.
+/// Root mean square without overflow; zero for records of zeros.
 fn rms<'a>(records: impl Iterator<Item = &'a Vec<f64>> + Clone) -> f64 {
     let peak = records.clone().flatten().fold(0.0f64, |a, x| a.max(x.abs()));
     if peak == 0.0 {
@@ -117,14 +117,14 @@ fn output_scales(values: &[Vec<Vec<f64>>], scaling: &Scaling) -> Result<Vec<f64>
         }
         Scaling::Rms => {
             let scale = |o: usize| rms(values.iter().map(|row| &row[o]));
-            // A silent output stays silent whatever it is divided by.
+            // An output of zeros needs no scale.
             Ok((0..outputs).map(scale).map(|s| if s > 0.0 { s } else { 1.0 }).collect())
         }
     }
 }
 
-/// Root mean squares of the inputs over the scaled outputs; one that excites next to nothing is
-/// not blown up.
+/// Root mean squares of the responses to each input over the scaled outputs; a response below 1e-9 of the
+/// largest is rounding and is not scaled up.
 fn input_scales(values: &[Vec<Vec<f64>>]) -> Result<Vec<f64>, IdentifyError> {
     let scales: Vec<f64> = values.iter().map(|row| rms(row.iter())).collect();
     let largest = scales.iter().fold(0.0f64, |a, s| a.max(*s));

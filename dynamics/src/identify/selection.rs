@@ -1,4 +1,4 @@
-//! The order and those of its poles that are modes.
+//! Choice of the order, and of its poles that are modes.
 
 use faer::c64;
 
@@ -13,8 +13,9 @@ pub(super) struct Selection {
     pub poles: Vec<usize>,
 }
 
-/// The order with most lasting poles; of several such the one whose poles move least. A complete
-/// realisation is its own best order. Nothing if no pole lasts.
+/// The order with the most lasting poles (stable over `persistence` orders); of several such orders the one
+/// whose poles change least to the adjacent orders. Of a complete realisation the highest order is taken.
+/// `None` if no pole lasts.
 pub(super) fn selection(
     chart: &[ChartOrder],
     complete: bool,
@@ -48,7 +49,7 @@ fn lasting(chart: &[ChartOrder], k: usize, complete: bool, options: &Options) ->
     let strong = |p: &Pole| p.amplitude >= options.weakest * strongest;
     let mut found: Vec<usize> =
         (0..poles.len()).filter(|&j| wanted(&poles[j]) && strong(&poles[j])).collect();
-    // A complete realisation has the poles of the data and no others, at any order above.
+    // The highest order of a complete realisation has the poles of the data and no others.
     if complete && k + 1 == chart.len() {
         return found;
     }
@@ -82,8 +83,8 @@ fn run(chart: &[ChartOrder], k: usize, j: usize) -> usize {
     length
 }
 
-/// How far the poles `lasting` of order number k stand from those of the orders beside it: mean
-/// |Δs|/|s| over both sides.
+/// Change of the poles `lasting` of order number k to the adjacent orders: sum over these poles of |Δs|/|s|
+/// to the nearest pole, averaged over both sides.
 fn unrest(chart: &[ChartOrder], k: usize, lasting: &[usize]) -> f64 {
     let sides = [k.checked_sub(1), Some(k + 1)];
     let change = |s: c64| -> f64 {

@@ -1,8 +1,9 @@
-//! Likeness of mode shapes.
+//! Similarity of mode shapes.
 
 use faer::{Mat, c64};
 
-/// Columns that add less than this to the span, relative to the first, add nothing.
+/// A shape is linearly dependent if its component normal to the others is below this share of the largest
+/// norm.
 const DEPENDENT: f64 = 1e-8;
 
 /// Modal assurance criterion |φ̄·ψ|² / (|φ|²|ψ|²) of two shapes over the same outputs: one for the
@@ -12,7 +13,7 @@ pub fn mac(a: &[c64], b: &[c64]) -> f64 {
 }
 
 /// Squared cosine of the angle between a shape and the span of others, all over the same outputs:
-/// what the MAC is where a repeated pole has no shape of its own but a space of them.
+/// the MAC generalised to repeated poles, which have a space of shapes.
 pub fn share_in_span(shape: &[c64], span: &[&[c64]]) -> f64 {
     let at = |j: usize, i: usize| span[j].get(i).copied().unwrap_or(c64::new(0.0, 0.0));
     let qr = Mat::from_fn(shape.len(), span.len(), |i, j| at(j, i)).col_piv_qr();

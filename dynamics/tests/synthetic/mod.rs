@@ -9,7 +9,7 @@ pub struct Damped {
     pub frequency: f64,
     /// Damping ratio.
     pub damping: f64,
-    /// Shape, one an output.
+    /// Shape, one entry per output.
     pub shape: Vec<f64>,
     /// Amplitude of the mode under each input.
     pub participation: Vec<f64>,
@@ -17,7 +17,7 @@ pub struct Damped {
     pub phase: f64,
 }
 
-/// splitmix64: the tests need numbers of no pattern, the same on every run.
+/// Pseudo-random numbers (splitmix64), the same on every run.
 pub struct Numbers(u64);
 
 impl Numbers {
@@ -25,7 +25,7 @@ impl Numbers {
         Numbers(seed)
     }
 
-    /// Even between −1 and 1.
+    /// Uniform between −1 and 1.
     pub fn even(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
@@ -65,7 +65,7 @@ pub fn decays(modes: &[Damped], samples: usize, interval: f64) -> Vec<Vec<Vec<f6
     records
 }
 
-/// Adds normal noise of `level` times the largest sample of all.
+/// Adds normal noise with a standard deviation of `level` times the largest sample of all records.
 pub fn disturb(records: &mut [Vec<Vec<f64>>], level: f64, seed: u64) {
     let peak = records.iter().flatten().flatten().fold(0.0f64, |a, x| a.max(x.abs()));
     let mut numbers = Numbers::new(seed);

@@ -1,25 +1,30 @@
-//! Somebody's lumped model of a planetary gear: their own assembly and eigenvalue solver, none of this
-//! project's. It answers one question, its natural modes, and so can be asked every suite that asks for them.
+//! Somebody's lumped model of a planetary gear: their own assembly and equation solvers, none of this project's.
+//! It answers every question that the suites ask: natural modes, the mesh cycle at rest and
+//! steady states ([`excited`]).
 //!
 //! Springs are collected as rows b of their elongation bᵀq (Lin & Parker 1999, eqs. 1 to 6), so that
 //! K = Σ k b bᵀ; coordinates are x, y, u = r·θ of carrier, ring and sun, then radial, tangential, u of the
 //! planets.
 
+mod excited;
+
 use epicyclic::experiments::{ModalModel, ModelError, NaturalMode};
-use epicyclic::gearset::{Freedom, LoadCase, Scene, Support, Torsional};
+use epicyclic::gearset::{Freedom, LoadCase, MeshKind, Scene, Support, Torsional};
 use epicyclic::lumped::ModeType;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-/// The model; `sign` is that of the planet's rotation in its sun mesh, +1 in a right model.
+/// The model.
 #[derive(Debug, Clone, Copy)]
 pub struct YourModel {
-    /// +1, or −1 to see a wrong model caught.
+    /// Sign of the planet's rotation in its sun mesh: +1, or −1 to see a wrong model caught.
     pub sign: f64,
+    /// Sign of the mesh phases of the planets: +1, or −1 to see a wrong model caught.
+    pub phasing: f64,
 }
 
 impl Default for YourModel {
     fn default() -> Self {
-        Self { sign: 1.0 }
+        Self { sign: 1.0, phasing: 1.0 }
     }
 }
 
@@ -44,28 +49,49 @@ fn at(body: usize, axis: usize) -> usize {
     3 * body + axis
 }
 
-/// Stiffness K, masses and I/r² (the diagonal of M), and which coordinates may move.
-struct Matrices {
-    k: DMatrix<f64>,
+/// A spring: its stiffness (the mean over a mesh cycle, N/m) and its elongation as a row.
+struct Spring {
+    stiffness: f64,
+    row: Vec<(usize, f64)>,
+    /// Which mesh, of which planet; bearings and supports are none.
+    mesh: Option<(MeshKind, usize)>,
+}
+
+/// Springs, masses and I/r² (the diagonal of M), and the coordinates that may move.
+struct Parts {
+    springs: Vec<Spring>,
     mass: Vec<f64>,
-    free: Vec<bool>,
+    moving: Vec<usize>,
+}
+
+impl Parts {
+    /// K of the mean stiffnesses, of all coordinates.
+    fn stiffness(&self) -> DMatrix<f64> {
+        let mut k = DMatrix::zeros(self.mass.len(), self.mass.len());
+        for spring in &self.springs {
+            for (i, a) in &spring.row {
+                for (j, b) in &spring.row {
+                    k[(*i, *j)] += spring.stiffness * a * b;
+                }
+            }
+        }
+        k
+    }
 }
 
 impl YourModel {
-    fn matrices(&self, scene: &Scene) -> Result<Matrices, Lacks> {
+    /// `sense`: +1 where a counter-clockwise torque acts on the sun; with −1 the other flanks press, whose
+    /// lines of action lean the other way.
+    fn parts(&self, scene: &Scene, sense: f64) -> Result<Parts, Lacks> {
         let lumped = scene.lumped.as_ref().ok_or(Lacks("[lumped]"))?;
         let psi = &scene.planets.psi_rad;
         let size = at(3 + psi.len(), 0);
-        let mut k = DMatrix::zeros(size, size);
-        let mut spring = |stiffness: f64, row: &[(usize, f64)]| {
-            for (i, a) in row {
-                for (j, b) in row {
-                    k[(*i, *j)] += stiffness * a * b;
-                }
-            }
+        let mut springs = Vec::new();
+        let mut spring = |mesh, stiffness: f64, row: &[(usize, f64)]| {
+            springs.push(Spring { stiffness, row: row.to_vec(), mesh });
         };
         let (alpha_s, alpha_r) =
-            (lumped.pressure_angle.sun_planet, lumped.pressure_angle.ring_planet);
+            (sense * lumped.pressure_angle.sun_planet, sense * lumped.pressure_angle.ring_planet);
         for (n, psi) in psi.iter().enumerate() {
             let own = scene.overrides.iter().filter(|o| o.planet == n);
             let last = |of: fn(&epicyclic::gearset::PlanetOverride) -> Option<f64>, usual: f64| {
@@ -81,7 +107,8 @@ impl YourModel {
                 (at(p, 1), -alpha_s.cos()),
                 (at(p, 2), self.sign),
             ];
-            spring(last(|o| o.sun_mesh, lumped.mesh.sun_planet), &row);
+            let mesh = Some((MeshKind::SunPlanet, n));
+            spring(mesh, last(|o| o.sun_mesh, lumped.mesh.sun_planet), &row);
             let (sin, cos) = (psi + alpha_r).sin_cos();
             let row = [
                 (at(RING, 0), -sin),
@@ -91,7 +118,8 @@ impl YourModel {
                 (at(p, 1), -alpha_r.cos()),
                 (at(p, 2), -1.0),
             ];
-            spring(last(|o| o.ring_mesh, lumped.mesh.ring_planet), &row);
+            let mesh = Some((MeshKind::RingPlanet, n));
+            spring(mesh, last(|o| o.ring_mesh, lumped.mesh.ring_planet), &row);
             let bearing = last(|o| o.bearing, scene.supports.planet_bearing);
             let (sin, cos) = psi.sin_cos();
             let radial = [(at(CARRIER, 0), cos), (at(CARRIER, 1), sin), (at(p, 0), -1.0)];
@@ -101,23 +129,23 @@ impl YourModel {
                 (at(CARRIER, 2), 1.0),
                 (at(p, 1), -1.0),
             ];
-            spring(bearing, &radial);
-            spring(bearing, &tangential);
+            spring(None, bearing, &radial);
+            spring(None, bearing, &tangential);
         }
         let supports = [scene.supports.carrier, scene.supports.ring, scene.supports.sun];
         let radii = [lumped.radius.carrier, lumped.radius.ring, lumped.radius.sun];
         let mut free = vec![true; size];
         for (body, (support, radius)) in supports.iter().zip(radii).enumerate() {
             let Support { motion, bearing, torsional } = *support;
-            spring(bearing, &[(at(body, 0), 1.0)]);
-            spring(bearing, &[(at(body, 1), 1.0)]);
+            spring(None, bearing, &[(at(body, 0), 1.0)]);
+            spring(None, bearing, &[(at(body, 1), 1.0)]);
             let per_length = match (torsional, radius) {
                 (Torsional::PerLength(k), _) => k,
                 (Torsional::PerAngle(k), Some(r)) => k / (r * r),
                 (Torsional::PerAngle(0.0), None) => 0.0,
                 (Torsional::PerAngle(_), None) => return Err(Lacks("radii of the members")),
             };
-            spring(per_length, &[(at(body, 2), 1.0)]);
+            spring(None, per_length, &[(at(body, 2), 1.0)]);
             for axis in 0..3 {
                 free[at(body, axis)] = match motion {
                     Freedom::Free => true,
@@ -137,10 +165,11 @@ impl YourModel {
             let inertia = own.filter_map(|o| o.inertia_over_r2).next_back().or(i.planet);
             mass.extend([mass_of, mass_of, inertia].map(|x| x.unwrap_or(f64::NAN)));
         }
-        if (0..size).any(|j| free[j] && mass[j].is_nan()) {
+        let moving: Vec<usize> = (0..size).filter(|j| free[*j]).collect();
+        if moving.iter().any(|j| mass[*j].is_nan()) {
             return Err(Lacks("mass and inertia of every body that moves"));
         }
-        Ok(Matrices { k, mass, free })
+        Ok(Parts { springs, mass, moving })
     }
 
     /// Kind of a mode from its shape scaled by √mass: the largest of the shares in which all planets move alike,
@@ -172,8 +201,8 @@ impl YourModel {
 
 impl ModalModel for YourModel {
     fn natural_modes(&self, scene: &Scene, _: &LoadCase) -> Result<Vec<NaturalMode>, ModelError> {
-        let Matrices { k, mass, free } = self.matrices(scene)?;
-        let moving: Vec<usize> = (0..mass.len()).filter(|j| free[*j]).collect();
+        let parts = self.parts(scene, 1.0)?;
+        let (k, Parts { mass, moving, .. }) = (parts.stiffness(), &parts);
         // M^(−½) K M^(−½) has the squares of the natural frequencies.
         let scaled = DMatrix::from_fn(moving.len(), moving.len(), |a, b| {
             let (i, j) = (moving[a], moving[b]);

@@ -1,10 +1,10 @@
 //! The linearised FE/contact set with a rigid carrier against the lumped model with parameters from it.
 //!
-//! Both approach along the same line of action as long as every pressing pair stands on the
-//! theoretical path: n = (sin α, cos α) in the mesh frame of a sun mesh, (sin α, −cos α) in that of a
-//! ring mesh, with arms of exactly r_b. Then 1ᵀS1 is all there is of S, and the two must agree to
-//! rounding. A pair at a tip corner presses along the normal of the flank it presses on: its approach
-//! is not the mesh's δ, so that motions which leave δ alone stretch it all the same.
+//! As long as every loaded pair is on the theoretical path, both models press along the same line of action:
+//! n = (sin α, cos α) in the mesh frame of a sun mesh, (sin α, −cos α) in that of a ring mesh, with lever
+//! arms of exactly r_b. A mesh then has the one stiffness 1ᵀS1, and the two models must agree to rounding. A
+//! pair in corner contact presses along the normal of the flank it touches: its approach is not the mesh's δ,
+//! and motions with δ = 0 change it as well.
 
 use fe_contact::statics::{Bodies, PLANETS, Races, SUN};
 use fe_contact::vibration::LinearSet;
@@ -18,27 +18,27 @@ use crate::error::ExperimentError;
 /// Differences between the two models over all modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Agreement {
-    /// Largest, of FE/contact against the lumped model with parameters from FE, with its sign, percent.
+    /// Largest deviation of an FE/contact frequency from the lumped one, with its sign, percent.
     pub worst_percent: f64,
-    /// Frequency where that is, Hz.
+    /// Frequency with that deviation, Hz.
     pub at_hz: f64,
-    /// Largest between 5 and 15 kHz, where the meshes rule, with its sign, percent.
+    /// Largest deviation between 5 and 15 kHz, where mesh stiffness dominates, with its sign, percent.
     pub worst_mesh_ruled_percent: f64,
-    /// Largest once all pairs press along the line of action, percent.
+    /// Largest deviation if all pairs press along the line of action, percent.
     pub along_the_line_percent: f64,
-    /// Modes compared.
+    /// Number of modes compared.
     pub modes: usize,
-    /// Pressing pairs that do not press along the line of action.
+    /// Number of loaded pairs that do not press along the line of action.
     pub pairs_off_the_line: usize,
 }
 
-/// Where the meshes rule, Hz.
+/// Band in which mesh stiffness dominates, Hz.
 const MESH_RULED_HZ: std::ops::RangeInclusive<f64> = 5e3..=15e3;
 
-/// Entries of an approach row further than this from the lumped one belong to another normal.
+/// A pair presses along another normal if an entry of its approach row differs by more from the lumped row.
 const SAME_ROW: f64 = 1e-9;
 
-/// Compares the two at one position and preload, the carrier taken as rigid.
+/// Compares the two models at one position and preload, with a rigid carrier.
 ///
 /// # Errors
 /// If the set has no equilibrium there or an eigenproblem fails.
@@ -50,7 +50,7 @@ pub fn agreement(
     agreement_after(scene, bodies, preload, |_| {})
 }
 
-/// The same with the lumped scene changed by `spoil` first: a control, which must not agree.
+/// The same after a change of the lumped scene by `spoil`: a negative control, which must not agree.
 ///
 /// # Errors
 /// As [`agreement`].
@@ -74,7 +74,7 @@ pub fn agreement_after(
     compare(&linear, set.races(), &LumpedModel::from_scene(&from_fe)?)
 }
 
-/// The scene with a carrier that does not give way.
+/// The scene with a rigid carrier.
 pub fn with_rigid_carrier(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     if let Some(carrier) = scene.geometry.as_mut().and_then(|g| g.carrier.as_mut()) {
@@ -123,8 +123,8 @@ fn compare(
     })
 }
 
-/// The linearised set with every pair's approach as the lumped model has it for the pair's mesh.
-/// Which mesh that is shows in what the pair moves: one planet, and the sun or not.
+/// The linearised set with the approach of every pair replaced by the lumped model's for its mesh. The mesh
+/// of a pair follows from the coordinates in its row: one planet, and the sun or not.
 fn along_the_line(linear: &LinearSet, races: &Races, model: &LumpedModel) -> LinearSet {
     let mut straight = linear.clone();
     for i in 0..linear.rows.nrows() {

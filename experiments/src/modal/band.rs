@@ -1,4 +1,4 @@
-//! How natural frequencies move with the position in the mesh cycle and the preload.
+//! Change of natural frequencies with the position in the mesh cycle and with the preload.
 
 use fe_contact::statics::Bodies;
 use gearset::Scene;
@@ -8,18 +8,19 @@ use super::linear::{Preload, linear_modes, preloaded};
 use super::mode::of_type;
 use crate::error::ExperimentError;
 
-/// Linearised frequencies at even positions of the mesh cycle under several torques.
+/// Natural frequencies of the linearised set at evenly spaced positions of the mesh cycle, under several
+/// torques.
 #[derive(Debug, Clone)]
 pub struct FrequencyBand {
     /// Torques on the sun, N m.
     pub torques_nm: Vec<f64>,
     /// Positions, cycles.
     pub positions: Vec<f64>,
-    /// Modes by type and place among those of their type, by ascending mean frequency.
+    /// Modes, identified by type and place among the modes of the type, by ascending mean frequency.
     pub modes: Vec<ModeBand>,
 }
 
-/// One mode of every state.
+/// One mode over all torques and positions.
 #[derive(Debug, Clone)]
 pub struct ModeBand {
     /// Type.
@@ -39,17 +40,17 @@ pub struct Spread {
     pub mean: f64,
     /// Highest, Hz.
     pub highest: f64,
-    /// How many.
+    /// Number of frequencies.
     pub count: usize,
 }
 
 impl ModeBand {
-    /// Over all torques and positions.
+    /// Spread over all torques and positions.
     pub fn spread(&self) -> Spread {
         Spread::of(self.frequencies_hz.iter().flatten().flatten().copied())
     }
 
-    /// Over all positions under one torque.
+    /// Spread over all positions under torque number `torque`.
     pub fn spread_under(&self, torque: usize) -> Spread {
         Spread::of(self.frequencies_hz[torque].iter().flatten().copied())
     }
@@ -68,11 +69,11 @@ impl Spread {
     }
 }
 
-/// Linearised frequencies up to `highest_hz` at `count` even positions of the mesh cycle, under the
-/// torque of a preload times each of `factors`.
+/// Natural frequencies up to `highest_hz` of the set linearised at `count` evenly spaced positions of the
+/// mesh cycle, under the torque of a preload times each of `factors`.
 ///
 /// # Errors
-/// If the set cannot be had, or cannot be linearised, in one of these states.
+/// If the set has no equilibrium, or cannot be linearised, in one of these states.
 pub fn frequency_band(
     scene: &Scene,
     bodies: &Bodies,

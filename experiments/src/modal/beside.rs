@@ -1,14 +1,14 @@
-//! Modes of one set found in two ways, beside each other.
+//! Pairing of the modes of one set that were found in two ways.
 
 use lumped::ModeType;
 
 use super::mode::FeMode;
 
-/// Pairs identified modes with linearised ones: within a type by order if there are as many of both, else
-/// each identified one with the nearest linearised one that is left. Both lists ascend.
+/// Pairs identified modes with linearised ones: within a type in order if both lists have the same number,
+/// otherwise each identified mode with the nearest linearised one not yet paired. Both lists are ascending.
 ///
-/// Returns indices into both lists, by the identified frequency, or the linearised one where a mode was
-/// not identified; every mode is in it once.
+/// Returns indices into both lists, ascending in the identified frequency, or the linearised one of modes
+/// that were not identified; every mode occurs once.
 pub fn beside(
     identified: &[FeMode],
     linearised: &[&FeMode],

@@ -1,4 +1,4 @@
-//! Pulses on a preloaded, standing set; its free decay; the modes in it.
+//! Impulse test: pulses on a preloaded standing set, and identification of modes from its free decays.
 
 use dynamics::identify::{Identification, Scaling, identify};
 use dynamics::orthonormal_basis;
@@ -16,13 +16,13 @@ use crate::error::ExperimentError;
 /// A generalised force on the races for one time step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pulse {
-    /// What it pushes.
+    /// Name: body and coordinate on which it acts.
     pub name: String,
     /// Its pattern on the races' coordinates, of unit size.
     pub pattern: Vec<f64>,
 }
 
-/// What one pulse left behind.
+/// Free decay after one pulse.
 #[derive(Debug, Clone)]
 pub struct Decay {
     /// The pulse.
@@ -52,19 +52,19 @@ pub struct Contents {
 pub struct ImpulseTest {
     /// Settings.
     pub settings: ImpulseSettings,
-    /// One decay a pulse.
+    /// One decay per pulse.
     pub decays: Vec<Decay>,
     /// Modes, ascending.
     pub modes: Vec<FeMode>,
-    /// All of the identification, with its stabilisation chart.
+    /// Complete result of the identification, with its stabilisation chart.
     pub identification: Identification,
-    /// Steps taken in all.
+    /// Total number of time steps.
     pub steps: u64,
 }
 
-/// Forces on sun and carrier, torque on the sun, and pulses on the planets that no motion of the
-/// central members follows: radial, tangential and turning, in every pattern of the planets that
-/// stands apart from 1, cos ψ and sin ψ.
+/// Forces on sun and carrier, a torque on the sun, and pulses on the planets that do not move the central
+/// members: radial, tangential and rotational, in every pattern over the planets orthogonal to 1, cos ψ and
+/// sin ψ.
 pub fn pulses(races: &Races) -> Vec<Pulse> {
     let single = |name: &str, body: usize, axis: usize| {
         let i = races.of(body, axis)?;
@@ -100,10 +100,11 @@ pub fn pulses(races: &Races) -> Vec<Pulse> {
     list
 }
 
-/// Pushes a preloaded set with every pulse in turn and identifies its modes.
+/// Applies every pulse in turn to a preloaded set and identifies its modes.
 ///
 /// # Errors
-/// If the settings make no sense, the set cannot be had, a step fails, or nothing can be identified.
+/// If the settings are refused, the set cannot be set up or does not stay at rest, a step fails, or nothing
+/// can be identified.
 pub fn impulse_test(
     scene: &Scene,
     bodies: &Bodies,
@@ -117,7 +118,7 @@ pub fn impulse_test(
     let mut decays = Vec::new();
     let mut taken = 0;
     for pulse in pulses(set.races()).into_iter().filter(|p| settings.takes(&p.name)) {
-        // A short trial says how hard to push.
+        // A short trial determines the force for the wanted change of mesh force.
         let trial = 1e-3 * largest(&mesh_forces(&set)).max(1.0);
         let (_, change) = decay(&mut set, settings, &pulse, trial, steps.min(few))?;
         let force_n = trial * settings.size / change.max(f64::MIN_POSITIVE);
@@ -139,7 +140,7 @@ pub fn impulse_test(
     }
     let records: Vec<Vec<Vec<f64>>> = decays.iter().map(|d| d.records.clone()).collect();
     let mut options = settings.identification();
-    // All outputs are metres; coordinates that rest must not be blown up.
+    // All outputs are in metres: a common scale does not magnify coordinates at rest.
     let scale = 1.0 / records.iter().flatten().map(|r| largest(r)).fold(0.0, f64::max);
     options.scaling = Scaling::Given(vec![scale; set.races().count]);
     let identification = identify(&records, settings.preload.step_s, &options)?;
@@ -147,14 +148,13 @@ pub fn impulse_test(
     Ok(ImpulseTest { settings: *settings, decays, modes, identification, steps: taken })
 }
 
-/// Steps without a pulse, and the largest change of a mesh force over them in parts of the pulses'.
+/// Steps without a pulse, and the largest change of a mesh force over them relative to that by the pulses.
 const STILL: (usize, f64) = (20, 0.01);
 
-/// A pulse that changes a mesh force by more than so many times what it should sets off something
-/// else.
+/// The set is unsteady if a pulse changes a mesh force by more than this multiple of the intended change.
 const PROPORTION: f64 = 10.0;
 
-/// Makes sure that nothing moves before it is pushed.
+/// Checks that the set stays at rest without a pulse.
 fn stand_still(
     set: &mut VibratingSet<'_>,
     settings: &ImpulseSettings,
@@ -221,7 +221,7 @@ fn typed(
     let mut first = 0;
     while first < list.len() {
         let count = list[first].multiplicity.max(1).min(list.len() - first);
-        // A mode shape may stand at any phase: real and imaginary parts span the same directions.
+        // The phase of a complex mode shape is arbitrary; kinds are found from the shape made real.
         let real: Vec<Vec<f64>> =
             list[first..first + count].iter().map(|m| in_phase(&m.shape)).collect();
         let shares = kinds.shares(&real)?;
@@ -241,7 +241,8 @@ fn typed(
     Ok(modes)
 }
 
-/// A complex shape turned to be as real as it can be: by half the phase of Σ z².
+/// Real part of a complex shape after the rotation that makes it as real as possible, by minus half the phase
+/// of Σ z².
 fn in_phase(shape: &[dynamics::c64]) -> Vec<f64> {
     let square = shape
         .iter()

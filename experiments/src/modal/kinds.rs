@@ -8,8 +8,8 @@ use lumped::ModeType;
 /// the meshes of different planets differ, so that kinds mix a little.
 const MAJORITY: f64 = 0.5;
 
-/// Bases of the rotational and the translational kind on the races' coordinates scaled by √mass; what
-/// is left belongs to the planets.
+/// Bases of the rotational and the translational kind on the races' coordinates scaled by √mass; the rest of
+/// the space is the planet kind.
 #[derive(Debug)]
 pub(super) struct RaceKinds {
     bases: [Vec<Vec<f64>>; 2],

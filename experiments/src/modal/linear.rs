@@ -13,7 +13,7 @@ use crate::table_growth::large_enough;
 /// A standing set under torque.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Preload {
-    /// Torque; the set stands, whatever the speed.
+    /// Torque; the speed is not used.
     pub load: LoadCase,
     /// Position in the mesh cycle, cycles.
     pub position: f64,
@@ -35,7 +35,7 @@ pub fn preloaded<'b>(
     let sun = bodies.geometry.sun.as_ref().map_or(1.0, |sun| sun.base_radius);
     let force = (torque_nm / sun / scene.planets.psi_rad.len() as f64).max(1.0);
     let rotation = NominalRotation::Standing { position, step: step_s };
-    // Relieved flanks touch on a wider patch than their force says.
+    // Flanks with tip relief touch on a wider patch than the grid that is laid out for their force.
     large_enough(|size| {
         let (none, mesh_force) = (Imperfections::default(), force * f64::powi(2.0, size as i32));
         let loading = Loading { torque_nm, mesh_force };
@@ -45,7 +45,8 @@ pub fn preloaded<'b>(
     })
 }
 
-/// Undamped modes of a linearised set, typed; damping ratios from the damped ones, matched by order.
+/// Undamped modes of a linearised set with their types; each has the damping ratio of the damped mode nearest
+/// in frequency.
 ///
 /// # Errors
 /// If an eigenproblem fails.
@@ -64,7 +65,7 @@ pub fn linear_modes(
             group.clone().map(|j| (0..races).map(|i| shapes[(i, j)]).collect()).collect();
         let shares = kinds.shares(&list)?;
         for (k, j) in group.enumerate() {
-            // Modes of elastic bodies that leave the races still have no kind of their own.
+            // Modes of elastic bodies in which no race moves have no shares; their type is mixed.
             let own = shares.get(k).copied().unwrap_or([0.0; 3]);
             let nearest = damped.iter().min_by(|a, b| {
                 let off = |m: &&fe_contact::vibration::DampedMode| {
@@ -84,7 +85,7 @@ pub fn linear_modes(
     Ok(modes)
 }
 
-/// Runs of squares that agree to 1e-7: what symmetry makes equal, computed.
+/// Ranges of neighbouring squared frequencies that agree to 1e-7 (relative): equal by symmetry.
 fn groups(squares: &[f64]) -> Vec<std::ops::Range<usize>> {
     let mut groups = Vec::new();
     let mut start = 0;
@@ -97,10 +98,10 @@ fn groups(squares: &[f64]) -> Vec<std::ops::Range<usize>> {
     groups
 }
 
-/// How one mode follows the mesh stiffnesses.
+/// Sensitivity of one natural frequency to the mesh stiffnesses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeshInfluence {
-    /// ∂ln f/∂ln k, all meshes scaled alike.
+    /// ∂ln f/∂ln k, all mesh stiffnesses scaled by one factor.
     pub all_meshes: f64,
 }
 

@@ -1,10 +1,11 @@
 //! The lumped model with parameters from finite elements: same equations, parameters from the meshes.
 //!
-//! Masses and polar inertias are those of the meshed bodies, each mesh is as stiff as its contact
-//! at one frozen position and preload, 1ᵀS1 over its pairs, lines of action are those of the loaded set,
-//! bearings are the scene's. What is left between this model and the linearised FE/contact set is what a
-//! lumped model does not have: a carrier that gives way, corner contacts that press along another normal than
-//! the line of action, the slopes of the deformed flanks, and forces that turn with their lines of action.
+//! Masses and polar inertias are those of the meshed bodies, mesh stiffnesses are the tangent stiffnesses
+//! 1ᵀS1 over the pairs of each mesh at one frozen position and preload, lines of action are those of the
+//! loaded set, bearings are the scene's. The linearised FE/contact set differs from this model by effects
+//! that a lumped model does not have: flexibility of the carrier, corner contacts that press along another
+//! normal than the line of action, slopes of the deformed flanks, and mesh forces that turn with their lines
+//! of action.
 
 use fe_contact::statics::{Bodies, Races};
 use gearset::{LumpedInput, PerBody, PerMesh, PlanetOverride, PlanetPositions, Scene};
@@ -15,11 +16,11 @@ use super::linear::{Preload, preloaded};
 use crate::error::ExperimentError;
 use crate::natural_mode::NaturalMode;
 
-/// The scene with lumped parameters from its meshed bodies at a position and preload; seen so that
-/// the sun turns counter-clockwise.
+/// The scene with lumped parameters from its meshed bodies at a position and preload; for clockwise torque it
+/// is the mirrored set.
 ///
 /// # Errors
-/// If the set has no equilibrium there, or backside flanks press, of which the lumped model has none.
+/// If the set has no equilibrium there, or backside flanks press, which the lumped model does not have.
 pub fn lumped_from_fe(
     scene: &Scene,
     bodies: &Bodies,
@@ -30,8 +31,8 @@ pub fn lumped_from_fe(
     lumped_from_tangents(scene, bodies, set.races(), &angles, &set.linearised()?.mesh_tangents)
 }
 
-/// The same with the loaded pressure angles (rad; means over the planets are taken) and tangents (N/m) at
-/// hand: sun meshes, then ring meshes, one a planet.
+/// The same with given pressure angles under load (rad; means over the planets are taken) and tangent mesh
+/// stiffnesses (N/m): sun meshes, then ring meshes, one per planet.
 ///
 /// # Errors
 /// If there are more tangents than meshes, or the scene lacks a mesh or a mass.
@@ -61,7 +62,7 @@ pub fn lumped_from_tangents(
     let [carrier, ring, sun, planet] = races.radii.map(Some);
     let mean = |list: &[f64]| list.iter().sum::<f64>() / n as f64;
     let mut from_fe = scene.clone();
-    // Phases play no part in a frozen position.
+    // Assembly steps serve mesh phases, which are not used at a frozen position.
     from_fe.planets = PlanetPositions { psi_rad: races.psi.clone(), steps: None };
     from_fe.overrides = overrides.collect();
     from_fe.lumped = Some(LumpedInput {
@@ -74,8 +75,8 @@ pub fn lumped_from_tangents(
     Ok(from_fe)
 }
 
-/// Mass (kg) and I/r² (kg) of the meshed bodies; a carrier without a shape weighs what the scene
-/// says.
+/// Mass (kg) and I/r² (kg) of the meshed bodies; those of a carrier without geometry are the scene's lumped
+/// values.
 fn mass_properties(scene: &Scene, bodies: &Bodies, races: &Races) -> (PerBody, PerBody) {
     let [r_carrier, r_ring, r_sun, r_planet] = races.radii.map(|r| r * r);
     let given =

@@ -4,7 +4,7 @@ use lumped::ModeType;
 
 use crate::natural_mode::NaturalMode;
 
-/// A mode, however it was found.
+/// A mode, found by linearisation or by an impulse test.
 #[derive(Debug, Clone)]
 pub struct FeMode {
     /// Natural frequency |s|/2π, Hz.

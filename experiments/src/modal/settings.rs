@@ -1,4 +1,4 @@
-//! Settings of an impulse test, and those that make no sense.
+//! Settings of an impulse test, and why they may be refused.
 
 use dynamics::identify::Options;
 
@@ -10,39 +10,39 @@ use super::linear::Preload;
 /// period by more than 5 % ((ωΔt)²/12).
 const STEPS_IN_PERIOD: f64 = 8.0;
 
-/// Most steps of one decay: what memory and time allow.
+/// Most steps of one decay, to limit memory and time.
 const MOST_STEPS: f64 = 1e5;
 
 /// Settings of an impulse test.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImpulseSettings {
-    /// Where and under what torque the set stands, and the step.
+    /// Torque and position of the standing set, and the time step.
     pub preload: Preload,
     /// Length of each decay, s.
     pub duration_s: f64,
-    /// Largest change of a mesh force, in parts of the largest mesh force.
+    /// Wanted largest change of a mesh force by a pulse, relative to the largest mesh force.
     pub size: f64,
-    /// Band in which modes are looked for, Hz.
+    /// Band in which modes are identified, Hz.
     pub band_hz: (f64, f64),
-    /// Steps of the trial that says how hard to push, and of the response to half the pulse.
+    /// Steps of the trial that determines the force of a pulse, and of the response to half the pulse.
     pub trial_steps: usize,
-    /// Whether only the first of several like pulses are given: what costly bodies can afford.
+    /// Whether only the first of several similar pulses is applied, to save time with costly bodies.
     pub is_short: bool,
 }
 
-/// Why an impulse test would make no sense.
+/// Why settings of an impulse test are refused.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum SettingsError {
     /// No torque.
     #[error("0 N·m: nothing touches, so there is no preload to linearise about or to push from")]
     NoTorque,
-    /// A torque that is no number.
+    /// A torque that is not finite.
     #[error("{0} N·m: allowed is a finite torque other than 0; clockwise if negative")]
     Torque(f64),
-    /// A position out of the cycle.
+    /// A position outside the mesh cycle.
     #[error("{0}: allowed is a position in the mesh cycle, from 0 to 1")]
     Position(f64),
-    /// A step that is no step, or leaves out part of the band.
+    /// A time step that is not positive, or too long for the upper end of the band.
     #[error(
         "{} µs: allowed is a step above 0, at most {} µs, so that the shortest period of the band ({} Hz) has {STEPS_IN_PERIOD} steps",
         shown(1e6 * step_s), shown(1e6 * longest_s), highest_hz
@@ -81,7 +81,7 @@ pub enum SettingsError {
     },
 }
 
-/// Six digits behind the point at most; very small and very large numbers by their power of ten.
+/// A number with at most six decimal places; very small and very large ones in exponent notation.
 fn shown(x: f64) -> String {
     if x != 0.0 && !(1e-4..1e6).contains(&x.abs()) {
         return format!("{x:e}");
@@ -90,7 +90,7 @@ fn shown(x: f64) -> String {
 }
 
 impl ImpulseSettings {
-    /// At a preload, with steps of 5 µs for 40 ms, between 400 and 3000 Hz.
+    /// Settings at a preload: decays of 40 ms in steps of 5 µs, modes between 400 and 3000 Hz.
     pub fn at(load: LoadCase, position: f64) -> Self {
         Self {
             preload: Preload { load, position, step_s: 5e-6 },
@@ -102,7 +102,8 @@ impl ImpulseSettings {
         }
     }
 
-    /// The same for bodies with every degree of freedom: 10 ms, and as few pulses as reach all modes.
+    /// The same for bodies with every FE degree of freedom: 10 ms, and only the pulses needed to excite all
+    /// modes.
     pub fn short(load: LoadCase, position: f64) -> Self {
         Self { duration_s: 0.01, trial_steps: 60, is_short: true, ..Self::at(load, position) }
     }
@@ -118,7 +119,7 @@ impl ImpulseSettings {
         (self.duration_s / self.preload.step_s).round().max(1.0) as usize
     }
 
-    /// Refuses what makes no sense.
+    /// Checks torque, position, step and duration.
     ///
     /// # Errors
     /// If torque, position, step or duration cannot be used.
@@ -142,7 +143,7 @@ impl ImpulseSettings {
         if duration_s / step_s > MOST_STEPS {
             return Err(SettingsError::Steps { duration_s, step_s });
         }
-        // Of one pulse alone, which needs most.
+        // For a single input, which needs the longest records.
         let needed = self.identification().samples_needed(step_s, 1);
         if !duration_s.is_finite() || self.steps() < needed {
             let least_s = needed as f64 * step_s;
@@ -151,15 +152,15 @@ impl ImpulseSettings {
         Ok(())
     }
 
-    /// How modes are identified, but for the scale of the records.
+    /// Options of the identification, except the scale of the records.
     pub(super) fn identification(&self) -> Options {
         let mut options = Options::new(self.band_hz, self.stride());
-        // Every mode is pushed by some pulse; what is far weaker is what rounding left.
+        // Some pulse excites every mode; far weaker ones are rounding.
         options.weakest = 1e-3;
         options
     }
 
-    /// Samples are thinned to 2.7 for the shortest period looked for.
+    /// Decimation that leaves at least 2.7 samples per shortest period of the band.
     fn stride(&self) -> usize {
         let wanted = 1.0 / (2.7 * self.band_hz.1 * self.preload.step_s);
         (wanted.floor() as usize).max(1)
@@ -200,7 +201,7 @@ mod tests {
             let found = refusal(|s| s.duration_s = duration);
             assert!(matches!(found, SettingsError::Steps { .. }), "{found}");
         }
-        // A step of almost nothing.
+        // The shortest step above 0.
         let found = refusal(|s| s.preload.step_s = f64::MIN_POSITIVE);
         assert!(matches!(found, SettingsError::Steps { .. }), "{found}");
     }

@@ -1,4 +1,4 @@
-//! A model that is asked about another scene than it believes: for negative controls and what-if studies.
+//! A model evaluated on changed scenes, for negative controls and parameter studies.
 
 use gearset::{LoadCase, Scene};
 
@@ -9,7 +9,7 @@ use crate::model::{
 use crate::natural_mode::NaturalMode;
 use crate::sweep::SteadyState;
 
-/// A model whose scenes are changed on the way to it.
+/// A model that receives every scene after a change.
 #[derive(Debug, Clone)]
 pub struct Changed<'m, M: ?Sized, F> {
     model: &'m M,
@@ -17,7 +17,7 @@ pub struct Changed<'m, M: ?Sized, F> {
 }
 
 impl<'m, M: ?Sized, F: Fn(&mut Scene)> Changed<'m, M, F> {
-    /// `model`, asked about scenes after `change`.
+    /// `model`, evaluated on scenes after `change`.
     pub fn new(model: &'m M, change: F) -> Self {
         Self { model, change }
     }

@@ -13,6 +13,7 @@ use crate::mesh_cycle::{MeshCycle, RestState};
 use crate::modal::{FeMode, ImpulseSettings, Preload, impulse_test, linear_modes, preloaded};
 use crate::model::{
     ModalModel, ModelError, NextSpeeds, SpeedRequest, StaticModel, SteadyStateModel, gather,
+    one_request,
 };
 use crate::natural_mode::NaturalMode;
 use crate::sweep::{
@@ -118,9 +119,7 @@ impl SteadyStateModel for FeContact {
         case: &LoadCase,
         request: &SpeedRequest<'_>,
     ) -> Result<Vec<SteadyState>, ModelError> {
-        let mut speeds = Some(request.speeds_rpm.to_vec());
-        let SpeedRequest { harmonics, tolerance, .. } = *request;
-        self.explore(scene, case, (harmonics, tolerance), &mut |_| speeds.take())
+        one_request(self, scene, case, request)
     }
 
     fn explore(

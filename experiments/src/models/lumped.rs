@@ -6,7 +6,9 @@ use gearset::{LoadCase, Scene};
 use lumped::{LumpedModel, NaturalModes};
 
 use crate::bodies_cache::BodiesCache;
-use crate::model::{ModalModel, ModelError, NextSpeeds, SpeedRequest, SteadyStateModel};
+use crate::model::{
+    ModalModel, ModelError, NextSpeeds, SpeedRequest, SteadyStateModel, one_request,
+};
 use crate::natural_mode::NaturalMode;
 use crate::sweep::{MeshLawModel, SteadyState};
 
@@ -43,9 +45,7 @@ impl SteadyStateModel for Lumped {
         case: &LoadCase,
         request: &SpeedRequest<'_>,
     ) -> Result<Vec<SteadyState>, ModelError> {
-        let mut speeds = Some(request.speeds_rpm.to_vec());
-        let SpeedRequest { harmonics, tolerance, .. } = *request;
-        self.explore(scene, case, (harmonics, tolerance), &mut |_| speeds.take())
+        one_request(self, scene, case, request)
     }
 
     fn explore(

@@ -1,4 +1,5 @@
-//! Models that answer: the two of this project, tables of anybody's, and spoilt ones for negative controls.
+//! Models for experiments: the two of this project, recorded results of other models, and models on changed
+//! scenes for negative controls.
 
 mod changed;
 mod fe_contact;

@@ -27,6 +27,10 @@ use crate::sweep::{Coordinate, Line, Part, SteadyState};
 /// Torques are the same if they differ by less than this part.
 const SAME_TORQUE: f64 = 1e-6;
 
+/// A frequency occurs at most so often, and a set has at most so many planets: more is a slip of the pen, and
+/// would be asked for as memory.
+const MOST: usize = 1000;
+
 /// Tables of somebody's results.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Recorded {
@@ -114,6 +118,26 @@ struct StateRow {
     harmonic: usize,
     amplitude: f64,
     phase_rad: f64,
+}
+
+/// The number of a column, if it is finite.
+fn finite(path: &Path, column: &'static str, value: f64) -> Result<f64, RecordedError> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    let path = path.to_owned();
+    Err(RecordedError::Value { path, column, value: value.to_string(), allowed: "a finite number" })
+}
+
+/// The body of that name, of a planet below [`MOST`].
+fn part_named(path: &Path, name: &str) -> Result<Part, RecordedError> {
+    let part = Part::named(name).filter(|part| part.planet().is_none_or(|n| n < MOST));
+    part.ok_or_else(|| RecordedError::Value {
+        path: path.to_owned(),
+        column: "body",
+        value: name.to_owned(),
+        allowed: "carrier, ring, sun, planet_0, sun_mesh_0, ring_mesh_0 and so on, up to number 999",
+    })
 }
 
 /// Rows of one table of a folder; `None` if there is no such file.
@@ -247,13 +271,28 @@ impl Recorded {
             value: row.mode_type.clone(),
             allowed: "rotational, translational, planet or mixed",
         })?;
-        let mode = NaturalMode { frequency_hz: row.frequency_hz, mode_type };
+        let mode = NaturalMode {
+            frequency_hz: finite(path, "frequency_hz", row.frequency_hz)?,
+            mode_type,
+        };
         let count = row.multiplicity.unwrap_or(1);
+        if !(1..=MOST).contains(&count) {
+            return Err(RecordedError::Value {
+                path: path.to_owned(),
+                column: "multiplicity",
+                value: count.to_string(),
+                allowed: "1 to 1000",
+            });
+        }
         self.modes.extend(std::iter::repeat_n((row.scene, mode), count));
         Ok(())
     }
 
     fn take_rest(&mut self, path: &Path, row: CycleRow) -> Result<(), RecordedError> {
+        finite(path, "torque_nm", row.torque_nm)?;
+        finite(path, "position", row.position)?;
+        finite(path, "value", row.value)?;
+        let part = part_named(path, &row.body)?;
         let case = LoadCase::standing(row.torque_nm);
         let is_own = |(scene, cycle): &(String, MeshCycle)| {
             *scene == row.scene && cycle.case.sun_torque_nm == row.torque_nm
@@ -276,21 +315,12 @@ impl Recorded {
                 &mut states[at]
             }
         };
-        let unknown = |column, value: &str, allowed| RecordedError::Value {
-            path: path.to_owned(),
-            column,
-            value: value.to_owned(),
-            allowed,
-        };
-        match (Part::named(&row.body), row.coordinate.as_str()) {
-            (Some(Part::Sun), "x") => state.sun[0] = row.value,
-            (Some(Part::Sun), "y") => state.sun[1] = row.value,
-            (Some(Part::Sun), "rotation") => state.sun[2] = row.value,
-            (Some(Part::SunMesh(n)), "force") => put(&mut state.sun_mesh_n, n, row.value),
-            (Some(Part::RingMesh(n)), "force") => put(&mut state.ring_mesh_n, n, row.value),
-            (None, _) => {
-                return Err(unknown("body", &row.body, "sun, sun_mesh_0, ring_mesh_0, …"));
-            }
+        match (part, row.coordinate.as_str()) {
+            (Part::Sun, "x") => state.sun[0] = row.value,
+            (Part::Sun, "y") => state.sun[1] = row.value,
+            (Part::Sun, "rotation") => state.sun[2] = row.value,
+            (Part::SunMesh(n), "force") => put(&mut state.sun_mesh_n, n, row.value),
+            (Part::RingMesh(n), "force") => put(&mut state.ring_mesh_n, n, row.value),
             // More than is asked for.
             _ => {}
         }
@@ -298,18 +328,22 @@ impl Recorded {
     }
 
     fn take_line(&mut self, path: &Path, row: StateRow) -> Result<(), RecordedError> {
-        let unknown = |column, value: &str, allowed| RecordedError::Value {
+        for (column, value) in [
+            ("torque_nm", row.torque_nm),
+            ("speed_rpm", row.speed_rpm),
+            ("mesh_frequency_hz", row.mesh_frequency_hz),
+            ("amplitude", row.amplitude),
+            ("phase_rad", row.phase_rad),
+        ] {
+            finite(path, column, value)?;
+        }
+        let part = part_named(path, &row.body)?;
+        let coordinate = Coordinate::named(&row.coordinate);
+        let coordinate = coordinate.ok_or_else(|| RecordedError::Value {
             path: path.to_owned(),
-            column,
-            value: value.to_owned(),
-            allowed,
-        };
-        let part = Part::named(&row.body).ok_or_else(|| {
-            unknown("body", &row.body, "carrier, ring, sun, planet_0, sun_mesh_0, ring_mesh_0, …")
-        })?;
-        let coordinate = Coordinate::named(&row.coordinate).ok_or_else(|| {
-            let allowed = "radial, tangential, rotation, force, share or contact_loss";
-            unknown("coordinate", &row.coordinate, allowed)
+            column: "coordinate",
+            value: row.coordinate.clone(),
+            allowed: "radial, tangential, rotation, force, share or contact_loss",
         })?;
         let line = Line {
             part,
@@ -450,7 +484,25 @@ mod tests {
         assert!(refusal().contains("sideways") && refusal().contains("rotational"));
         write("modes.csv", "scene,frequency_hz,mode_type\na,fast,planet\n");
         assert!(refusal().contains("modes.csv") && refusal().contains("line: 2"), "{}", refusal());
+        for (row, column) in [
+            ("a,NaN,planet,1", "frequency_hz"),
+            ("a,9,planet,18446744073709551615", "multiplicity"),
+        ] {
+            write("modes.csv", &format!("scene,frequency_hz,mode_type,multiplicity\n{row}\n"));
+            assert!(refusal().contains(column), "{}", refusal());
+        }
         write("modes.csv", "scene,frequency_hz,mode_type\na,100,planet\n");
+        for (row, column) in [
+            ("a,1,0,sun_mesh_99999999999,force,1", "body"),
+            ("a,1,0,moon,force,1", "body"),
+            ("a,1,inf,sun,x,1", "position"),
+            ("a,1,0,sun,x,NaN", "value"),
+        ] {
+            let header = "scene,torque_nm,position,body,coordinate,value";
+            write("mesh_cycle.csv", &format!("{header}\n{row}\n"));
+            assert!(refusal().contains(column), "{}", refusal());
+        }
+        write("mesh_cycle.csv", "scene,torque_nm,position,body,coordinate,value\na,1,0,sun,x,1\n");
         write("steady_states.csv", "scene,torque_nm\na,1\n");
         assert!(refusal().contains("steady_states.csv"), "{}", refusal());
     }

@@ -1,8 +1,9 @@
-//! Leaps of a march: where the last cycles are heading, by reduced-rank extrapolation.
+//! Leaps of a march towards its steady state, by reduced-rank extrapolation from the last cycles.
 //!
-//! What a march has left decays by the few modes that are damped least, and contact that has settled makes the
-//! map from cycle to cycle affine. A leap only chooses another state to march on from: a steady state is one by
-//! the same change from cycle to cycle as without.
+//! Once the contact pattern has settled, the map from the state at the start of a cycle to that of the next
+//! is affine, and the deviation from the steady state decays in the few modes of least damping. A leap only
+//! changes the state from which the march continues; the change from cycle to cycle that defines a steady
+//! state is the same with and without leaps.
 
 use dynamics::extrapolation_weights;
 
@@ -13,14 +14,15 @@ use crate::error::ExperimentError;
 /// Cycles after a leap or the start before differences are collected: fast modes and contact settle first.
 const PAUSE: usize = 4;
 
-/// Differences that a leap takes: of three pairs of modes and one decay.
+/// Number of differences used for a leap: two for each of three oscillating modes, and one for a decay.
 const WINDOW: usize = 7;
 
-/// A leap has helped if, after the pause, the change from cycle to cycle is below this part of what it was.
-/// Where many modes ring (steps far longer than their periods, at creeping speeds) it does not.
+/// A leap has helped if, after the pause, the change from cycle to cycle is below this share of that before
+/// the leap. It does not help where many modes keep ringing, as at very low speeds, at which a time step is
+/// far longer than their periods.
 const HELPFUL: f64 = 0.3;
 
-/// Leaps in vain after which a march goes on without.
+/// Number of leaps without success after which no more are tried.
 const PATIENCE: usize = 2;
 
 /// The last cycles of a march.
@@ -38,8 +40,8 @@ pub(super) struct Extrapolation {
 }
 
 impl Extrapolation {
-    /// Takes note of a cycle, `now`, that began in the state `start` and followed `before`; leaps if it has seen
-    /// enough.
+    /// Registers the cycle `now`, which began in the state `start` and followed the cycle `before`; makes a
+    /// leap once enough differences are known.
     ///
     /// # Errors
     /// As [`Marching::restore`].
@@ -65,7 +67,7 @@ impl Extrapolation {
             state[..counters].copy_from_slice(&set.state()[..counters]);
             return set.restore(&state);
         }
-        // The first cycle after a leap follows none.
+        // Cycles of the pause are not used.
         if self.cycles <= PAUSE {
             return Ok(());
         }
@@ -79,7 +81,7 @@ impl Extrapolation {
             let mut leap = here.clone();
             let counters = set.counters();
             for (i, value) in leap.iter_mut().enumerate().skip(counters) {
-                // Differences are of cycles: one state more stands at their ends than is weighed.
+                // As many states as differences are weighted; the state after the last is not needed.
                 *value = weights.iter().zip(&self.states).map(|(w, s)| w * s[i]).sum();
             }
             set.restore(&leap)?;

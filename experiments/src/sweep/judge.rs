@@ -1,4 +1,4 @@
-//! Judges a sweep from its own data: which harmonics moved what, and where the peaks stand.
+//! Evaluation of a sweep: the sun's motion by harmonic, and resonant peaks with their natural frequencies.
 
 use gearset::ExcitationStrengths;
 use lumped::ModeType;
@@ -14,17 +14,17 @@ pub struct Content {
     pub harmonic: usize,
     /// Rotation, or translation.
     pub is_rotation: bool,
-    /// Whether planet phasing lets it be.
+    /// Whether planet phasing allows it.
     pub is_allowed: bool,
-    /// Largest amplitude over speed, in parts of the largest of any body and harmonic in the same
-    /// kind of coordinate.
+    /// Largest amplitude over speed, relative to the largest of any body and harmonic in the same kind of
+    /// coordinate.
     pub share: f64,
 }
 
-/// A peak with the natural frequency its harmonic meets.
+/// A peak with the natural frequency that its harmonic excites.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Assigned {
-    /// Of the sun or of planet 0.
+    /// Response of the sun or of planet 0.
     pub response: Response,
     /// The peak.
     pub peak: Peak,
@@ -33,13 +33,13 @@ pub struct Assigned {
 }
 
 impl Assigned {
-    /// How far l f_m at the peak is off the natural frequency, percent of it.
+    /// Deviation of l f_m at the peak from the natural frequency, percent of the latter.
     pub fn off_percent(&self) -> f64 {
         100.0 * (self.peak.frequency_hz / self.natural.frequency_hz - 1.0)
     }
 }
 
-/// A motion of one kind of one part.
+/// Rotation or translation of one part.
 fn response(is_rotation: bool, part: Part) -> Response {
     if is_rotation { Response::Rotation(part) } else { Response::Translation(part) }
 }
@@ -81,8 +81,8 @@ pub fn contents(points: &[&SteadyState], strengths: &[ExcitationStrengths]) -> V
     list
 }
 
-/// Peaks of the sun's and planet 0's motion in harmonics 1…`harmonics` that stand out by `least`;
-/// rounding has peaks too, so those below 1e-6 of the largest motion of any body do not count.
+/// Peaks of the sun's and planet 0's motion in harmonics 1…`harmonics` with a prominence of at least `least`.
+/// Peaks below 1e-6 of the largest motion of any body are rounding and are left out.
 fn prominent(points: &[&SteadyState], harmonics: usize, least: f64) -> Vec<(Response, Vec<Peak>)> {
     let mut list = Vec::new();
     for is_rotation in [true, false] {
@@ -96,8 +96,9 @@ fn prominent(points: &[&SteadyState], harmonics: usize, least: f64) -> Vec<(Resp
     list
 }
 
-/// Speeds about every peak of the sun and of planet 0 that stands out by `least` (ratio), ascending: `count` even
-/// ones to either side, up to `span` (parts of the speed). Peaks nearer than that share theirs.
+/// Speeds about every peak of the sun and of planet 0 with a prominence of at least `least`, ascending, rpm:
+/// `count` evenly spaced ones within ±`span` (relative) of the peak. Of peaks that are nearer than `span` to
+/// each other only the first is used.
 pub fn peak_speeds(
     points: &[&SteadyState],
     harmonics: usize,
@@ -115,7 +116,7 @@ pub fn peak_speeds(
     speeds
 }
 
-/// Speeds of those peaks themselves.
+/// Speeds of the peaks used by [`peak_speeds`], rpm.
 pub(super) fn peak_centres(
     points: &[&SteadyState],
     harmonics: usize,
@@ -130,11 +131,12 @@ pub(super) fn peak_centres(
     centres
 }
 
-/// Peaks of the sun and of planet 0 that stand out by `least`, each with the mode its harmonic meets.
+/// Peaks of the sun and of planet 0 with a prominence of at least `least`, each with the mode that its
+/// harmonic excites.
 ///
-/// A resonance of one harmonic turns the meshes' stiffness over with the motion it makes and so
-/// shows in other harmonics too, at the same speed: of peaks of one quantity within 3 % of speed only
-/// that of the harmonic which moves most is kept.
+/// The large motion at a resonance of one harmonic modulates the mesh stiffness, so that other harmonics peak
+/// at the same speed: of the peaks of one quantity within 3 % of speed only the one of largest amplitude is
+/// kept.
 pub fn assigned(
     points: &[&SteadyState],
     strengths: &[ExcitationStrengths],

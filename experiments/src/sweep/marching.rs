@@ -1,25 +1,25 @@
-//! What a sweep asks of a model in time, whichever it is.
+//! Interface between a sweep and a model that is integrated in time.
 
 use fe_contact::statics::SUN;
 use fe_contact::vibration::VibratingSet;
 
 use crate::error::ExperimentError;
 
-/// What the steps of a set were made of so far.
+/// Computational effort of the steps of a set so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
     /// Coordinates that are stepped, elastic ones included.
     pub coordinates: usize,
-    /// Mean number of solutions for all meshes in a step.
+    /// Mean number of solutions for the forces of all meshes per step.
     pub solutions: f64,
 }
 
 /// A set that turns at constant nominal speed under a constant torque.
 pub trait Marching {
-    /// Puts it to rest in the equilibrium of position 0.
+    /// Puts the set to rest in its static equilibrium at position 0.
     ///
     /// # Errors
-    /// If there is none.
+    /// If there is no equilibrium.
     fn rest(&mut self) -> Result<(), ExperimentError>;
 
     /// One time step.
@@ -35,30 +35,30 @@ pub trait Marching {
     /// Force of each mesh: sun meshes, ring meshes, then backside flanks if any touch, N.
     fn mesh_forces(&self, out: &mut Vec<f64>);
 
-    /// What approaches of tooth pairs are off their linear form at most, and the sun's base radius, m;
-    /// `None` where meshes do not follow displaced gears at all.
+    /// Kinematic rest (largest deviation of a pair's approach from its linear form) and the sun's base
+    /// radius, m; `None` for a model without approaches of single pairs.
     fn kinematic_rest(&self) -> Option<[f64; 2]> {
         None
     }
 
-    /// What its steps took.
+    /// Effort of the steps so far.
     fn effort(&self) -> Effort;
 
-    /// All the next step starts from, after whole mesh cycles: [`counters`](Self::counters) whole numbers, then
-    /// continuous quantities.
+    /// The state from which the next step continues, after a whole number of mesh cycles: first
+    /// [`counters`](Self::counters) whole numbers, then continuous quantities.
     fn state(&mut self) -> Vec<f64>;
 
-    /// How many numbers of a state count cycles or steps.
+    /// Number of leading entries of a state that count cycles or steps.
     fn counters(&self) -> usize;
 
-    /// Goes on from a state.
+    /// Continues from a state.
     ///
     /// # Errors
-    /// If it is of another kind of set.
+    /// If the state is that of another kind of set.
     fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError>;
 }
 
-/// An FE/contact set under the torque it is given.
+/// An FE/contact set under a constant torque on the sun (N m, magnitude).
 #[derive(Debug)]
 pub(super) struct FeMarching<'s> {
     pub(super) set: VibratingSet<'s>,

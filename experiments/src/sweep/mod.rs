@@ -1,10 +1,9 @@
 //! Speed sweeps: steady states of a turning set by marching, their harmonics, as fixed plans.
 
 mod extrapolation;
-mod feed;
 mod judge;
-mod law_feed;
 mod marching;
+mod mesh_law_model;
 mod naturals;
 mod peaks;
 mod plan;
@@ -13,11 +12,11 @@ mod record;
 mod run;
 mod state;
 mod steady;
+mod sweep_model;
 
-pub use feed::{FeModel, HEADROOM, SweepModel};
 pub use judge::{Assigned, Content, assigned, contents, peak_speeds};
-pub use law_feed::MeshLawModel;
 pub use marching::{Effort, Marching};
+pub use mesh_law_model::MeshLawModel;
 pub use naturals::naturals;
 pub use peaks::{Peak, Response, peaks, top_of_three};
 pub use plan::{Chain, Direction, Plan, PlanError, even_speeds};
@@ -26,3 +25,4 @@ pub use record::Record;
 pub use run::{Kept, Memory, PointStore, StoreError, Sweep, run};
 pub use state::{Coordinate, Line, Part, SteadyState};
 pub use steady::{Steady, SteadySettings, steady};
+pub use sweep_model::{FeModel, HEADROOM, SweepModel};

@@ -1,4 +1,4 @@
-//! Natural frequencies that peaks are held against.
+//! Natural frequencies with which resonant peaks are compared.
 
 use fe_contact::statics::Bodies;
 use gearset::{LoadCase, Scene};

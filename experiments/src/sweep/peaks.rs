@@ -26,7 +26,7 @@ impl Response {
 
 impl Response {
     /// Amplitude and number of the strongest of harmonics 1 to `harmonics`, the lowest of equals; zeros if
-    /// none moves.
+    /// all amplitudes are zero.
     pub fn strongest(self, point: &SteadyState, harmonics: usize) -> (f64, usize) {
         let of = |l: usize| (self.amplitude(point, l), l);
         (1..=harmonics).map(of).fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
@@ -42,19 +42,18 @@ pub struct Peak {
     pub speed_rpm: f64,
     /// l f_m, Hz.
     pub frequency_hz: f64,
-    /// Height there, m or rad.
+    /// Amplitude there, m or rad.
     pub amplitude: f64,
-    /// Height over the larger of the deepest points to either side, up to where the curve rises above
-    /// the peak: 1 is no peak.
+    /// Amplitude over the larger of the minima to either side, each taken up to where the curve exceeds the
+    /// peak; 1 means no peak.
     pub prominence: f64,
 }
 
-/// A parabola's top may stand so far above the highest point, in the logarithm of the amplitude.
+/// Largest accepted height of a parabola's top above the highest point, in the logarithm of the amplitude.
 const HIGHEST: f64 = 0.25;
 
-/// Peaks of one harmonic of points in order of speed: interior maxima that stand out by `least`
-/// (ratio). Place and height are those of the parabola through three points in the logarithm of the
-/// amplitude.
+/// Peaks of one harmonic of points in order of speed: interior maxima with a prominence of at least `least`.
+/// Speed and amplitude are those of the parabola through three points in the logarithm of the amplitude.
 pub fn peaks(
     points: &[&SteadyState],
     response: Response,
@@ -79,7 +78,7 @@ pub fn peaks(
         let x = [0, 1, 2].map(|k| points[i + k - 1].case.speed_rpm);
         let y = [0, 1, 2].map(|k| a[i + k - 1].max(f64::MIN_POSITIVE).ln());
         let (speed_rpm, top) = match vertex(x, y) {
-            // Points that stand close by chance make steep parabolas.
+            // Points that happen to be close together can give steep parabolas.
             Some((speed, top)) if top - y[1] < HIGHEST => (speed, top),
             _ => (x[1], y[1]),
         };
@@ -95,9 +94,9 @@ pub fn peaks(
     found
 }
 
-/// Place and height of the peak of (place, amplitude) pairs in order, from the highest and its neighbours;
-/// `None` if the highest stands at an end. About one resonance 1/a² is a parabola but for terms of the third
-/// order: with points a half-width apart that is 0.4 % of the height and 0.05 % of the place at most.
+/// Place and height of the peak of (place, amplitude) pairs in order of place, from the highest and its
+/// neighbours; `None` if the highest is at an end. Near a single resonance 1/a² is a parabola up to terms of
+/// third order: with points a half-width apart the error is at most 0.4 % in height and 0.05 % in place.
 pub fn top_of_three(points: impl Iterator<Item = (f64, f64)>) -> Option<(f64, f64)> {
     let list: Vec<(f64, f64)> = points.collect();
     let highest = (0..list.len()).max_by(|i, k| list[*i].1.total_cmp(&list[*k].1))?;
@@ -120,7 +119,7 @@ fn vertex(x: [f64; 3], y: [f64; 3]) -> Option<(f64, f64)> {
 mod tests {
     use super::*;
 
-    /// Wherever the peak falls between points a half-width apart.
+    /// The peak may be anywhere between points that are a half-width apart.
     #[test]
     fn three_points_find_a_resonance() {
         for centre in [1618.0, 1624.0, 1630.0, 1641.0] {
@@ -137,7 +136,7 @@ mod tests {
     }
     use crate::sweep::Line;
 
-    /// |H| of one degree of freedom at 778 Hz with 2 % damping, met by the first harmonic.
+    /// |H| of one degree of freedom at 778 Hz with 2 % damping, excited by the first harmonic.
     #[test]
     fn a_resonance_is_found_and_nothing_else() {
         let points: Vec<SteadyState> = (0..60)

@@ -47,12 +47,13 @@ impl Record {
         self.samples.len() / self.width().max(1)
     }
 
-    /// Whether nothing is in it.
+    /// Whether the record has no samples.
     pub fn is_empty(&self) -> bool {
         self.samples.is_empty()
     }
 
-    /// Takes the present state; ψ₀ turns central members' x and y towards planet 0.
+    /// Appends the present state; x and y of the central members are rotated by ψ₀ to radial (towards
+    /// planet 0) and tangential.
     fn take(&mut self, set: &dyn Marching, first_planet_rad: f64) {
         let (sin, cos) = first_planet_rad.sin_cos();
         let (central, planets) = set.displacements();
@@ -66,7 +67,7 @@ impl Record {
         self.with_backside += usize::from(self.forces.iter().skip(fronts).any(|f| *f > 0.0));
     }
 
-    /// Records `cycles` mesh cycles of `steps` steps each, from the present state on.
+    /// Records `steps` time steps from the present state on.
     ///
     /// # Errors
     /// As [`Marching::step`].
@@ -97,8 +98,8 @@ impl Record {
         self.samples.iter().skip(channel).step_by(self.width()).copied().collect()
     }
 
-    /// Largest change from an earlier record of the same length, as part of the largest peak-to-peak
-    /// value of all bodies: of displacements and of rotations, the larger.
+    /// Largest change from an earlier record of the same length, relative to the largest peak-to-peak value
+    /// of all bodies: the larger of the ratios of translations and of rotations.
     pub fn change_from(&self, before: &Record) -> f64 {
         if before.len() != self.len() {
             return f64::INFINITY;
@@ -121,8 +122,8 @@ impl Record {
         ratio(kinds[0]).max(ratio(kinds[1]))
     }
 
-    /// Displacements less those of an earlier record of the same length, translations and rotations each in parts
-    /// of their largest peak-to-peak value; empty if the lengths differ.
+    /// Displacements less those of an earlier record of the same length, translations and rotations each
+    /// relative to their largest peak-to-peak value; empty if the lengths differ.
     pub fn scaled_difference(&self, before: &Record) -> Vec<f64> {
         if before.len() != self.len() {
             return Vec::new();
@@ -141,8 +142,8 @@ impl Record {
             .collect()
     }
 
-    /// Complex amplitudes of harmonics 0…l of one channel: x(t) ≈ Re Σ X_l e^{i 2π l f_m t}, by
-    /// cosine and sine parts.
+    /// Complex amplitudes of the harmonics 0 to `harmonics` of one channel, from a record of `cycles` mesh
+    /// cycles: x(t) ≈ Re Σ X_l e^{i 2π l f_m t}, as real and imaginary parts.
     ///
     /// # Errors
     /// If the record is too short or not finite.
@@ -157,8 +158,9 @@ impl Record {
         Ok((0..=harmonics).map(at).collect())
     }
 
-    /// Part of the vibration's energy (sum of squared amplitudes of all lines but the mean) that lies
-    /// between mesh harmonics, of translations and of rotations, the larger; over `cycles` cycles.
+    /// Share of the vibration's energy (sum of squared amplitudes of all lines but the mean) that lies
+    /// between mesh harmonics, from a record of `cycles` mesh cycles: the larger of the shares of
+    /// translations and of rotations.
     ///
     /// # Errors
     /// If the record is too short or not finite.

@@ -6,12 +6,12 @@ use std::sync::Mutex;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::feed::SweepModel;
 use super::judge::peak_centres;
 use super::plan::{Chain, Plan};
 use super::point::{SweepPoint, TableRow};
 use super::state::SteadyState;
 use super::steady::{SteadySettings, steady};
+use super::sweep_model::SweepModel;
 use crate::error::ExperimentError;
 use crate::table_growth::large_enough;
 

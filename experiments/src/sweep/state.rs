@@ -49,6 +49,14 @@ impl Part {
         }
     }
 
+    /// Number of the planet it belongs to.
+    pub fn planet(self) -> Option<usize> {
+        match self {
+            Self::Carrier | Self::Ring | Self::Sun => None,
+            Self::Planet(n) | Self::SunMesh(n) | Self::RingMesh(n) => Some(n),
+        }
+    }
+
     /// Body number k: carrier, ring, sun, planets.
     pub fn body(k: usize) -> Self {
         match k {

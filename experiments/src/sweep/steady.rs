@@ -11,9 +11,10 @@ use crate::error::ExperimentError;
 /// When a march is over, and what is recorded.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SteadySettings {
-    /// Largest change from one cycle to the next, in parts of the largest peak-to-peak vibration.
+    /// Largest change from one cycle to the next of a steady state, relative to the largest peak-to-peak
+    /// vibration.
     pub tolerance: f64,
-    /// Cycles after which a set that has not settled is recorded as it is.
+    /// Cycles after which the march ends and is recorded although it is not steady.
     pub most_cycles: usize,
     /// Highest harmonic kept.
     pub harmonics: usize,
@@ -35,18 +36,18 @@ pub struct Steady {
     pub record: Record,
     /// Cycles marched before those that are recorded.
     pub cycles: usize,
-    /// Change of the last two cycles.
+    /// Change from the last cycle but one to the last, relative as [`SteadySettings::tolerance`].
     pub residual: f64,
-    /// Energy between mesh harmonics over all vibration, if it was asked for.
+    /// Share of the vibration's energy that lies between mesh harmonics, if requested.
     pub between: Option<f64>,
-    /// What linear kinematics leave out, on a sample of positions.
+    /// Kinematic rest at a sample of positions; `None` if the model has none.
     pub rest: Option<KinematicRest>,
 }
 
-/// Positions of a mesh cycle at which exact kinematics are evaluated.
+/// Number of positions of a mesh cycle at which exact kinematics are evaluated.
 const SAMPLED: usize = 14;
 
-/// Marches from the present state, which must stand at the start of a mesh cycle.
+/// Marches from the present state, which must be at the start of a mesh cycle, to the steady state.
 ///
 /// # Errors
 /// If a step fails.
@@ -81,8 +82,9 @@ pub fn steady(
     Ok(Steady { record: now, cycles, residual, between, rest })
 }
 
-/// Exact kinematics on one more cycle, against the sun's motion over the recorded one: its rotation at the base
-/// circle is the transmission error, but resonances of translational modes have little of it.
+/// Kinematic rest over one more cycle, also relative to the sun's largest peak-to-peak motion over the
+/// recorded cycle. This includes x and y, since the transmission error (rotation at the base circle) is small
+/// at resonances of translational modes.
 fn sampled_rest(
     set: &mut dyn Marching,
     record: &Record,
@@ -99,7 +101,7 @@ fn sampled_rest(
         }
         if let Some([rest, base_radius]) = set.kinematic_rest() {
             radius = base_radius;
-            // What is no number is kept.
+            // NaN is kept.
             largest = if largest.is_nan() || largest >= rest { largest } else { rest };
         }
     }

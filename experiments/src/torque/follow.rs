@@ -10,15 +10,15 @@ use crate::error::ExperimentError;
 use crate::model::SteadyStateModel;
 use crate::sweep::{Part, Response, SteadySettings, SteadyState};
 
-/// How far about the natural frequency a peak is looked for, in parts of it, at so many speeds; and
-/// how far about the highest of those.
+/// Search for a peak: half-width of the range of speeds about the natural frequency (relative) and number of
+/// speeds; then the same about the highest point found.
 const SEARCH: (f64, usize) = (0.06, 7);
 const CLOSER: (f64, usize) = (0.015, 5);
 
 /// Heights of one series' peaks over torque.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Followed {
-    /// Which resonance.
+    /// The resonance.
     pub series: Series,
     /// Speed of the sun's peak at each torque, rpm.
     pub speeds_rpm: Vec<f64>,
@@ -29,13 +29,14 @@ pub struct Followed {
 }
 
 impl Followed {
-    /// Heights over that at the first torque.
+    /// Heights relative to that at the first torque.
     pub fn growth(heights: &[f64]) -> Vec<f64> {
         heights.iter().map(|h| h / heights[0]).collect()
     }
 }
 
-/// Largest amplitude over some points; between them the parabola through three logarithms.
+/// Speed (rpm) and amplitude of the largest response over some points; between points from a parabola through
+/// the logarithms of three amplitudes.
 fn top(points: &[&SteadyState], response: Response, harmonic: usize) -> (f64, f64) {
     let peaks = crate::sweep::peaks(points, response, harmonic, 1.0);
     let highest = peaks.iter().max_by(|a, b| a.amplitude.total_cmp(&b.amplitude));
@@ -48,17 +49,17 @@ fn top(points: &[&SteadyState], response: Response, harmonic: usize) -> (f64, f6
     })
 }
 
-/// `count` even speeds about a centre, `span` (parts of it) to either side, rpm.
+/// `count` evenly spaced speeds within ±`span` (relative) of a centre, rpm.
 fn about(centre: f64, (span, count): (f64, usize)) -> impl Iterator<Item = f64> {
     let at = move |i: usize| 2.0 * i as f64 / (count - 1) as f64 - 1.0;
     (0..count).map(move |i| centre * (1.0 + span * at(i)))
 }
 
-/// Follows some series over torques (N m on the sun); after a search about the natural frequency the
-/// peaks of the parts in `closer` are looked at more closely.
+/// Follows some series over torques (N m on the sun): a search about the natural frequency, then a finer one
+/// about the peaks of the parts in `closer`.
 ///
 /// # Errors
-/// [`ExperimentError::Model`] if the model has no answer.
+/// [`ExperimentError::Model`] if the model fails.
 pub fn follow(
     model: &dyn SteadyStateModel,
     scene: &Scene,
@@ -87,10 +88,10 @@ pub fn follow(
         let mut next = |found: &[SteadyState]| -> Option<Vec<f64>> {
             asked += 1;
             match asked {
-                // All series at once: a model may go through their speeds side by side.
+                // All series in one request: a model may compute speeds in parallel.
                 1 => Some(series.iter().flat_map(|s| about(start(s), SEARCH)).collect()),
                 2 => {
-                    // Sun and planet may peak at speeds of their own.
+                    // Sun and planet may peak at different speeds.
                     let mut again = Vec::new();
                     for s in series {
                         let own = within(s, found);
@@ -120,8 +121,8 @@ pub fn follow(
     Ok(followed)
 }
 
-/// Growth over torque of the static deflection's harmonics: for each torque the amplitudes of
-/// harmonics 1…5 of the sun's rotation (rad) and translation (m).
+/// Harmonics of the static deflection over torque: for each torque the amplitudes of harmonics 0 (mean) to 5
+/// of the sun's rotation (rad) and translation (m).
 ///
 /// # Errors
 /// If a set has no equilibrium.

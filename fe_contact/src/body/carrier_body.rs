@@ -49,7 +49,7 @@ impl CarrierBody {
     /// Meshes and solves the carrier for planets at ψ (rad).
     ///
     /// # Errors
-    /// If the mesh is unsound.
+    /// If an element is distorted or the stiffness is not positive definite.
     pub fn new(
         input: &CarrierInput,
         center_distance: f64,
@@ -157,7 +157,7 @@ impl CarrierBody {
         if input.is_rigid {
             flexibility.fill(0.0);
         }
-        // The whole annulus weighs, its seats filled.
+        // Mass and inertia are those of the whole annulus, its seats filled with material.
         let [r, s] = [input.bore_radius, input.outer_radius].map(|r| r * r);
         let mass = material.density * face_width * std::f64::consts::PI * (s - r);
         Ok(Self {

@@ -11,15 +11,17 @@ use crate::material::Elastic;
 /// Neighbouring teeth on either side whose response to a loaded tooth is kept.
 const REACH: i64 = 4;
 
-/// Loads that a body is solved for at once.
+/// Unit loads for which a body is solved at a time.
 const AT_ONCE: usize = 16;
 
-/// A point of a flank: the load it takes, spread work-equivalently over the flank's functions.
+/// A point of a flank. A load at the point acts on the flank's functions work-equivalently, in
+/// proportion to their values there.
 #[derive(Debug, Clone, Copy)]
 pub struct FlankPoint {
-    /// Functions of the flank, as columns of the response, by value at x (y is the next).
+    /// Column of the response of each function of the flank, for loads along x (the next one is for
+    /// y).
     pub columns: [usize; 4],
-    /// Their values at the point.
+    /// Values of the functions at the point.
     pub weights: [f64; 4],
 }
 
@@ -32,7 +34,7 @@ pub struct Deep {
     pub count: usize,
     /// Nodes of the sector.
     pub nodes: [usize; crate::element::MOST],
-    /// Functions at the point.
+    /// Values of the functions at the point.
     pub weights: [f64; crate::element::MOST],
 }
 
@@ -55,11 +57,12 @@ pub struct GearBody {
     load_nodes: Vec<usize>,
     /// Column pair of each sector node, `usize::MAX` if it takes no load.
     column_of: Vec<usize>,
-    /// Displacements (2 rows a sector node, tooth frame of the moving tooth) under unit loads on
-    /// tooth 0 (2 columns a load node, its own frame), for teeth −REACH…REACH, m/N.
+    /// Displacements (2 rows per sector node, in the frame of the displaced tooth) under unit loads
+    /// on tooth 0 (2 columns per load node, in the frame of tooth 0), one matrix for each of the
+    /// teeth −REACH…REACH, m/N.
     responses: Vec<DMatrix<f64>>,
-    /// The same at the load nodes alone (2 rows each), for all teeth on from the loaded one; tooth 0
-    /// alone where teeth are meshed differently, m/N.
+    /// The same at the load nodes only (2 rows each), for every tooth, counted from the loaded one;
+    /// for tooth 0 only where teeth are meshed differently, m/N.
     around: Vec<DMatrix<f64>>,
     boxes: Vec<[f64; 4]>,
 }
@@ -68,7 +71,7 @@ impl GearBody {
     /// Assembles and factorises the body and solves for loads on one tooth.
     ///
     /// # Errors
-    /// If the mesh is unsound or the matrix is not positive definite.
+    /// If an element is distorted or the stiffness is not positive definite.
     pub fn new(mesh: FeGearMesh, material: Elastic, face_width: f64) -> Result<Self, FeError> {
         let (mass, inertia) = mesh.mass_properties(&material, face_width)?;
         let unknown_of = number_unknowns(&mesh);
@@ -88,7 +91,8 @@ impl GearBody {
         let columns = 2 * load_nodes.len();
         let teeth = mesh.outline.gear().teeth as i64;
         let reach = REACH.min((teeth - 1) / 2);
-        // What is seen of the displacements: a tooth, nodes of its sector, their displacements in its own frame.
+        // Displacements that are kept: a tooth, nodes of its sector, and their response in the
+        // tooth's frame.
         let seen = |tooth: usize, locals: Vec<usize>| {
             let response = DMatrix::zeros(2 * locals.len(), columns);
             (tooth, locals, response)
@@ -101,7 +105,8 @@ impl GearBody {
             .collect();
         let alike = if mesh.sectors.len() > 1 { 1 } else { teeth as usize };
         let mut ring: Vec<_> = (0..alike).map(|tooth| seen(tooth, load_nodes.clone())).collect();
-        // All displacements of a body under all loads at once would be the largest thing there is.
+        // In blocks of loads: the displacements of the whole body under all loads at once would be
+        // the largest array in memory.
         for first in (0..columns).step_by(AT_ONCE) {
             let count = AT_ONCE.min(columns - first);
             let mut right = Mat::zeros(factor.size, count);
@@ -131,7 +136,8 @@ impl GearBody {
         let (responses, around) = (kept(near), kept(ring));
         let boxes = sector.elements.iter().map(|e| {
             let mut b = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
-            // Corners bound the element but for the bulge of its edges.
+            // The corners bound the element except where its curved edges bulge; the margin covers
+            // that.
             for node in &e.nodes[..4] {
                 let [x, y] = sector.points[*node];
                 b = [b[0].min(x), b[1].min(y), b[2].max(x), b[3].max(y)];
@@ -161,7 +167,7 @@ impl GearBody {
         self.load_nodes.len()
     }
 
-    /// The flank's functions at arc length ℓ, held to the flank's ends.
+    /// The flank's functions at arc length ℓ (m), which is clamped to the flank's ends.
     pub fn flank_point(&self, side: Side, l: f64) -> FlankPoint {
         let flank = &self.mesh.sectors[0].flanks[side.index()];
         let k = flank.partition_point(|s| s.to < l).min(flank.len() - 1);
@@ -230,7 +236,7 @@ impl GearBody {
     }
 
     /// Normal displacement at `depth` (m) below mid-flank of the tooth `offset` on, under a unit
-    /// normal force at mid-flank of tooth 0, m/N. Zero where the depth leaves the tooth.
+    /// normal force at mid-flank of tooth 0, m/N. Zero if that point lies outside the tooth.
     pub fn mid_flank_flexibility(&self, side: Side, depth: f64, offset: i64) -> f64 {
         let outline = &self.mesh.outline;
         let l = 0.5 * outline.flank_length();
@@ -247,14 +253,14 @@ impl GearBody {
         self.flexibility((&self.flank_point(side, l), inwards), offset, (&deep, inwards))
     }
 
-    /// Node of the sector behind a column pair of the response.
+    /// Sector node on which the load of a column of the response acts.
     pub fn node_of(&self, column: usize) -> usize {
         self.load_nodes[column / 2]
     }
 
     /// A load spread like a half ellipse of half-width `w` (m) about arc length ℓ: functions of the
-    /// flank, as columns of the response, with weights that sum to those of a unit load. What would
-    /// lie beyond an end of the flank is folded back.
+    /// flank, as columns of the response, with weights that sum to those of a unit load. The part
+    /// beyond an end of the flank is reflected at that end.
     pub fn flank_load(&self, side: Side, l: f64, w: f64) -> Vec<(usize, f64)> {
         const POINTS: usize = 7;
         let length = self.mesh.outline.flank_length();
@@ -275,9 +281,9 @@ impl GearBody {
         load
     }
 
-    /// Displacement along `measured`, averaged as the second load is spread, on the tooth `offset` on
-    /// from the loaded one, under a unit force along `force` spread as the first; directions in the
-    /// teeth's own frames, m/N.
+    /// Displacement along `measured`, averaged with the weights of the second load, of the tooth
+    /// `offset` teeth on from the loaded one, under a unit force along `force` distributed as the
+    /// first load; directions in the teeth's own frames, m/N.
     pub fn surface_flexibility(
         &self,
         (load, force): (&[(usize, f64)], [f64; 2]),
@@ -299,8 +305,9 @@ impl GearBody {
         sum
     }
 
-    /// Displacement along `measured` of a deep point on the tooth `offset` on from the loaded one,
-    /// under a unit force along `force` at a flank point; directions in the teeth's own frames, m/N.
+    /// Displacement along `measured` of a point inside the tooth `offset` teeth on from the loaded
+    /// one, under a unit force along `force` at a flank point; directions in the teeth's own
+    /// frames, m/N.
     pub fn flexibility(
         &self,
         (load, force): (&FlankPoint, [f64; 2]),

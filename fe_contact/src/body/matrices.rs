@@ -28,8 +28,8 @@ pub struct BodyMatrices {
 }
 
 impl BodyMatrices {
-    /// Matrices of a gear. Element matrices are computed once in the tooth's frame and turned, so
-    /// that the body is as periodic as its teeth.
+    /// Matrices of a gear. Element matrices are computed once in the tooth's frame and rotated to
+    /// each tooth, so that the matrices are exactly cyclic.
     ///
     /// # Errors
     /// If an element is distorted.
@@ -65,10 +65,11 @@ impl BodyMatrices {
                     continue;
                 }
                 for b in 0..count {
-                    // The consistent mass is the same in x and y, so no turning concerns it.
+                    // The consistent mass is the same in x and y, so that rotation does not change
+                    // it.
                     let inertia = m[(2 * a, 2 * b)];
-                    // Rigid motion of node b, whether or not it lies on the race: translations move
-                    // a derivative node not at all.
+                    // Rigid motion of node b, also where it lies on the race. A translation does
+                    // not change derivative nodes.
                     let moved = if mesh.is_derivative[e.nodes[b]] { 0.0 } else { 1.0 };
                     let [x, y] = mesh.points[e.nodes[b]];
                     coupling[0][row] += inertia * moved;

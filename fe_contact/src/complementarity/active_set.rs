@@ -9,17 +9,18 @@ use super::{check, kkt_residual, largest, or_one, separations};
 const FLOOR: f64 = 1e-13;
 /// Block exchanges in a row that may fail to reduce the violations.
 const PATIENCE: usize = 3;
-/// What a solution may be off before Lemke's method is asked instead.
+/// Largest KKT residual of an accepted solution; above it, Lemke's method is used instead.
 const SOUND: f64 = 1e-9;
 
-/// Guesses the places in contact, solves there, exchanges all violators at once, and repeats: the
-/// default, since a good guess needs a factorisation or two.
+/// Guesses the cells in contact, solves for their forces, exchanges all violating cells at once,
+/// and repeats. It is the default because one or two factorisations suffice with a good guess.
 ///
-/// Block principal pivoting: blocks while the number of violations falls, else, after 3 more, one
-/// exchange at a time by Murty's least-index rule, which ends for every positive definite
-/// compliance. Where a block is singular, or rounding keeps it from ending, [`Lemke`] takes over.
-/// Starts without a guess from the overlapping places. Júdice & Pires, *Computers & Operations
-/// Research* 21 (1994) 587–596; Murty, *Opsearch* 11 (1974) 123–130.
+/// Block principal pivoting exchanges whole blocks while the number of violations falls. After
+/// three block exchanges without a new minimum it exchanges one cell at a time by Murty's
+/// least-index rule, which ends for every positive definite compliance. If a block is singular, or
+/// rounding keeps the method from ending, [`Lemke`] is used. Without a guess it starts from the
+/// cells with negative gaps. Júdice & Pires, *Computers & Operations Research* 21 (1994) 587–596;
+/// Murty, *Opsearch* 11 (1974) 123–130.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct ActiveSet;
 
@@ -53,10 +54,10 @@ impl ComplementaritySolver for ActiveSet {
     }
 }
 
-/// Block principal pivoting from `active`; the factorisations spent if it fails.
+/// Block principal pivoting from `active`; on failure the number of factorisations done.
 fn pivot(problem: &Problem<'_>, mut active: Vec<bool>) -> Result<Solution, usize> {
     let n = problem.gaps.len();
-    // Blocks end within some ten, single exchanges within about n.
+    // Block exchanges end within about ten iterations, single exchanges within about n.
     let limit = 50 + 4 * n;
     let (mut fewest, mut patience) = (n + 1, PATIENCE);
     for iterations in 1..=limit {
@@ -87,7 +88,7 @@ fn pivot(problem: &Problem<'_>, mut active: Vec<bool>) -> Result<Solution, usize
     Err(limit)
 }
 
-/// The places in contact, solved for w = 0.
+/// Cells in contact, with the forces that make w = 0 there.
 struct Block {
     index: Vec<usize>,
     matrix: DMatrix<f64>,
@@ -104,7 +105,7 @@ impl Block {
         let matrix = DMatrix::from_fn(m, m, |i, j| problem.compliance[(index[i], index[j])]);
         let right = DVector::from_fn(m, |i, _| -problem.gaps[index[i]]);
         let factor = Cholesky::new(matrix.clone())?;
-        // A pivot that is all rounding would pass as definite.
+        // A pivot of the size of rounding errors may be positive although the block is singular.
         let floor = m as f64 * f64::EPSILON;
         if (0..m).any(|i| factor.l_dirty()[(i, i)].powi(2) <= floor * matrix[(i, i)]) {
             return None;
@@ -113,13 +114,14 @@ impl Block {
         Some(Self { index, matrix, right, factor, forces })
     }
 
-    /// Places that pull, and places outside that overlap; ascending.
+    /// Indices of active cells with a tensile force and of inactive cells that overlap, ascending.
     fn violators(&self, problem: &Problem<'_>, active: &[bool]) -> Vec<usize> {
         let forces = self.spread(&self.forces, active.len());
         let separations = separations(problem, &forces);
         let force_floor = FLOOR * largest(&forces);
         let gap_floor = FLOOR * or_one(largest(problem.gaps));
-        // C p cancels where C has both signs: its rounding is that of its terms.
+        // Where C has entries of both signs, terms of C p cancel, and the rounding error is that of
+        // Σ |C| |p|.
         let moved: Vec<f64> = forces.iter().map(|p| p.abs()).collect();
         let terms = |i: usize| -> f64 {
             problem.compliance.column(i).iter().zip(&moved).map(|(c, p)| c.abs() * p).sum()
@@ -145,7 +147,7 @@ impl Block {
         forces
     }
 
-    /// `block` values at their places among n, else 0.
+    /// Values of the block at their cells among n, 0 elsewhere.
     fn spread(&self, block: &DVector<f64>, n: usize) -> Vec<f64> {
         let mut all = vec![0.0; n];
         for (i, value) in self.index.iter().zip(block.iter()) {

@@ -6,25 +6,26 @@ use clarabel::solver::{DefaultSettings, DefaultSolver, IPSolver, NonnegativeCone
 use super::{ComplementarityError, ComplementaritySolver, Problem, RESIDUAL_LIMIT, Solution};
 use super::{check, kkt_residual, scales, separations};
 
-/// Asked of gap and feasibility of the scaled program; double precision gives no more.
+/// Tolerance of duality gap and feasibility of the scaled program; double precision allows no
+/// smaller one.
 const TOLERANCE: f64 = 1e-12;
 
-/// Regularisation of the linear systems. With Clarabel's own, 1e-8, residuals rise near the end of
-/// easy problems, which stops it early.
+/// Regularisation of the linear systems. With Clarabel's default of 1e-8, residuals rise in the
+/// last iterations of easy problems, which stops it early.
 const REGULARISATION: f64 = 1e-12;
-/// Added to the scaled diagonal in the second try, to bound forces that a singular compliance
-/// leaves open.
+/// Added to the scaled diagonal in the second attempt, to bound forces that a singular compliance
+/// does not determine.
 const RIDGE: f64 = 1e-12;
-/// A residual that needs no second try.
+/// Largest KKT residual that needs no second attempt.
 const SOUND: f64 = 1e-9;
 
-/// min ½ pᵀ C p + gᵀ p, p ≥ 0, by the interior-point method of Clarabel, whose conditions of
-/// optimality are the complementarity problem.
+/// Solves min ½ pᵀ C p + gᵀ p, p ≥ 0, whose conditions of optimality are the complementarity
+/// problem, by the interior-point method of Clarabel.
 ///
-/// Shares no algebra with the pivoting solvers, hence their oracle. Forces come to within the
-/// square root of its tolerance over the smallest eigenvalue where contact is just lost, and may be
-/// tiny rather than 0 outside contact. Ignores the warm start. Goulart & Chen, *Clarabel* (2024);
-/// Cottle, Pang & Stone, ch. 1.
+/// It shares no algebra with the pivoting solvers and is the independent check on them. Where
+/// contact is just lost, the error of the forces is of the order of √(tolerance/smallest eigenvalue
+/// of C); outside contact forces may be tiny instead of 0. Ignores the warm start. Goulart & Chen,
+/// *Clarabel* (2024); Cottle, Pang & Stone, ch. 1.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct InteriorPoint;
 
@@ -58,7 +59,7 @@ impl ComplementaritySolver for InteriorPoint {
     }
 }
 
-/// What one run of Clarabel gave.
+/// Result of one run of Clarabel.
 struct Attempt {
     solution: Solution,
     status: SolverStatus,
@@ -93,12 +94,14 @@ fn attempt(problem: &Problem<'_>, ridge: f64) -> Result<Attempt, Complementarity
         solver.solution.x.iter().map(|p| (p * gap / compliance).max(0.0)).collect();
     let status = solver.solution.status;
     let residual = kkt_residual(problem, &forces);
-    // The largest forces of singular compliances carry rounding, so a status is not enough.
+    // With singular compliances the largest forces contain rounding errors that Clarabel's status
+    // does not show, hence the residual.
     let usable = matches!(
         status,
         SolverStatus::Solved | SolverStatus::AlmostSolved | SolverStatus::InsufficientProgress
     ) && residual <= RESIDUAL_LIMIT;
-    // Neither p nor w is exactly 0 inside: the larger of the two, scaled, decides.
+    // At an interior point neither p nor w is exactly 0: a cell is in contact if its scaled p
+    // exceeds w.
     let active = separations(problem, &forces)
         .iter()
         .zip(&forces)

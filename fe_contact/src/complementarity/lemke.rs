@@ -5,22 +5,23 @@ use nalgebra::{DMatrix, DVector};
 use super::{ComplementarityError, ComplementaritySolver, Problem, Solution};
 use super::{accept, check, kkt_residual, scales};
 
-/// Pivots below this, relative to the compliance and the largest of their column, are taken for 0:
-/// on singular compliances smaller ones turn rounding into forces.
+/// Pivots below this are taken as 0, relative to the larger of the scaled compliance (1) and the
+/// largest entry of their column: with singular compliances smaller pivots amplify rounding errors
+/// into forces.
 const PIVOT_FLOOR: f64 = 1e-9;
-/// Ratios closer than this tie.
+/// Ratios that differ by less than this, relative to 1 plus their size, count as equal.
 const TIE: f64 = 1e-13;
-/// A ray that leaves no more overlap than this, relative to the largest gap, is a solution: where
-/// the gaps are only just solvable, rounding decides whether they are.
+/// A ray is accepted as a solution if the overlap it leaves is at most this part of the largest
+/// gap: where a solution only just exists, rounding errors would otherwise decide.
 const SOLVABLE: f64 = 1e-10;
 
 /// Lemke's complementary pivoting on a dense tableau, with ones as covering vector and the
 /// lexicographic ratio test, which rules out cycling.
 ///
-/// For a positive semidefinite compliance it ends at a solution, or in a ray if there is none.
-/// The final forces are solved for afresh, so that rounding of the tableau does not stay in them.
-/// Ignores the warm start. Lemke, *Management Science* 11 (1965) 681–689; Cottle, Pang & Stone,
-/// ch. 4.
+/// For a positive semidefinite compliance it ends at a solution, or in a ray if there is none. The
+/// final forces are computed again from the original compliance, so that they do not contain the
+/// rounding errors of the tableau. Ignores the warm start. Lemke, *Management Science* 11 (1965)
+/// 681–689; Cottle, Pang & Stone, ch. 4.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Lemke;
 
@@ -35,7 +36,7 @@ impl ComplementaritySolver for Lemke {
         _warm: Option<&[bool]>,
     ) -> Result<Solution, ComplementarityError> {
         check(problem)?;
-        // Contact takes one or two pivots a place; the worst case is exponential.
+        // Contact problems take one or two pivots per cell; the worst case is exponential.
         solve_within(problem, 100 + 50 * problem.gaps.len())
     }
 }
@@ -78,7 +79,7 @@ struct Tableau {
     rows: Vec<f64>,
     /// Variable of each row, by column.
     basis: Vec<usize>,
-    /// Forces per unit of the scaled problem.
+    /// Force that corresponds to 1 in the scaled problem.
     force_unit: f64,
 }
 
@@ -105,7 +106,7 @@ impl Tableau {
         2 * self.n
     }
 
-    /// The partner of a variable; z₀ stands for itself.
+    /// Column of the complementary variable, p_i for w_i and w_i for p_i; z₀ is its own.
     fn complement(&self, variable: usize) -> usize {
         if variable == self.artificial() {
             variable
@@ -120,10 +121,10 @@ impl Tableau {
         self.rows[row * self.width + column]
     }
 
-    /// Brings z₀ in at the largest overlap; what enters next.
+    /// Pivots z₀ into the row of the largest overlap; returns the column that enters next.
     fn start(&mut self) -> usize {
         let right = self.width - 1;
-        // The last of equals keeps all rows lexicographically positive.
+        // Of equal overlaps the last row is taken, which keeps all rows lexicographically positive.
         let row =
             (0..self.n).fold(0, |a, i| if self.at(i, right) <= self.at(a, right) { i } else { a });
         let left = self.basis[row];
@@ -131,7 +132,7 @@ impl Tableau {
         self.complement(left)
     }
 
-    /// z₀: what is left to close; in units of the largest gap.
+    /// Value of z₀, the overlap that is left, in units of the largest gap.
     fn overlap(&self) -> f64 {
         let row = self.basis.iter().position(|variable| *variable == self.artificial());
         row.map_or(0.0, |i| self.at(i, self.width - 1))
@@ -144,7 +145,7 @@ impl Tableau {
             (0..self.n).filter(|i| self.at(*i, entering) > PIVOT_FLOOR * top.max(1.0)).collect();
         self.keep_smallest(&mut rows, entering, self.width - 1);
         if let Some(end) = rows.iter().find(|i| self.basis[**i] == self.artificial()) {
-            // In a tie z₀ may leave at once: that is a solution.
+            // Of equal ratios that of z₀ is taken: once z₀ leaves the basis, the problem is solved.
             return Some(*end);
         }
         for column in 0..self.n {
@@ -180,14 +181,15 @@ impl Tableau {
                     *value -= factor * p;
                 }
                 target[entering] = 0.0;
-                // Ties within rounding must not turn into infeasibility.
+                // A right side within rounding of 0 is set to 0, so that it does not become
+                // negative.
                 target[right] = if target[right].abs() < TIE { 0.0 } else { target[right] };
             }
         }
         self.basis[row] = entering;
     }
 
-    /// Forces and contact of the basis.
+    /// Forces and cells in contact of the present basis.
     fn solution(&self, problem: &Problem<'_>) -> (Vec<f64>, Vec<bool>) {
         let mut solution = Solution::zero(problem.gaps.len());
         for (row, variable) in self.basis.iter().enumerate() {
@@ -201,8 +203,8 @@ impl Tableau {
     }
 }
 
-/// Forces solved from the original compliance at the places in contact; `forces` of the tableau if
-/// those are better, as they are when the block is singular to rounding.
+/// Forces solved from the original compliance at the cells in contact; the `forces` of the tableau
+/// if their residual is smaller, as with a block that is singular to rounding.
 fn refreshed(problem: &Problem<'_>, active: &[bool], forces: Vec<f64>) -> Vec<f64> {
     let index: Vec<usize> = (0..active.len()).filter(|i| active[*i]).collect();
     let m = index.len();

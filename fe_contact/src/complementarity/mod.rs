@@ -11,7 +11,7 @@
 //! solution exists, and p too if C is definite (Cottle, Pang & Stone, *The Linear Complementarity
 //! Problem*, Academic Press 1992, ch. 3).
 //!
-//! Three independent routes to it: [`ActiveSet`] (the default), [`Lemke`] and, with the feature
+//! Three independent solvers: [`ActiveSet`] (the default), [`Lemke`] and, with the feature
 //! `interior_point`, `InteriorPoint`.
 
 mod active_set;
@@ -43,8 +43,8 @@ pub struct Problem<'a> {
 pub struct Solution {
     /// Forces p ≥ 0, n, e.g. N.
     pub forces: Vec<f64>,
-    /// Whether each place is in contact (n): w = 0 there, elsewhere p = 0. Where both vanish either
-    /// value may come.
+    /// Whether each cell is in contact (n): w = 0 where it is, p = 0 where it is not. Where both
+    /// are 0, either value is possible.
     pub active: Vec<bool>,
     /// Pivots ([`Lemke`]), factorisations ([`ActiveSet`], plus pivots if it had to fall back) or
     /// interior-point iterations (`InteriorPoint`).
@@ -103,13 +103,13 @@ pub enum ComplementarityError {
         /// The limit.
         pivots: usize,
     },
-    /// Rounding spoilt the solution: the compliance is too nearly singular, or not semidefinite.
+    /// The solution is not accurate enough: the compliance is nearly singular, or not semidefinite.
     #[error("the solution is off by {residual:e} of the problem's scale")]
     Inaccurate {
         /// Its [`kkt_residual`].
         residual: f64,
     },
-    /// The interior-point method gave up.
+    /// The interior-point method found no accurate solution.
     #[error("interior point: {0}")]
     InteriorPoint(String),
 }
@@ -119,7 +119,7 @@ pub trait ComplementaritySolver {
     /// Short name.
     fn name(&self) -> &'static str;
 
-    /// Solves `problem`. `warm` guesses which places are in contact; it speeds some solvers up and
+    /// Solves `problem`. `warm` guesses which cells are in contact; it speeds some solvers up and
     /// changes no result. A guess of another length is ignored.
     ///
     /// # Errors
@@ -151,7 +151,8 @@ pub fn kkt_residual(problem: &Problem<'_>, forces: &[f64]) -> f64 {
     worst
 }
 
-/// Refuses what no solver can work with.
+/// Refuses a problem with a compliance that is not square, with sizes that differ, or with values
+/// that are not finite.
 fn check(problem: &Problem<'_>) -> Result<(), ComplementarityError> {
     let (rows, columns) = problem.compliance.shape();
     if rows != columns {
@@ -171,7 +172,7 @@ fn check(problem: &Problem<'_>) -> Result<(), ComplementarityError> {
     }
 }
 
-/// Passes `solution` on if it solves `problem`.
+/// Returns `solution` if its residual is within [`RESIDUAL_LIMIT`].
 fn accept(problem: &Problem<'_>, solution: Solution) -> Result<Solution, ComplementarityError> {
     let residual = kkt_residual(problem, &solution.forces);
     if residual <= RESIDUAL_LIMIT {

@@ -7,7 +7,7 @@ use super::table::MeshTable;
 use crate::complementarity::{ComplementaritySolver, Problem};
 use crate::error::FeError;
 
-/// What a mesh answers to rigid approaches.
+/// Forces of a mesh under given rigid approaches of its pairs.
 #[derive(Debug, Clone)]
 pub struct MeshAnswer {
     /// Force of each pair, N.
@@ -25,8 +25,8 @@ pub struct MeshAnswer {
 }
 
 impl MeshTable {
-    /// Solves contact for pair approaches (m, positive into each other) beyond the gaps; `offsets`
-    /// are added to all gaps of a pair.
+    /// Solves contact for approaches of the pairs (m, positive if the flanks would overlap);
+    /// `offsets` (m) are added to all gaps of a pair.
     ///
     /// # Errors
     /// If the contact solver fails.
@@ -92,8 +92,8 @@ impl MeshTable {
         own.iter().fold(0.0f64, |a, f| a.max(*f)) / (cells.width * self.face_width)
     }
 
-    /// Total of the pair forces along their rows' entries, driver then driven: generalised forces
-    /// that *press* (to be subtracted from the race equations), N and N m.
+    /// Sum of force times row over all pairs: generalised forces on (x, y, θ) of driver, then
+    /// driven gear, to be *subtracted* in the races' equations, N and N·m.
     pub fn resultant(&self, pair_forces: &[f64]) -> [f64; 6] {
         let mut sum = [0.0; 6];
         for (pair, force) in self.pairs.iter().zip(pair_forces) {
@@ -109,8 +109,8 @@ impl MeshTable {
         self.gaps.iter().fold(f64::INFINITY, |a, g| a.min(*g))
     }
 
-    /// Refuses a loaded cell at the end of a grid that ends within the flanks, and a patch of too
-    /// few cells under `worth_judging` (N) or more.
+    /// Refuses a patch that reaches an end of its grid where the flanks continue, and one with
+    /// fewer than `least_cells` loaded cells under `worth_judging` (N) or more.
     ///
     /// # Errors
     /// [`FeError::GridOverflow`], [`FeError::GridTooCoarse`].
@@ -132,8 +132,9 @@ impl MeshTable {
                 return Err(FeError::GridOverflow { phase: self.phase, pair, reach_mm, force_n });
             }
             let loaded = own.iter().filter(|a| **a).count();
-            // A patch at a corner is narrow on any grid, and a pair that has only begun to touch
-            // rests on a cell or two: neither carries its load by the cells' number.
+            // Cells are counted only in patches on the path, clear of the grid's ends, with more
+            // than 0.3 of the mesh force: a patch at a corner is narrow on any grid, and a pair
+            // that has just begun to touch loads one or two cells.
             let is_whole = cells.location == Location::Path && !ends[0] && !ends[1];
             let total: f64 = answer.pair_forces.iter().sum();
             let counts = force_n >= worth_judging && force_n > 0.3 * total;

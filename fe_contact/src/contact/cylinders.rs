@@ -1,4 +1,5 @@
-//! Two equal half-planes with circular gaps: the contact code on a problem with a closed form.
+//! Two equal half-planes with circular gaps, on which the contact code is compared with Hertz's
+//! closed form.
 
 use nalgebra::DMatrix;
 
@@ -15,7 +16,7 @@ pub struct Cylinders {
     pub forces: Vec<f64>,
     /// Width of a cell, m.
     pub width: f64,
-    /// Approach in the half-plane's own datum, m.
+    /// Approach without the constant that is added to the half-plane's displacement, m.
     datum: f64,
 }
 
@@ -35,8 +36,8 @@ impl Cylinders {
         let width = 2.0 * reach / cells as f64;
         let x: Vec<f64> = (0..cells).map(|i| -reach + (i as f64 + 0.5) * width).collect();
         let half = HalfPlane::new(material);
-        // A half-plane is known up to a constant; taking the displacement 10 m down for zero makes
-        // the matrix positive definite.
+        // The displacement of a half-plane is known up to a constant. A constant that makes it 0 at
+        // a depth of 10 m makes the matrix positive definite.
         let far = -2.0 * half.strip(0.0, 10.0, 0.5 * width) / width;
         let compliance = DMatrix::from_fn(cells, cells, |i, j| {
             2.0 * half.strip(x[i] - x[j], 0.0, 0.5 * width) / width + far

@@ -1,7 +1,8 @@
 //! Elastic half-plane under a strip of uniform pressure.
 //!
 //! Johnson, Contact Mechanics (1985), §2.3 and §2.5. Displacements in the plane are known up to a
-//! rigid motion only (ln r does not vanish far away), so only differences are offered.
+//! rigid motion only (ln r does not vanish far away), so that only their differences have a
+//! meaning.
 
 use crate::material::Elastic;
 

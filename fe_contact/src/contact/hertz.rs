@@ -32,7 +32,8 @@ impl Hertz {
         self.peak_pressure * (1.0 - (x / self.half_width).powi(2)).max(0.0).sqrt()
     }
 
-    /// How much nearer the surface comes to the point at `depth` below the centre, in one body, m.
+    /// Compression of one body between the centre of its surface and the point at `depth` (m) below
+    /// it, m.
     ///
     /// ε_z integrated along the axis with σ_z = −p₀ a/√(a² + z²) and
     /// σ_x = −p₀ [(a² + 2z²)/(a√(a² + z²)) − 2z/a]:
@@ -47,7 +48,7 @@ impl Hertz {
 }
 
 /// Half-width and peak pressure of the ellipse nearest to a pressure distribution: p² is a parabola
-/// in x, fitted by least squares over the loaded cells. `None` below four of them.
+/// in x, fitted by least squares over the loaded cells. `None` with fewer than four of them.
 pub fn fit(positions: &[f64], pressures: &[f64]) -> Option<Hertz> {
     let loaded: Vec<(f64, f64)> =
         positions.iter().zip(pressures).filter(|c| *c.1 > 0.0).map(|(x, p)| (*x, p * p)).collect();

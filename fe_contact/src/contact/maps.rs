@@ -9,14 +9,19 @@
 //! (E: which pair a cell belongs to, g: gaps at δ = 0). The map holds while p_A ≥ 0 and the other
 //! cells' gaps g − E δ + C p ≥ 0; only when none of the known ones does is contact solved anew.
 
+use std::sync::{Arc, PoisonError, RwLock};
+
 use nalgebra::{Cholesky, DMatrix};
 
 use super::table::{CellSettings, MeshTable};
 use crate::complementarity::{ComplementaritySolver, Problem};
 use crate::error::FeError;
 
-/// Maps kept of one mesh at one phase; the oldest gives way.
+/// Maps that one set keeps of one mesh at one phase; the oldest gives way.
 const MOST_MAPS: usize = 64;
+
+/// Maps that sets share of one mesh at one phase; those found later are not shared.
+const MOST_SHARED: usize = 64;
 
 /// Cells' forces and gaps may be this much below zero, in parts of the load and of the window that
 /// the table is made for: at the border between two sets either may be taken.
@@ -32,8 +37,6 @@ const REMEMBERED: usize = 8;
 /// Affine law of one set of touching cells.
 #[derive(Debug, Clone)]
 pub struct ContactMap {
-    /// Unlike that of any other map of the mesh.
-    pub id: u64,
     /// S, k×k by rows, N/m.
     pub stiffness: Vec<f64>,
     /// P₀, k, N.
@@ -45,8 +48,8 @@ pub struct ContactMap {
     /// For every cell by how much δ may change before it leaves the set, in the norm of the largest
     /// change of a pair, m: at δ = 0, then its k derivatives; slack included, in lanes of cells.
     room: Vec<[f64; LANES]>,
-    /// What the slack makes of it at least, m.
-    least_room: f64,
+    /// What the slack makes of it at least and at most, m.
+    slack_room: [f64; 2],
     /// Pair whose patch reaches the end of its grid.
     pub overflows: Option<usize>,
 }
@@ -70,17 +73,52 @@ impl Held {
     }
 }
 
-/// The maps of one mesh at one phase.
+/// Maps of one mesh at one phase that all sets with the same table share.
+///
+/// The contact problem has one solution, so inside the range where a map holds it is the map that a set would
+/// find by itself: who shares gets the same bits as who does not, whatever others found before.
+#[derive(Debug, Default)]
+pub struct SharedMaps {
+    maps: RwLock<Vec<Arc<ContactMap>>>,
+}
+
+impl SharedMaps {
+    /// The map that holds at approaches δ (less gap offsets), and not merely by its slack.
+    fn inside(&self, delta: &[f64]) -> Option<Arc<ContactMap>> {
+        let maps = self.maps.read().unwrap_or_else(PoisonError::into_inner);
+        let is_inside = |map: &&Arc<ContactMap>| {
+            map.room_at(delta).is_some_and(|room| room > 2.0 * map.slack_room[1])
+        };
+        maps.iter().find(is_inside).cloned()
+    }
+
+    fn add(&self, map: &Arc<ContactMap>) {
+        let mut maps = self.maps.write().unwrap_or_else(PoisonError::into_inner);
+        if maps.len() < MOST_SHARED && maps.iter().all(|own| own.active != map.active) {
+            maps.push(Arc::clone(map));
+        }
+    }
+}
+
+/// A map under the number that one set gives it, unlike that of any other of the mesh.
+#[derive(Debug, Clone)]
+struct Numbered {
+    id: u64,
+    map: Arc<ContactMap>,
+}
+
+/// The maps that one set keeps of one mesh at one phase.
 #[derive(Debug, Clone)]
 pub struct ContactMaps {
-    maps: Vec<ContactMap>,
+    maps: Vec<Numbered>,
+    shared: Arc<SharedMaps>,
     next: u64,
     /// Most that are kept, and which gives way next when there are too many.
     most: usize,
     oldest: usize,
     /// Load (N) and window (m) of the tables: what slack is a part of.
     scale: (f64, f64),
-    /// Contact problems solved.
+    /// Contact problems that none of the set's maps answered.
     pub solved: usize,
 }
 
@@ -121,7 +159,6 @@ impl ContactMap {
         table: &MeshTable,
         owner: &[usize],
         active: Vec<bool>,
-        id: u64,
         scale: (f64, f64),
     ) -> Option<Self> {
         let k = table.pairs.len();
@@ -178,18 +215,23 @@ impl ContactMap {
             let ends = [own[0], own[own.len() - 1]];
             (0..2).any(|i| ends[i] && !pair.ends_at_tip[i])
         });
-        let (room, least_room) = rooms(&cells, &active, k, scale);
-        Some(Self { id, stiffness, forces, energy, active, room, least_room, overflows })
+        let (room, slack_room) = rooms(&cells, &active, k, scale);
+        Some(Self { stiffness, forces, energy, active, room, slack_room, overflows })
     }
 }
 
-/// What must not be negative of every cell (at δ = 0, then its k derivatives) as room for changes of δ,
-/// in lanes, and the least of what slack adds.
-fn rooms(cells: &[f64], active: &[bool], k: usize, scale: (f64, f64)) -> (Vec<[f64; LANES]>, f64) {
+/// How far the approaches may change before each cell leaves the set (at δ = 0, then the k derivatives), in
+/// lanes of cells, and the least and the most that slack adds to it.
+fn rooms(
+    cells: &[f64],
+    active: &[bool],
+    k: usize,
+    scale: (f64, f64),
+) -> (Vec<[f64; LANES]>, [f64; 2]) {
     let mut room = vec![[0.0; LANES]; active.len().div_ceil(LANES) * (k + 1)];
-    // Cells that are none have all room.
+    // Lanes that are left over after the last cell must never be the ones that end a map's range.
     room.iter_mut().step_by(k + 1).for_each(|value| *value = [f64::INFINITY; LANES]);
-    let mut least = f64::INFINITY;
+    let (mut least, mut most) = (f64::INFINITY, 0.0f64);
     for (i, (cell, active)) in cells.chunks_exact(k + 1).zip(active).enumerate() {
         let slack = SLACK * if *active { scale.0 } else { scale.1 };
         let steepness: f64 = cell[1..].iter().map(|c| c.abs()).sum();
@@ -200,15 +242,16 @@ fn rooms(cells: &[f64], active: &[bool], k: usize, scale: (f64, f64)) -> (Vec<[f
             own[i % LANES] = c * per;
         }
         least = least.min(slack * per);
+        most = most.max(slack * per);
     }
-    (room, least)
+    (room, [least, most])
 }
 
 impl ContactMaps {
-    /// None yet, for tables of such cells.
-    pub fn new(settings: &CellSettings) -> Self {
+    /// None yet, for a table of such cells whose maps are `shared` with other sets.
+    pub fn new(settings: &CellSettings, shared: Arc<SharedMaps>) -> Self {
         let scale = (settings.force, settings.window);
-        Self { maps: Vec::new(), next: 0, most: MOST_MAPS, oldest: 0, scale, solved: 0 }
+        Self { maps: Vec::new(), shared, next: 0, most: MOST_MAPS, oldest: 0, scale, solved: 0 }
     }
 
     /// The same, for few maps.
@@ -221,7 +264,9 @@ impl ContactMaps {
     pub fn bytes(&self) -> usize {
         self.maps
             .iter()
-            .map(|m| 8 * (LANES * m.room.len() + m.stiffness.len()) + m.active.len())
+            .map(|Numbered { map, .. }| {
+                8 * (LANES * map.room.len() + map.stiffness.len()) + map.active.len()
+            })
             .sum()
     }
 
@@ -233,7 +278,8 @@ impl ContactMaps {
     /// The map that held, unless it gave way to another.
     #[inline]
     pub fn held(&self, held: &Held) -> Option<&ContactMap> {
-        self.maps.get(held.place?).filter(|map| map.id == held.id)
+        let own = self.maps.get(held.place?).filter(|own| own.id == held.id)?;
+        Some(&own.map)
     }
 
     /// Whether the map that held still does at approaches δ (less gap offsets), one for each pair.
@@ -247,12 +293,12 @@ impl ContactMaps {
     }
 
     fn holds_cell_by_cell(&self, place: usize, held: &mut Held, delta: &[f64]) -> bool {
-        let Some(map) = self.maps.get(place) else { return false };
+        let Some(Numbered { id, map }) = self.maps.get(place) else { return false };
         let Some(room) = map.room_at(delta) else { return false };
-        (held.place, held.id) = (Some(place), map.id);
+        (held.place, held.id) = (Some(place), *id);
         held.at.iter_mut().zip(delta).for_each(|(at, d)| *at = *d);
         // Half the slack is far above rounding: looked at cell by cell, the map would hold as well.
-        held.within = room - 0.5 * map.least_room;
+        held.within = room - 0.5 * map.slack_room[0];
         true
     }
 
@@ -276,6 +322,10 @@ impl ContactMaps {
             return Ok(());
         }
         self.solved += 1;
+        if let Some(map) = self.shared.inside(delta) {
+            self.take(map, held);
+            return Ok(());
+        }
         let owner = table.pair_of_cells();
         let gaps: Vec<f64> = table.gaps.iter().zip(&owner).map(|(g, k)| g - delta[*k]).collect();
         let active = if gaps.iter().all(|g| *g >= 0.0) {
@@ -290,31 +340,39 @@ impl ContactMaps {
             // A touching cell without force belongs to either set.
             solution.active.iter().zip(&solution.forces).map(|(a, p)| *a && *p > 0.0).collect()
         };
-        if let Some(place) = self.maps.iter().position(|m| m.active == active) {
+        if let Some(place) = self.maps.iter().position(|own| own.map.active == active) {
             // Known, and at the border of what it holds for.
             *held = Held { place: Some(place), id: self.maps[place].id, within: -1.0, ..*held };
             return Ok(());
         }
-        let id = self.next;
-        self.next += 1;
-        let map = ContactMap::new(table, &owner, active, id, self.scale).ok_or_else(|| {
+        let map = ContactMap::new(table, &owner, active, self.scale).ok_or_else(|| {
             let cause = crate::complementarity::ComplementarityError::Inaccurate {
                 residual: f64::INFINITY,
             };
             FeError::Contact { phase: table.phase, cause }
         })?;
+        let map = Arc::new(map);
+        self.shared.add(&map);
+        self.take(map, held);
+        Ok(())
+    }
+
+    /// Keeps a map that the set did not have, in the place of the oldest if there are too many.
+    fn take(&mut self, map: Arc<ContactMap>, held: &mut Held) {
+        let id = self.next;
+        self.next += 1;
+        let own = Numbered { id, map };
         let place = if self.maps.len() < self.most {
-            self.maps.push(map);
+            self.maps.push(own);
             self.maps.len() - 1
         } else {
             let place = self.oldest;
             self.oldest = (self.oldest + 1) % self.most;
-            self.maps[place] = map;
+            self.maps[place] = own;
             place
         };
-        // Near nothing until it was looked at.
+        // No approaches are known to be within its range before its cells were looked at.
         *held = Held { place: Some(place), id, within: -1.0, ..*held };
-        Ok(())
     }
 }
 
@@ -340,7 +398,7 @@ mod tests {
         for phase in [0.02, 0.3, 0.7] {
             let table = MeshTable::new(mesh, pair, phase, &settings).unwrap();
             let k = table.pairs.len();
-            let mut maps = ContactMaps::new(&settings);
+            let mut maps = ContactMaps::new(&settings, Arc::default());
             let mut held = Held::default();
             for step in 0..40 {
                 // From apart to pressed, the pairs unevenly.

@@ -1,4 +1,4 @@
-//! Contact between flanks: half-plane and FE matched, cells, forces.
+//! Contact between flanks: matching of half-plane and FE, contact cells, forces.
 
 mod answer;
 pub mod cylinders;
@@ -9,6 +9,6 @@ mod pair;
 mod table;
 
 pub use answer::MeshAnswer;
-pub use maps::{ContactMap, ContactMaps, Held};
+pub use maps::{ContactMap, ContactMaps, Held, SharedMaps};
 pub use pair::{Location, PairFrame, ToothFrame, candidates, members};
 pub use table::{CellSettings, Matching, MeshTable, PairCells};

@@ -1,4 +1,4 @@
-//! Where one tooth pair may touch, and how far apart its flanks stand.
+//! Where one tooth pair may touch, and the gap between its flanks.
 //!
 //! Everything is taken in the mesh frame of [`Mesh`]: central gear at the origin, planet at (a, 0),
 //! the central input turning counter-clockwise.
@@ -26,7 +26,8 @@ pub struct PairFrame<'m> {
     pub location: Location,
     /// Reference point, m.
     pub origin: [f64; 2],
-    /// From the driver's material to the driven one's: the force on the driven gear.
+    /// Unit normal from the driver's material to the driven gear's: direction of the force on the
+    /// driven gear.
     pub normal: [f64; 2],
     /// Gap at the reference point along `normal`, unloaded, m.
     pub gap: f64,
@@ -77,9 +78,10 @@ impl<'m> PairFrame<'m> {
         })
     }
 
-    /// Pair `index` where the flanks overlap by `approach` (m): each gear turned by half of it into the
-    /// other from where they touch at `phase`. Path, corner, normal, arms and gap are those of the gears
-    /// as they stand, a corner's measured on its own gear.
+    /// Pair `index` of gears that overlap by `approach` (m): each gear is turned by half of it
+    /// towards the other from the position at `phase` (cycles) where the flanks just touch. Path or
+    /// corner, normal, arms and gap are those of the turned gears; the position of a corner is that
+    /// on its own gear.
     pub(crate) fn pressed(mesh: &'m Mesh, phase: f64, approach: f64, index: i64) -> Option<Self> {
         let half = 0.5 * approach / mesh.base_pitch;
         let ends = [(MeshMember::Driver, half), (MeshMember::Driven, -half)];
@@ -89,15 +91,15 @@ impl<'m> PairFrame<'m> {
                 _ => {}
             }
         }
-        // Neither corner is beyond its end.
+        // Neither tip corner is beyond its end of the path.
         Self::new(mesh, phase, index).map(|frame| match frame.location {
             Location::Path => frame,
             Location::Corner(_) => Self { gap: frame.relief_at_origin(), ..frame },
         })
     }
 
-    /// ∂²G/∂e² of a corner's gap G over how far e it stands beyond its end of the path, 1/m; nil on the
-    /// path.
+    /// ∂²G/∂e² of a corner's gap G, where e is the distance of the corner beyond its end of the
+    /// path, 1/m; 0 on the path.
     pub(crate) fn curvature(&self, mesh: &'m Mesh, phase: f64, approach: f64) -> f64 {
         const STEP: f64 = 2e-6;
         let Location::Corner(member) = self.location else { return 0.0 };
@@ -118,7 +120,7 @@ impl<'m> PairFrame<'m> {
         self.gap - self.relief_at_origin()
     }
 
-    /// What tip relief opens the pair by at its reference point, m.
+    /// Gap that tip relief adds at the pair's reference point, m.
     pub(crate) fn relief_at_origin(&self) -> f64 {
         let roll_length = |flank: &Flank<'_>| {
             let [x, y] = [self.origin[0] - flank.centre[0], self.origin[1] - flank.centre[1]];
@@ -152,7 +154,8 @@ impl<'m> PairFrame<'m> {
         let ccw = flank.facing == Facing::CounterClockwise;
         let (axis, is_ccw) = match gear.side {
             ToothSide::External => (lobe, ccw),
-            // The material beside a space: its tooth lies half a pitch on, the other way round.
+            // The flank of a tooth space is the opposite flank of the tooth beside it, whose axis
+            // is half a pitch from that of the space.
             ToothSide::Internal => (lobe + sign * 0.5 * gear.pitch_angle(), !ccw),
         };
         ToothFrame { centre: flank.centre, axis, side: if is_ccw { Side::Ccw } else { Side::Cw } }
@@ -182,7 +185,8 @@ impl<'m> PairFrame<'m> {
         [a[0].max(b[0]), a[1].min(b[1])]
     }
 
-    /// 1/R = 1/ρ₁ ± 1/ρ₂ at the reference point, from the roll lengths there, m.
+    /// Relative radius of curvature R at the reference point, 1/R = 1/ρ₁ ± 1/ρ₂ with the roll
+    /// lengths there as ρ, m.
     pub fn radius(&self) -> f64 {
         let curvature = |flank: &Flank<'_>| {
             let [x, y] = [self.origin[0] - flank.centre[0], self.origin[1] - flank.centre[1]];
@@ -237,7 +241,7 @@ impl<'m> PairFrame<'m> {
 
 /// Outward normal of a flank's material where its base tangent leaves the base circle at `angle`.
 fn outward(flank: &Flank<'_>, angle: f64) -> [f64; 2] {
-    // The base tangent runs away from the lobe; the ring's lobe is its space.
+    // The base tangent points out of the lobe; the lobe of a ring is its tooth space.
     let mut sign = flank.facing.sign();
     if flank.gear.side == ToothSide::Internal {
         sign = -sign;
@@ -254,11 +258,12 @@ fn foot(flank: &Flank<'_>, point: [f64; 2]) -> Option<(f64, f64)> {
     let r = x.hypot(y);
     let alpha = (roll_length_at(r_b, r) / r_b).atan();
     debug_assert!((radius_at(r_b, r_b * alpha.tan()) - r).abs() < 1e-9);
-    // P stands α on from the tangent point, towards the lobe's end that the flank is.
+    // The point is at the angle α from the tangent point, in the sense of the flank's facing.
     Some((y.atan2(x) - flank.facing.sign() * alpha, gap))
 }
 
-/// Which pairs may touch: all whose corner gap is below `window` (m) at this phase.
+/// Pairs that may touch: all whose gap at the reference point is at most `window` (m) at this phase
+/// (cycles).
 pub fn candidates(mesh: &Mesh, phase: f64, window: f64) -> Vec<PairFrame<'_>> {
     // A pair more than two base pitches off the path is out of reach of any deflection.
     let last = mesh.contact_ratio.ceil() as i64 + 2;

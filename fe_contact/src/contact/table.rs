@@ -252,28 +252,46 @@ fn add_block(
         points.flat_map(|(deep, _)| deep.nodes[..deep.count].iter().copied()).collect();
     rows.sort_unstable();
     rows.dedup();
+    let mut columns: Vec<usize> = loads.iter().flat_map(|s| s.load.columns).collect();
+    columns.sort_unstable();
+    columns.dedup();
+    // Both directions of force of every column, at the nodes of `rows` alone: side by side in memory.
+    let near: Vec<Vec<f64>> = columns
+        .iter()
+        .flat_map(|column| [*column, column + 1])
+        .map(|column| {
+            let of = response.column(column);
+            rows.iter().flat_map(|node| [of[2 * node], of[2 * node + 1]]).collect()
+        })
+        .collect();
     let mut field = DMatrix::<f64>::zeros(2 * rows.len(), loads.len());
-    for (j, seen) in loads.iter().enumerate() {
+    for (seen, mut field) in loads.iter().zip(field.column_iter_mut()) {
         for (column, w) in seen.load.columns.iter().zip(seen.load.weights) {
-            for (k, f) in seen.normal.iter().enumerate() {
-                for (r, node) in rows.iter().enumerate() {
-                    for c in 0..2 {
-                        field[(2 * r + c, j)] += w * f * response[(2 * node + c, column + k)];
-                    }
-                }
+            let first = 2 * columns.partition_point(|c| c < column);
+            for (near, f) in near[first..first + 2].iter().zip(&seen.normal) {
+                let force = w * f;
+                field.iter_mut().zip(near).for_each(|(field, near)| *field += force * near);
             }
         }
     }
+    // Side by side in memory are the loads of one point.
+    let field = field.transpose();
     for (i, seen) in deeps.iter().enumerate() {
+        let row = (of.first + i, on.first);
+        let mut moved: Vec<f64> =
+            (0..loads.len()).map(|j| compliance[(row.0, row.1 + j)]).collect();
         for (deep, weight) in &seen.deep {
             for (node, n) in deep.nodes[..deep.count].iter().zip(deep.weights) {
                 let r = rows.partition_point(|row| row < node);
                 let w = [seen.normal[0] * weight * n, seen.normal[1] * weight * n];
-                for j in 0..loads.len() {
-                    compliance[(of.first + i, on.first + j)] +=
-                        w[0] * field[(2 * r, j)] + w[1] * field[(2 * r + 1, j)];
+                let (x, y) = (field.column(2 * r), field.column(2 * r + 1));
+                for ((moved, x), y) in moved.iter_mut().zip(x.as_slice()).zip(y.as_slice()) {
+                    *moved += w[0] * x + w[1] * y;
                 }
             }
+        }
+        for (j, value) in moved.into_iter().enumerate() {
+            compliance[(row.0, row.1 + j)] = value;
         }
     }
 }

@@ -58,7 +58,7 @@ impl Shape {
         4 + self.edges.iter().map(|e| own_functions(*e)).sum::<usize>()
     }
 
-    /// Whether any edge is curved.
+    /// Whether all edges are straight.
     pub fn is_linear(&self) -> bool {
         self.edges.iter().all(|e| *e == Edge::Linear)
     }
@@ -115,7 +115,7 @@ fn departure(edge: Edge, t: f64, half: f64) -> [(f64, f64); 4] {
     match edge {
         Edge::Linear => [NONE; 4],
         Edge::Quadratic => {
-            // M = 1 − t²; each corner gives up M/2.
+            // M = 1 − t² for the middle node; M/2 is subtracted from the function of each corner.
             let (m, dm) = (1.0 - t * t, -2.0 * t);
             [(-0.5 * m, -0.5 * dm), (-0.5 * m, -0.5 * dm), (m, dm), NONE]
         }

@@ -1,10 +1,11 @@
-//! One mesh as an input deck for CalculiX: the same question put to another program.
+//! One mesh as an input deck for CalculiX, so that forces and pressures can be compared with
+//! another program.
 //!
-//! Deck and simulator share the question: involutes, phase, gaps, where the races stand. They share
-//! none of the answer's means: the deck has eight-node elements throughout, with flank nodes on the
-//! involute, and resolves contact by elements a small part of the patch wide (face-to-face penalty),
-//! with no half-plane, no matching and no Hermite edges. Races are rigid and prescribed, contact is
-//! frictionless, geometry is linear.
+//! Deck and simulator share the problem: involutes, phase, gaps and the positions of the races.
+//! They share no part of its solution: the deck has eight-node elements throughout, with flank
+//! nodes on the involute, and resolves contact by elements a small part of the patch wide
+//! (face-to-face penalty), with no half-plane, no matching and no Hermite edges. Races are rigid
+//! and prescribed, contact is frictionless, geometry is linear.
 //!
 //! Units of the deck: mm, N, MPa. Lines `** key = value` and `** pair …` at its head say what it
 //! holds; `benches/calculix_pair.py` reads them.
@@ -28,10 +29,11 @@ pub struct DeckSettings {
     pub per_half_width: f64,
     /// Elements along the flanks of all other teeth.
     pub flank_elements: usize,
-    /// Teeth kept on either side of the loaded ones, `None` for whole gears. Cut faces are free;
-    /// eight leave OH-58's meshes within 0.001 % of their limits, five the ring's within 0.03 %.
+    /// Teeth kept on either side of the loaded ones, `None` for whole gears. Cut faces are free.
+    /// With eight teeth the results of OH-58's meshes are within 0.001 % of those of whole gears,
+    /// with five those of the ring mesh within 0.03 %.
     pub teeth: Option<usize>,
-    /// Penalty stiffness of contact, Pa/m; 1e17 yields 0.01 µm under 1 GPa.
+    /// Penalty stiffness of contact, Pa/m; with 1e17 the flanks overlap by 0.01 µm under 1 GPa.
     pub penalty: f64,
 }
 
@@ -41,8 +43,8 @@ impl Default for DeckSettings {
     }
 }
 
-/// The complete deck for a mesh at the phase and approach of `own`, whose forces size the contact
-/// elements and enter in no other way.
+/// The complete deck for a mesh at the phase and approach of `own`, whose pair forces determine the
+/// size of the contact elements and nothing else.
 ///
 /// # Errors
 /// If a gear cannot be meshed or has tip relief, or in plane stress.
@@ -82,20 +84,22 @@ pub fn deck(
     Ok(text)
 }
 
-/// Elements of an all but idle pair are sized by this part of the heaviest pair's force.
+/// Least force by which the contact elements of a pair are sized, as a fraction of the largest pair
+/// force.
 const LEAST_SHARE: f64 = 0.05;
 
 /// Half the refined stretch of flank in half-widths of the patch.
 const REACH: f64 = 1.6;
 
-/// A pair and the half-width expected of its contact, m.
+/// A pair and the expected half-width of its contact patch, m.
 struct Patch<'m> {
     frame: &'m PairFrame<'m>,
     half_width: f64,
 }
 
 impl Patch<'_> {
-    /// The member whose flank is the dependent side: the one that ends within the patch.
+    /// The member whose flank is the dependent (slave) surface: at a corner contact the one whose
+    /// flank ends within the patch, otherwise the driven gear.
     fn slave(&self) -> MeshMember {
         match self.frame.location {
             Location::Corner(member) => member,
@@ -107,7 +111,7 @@ impl Patch<'_> {
 /// One edge of an element, 0 to 3 as in [`crate::element::Shape`].
 type ElementEdge = (usize, usize);
 
-/// One gear's share of the deck.
+/// Nodes, elements and surfaces of one gear.
 struct Part {
     name: &'static str,
     /// Centre, m.
@@ -250,7 +254,7 @@ fn refined(
     FeGearMesh::refined(name, gear, ElementFamily::Quadratic, settings.flank_elements, &teeth)
 }
 
-/// What is written.
+/// Everything that the text of a deck is written from.
 struct Deck<'d> {
     bodies: &'d Bodies,
     mesh: &'d Mesh,

@@ -1,4 +1,4 @@
-//! Elements as four corners and four middles, whatever their edges are.
+//! Elements as four corners and four mid-side nodes, for every kind of edge.
 
 use std::collections::HashMap;
 

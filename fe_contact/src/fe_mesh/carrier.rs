@@ -1,7 +1,8 @@
 //! Mesh of the carrier: an annulus with a round, rigid seat for each planet's pin.
 //!
-//! Around each seat stands a box of four blocks between circle and box; polar blocks fill the rest.
-//! Lattices count half elements, as on the gears; all elements have eight nodes.
+//! Each seat is surrounded by a box; four blocks fill the space between the seat's circle and its
+//! box, and polar blocks the space between the boxes. Lattices count half elements, as on the
+//! gears; all elements have eight nodes.
 
 use std::collections::HashMap;
 use std::f64::consts::{FRAC_PI_4, TAU};

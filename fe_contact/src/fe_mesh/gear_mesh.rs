@@ -1,4 +1,4 @@
-//! A whole gear: its sectors set side by side.
+//! Mesh of a whole gear, from the sectors of its teeth.
 
 use gearset::{ElementFamily, Gear};
 
@@ -22,7 +22,7 @@ pub struct Element {
     pub local: usize,
 }
 
-/// A stretch of flank, with nodes of the whole mesh.
+/// A stretch of flank between two nodes, with its element in the whole mesh.
 #[derive(Debug, Clone, Copy)]
 pub struct FlankEdge {
     /// Element of the mesh.
@@ -33,7 +33,7 @@ pub struct FlankEdge {
     pub to: f64,
 }
 
-/// A tooth and how its refinement differs from the even one.
+/// A tooth, and the function that changes the even refinement into that of the tooth.
 pub type RefinedTooth<'r> = (usize, &'r dyn Fn(&Outline, &mut Refinement));
 
 /// Mesh of a gear. The tooth of sector k has its axis at angle 2πk/Z.
@@ -43,11 +43,11 @@ pub struct FeGearMesh {
     pub name: &'static str,
     /// Outline of the teeth.
     pub outline: Outline,
-    /// Displacement field.
+    /// Family of the elements.
     pub family: ElementFamily,
-    /// The different sectors there are; the first is that of tooth 0.
+    /// Distinct sectors; the first is that of tooth 0.
     pub sectors: Vec<Sector>,
-    /// Which of them each tooth has.
+    /// Index of each tooth's sector in `sectors`.
     pub sector_of: Vec<usize>,
     /// Generalised nodes, m.
     pub points: Vec<[f64; 2]>,
@@ -188,8 +188,8 @@ impl FeGearMesh {
         Quality::of(&self.sectors)
     }
 
-    /// Largest distance from the Hermite flank to the involute, m: sampled at 16 points of every
-    /// stretch, measured across the flank.
+    /// Largest distance from the Hermite flank to the involute, m: sampled at 15 inner points of
+    /// every stretch, measured across the flank.
     pub fn flank_error(&self) -> f64 {
         let sector = &self.sectors[0];
         let mut worst = 0.0f64;

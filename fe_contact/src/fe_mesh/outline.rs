@@ -38,7 +38,8 @@ impl Side {
 pub struct Outline {
     gear: Gear,
     form_roll_length: f64,
-    /// End of the fillet on the flank side, on the radial line below the base circle if need be.
+    /// End of the fillet on the flank side: on the involute, or on the radial line below the base
+    /// circle if the fillet ends there.
     fillet_end: [f64; 2],
     fillet_centre: [f64; 2],
     /// Half the angle of the root land.

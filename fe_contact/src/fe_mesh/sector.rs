@@ -6,8 +6,8 @@
 //! split at its end, tangent to the root circle, the tooth block would have a corner of 0°.
 //!
 //! Columns run clockwise on external and counter-clockwise on internal gears, rows from the race to
-//! the tip, so that det J is positive in both. Node lattices count half elements: even is a corner,
-//! odd a middle.
+//! the tip, so that det J is positive in both. Lattice indices count half elements: corners have
+//! even indices, mid-side nodes one odd index.
 
 use std::collections::HashMap;
 
@@ -43,7 +43,8 @@ impl Refinement {
         let land = outline.half_land * gear.root_radius;
         let fillet = 0.5 * outline.fillet_sweep() * gear.fillet_radius;
         let rim = (gear.root_radius - body_radius).abs();
-        // The rim is far from the load: elements half as fine at the root, growing to the race.
+        // The rim is far from the load: its elements are twice as long on average, and half as long
+        // at the root as at the race.
         let rows = count(0.5 * rim, 3);
         let line = outline.radial_line();
         Self {
@@ -96,7 +97,7 @@ fn growing(length: f64, first: f64, most: f64) -> Vec<f64> {
         list.push(at);
         step = (1.25 * step).min(most);
     }
-    // Stretched to end where the length does.
+    // Scaled so that the last step ends at `length`.
     let scale = length / at;
     list.iter().map(|x| x * scale).collect()
 }
@@ -138,7 +139,7 @@ pub struct FlankStretch {
     pub from: f64,
     /// See `from`.
     pub to: f64,
-    /// Values at both ends, derivatives at both ends.
+    /// Nodes of the values at both ends, then of the derivatives at both ends.
     pub nodes: [usize; 4],
 }
 
@@ -175,7 +176,7 @@ struct Builder<'o> {
     family: ElementFamily,
     sector: Sector,
     nodes: HashMap<Place, usize>,
-    /// Tooth block's first column and last in the rim's lattice, and the rim's last row.
+    /// First and last column of the tooth block in the rim's lattice; `top` is the rim's last row.
     base: (usize, usize),
     top: usize,
 }
@@ -236,7 +237,7 @@ impl Sector {
     }
 }
 
-/// Upper boundary of the rim block on its lattice, polar, columns running with the angle.
+/// Upper boundary of the rim block: (r, φ) for each lattice column, φ growing with the column.
 struct Boundary {
     points: Vec<[f64; 2]>,
     /// Lattice column where the base line starts.
@@ -245,7 +246,8 @@ struct Boundary {
 
 fn boundary(outline: &Outline, refinement: &Refinement) -> Boundary {
     let to_polar = |[x, y]: [f64; 2]| [x.hypot(y), y.atan2(x)];
-    // Last side inwards: space centre, land, lower half of the fillet, up to its middle.
+    // Side of the last column: from the middle of the tooth space along the root land and the lower
+    // half of the fillet to the fillet's middle.
     let mut half: Vec<[f64; 2]> = Vec::new();
     if refinement.half_land > 0 {
         let list = halves(&evenly(refinement.half_land));
@@ -255,7 +257,7 @@ fn boundary(outline: &Outline, refinement: &Refinement) -> Boundary {
     let list = halves(&evenly(refinement.half_fillet));
     half.extend(list.iter().map(|t| to_polar(outline.fillet_point(0.5 * t))));
     if refinement.half_land == 0 {
-        // The land is too small for elements: its ends are one.
+        // The root land is too short for elements: its two ends become one node.
         half[0][1] = std::f64::consts::PI / f64::from(outline.gear().teeth);
     }
     let across = halves(&refinement.thickness);
@@ -272,10 +274,11 @@ fn boundary(outline: &Outline, refinement: &Refinement) -> Boundary {
 fn base_line(outline: &Outline, t: f64) -> [f64; 2] {
     let [x, y] = outline.fillet_point(0.5);
     let [dx, dy] = outline.fillet_direction(0.5);
-    // Turned from the fillet's upper part into the body.
+    // The fillet's direction turned by 60° into the body.
     let (sin, cos) = (-outline.radial_sign() * std::f64::consts::FRAC_PI_3).sin_cos();
     let (ex, ey) = (cos * dx - sin * dy, sin * dx + cos * dy);
-    // Control point where the ray meets the axis, at most 45° off the crossing.
+    // Control point where the ray in this direction meets the tooth's axis; the ray is limited to
+    // 45° from the perpendicular to the axis.
     let slope = (ex / -ey).clamp(-1.0, 1.0);
     let control = x + slope * y;
     let (a, b, c) = ((1.0 - t) * (1.0 - t), 2.0 * t * (1.0 - t), t * t);
@@ -302,7 +305,8 @@ impl Builder<'_> {
         }
     }
 
-    /// Angles grow with the columns; the frame is mirrored for external gears.
+    /// Point at (r, angle), the angle growing with the column. It is mirrored for external gears,
+    /// whose columns run clockwise.
     fn placed(&self, r: f64, angle: f64) -> [f64; 2] {
         let [x, y] = polar(r, angle);
         [x, -self.outline.radial_sign() * y]
@@ -324,7 +328,8 @@ impl Builder<'_> {
         self.nodes[&place]
     }
 
-    /// The element whose first corner stands at lattice (i, j); Hermite edges bring their nodes.
+    /// Adds the element whose first corner is at lattice (i, j) and returns its index. The
+    /// derivative nodes of Hermite edges are filled in by `Builder::flank`.
     fn element(
         &mut self,
         block: fn(usize, usize) -> Place,
@@ -350,7 +355,7 @@ impl Builder<'_> {
                     nodes[next] = self.node(block, i + di, j + dj);
                     next += 1;
                 }
-                // Filled in by the flank that owns the edge.
+                // Filled in by `Builder::flank`.
                 Edge::Hermite => next += 2,
             }
         }
@@ -362,7 +367,7 @@ impl Builder<'_> {
     /// The tooth block: transfinite between base line, tip arc and the two sides.
     fn tooth(&mut self, refinement: &Refinement) {
         let outline = self.outline;
-        // The last side from the fillet's middle to the tip.
+        // Side of the last column, from the fillet's middle to the tip.
         let mut side: Vec<[f64; 2]> = Vec::new();
         let fillet = halves(&evenly(refinement.half_fillet));
         side.extend(fillet.iter().map(|t| outline.fillet_point(0.5 + 0.5 * t)));
@@ -430,7 +435,8 @@ impl Builder<'_> {
                 }
             }
         }
-        // Columns end counter-clockwise on internal, clockwise on external gears.
+        // The last column lies on the counter-clockwise flank of internal and on the clockwise
+        // flank of external gears.
         let sides = match outline.radial_sign() > 0.0 {
             true => [Side::Ccw, Side::Cw],
             false => [Side::Cw, Side::Ccw],
@@ -440,7 +446,7 @@ impl Builder<'_> {
         }
     }
 
-    /// Derivative nodes of one flank, shared by neighbouring elements: that is what makes it C¹.
+    /// Derivative nodes of one flank. Neighbouring elements share them, which makes the flank C¹.
     fn flank(&mut self, refinement: &Refinement, which: usize, side: Side, elements: &[usize]) {
         let length = self.outline.flank_length();
         let derivative = |b: &mut Self, t: f64| {

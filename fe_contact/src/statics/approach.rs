@@ -1,5 +1,5 @@
-//! One mesh whose driving race is turned by a given angle: force for equal approach, the question
-//! another program is asked.
+//! One mesh whose driving race is turned by a given angle: the problem of the CalculiX deck, solved
+//! by this program.
 
 use gearset::{MeshKind, MeshMember};
 
@@ -22,7 +22,7 @@ pub struct PairAtApproach {
     pub peak_pressure: Option<f64>,
 }
 
-/// Our own answer where the deck asks.
+/// Forces and peak pressures of a mesh at a prescribed approach.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshAtApproach {
     /// Which mesh.
@@ -33,11 +33,11 @@ pub struct MeshAtApproach {
     pub approach: f64,
     /// Normal force F: torque on the driving gear over its base radius, N.
     pub force: f64,
-    /// All pairs within reach of δ.
+    /// All pairs whose gap is at most δ.
     pub pairs: Vec<PairAtApproach>,
 }
 
-/// Fewest loaded cells a patch of our own may have.
+/// Fewest loaded cells a patch may have.
 const LEAST_CELLS: usize = 6;
 
 /// Solves a mesh whose driving race is turned by δ/r_b, the driven one held.
@@ -53,7 +53,8 @@ pub fn at_approach(
 ) -> Result<MeshAtApproach, FeError> {
     let (mesh, pair) = bodies.joined(kind)?;
     let r_b = mesh.gear(MeshMember::Driver).base_radius;
-    // Grids are sized by a force: first that of teeth of usual stiffness E b/13, then the one found.
+    // Grids are sized by a force: first that of one pair of teeth of usual stiffness E b/13, then
+    // the force found.
     let mut force = approach * bodies.material.young * bodies.geometry.face_width / 13.0;
     for is_last in [false, true] {
         let mut settings = bodies.cells(force);

@@ -8,7 +8,7 @@ use crate::error::FeError;
 use crate::fe_mesh::FeGearMesh;
 use crate::material::Elastic;
 
-/// Settings of a run, worked out from the scene.
+/// Settings of a run, derived from the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeSettings {
     /// Choices of the scene.
@@ -20,18 +20,21 @@ pub struct FeSettings {
 /// Default matching depth in base pitches, if the elements are small enough for it.
 const DEPTH_IN_BASE_PITCHES: f64 = 0.07;
 
-/// Least depth in flank elements that the default takes, and that is allowed: nearer to the load the
-/// element field is not yet that of a point load. See the plateau in `docs/fe_contact.md`.
+/// Least matching depth in flank elements, of the default and of any setting: nearer to the load
+/// the FE field depends on the elements. The check `fe.convergence.depth` shows that results do not
+/// depend on the depth in the allowed range.
 const DEPTH_IN_ELEMENTS: [f64; 2] = [0.85, 0.7];
 
-/// Deepest matching point in thicknesses of the tooth at mid-flank: beyond its middle the half-plane
-/// has nothing to say about a tooth.
+/// Greatest depth of a matching point in tooth thicknesses at mid-flank: beyond the middle of the
+/// tooth the half-plane does not represent it.
 const DEEPEST_IN_THICKNESSES: f64 = 0.5;
 
-/// Share of the normal's run inside the tooth at its tip corner that the deepest point may use.
+/// Greatest depth of a matching point as a fraction of the length within the tooth of the normal at
+/// its tip corner.
 const WITHIN_TIP: f64 = 0.9;
 
-/// The matching depth, on its plateau.
+/// Matching depth and number of points; refuses a depth outside the range in which results do not
+/// depend on it.
 fn matching<'b>(
     input: &FeContactInput,
     base_pitch: f64,
@@ -85,7 +88,7 @@ impl Bodies {
     /// Meshes and factorises the gears a scene needs: all of a set, two of a pair.
     ///
     /// # Errors
-    /// If the scene has no tooth geometry, or a mesh cannot be had.
+    /// If the scene has no tooth geometry, or a gear cannot be meshed or factorised.
     pub fn new(scene: &Scene) -> Result<Self, FeError> {
         let missing = FeError::Missing {
             key: "geometry".into(),
@@ -104,7 +107,7 @@ impl Bodies {
             geometry.sun.as_ref().filter(|_| wanted(MeshKind::SunPlanet)),
             geometry.ring.as_ref().filter(|_| wanted(MeshKind::RingPlanet)),
         );
-        // One after the other: a factor of each at once would be the largest thing in memory.
+        // One after the other, so that only one factor is in memory at a time.
         let ring = ring_gear.map(|g| make("ring", g)).transpose()?;
         let sun = sun_gear.map(|g| make("sun", g)).transpose()?;
         let planet = make("planet", &geometry.planet)?;
@@ -144,9 +147,9 @@ impl Bodies {
 
     /// Cells for meshes that carry up to `force` (N).
     ///
-    /// The window for tip contact is the deflection of a mesh six times softer than a pair of steel
-    /// teeth usually is (E b/13 of one pair): no corner that could touch is left out, and what was
-    /// left out is checked against the deflection found.
+    /// The window for corner contact is the deflection of a mesh (E b/80) six times softer than one
+    /// pair of steel teeth usually is (E b/13), so that no corner that could touch is left out. The
+    /// smallest gap left out is compared with the deflection found.
     pub fn cells(&self, force: f64) -> CellSettings {
         let stiffness = self.material.young * self.geometry.face_width / 80.0;
         CellSettings {
@@ -162,7 +165,8 @@ impl Bodies {
 /// Key of the factors on the FE part of the meshes' flexibility.
 pub(crate) const FLEXIBILITY_FACTOR: &str = "fe_contact.flexibility_factor";
 
-/// Refuses factors that are no flexibility: scenes can be built in memory, past the reader's checks.
+/// Refuses factors that are not positive and finite: scenes can be built in memory, without the
+/// checks of the parser.
 fn fit(input: &FeContactInput) -> Result<(), FeError> {
     for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
         let factor = input.flexibility_factor.of(kind);
@@ -178,7 +182,7 @@ fn fit(input: &FeContactInput) -> Result<(), FeError> {
     Ok(())
 }
 
-/// A mesh the scene does not have.
+/// The error for a mesh that the scene does not have.
 pub(crate) fn missing_mesh(kind: MeshKind) -> FeError {
     let key = match kind {
         MeshKind::SunPlanet => "geometry.sun",

@@ -10,30 +10,31 @@ use super::state::{MeshState, SetCycle, SetState};
 use crate::complementarity::{ActiveSet, ComplementaritySolver};
 use crate::error::FeError;
 
-/// How often grids are laid out anew for four times the load.
+/// Most times that the grids of contact cells are laid out again, each time for four times the
+/// load.
 const RESIZINGS: usize = 3;
 
-/// Fewest positions whose mean is the loaded configuration, and most that are tried for a number which
-/// all meshes' phases divide.
+/// Least number of positions over which the loaded configuration is averaged, and largest number
+/// tried in the search for one with which all meshes of a kind pass through the same phases.
 const MEAN_OVER: [usize; 2] = [14, 140];
 
-/// A loaded configuration is found once no phase changes by more than this, cycles: what is left is
-/// linear, and the rest quadratic in it.
+/// The loaded configuration is found once no phase changes by more than this from one iteration to
+/// the next, cycles. The linearisation covers the remaining change; the error is quadratic in it.
 const FOUND: f64 = 1e-3;
 
-/// Configurations tried.
+/// Most iterations in search of the loaded configuration.
 const MOST: usize = 12;
 
 impl<'s> StaticSet<'s> {
     /// The set linearised about its mean configuration under a torque on the sun (N·m, magnitude).
     ///
     /// # Errors
-    /// If contact cannot be solved, nothing holds the set, or no configuration repeats itself.
+    /// If contact cannot be solved, nothing holds the set, or the iteration does not converge.
     pub fn under(self, torque_nm: f64) -> Result<Self, FeError> {
         self.under_with(torque_nm, &DVector::zeros(0))
     }
 
-    /// The same with further loads on the races' coordinates (n, N; none: no numbers).
+    /// The same with further loads on the races' coordinates (N, one each, or an empty vector).
     ///
     /// # Errors
     /// As [`StaticSet::under`].
@@ -45,7 +46,8 @@ impl<'s> StaticSet<'s> {
             return Ok(self);
         }
         let sized_for = self.share(torque_nm).max(1.0);
-        // Springs for meshes bring it within a tooth's deflection.
+        // Springs in place of the meshes give the configuration to within the deflection of a
+        // tooth.
         for _ in 0..MOST {
             let q = self.sprung(&f)?;
             let next = self.reference_at(torque_nm, q, &self.even_forces(torque_nm))?;
@@ -67,7 +69,7 @@ impl<'s> StaticSet<'s> {
         Err(FeError::NoReference { torque_nm, change })
     }
 
-    /// Force of each mesh if all planets carry alike, N.
+    /// Force of each mesh if all planets carry the same load, N.
     pub(crate) fn share(&self, torque_nm: f64) -> f64 {
         torque_nm / self.races.radii[2] / self.races.planets() as f64
     }
@@ -101,8 +103,8 @@ impl<'s> StaticSet<'s> {
         self.reference_at(torque_nm, q, &forces)
     }
 
-    /// Fewest positions (at least 14) that all meshes of a kind go through alike: phases of the unloaded
-    /// set in parts of a cycle are whole numbers of them.
+    /// Least number of positions (at least 14) with which all meshes of a kind pass through the
+    /// same phases: the phase differences of the unloaded set are then whole numbers of steps.
     fn even_positions(&self) -> usize {
         let [least, most] = MEAN_OVER;
         let planets = self.races.planets();
@@ -124,9 +126,9 @@ impl<'s> StaticSet<'s> {
         f
     }
 
-    /// Equilibrium at `positions` even positions of one mesh cycle; `torque_nm` is the magnitude of
-    /// the sun's torque, its sense being the set's. The set is linearised about its mean configuration
-    /// under that torque.
+    /// Equilibrium at `positions` evenly spaced positions of one mesh cycle; `torque_nm` is the
+    /// magnitude of the sun's torque, whose sense is that of the set. The set is linearised about
+    /// its mean configuration under that torque.
     ///
     /// # Errors
     /// If contact cannot be solved, the cells do not suffice, nothing holds the set, or displacements are
@@ -138,14 +140,14 @@ impl<'s> StaticSet<'s> {
         solver: &(dyn ComplementaritySolver + Sync),
     ) -> Result<SetCycle, FeError> {
         let found = self.clone().under(torque_nm)?.cycle_here(torque_nm, positions, solver)?;
-        // One position has no range to compare with.
+        // A single position has no peak-to-peak motion to compare with.
         if positions > 1 {
             found.kinematic_rest(self.races.radii[SUN]).check()?;
         }
         Ok(found)
     }
 
-    /// The same about the reference the set has.
+    /// The same, linearised about the present reference, without the check of linear kinematics.
     ///
     /// # Errors
     /// As [`StaticSet::cycle`].
@@ -158,8 +160,9 @@ impl<'s> StaticSet<'s> {
         self.cycle_with(torque_nm, &DVector::zeros(0), positions, solver)
     }
 
-    /// The same on grids laid out for meshes that carry `mesh_force` (N), as sweeps have them: grids for
-    /// larger forces are coarser.
+    /// Equilibrium over a mesh cycle about the mean configuration under the torque, on grids laid
+    /// out for meshes that carry `mesh_force` (N), as in sweeps: grids for larger forces have wider
+    /// cells.
     ///
     /// # Errors
     /// As [`StaticSet::cycle`].
@@ -174,7 +177,8 @@ impl<'s> StaticSet<'s> {
         set.cycle_on(torque_nm, &DVector::zeros(0), positions, mesh_force, solver)
     }
 
-    /// The same with further loads on the races' coordinates (n, N; none: no numbers).
+    /// [`StaticSet::cycle_here`] with further loads on the races' coordinates (N, one each, or an
+    /// empty vector).
     ///
     /// # Errors
     /// As [`StaticSet::cycle`].
@@ -185,8 +189,8 @@ impl<'s> StaticSet<'s> {
         positions: usize,
         solver: &(dyn ComplementaritySolver + Sync),
     ) -> Result<SetCycle, FeError> {
-        // Grids are sized for an even share of the load. Where a mesh carries far more (a planet out
-        // of place), all are laid out anew for more.
+        // Grids are sized for an even share of the load. Where a mesh carries far more (a displaced
+        // planet), all grids are laid out again for a larger force.
         resized(self.share(torque_nm).max(1.0), |sized_for| {
             self.cycle_on(torque_nm, further, positions, sized_for, solver)
         })
@@ -217,12 +221,12 @@ impl<'s> StaticSet<'s> {
         Ok(SetCycle { torque_nm: self.sign * torque_nm, lead: self.reference.lead(), states })
     }
 
-    /// Results in the frame of the scene.
+    /// An equilibrium in the frame of the scene, with its kinematic rest.
     fn state(&self, found: &Equilibrium<'_>) -> SetState {
         self.state_of(found, self.kinematic_rest(found))
     }
 
-    /// The same with what linear kinematics leave out, m.
+    /// The same with a given kinematic rest, m.
     pub(super) fn state_of(&self, found: &Equilibrium<'_>, kinematic_rest: f64) -> SetState {
         let Equilibrium { position, q, meshes, answers, residual, counts, .. } = found;
         let (central, planets) = self.displacements(q);
@@ -243,7 +247,8 @@ impl<'s> StaticSet<'s> {
     }
 }
 
-/// Tries what needs tables, laid out for four times the load where it outgrows them.
+/// Runs `attempt` with a mesh force (N) for which tables are sized, and again for four times the
+/// force where loads exceed the tables' grids.
 fn resized<T>(
     mut sized_for: f64,
     attempt: impl Fn(f64) -> Result<T, FeError>,

@@ -7,9 +7,9 @@
 //! ```
 //!
 //! whose gradient is K q − f + Σ P b (forces P of the pairs, rows b) and whose Hessian is
-//! K + Σ bᵀ S b with the meshes' tangents S; K holds the bearings and, about a loaded reference, the
-//! turning of the meshes' forces with their lines of action. Newton's method with a line search ends in finitely
-//! many steps, since Ψ is piecewise quadratic.
+//! K + Σ bᵀ S b with the meshes' tangents S; K holds the bearings and, about a loaded reference,
+//! the turning of the mesh forces with their lines of action. Newton's method with a line search
+//! ends in finitely many steps, since Ψ is piecewise quadratic.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
@@ -24,8 +24,8 @@ use crate::error::FeError;
 /// Fewest loaded cells a patch may have.
 const LEAST_CELLS: usize = 6;
 
-/// Equilibria found anew for the bends of gaps at corners, and the change of displacements (m) below which
-/// they are right.
+/// Most repetitions of an equilibrium for the second-order terms of corner gaps, and the change of
+/// displacements (m) at which they end.
 const MOST_BENDINGS: usize = 8;
 const BENT: f64 = 1e-12;
 
@@ -38,19 +38,20 @@ pub(crate) struct Equilibrium<'t> {
     /// Sun meshes, ring meshes, and the backside flanks if any touch.
     pub(crate) meshes: Vec<PlacedMesh<'t>>,
     pub(crate) answers: Vec<MeshAnswer>,
-    /// Slopes of the deformed flanks that the front meshes' rows hold, and what these leave on the
-    /// races, N.
+    /// Slopes of the deformed flanks that are included in the front meshes' rows, and (`level`) the
+    /// load on the races that they leave, N.
     pub(crate) slopes: Vec<Slopes>,
     pub(crate) level: DVector<f64>,
-    /// The same with what the bends of gaps at corners turn of the pairs' forces, N.
+    /// `level` plus the load on the races from the second-order terms of corner gaps, P G'' Δe ∂e,
+    /// N.
     pub(crate) load: DVector<f64>,
-    /// Largest imbalance over the load.
+    /// Largest imbalance of any race relative to the load.
     pub(crate) residual: f64,
     /// Equilibrium and contact iterations.
     pub(crate) counts: (usize, usize),
 }
 
-/// What acts beside the meshes: K (N/m) and f (N) in K q − f.
+/// K (N/m) and f (N) of the potential without the meshes.
 pub(super) struct System {
     pub(super) stiffness: DMatrix<f64>,
     pub(super) load: DVector<f64>,
@@ -60,7 +61,8 @@ pub(super) struct System {
 type Balance = ((Vec<MeshAnswer>, f64), (usize, usize));
 
 impl StaticSet<'_> {
-    /// Equilibrium at one position under loads f (n, N) on the races, the flanks' slopes left out.
+    /// Equilibrium at one position under loads f (n, N) on the races, without the slopes of the
+    /// flanks.
     ///
     /// # Errors
     /// As [`StaticSet::cycle`].
@@ -104,7 +106,7 @@ impl StaticSet<'_> {
         }
         let (answers, residual) = found;
         for (mesh, answer) in meshes.iter().zip(&answers) {
-            // A mesh that carries next to nothing rests on few cells, and that decides nothing.
+            // A mesh with little force touches with few cells, which does not affect the result.
             mesh.table.check_patches(answer, LEAST_CELLS, 0.2 * tables.settings.force)?;
             mesh.check_window(&q)?;
         }
@@ -112,8 +114,8 @@ impl StaticSet<'_> {
         Ok(Equilibrium { position, q, meshes, answers, slopes, level, load, residual, counts })
     }
 
-    /// Puts the slopes of the flanks, as they are deformed in an equilibrium, into its rows, and finds it
-    /// anew.
+    /// Computes the slopes of the flanks as deformed in an equilibrium, includes them in its rows,
+    /// and solves for equilibrium again.
     ///
     /// # Errors
     /// If contact cannot be solved.
@@ -139,7 +141,8 @@ impl StaticSet<'_> {
         self.settle_bent(f, found, solver)
     }
 
-    /// Finds equilibrium anew with the gaps at corners bent as its own displacements have them.
+    /// Solves for equilibrium again with the second-order terms of corner gaps, until these agree
+    /// with its own displacements.
     ///
     /// # Errors
     /// If contact cannot be solved.
@@ -170,7 +173,7 @@ impl StaticSet<'_> {
         Ok(())
     }
 
-    /// Finds equilibrium anew after rows, gap offsets or loads were changed.
+    /// Solves for equilibrium again after rows, gap offsets or loads were changed.
     pub(crate) fn settle(
         &self,
         f: &DVector<f64>,
@@ -183,7 +186,8 @@ impl StaticSet<'_> {
         Ok(())
     }
 
-    /// Bearings, and the meshes' forces that turn with their lines of action about the reference.
+    /// K with bearings and the turning of the mesh forces with their lines of action about the
+    /// reference, and f with the loads `f` and `left` (N).
     fn system(&self, f: &DVector<f64>, left: &DVector<f64>) -> System {
         let turning = &self.reference.stiffness;
         System {
@@ -231,11 +235,13 @@ impl StaticSet<'_> {
             }
             let before = residual;
             residual = r.amax() / load;
-            // Within a piece one step ends at rounding, which holding loads may keep above 1e-14.
+            // Within one quadratic piece a step reduces the residual to rounding, which further
+            // loads that hold the races in displaced positions may keep above 1e-14.
             if residual < 1e-14 || (residual < 1e-11 && residual > 0.1 * before) {
                 return Ok(((answers, residual), (iteration, contact_iterations)));
             }
-            // A mesh out of contact leaves the matrix singular: lend it the first guess's springs.
+            // Without contact of a mesh the matrix may be singular: springs as in the first guess
+            // are added for this step.
             let step = match definite(hessian.clone()) {
                 Some(factor) => factor.solve(&r),
                 None => {
@@ -263,12 +269,13 @@ impl StaticSet<'_> {
         Err(FeError::NotConverged { iterations: MOST, residual })
     }
 
-    /// E b/13: about the stiffness of one pair of steel teeth per unit length.
+    /// E b/13: about the stiffness of one pair of steel teeth, N/m.
     fn nominal_stiffness(&self) -> f64 {
         self.bodies.material.young * self.bodies.geometry.face_width / 13.0
     }
 
-    /// Equilibrium with a spring on each mesh's path, about the reference.
+    /// Equilibrium with a linear spring along the line of action in place of each mesh, about the
+    /// reference.
     pub(super) fn sprung(&self, f: &DVector<f64>) -> Result<DVector<f64>, FeError> {
         let (mut matrix, mut f) = (self.races.stiffness.clone(), f.clone());
         let k = self.nominal_stiffness();

@@ -1,8 +1,8 @@
-//! Equilibrium with exact kinematics at every step of its search: slow, and what the linearised set is
-//! judged by.
+//! Equilibrium with exact kinematics in every iteration: slow, and the reference against which the
+//! linearised set is checked.
 //!
-//! Tables of contact are laid out anew where the displaced gears are, and how their compliance changes
-//! with the pairs' place comes from further tables beside them, not from spread loads.
+//! In every iteration contact tables are laid out for the displaced gears. How their compliance
+//! changes with σ and a' is computed from further tables beside them, not from distributed loads.
 
 use std::borrow::Cow;
 
@@ -25,16 +25,16 @@ use crate::error::FeError;
 /// Steps of the differences between tables: along the line of action and of the centre distance, m.
 const STEPS: [f64; 2] = [1.6e-5, 1e-5];
 
-/// Displacements that change by less than this are found, m.
+/// The iteration ends once displacements change by less than this, m.
 const FOUND: f64 = 1e-11;
 
-/// Beyond this change (m) the slopes of the flanks are worked out anew.
+/// Change of displacements (m) from which on the slopes of the flanks are computed again.
 const SLOPES_HOLD: f64 = 1e-7;
 
-/// Searches given up after so many steps.
+/// Most iterations.
 const MOST: usize = 40;
 
-/// A mesh where the displaced gears are.
+/// A mesh of the displaced gears.
 struct There {
     mesh: Mesh,
     pose: DisplacedMesh,
@@ -43,8 +43,9 @@ struct There {
 }
 
 impl StaticSet<'_> {
-    /// Equilibrium at `positions` even positions of one mesh cycle under a torque on the sun (N·m,
-    /// magnitude) with exact kinematics; positions count as the set's reference has them.
+    /// Equilibrium at `positions` evenly spaced positions of one mesh cycle under a torque on the
+    /// sun (N·m, magnitude) with exact kinematics; positions are counted as for the set's
+    /// reference.
     ///
     /// # Errors
     /// As [`StaticSet::cycle`].
@@ -52,7 +53,7 @@ impl StaticSet<'_> {
         self.exact_cycle_with(torque_nm, &DVector::zeros(0), positions)
     }
 
-    /// The same with further loads on the races' coordinates (n, N; none: no numbers).
+    /// The same with further loads on the races' coordinates (N, one each, or an empty vector).
     ///
     /// # Errors
     /// As [`StaticSet::cycle`].
@@ -75,7 +76,7 @@ impl StaticSet<'_> {
         Ok(SetCycle { torque_nm: self.sign * torque_nm, lead: self.reference.lead(), states })
     }
 
-    /// Equilibrium at a position, searched from q.
+    /// Equilibrium at a position (cycles), iterated from displacements q (m).
     fn exact(
         &self,
         f: &DVector<f64>,
@@ -124,8 +125,9 @@ impl StaticSet<'_> {
         Err(FeError::NotConverged { iterations, residual: change })
     }
 
-    /// Energy Ψ (J) of all meshes with the races at q (n, m) at a position, and its gradient: what the
-    /// meshes press the races with (n, N). Grids are sized for a torque on the sun (N·m).
+    /// Energy Ψ (J) of all meshes with the races at q (n, m) at a position (cycles), and its
+    /// gradient (n, N), the negative of the generalised forces of the meshes on the races. Grids
+    /// are sized for a torque on the sun (N·m).
     ///
     /// # Errors
     /// If contact cannot be solved or gears displaced by so much do not mesh.
@@ -154,7 +156,8 @@ impl StaticSet<'_> {
         Ok((energy, -load))
     }
 
-    /// Slopes of the flanks of a mesh into its rows; what they leave goes to the load on the races, N.
+    /// Includes the slopes of the flanks of a mesh in its rows, and adds the rest of the gradient
+    /// of its energy to the load on the races, N.
     fn lean_there(
         &self,
         which: usize,
@@ -183,7 +186,8 @@ impl StaticSet<'_> {
         }
     }
 
-    /// All meshes where the gears are, equal ones made once.
+    /// All meshes of the gears displaced by q (m); meshes with equal phase and centre distance
+    /// share one table.
     fn there(
         &self,
         position: f64,
@@ -216,7 +220,7 @@ impl StaticSet<'_> {
         let one = |(k, pose): (usize, DisplacedMesh)| {
             let (mesh, table) = made[first[k]].clone()?;
             let phase = table.phase;
-            // The table counts pairs from its own reduced phase.
+            // The table numbers its pairs at its own phase, reduced to [0, 1).
             let pose = pose.turned_by(-(pose.phase() - phase).round());
             Some(There { mesh, pose, phase, table })
         };
@@ -264,7 +268,8 @@ impl StaticSet<'_> {
         if self.has_tooth_errors() {
             let frame = there.pose.line_of_centres + self.races.psi[of.planet];
             let sun = self.bodies.geometry.sun.as_ref();
-            // Teeth are told apart by where the reference has the sun: half a pitch is far.
+            // The sun's angle at the reference identifies the teeth: it differs from the actual one
+            // by far less than half a pitch.
             let from = self.sun_angle(position);
             for (error, pair) in errors.iter_mut().zip(&there.table.pairs) {
                 *error = self.imperfections.gap(of.kind, pair.axes[0] + frame - from, sun);
@@ -284,8 +289,8 @@ impl StaticSet<'_> {
         })
     }
 
-    /// Slopes of the flanks of all meshes at the forces of their present approaches, from tables beside
-    /// theirs; equal meshes are worked out once.
+    /// Slopes of the flanks of all meshes at the forces of their present approaches, from tables
+    /// beside theirs.
     fn slopes_there(
         &self,
         there: &[There],

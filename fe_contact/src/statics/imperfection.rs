@@ -1,8 +1,8 @@
-//! Small departures from the perfect set: planets out of place, teeth out of pitch.
+//! Small deviations from the perfect set: displaced planets, pitch errors of sun teeth.
 
 use gearset::{Displacements, Gear, MeshKind};
 
-/// One sun tooth out of its place.
+/// Pitch error of one sun tooth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PitchError {
     /// Tooth of the sun; tooth 0 is centred on the sun's angle.
@@ -11,17 +11,17 @@ pub struct PitchError {
     pub amount: f64,
 }
 
-/// Departures from the perfect set.
+/// Deviations from the perfect set.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Imperfections {
     /// Displacement of a planet's nominal place: (n, radial, tangential), m.
     pub displaced_planets: Vec<(usize, f64, f64)>,
-    /// Sun teeth out of place.
+    /// Pitch errors of sun teeth.
     pub pitch_errors: Vec<PitchError>,
 }
 
 impl Imperfections {
-    /// Seen in the mirror if `sign` is negative: tangential places and tooth numbers turn round.
+    /// Mirrored if `sign` is negative: tangential displacements and tooth numbers change sign.
     pub(super) fn mirrored(mut self, sign: f64) -> Self {
         if sign < 0.0 {
             self.displaced_planets.iter_mut().for_each(|d| d.2 = -d.2);
@@ -30,8 +30,8 @@ impl Imperfections {
         self
     }
 
-    /// Adds a planet's departure from its nominal place to the displacements (x, y, θ) of driver and
-    /// driven.
+    /// Adds the displacement of a planet's nominal place to the displacements (x, y, θ) of driver
+    /// and driven.
     pub(super) fn displace(&self, kind: MeshKind, planet: usize, x: &mut Displacements) {
         let first = match kind {
             MeshKind::SunPlanet => 3,
@@ -43,8 +43,8 @@ impl Imperfections {
         }
     }
 
-    /// What errors of the sun's teeth add to the gap of the pair whose sun tooth has its axis at `axis`
-    /// (rad from where tooth 0 has its own), m.
+    /// What pitch errors of the sun add to the gap of the pair whose sun tooth has its axis at
+    /// `axis` (rad from the axis of tooth 0), m.
     pub(super) fn gap(&self, kind: MeshKind, axis: f64, sun: Option<&Gear>) -> f64 {
         let (MeshKind::SunPlanet, Some(sun)) = (kind, sun) else { return 0.0 };
         let tooth = (axis / sun.pitch_angle()).round() as i64;

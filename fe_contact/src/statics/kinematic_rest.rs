@@ -1,5 +1,5 @@
-//! What linear kinematics about the reference leave out, worked out after the fact; and the torques that
-//! leave a set.
+//! Kinematic rest of a result (what linear kinematics about the reference leave out of the
+//! approaches, by exact kinematics), and torques of the gears on carrier and ring.
 
 use std::borrow::Cow;
 
@@ -15,7 +15,8 @@ use crate::contact::MeshTable;
 use crate::error::FeError;
 
 impl StaticSet<'_> {
-    /// A front mesh with the races at q, as exact kinematics have it at a position.
+    /// Pose of a mesh (front flanks) by exact kinematics, with the races at q (m) at a position
+    /// (cycles).
     pub(crate) fn exact_pose(
         &self,
         mesh: usize,
@@ -27,7 +28,7 @@ impl StaticSet<'_> {
         Ok(found.turned_by(unloaded))
     }
 
-    /// Exact approach of the pairs of a table, from where the table has them, with the races at q.
+    /// Exact approaches of the pairs of a table beyond its own gaps, with the races at q (m), m.
     pub(crate) fn exact_approaches(
         &self,
         mesh: usize,
@@ -37,7 +38,8 @@ impl StaticSet<'_> {
     ) -> Result<Vec<f64>, FeError> {
         let own = &self.reference.loaded[self.reference.meshes[mesh].group].mesh;
         let exact = self.exact_pose(mesh, position, q)?;
-        // The table's phase is reduced: its pair 0 need not be that of the turning gears.
+        // The table's phase is reduced to [0, 1): its pair 0 may have another number on the turning
+        // gears.
         let whole = (exact.phase() - placed.phase).round();
         let exact = exact.turned_by(-whole);
         let inside = || FeError::NoEquilibrium("a corner dips below its mate's base circle".into());
@@ -54,8 +56,8 @@ impl StaticSet<'_> {
             .collect()
     }
 
-    /// Largest difference of a loaded pair's approach from its linear form, m; no number where exact
-    /// kinematics cannot be had.
+    /// Largest difference of a loaded pair's exact approach from its linear form, m; NaN where
+    /// exact kinematics fail.
     pub(super) fn kinematic_rest(&self, found: &Equilibrium<'_>) -> f64 {
         let each =
             found.answers.iter().enumerate().take(self.nominal.len()).map(|(mesh, answer)| {
@@ -81,7 +83,7 @@ impl StaticSet<'_> {
         larger(pairs.filter(|(_, p)| **p > 0.0).map(|((exact, linear), _)| (exact - linear).abs()))
     }
 
-    /// What leaves through carrier and ring.
+    /// Torques that the gears exert on carrier and ring.
     pub(super) fn reactions(&self, found: &Equilibrium<'_>) -> ThroughTorques {
         let mut ring = 0.0;
         for (which, (mesh, answer)) in found.meshes.iter().zip(&found.answers).enumerate() {
@@ -95,7 +97,7 @@ impl StaticSet<'_> {
                 let moved = bend.moved(&found.q);
                 ring += answer.pair_forces[bend.pair] * bend.curvature * moved * bend.turn;
             }
-            // The slopes of the flanks, of front meshes alone.
+            // Loads from the slopes of the flanks, which only front meshes have.
             let Some(slopes) = found.slopes.get(which) else { continue };
             let pose = &self.reference.meshes[which];
             let by_roll_length = self.reference.loaded[pose.group].gradients.roll_length[5];

@@ -19,7 +19,7 @@ pub struct ToothPairLoad {
     pub peak_pressure: f64,
 }
 
-/// Equilibrium at one phase.
+/// Equilibrium of one mesh at one phase.
 #[derive(Debug, Clone)]
 pub struct PairAtPhase {
     /// Phase, cycles.
@@ -34,9 +34,9 @@ pub struct PairAtPhase {
     pub pairs: Vec<ToothPairLoad>,
     /// Iterations of the contact solver.
     pub iterations: usize,
-    /// Cells and contact state.
+    /// Contact cells with gaps and compliance.
     pub table: MeshTable,
-    /// Contact state.
+    /// Forces and cells in contact.
     pub answer: MeshAnswer,
 }
 
@@ -45,7 +45,7 @@ pub struct PairAtPhase {
 pub struct PressureProfile {
     /// Pair k stands k base pitches on from pair 0.
     pub index: i64,
-    /// Middles of the cells along the flank, m from the middle of the grid.
+    /// Middles of the cells along the flank, from the pair's reference point, m.
     pub places: Vec<f64>,
     /// Pressure in each, Pa.
     pub pressures: Vec<f64>,
@@ -97,10 +97,11 @@ impl PairCycle {
         self.mean(|p| self.secant_stiffness(p))
     }
 
-    /// Force of one tooth pair on its way from first to last touch: place, in base pitches from the start of
-    /// the path of contact, and force, N; by place.
+    /// Force of one tooth pair from first to last contact: position in base pitches from the start
+    /// of the path of contact, and force (N), sorted by position.
     ///
-    /// Pair k at phase φ stands where pair 0 stands at φ + k, so a cycle of all pairs is the way of one.
+    /// Pair k at phase φ is where pair 0 is at φ + k, so that one mesh cycle of all pairs gives the
+    /// whole passage of one pair.
     pub fn load_of_one_pair(&self) -> Vec<(f64, f64)> {
         let at = |p: &PairAtPhase| {
             let phase = p.phase;
@@ -111,7 +112,8 @@ impl PairCycle {
         list
     }
 
-    /// Position at which a single pair carries most, and that pair's entry in the position's table.
+    /// Position at which a single pair carries the largest force, and the index of that pair in the
+    /// position's table.
     pub fn heaviest_pair(&self) -> Option<(&PairAtPhase, usize)> {
         let of = |p: &PairAtPhase| p.answer.pair_forces.iter().copied().fold(0.0, f64::max);
         let p = self.positions.iter().max_by(|a, b| of(a).total_cmp(&of(b)))?;
@@ -154,7 +156,7 @@ const LEAST_CELLS: usize = 6;
 /// Load step of the tangent stiffness.
 const LOAD_STEP: f64 = 0.01;
 
-/// One mesh cycle under a normal force, at `positions` even phases from 0.
+/// One mesh cycle under a normal force (N), at `positions` evenly spaced phases from 0.
 ///
 /// # Errors
 /// If contact cannot be solved, or cells do not suffice.
@@ -220,7 +222,8 @@ pub fn at_phase(
 /// Approach of each pair per δ: 1 on the path, the corner's arm over r_b beyond it.
 fn arms(table: &MeshTable, mesh: &Mesh) -> Vec<f64> {
     let r_b = mesh.gear(MeshMember::Driver).base_radius;
-    // The sense in which the driver approaches: its row's sign on the path.
+    // Magnitudes: the sign of the entry is the sense in which the driver turns towards the driven
+    // gear.
     table.pairs.iter().map(|pair| pair.row[2].abs() / r_b).collect()
 }
 

@@ -21,17 +21,18 @@ pub(crate) struct PlacedMesh<'t> {
     pub(crate) table: Cow<'t, MeshTable>,
     /// Approach of each pair on the races' coordinates.
     pub(crate) rows: Vec<DVector<f64>>,
-    /// What is taken from the rows' products: a pair approaches by b·q − offset, m.
+    /// Offset of each pair, whose approach is b·q − offset, m.
     pub(crate) offsets: Vec<f64>,
     /// What tooth errors add to the gaps, m.
     pub(crate) errors: Vec<f64>,
-    /// Pairs at corners, whose gaps bend.
+    /// Second-order terms of the gaps of pairs in corner contact.
     pub(crate) bends: Vec<Bend>,
     /// Approach of each pair per rotation of the driven gear, m/rad.
     pub(crate) turns: Vec<f64>,
 }
 
-/// A pair at a corner: its gap is quadratic in how far e the corner stands beyond the path,
+/// Second-order term of the gap of a pair in corner contact. The gap is quadratic in the distance e
+/// of the corner beyond the path,
 ///
 /// ```text
 /// approach = b·q − offset − ½ G'' Δe²,   Δe = ∂e·(q − q_ref)
@@ -71,7 +72,7 @@ impl PlacedMesh<'_> {
         self.table.answer(&self.approaches(q), &self.errors, solver, warm)
     }
 
-    /// Takes the gaps' bends at q into the offsets.
+    /// Adds the second-order terms of corner gaps at q (m) to the offsets.
     pub(crate) fn open(&mut self, q: &DVector<f64>) {
         for bend in &self.bends {
             let moved = bend.moved(q);
@@ -79,8 +80,9 @@ impl PlacedMesh<'_> {
         }
     }
 
-    /// Takes the gaps' bends at q into the offsets from `perfect` ones, and what they turn of the pairs'
-    /// forces P into the load on the races: P G'' Δe ∂e, N.
+    /// Sets the offsets to `perfect` plus the second-order terms of corner gaps at q (m), and adds
+    /// what these terms change of the generalised pair forces, P G'' Δe ∂e, to the load on the
+    /// races, N.
     pub(crate) fn bend(
         &mut self,
         perfect: &[f64],
@@ -172,7 +174,8 @@ impl PlacedMesh<'_> {
             force: answer.pair_forces[k],
             peak_pressure: self.table.peak_pressure(k, &answer.cell_forces),
         });
-        // On the path all pairs approach alike; a mesh always has one there or at a corner.
+        // All pairs on the path have the same approach; without one there, the approach is that of
+        // the first pair, at a corner.
         let on_path = self.table.pairs.iter().position(|p| p.location == Location::Path);
         MeshState {
             kind: self.kind,

@@ -24,13 +24,13 @@ impl StaticSet<'_> {
         (0..self.nominal.len()).map(one).collect()
     }
 
-    /// Place of the table of a front mesh at a position, which the tables must hold.
+    /// Index of the table of a front mesh at a position (cycles), which must be among the tables.
     pub(crate) fn place_of(&self, tables: &SetTables, mesh: usize, position: f64) -> usize {
         let group = self.reference.meshes[mesh].group;
         tables.place_of(group, self.phase(mesh, position))
     }
 
-    /// A front mesh on a table of its group, compliance as it is at the table's phase.
+    /// A front mesh on a table of its group, with the compliance of the table's phase.
     pub(super) fn place_one<'t>(
         &self,
         mesh: usize,
@@ -74,7 +74,7 @@ impl StaticSet<'_> {
                 (Some(here), Some(of_table)) => {
                     (here.approach_row(), here.rigid_gap() - of_table.rigid_gap())
                 }
-                // A corner that is out of reach of its mate.
+                // The corner cannot reach the mating involute: row and gap of the table.
                 _ => (p.row, 0.0),
             };
             let by_distance = invariants(kind, &own.gradients, &row)[2];
@@ -109,8 +109,8 @@ impl StaticSet<'_> {
         (&self.reference.loaded[pose.group].mesh, pose.direction)
     }
 
-    /// What tooth errors add to the gaps of a front mesh's pairs after `turned` mesh cycles, m: they come
-    /// round with the sun.
+    /// Writes what tooth errors add to the gaps of a front mesh's pairs after `turned` mesh cycles,
+    /// m. The errors rotate with the sun.
     pub(crate) fn write_errors(
         &self,
         mesh: usize,
@@ -126,8 +126,8 @@ impl StaticSet<'_> {
         }
     }
 
-    /// Puts the slopes of the deformed flanks into a front mesh's rows; what they leave of the gradient
-    /// of its energy is added to the `load` on the races, N.
+    /// Includes the slopes of the deformed flanks in a front mesh's rows, and adds the rest of the
+    /// gradient of its energy, ∂W/∂σ − κᵀP and the same for a', to the `load` on the races, N.
     pub(crate) fn lean(
         &self,
         mesh: usize,
@@ -161,13 +161,13 @@ impl StaticSet<'_> {
         (0..self.nominal.len()).map(|mesh| self.backside(mesh, position, settings)).collect()
     }
 
-    /// Whether any backside flanks meet at these displacements.
+    /// Whether any backside flanks touch at the displacements q (m) of the races.
     pub(crate) fn backside_touches(&self, q: &DVector<f64>) -> bool {
         self.reference.backside.iter().any(|backside| backside.is_met(q.as_slice()))
     }
 
-    /// The backside flanks of one mesh: the mesh seen in the mirror along its line of centres. They
-    /// share no compliance with the flanks in front.
+    /// The backside flanks of one mesh: the mesh mirrored at its line of centres. The compliance
+    /// between them and the front flanks is left out.
     fn backside(
         &self,
         mesh: usize,
@@ -191,7 +191,7 @@ impl StaticSet<'_> {
         let errors = vec![0.0; rows.len()];
         let table: Cow<'static, MeshTable> = Cow::Owned(table);
         let (kind, planet, bends) = (of.kind, of.planet, Vec::new());
-        // In the mirror rotations turn round.
+        // Mirroring changes the sign of rotations.
         let turns = table.pairs.iter().map(|p| -p.row[5]).collect();
         Ok(PlacedMesh { kind, planet, phase, table, rows, offsets, errors, bends, turns })
     }

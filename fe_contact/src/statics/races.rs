@@ -1,4 +1,5 @@
-//! The rigid races of a set: coordinates, bearings, and how pairs approach.
+//! The rigid races of a set: coordinates, bearings, and the approach of tooth pairs on the
+//! coordinates.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -19,24 +20,25 @@ pub struct Races {
     index: Vec<Option<usize>>,
     /// Radii r in u = r θ: carrier, ring, sun, planet, m.
     pub radii: [f64; 4],
-    /// Stiffness of all bearings, the carrier's flexibility included, n×n, N/m.
+    /// Stiffness of all bearings and torsional supports, the carrier's flexibility included, n×n,
+    /// N/m.
     pub stiffness: DMatrix<f64>,
     /// The flexible carrier, where the scene gives its shape.
     pub carrier: Option<CarrierBody>,
-    /// Torsional support between sun and ground and so on is part of `stiffness`.
+    /// Number n of free coordinates.
     pub count: usize,
     /// Elongations of the planet bearings (radial, tangential of each) on the coordinates, 2N×n, and
     /// their stiffness in series with the carrier, 2N×2N, N/m.
     seats: [DMatrix<f64>; 2],
 }
 
-/// Position of each body's first coordinate.
+/// Number of the carrier in the order of the bodies.
 pub const CARRIER: usize = 0;
-/// Ring.
+/// Number of the ring.
 pub const RING: usize = 1;
-/// Sun.
+/// Number of the sun.
 pub const SUN: usize = 2;
-/// Planet 0; the others follow.
+/// Number of planet 0; the other planets follow.
 pub const PLANETS: usize = 3;
 
 impl Races {
@@ -100,7 +102,7 @@ impl Races {
         self.index[3 * body + axis]
     }
 
-    /// Displacements of one body's race from those of all, x (n, m); held coordinates are still.
+    /// Displacements of one body's race from those of all, x (n, m); 0 for held coordinates.
     pub(crate) fn displaced(&self, x: &DVector<f64>, body: usize) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.of(body, axis).map_or(0.0, |i| x[i]))
     }
@@ -198,8 +200,8 @@ impl Races {
         (0..self.planets()).map(|n| forces[2 * n + 1] * self.radii[0]).sum()
     }
 
-    /// Races' coordinates onto displacements (x, y, m; θ, rad) of driver and driven in the mesh frame of
-    /// planet n, 6×n.
+    /// Matrix from the races' coordinates to displacements (x, y, m; θ, rad) of driver and driven
+    /// in the mesh frame of planet n, 6×n.
     pub(crate) fn mesh_matrix(&self, kind: MeshKind, planet: usize) -> DMatrix<f64> {
         let mut matrix = DMatrix::zeros(6, self.count);
         for i in 0..6 {
@@ -212,7 +214,7 @@ impl Races {
     }
 
     /// Displacements (x, y, m; θ, rad) of driver and driven in the mesh frame of planet n at
-    /// coordinates q: what [`Races::approach`] is the transpose of.
+    /// coordinates q (m). [`Races::approach`] is the transpose of this map.
     pub fn mesh_displacements(&self, kind: MeshKind, planet: usize, q: &[f64]) -> Displacements {
         let (sin, cos) = self.psi[planet].sin_cos();
         let of = |body: usize| [0, 1, 2].map(|axis| self.of(body, axis).map_or(0.0, |i| q[i]));
@@ -231,7 +233,8 @@ impl Races {
         [driver[0], driver[1], driver[2], driven[0], driven[1], driven[2]]
     }
 
-    /// The same, body by body: the central one, then the planet, on (x, y, u) of each.
+    /// A pair's approach as in [`Races::approach`], body by body: the central gear, then the
+    /// planet, on (x, y, u) of each.
     pub fn approach_of_bodies(
         &self,
         kind: MeshKind,
@@ -244,7 +247,8 @@ impl Races {
             MeshKind::SunPlanet => (SUN, first, second, self.radii[2]),
             MeshKind::RingPlanet => (RING, second, first, self.radii[1]),
         };
-        // The mesh frame stands ψ_n on from the carrier frame; the planet's ζ, η are its axes.
+        // The mesh frame is turned by ψ_n from the carrier frame; its axes are the planet's ζ and
+        // η.
         let [p, q, arm] = central_row;
         let turned = [cos * p - sin * q, sin * p + cos * q, arm / radius];
         let own = [planet_row[0], planet_row[1], planet_row[2] / self.radii[3]];

@@ -1,9 +1,10 @@
 //! The configuration a set is linearised about: the mean one under the torque at hand.
 //!
-//! Bearings wind up by twenty times the deflection of the teeth. What that does to a mesh is exact
-//! kinematics ([`gearset::DisplacedMesh`]): approach δ, place on the line of action σ and centre distance
-//! a' of every mesh are those of the displaced gears, and tables of contact are laid out there. Only
-//! what is left of the displacements within a mesh cycle is linear,
+//! Under load the bearings deflect about twenty times as much as the teeth (windup). Its effect on
+//! a mesh is computed by exact kinematics ([`gearset::DisplacedMesh`]): approach δ, roll length σ
+//! and centre distance a' of every mesh are those of the displaced gears, and the contact tables
+//! are laid out for them. Only displacements about this configuration, as they occur within a mesh
+//! cycle, enter linearly,
 //!
 //! ```text
 //! approach of pair k = A_k·(δ, σ, a') at the reference + b_kᵀ (q − q_ref),
@@ -11,7 +12,8 @@
 //! ```
 //!
 //! with A_k the pair's own derivatives (1, 0, 0 on the path) and κ the slope of the deformed flanks
-//! ([`Slopes`]), and the forces' turning with the line of action is the stiffness Σ F̄ ∂²δ.
+//! ([`Slopes`]). The turning of the mean mesh forces F̄ with their lines of action adds the
+//! stiffness Σ F̄ ∂²δ.
 
 use gearset::{DisplacedMesh, Displacements, Mesh, MeshGradients, MeshKind};
 use nalgebra::{DMatrix, DVector};
@@ -25,18 +27,18 @@ use super::races::Races;
 use crate::error::FeError;
 use crate::short_row::ShortRow;
 
-/// Meshes of a kind whose phases differ by less than this from those of the unloaded set's pattern
-/// (cycles), and whose centre distances by less than that (m), share tables: the rest is linear, and
-/// what is quadratic in it is below 1e-11 m.
+/// Meshes of a kind share tables if the load has changed their phases by amounts that differ by
+/// less than the first value (cycles), and their centre distances differ by less than the second
+/// (m). The differences are accounted for to first order; the quadratic error is below 1e-11 m.
 const SHARED: [f64; 2] = [1e-3, 5e-6];
 
-/// Gears of one mesh at a centre distance, for the meshes that share its tables.
+/// A mesh at the mean loaded centre distance of all meshes that share its tables.
 #[derive(Debug, Clone)]
 pub(crate) struct LoadedMesh {
     pub(crate) mesh: Mesh,
-    /// By how much loads have moved the phases, cycles.
+    /// Mean change of these meshes' phases by the load, cycles.
     pub(crate) shift: f64,
-    /// In its own displaced frame, line of centres along x.
+    /// Gradients of δ, σ and a' in the displaced frame, whose x axis is the line of centres.
     pub(crate) gradients: MeshGradients,
 }
 
@@ -45,9 +47,9 @@ pub(crate) struct LoadedMesh {
 pub(crate) struct MeshPose {
     pub(crate) kind: MeshKind,
     pub(crate) planet: usize,
-    /// Which of [`ReferenceConfiguration::loaded`].
+    /// Index in [`ReferenceConfiguration::loaded`].
     pub(crate) group: usize,
-    /// λ, rad.
+    /// Direction λ of the line of centres from the nominal one, rad.
     pub(crate) direction: f64,
     /// δ, σ and a' less those of the group's tables, m.
     pub(crate) at: [f64; 3],
@@ -55,34 +57,34 @@ pub(crate) struct MeshPose {
     pub(crate) gradients: [DVector<f64>; 3],
 }
 
-/// Backside flanks of one mesh at the reference, seen in the mirror along its line of centres.
+/// Backside flanks of one mesh at the reference, mirrored at its line of centres.
 #[derive(Debug, Clone)]
 pub(crate) struct BacksidePose {
     pub(crate) mesh: Mesh,
-    /// By how much loads have moved the phase of the mirrored mesh, cycles.
+    /// Change of the phase of the mirrored mesh by the load, cycles.
     pub(crate) shift: f64,
-    /// λ in the mirror, rad.
+    /// λ of the mirrored mesh, rad.
     pub(crate) direction: f64,
     pub(crate) gradients: MeshGradients,
     /// δ less the backlash, m.
     pub(crate) approach: f64,
     /// ∂δ on the races' coordinates.
     pub(crate) row: ShortRow,
-    /// The product of the row with displacements from which on the flanks meet, m.
+    /// Product of the row with the displacements from which on the flanks touch, m.
     met_at: f64,
 }
 
 impl BacksidePose {
-    /// Whether the flanks meet with the races at q (m).
+    /// Whether the flanks touch with the races at q (m).
     pub(crate) fn is_met(&self, q: &[f64]) -> bool {
         self.row.dot(q) >= self.met_at
     }
 }
 
-/// What a set is linearised about.
+/// The configuration about which a set is linearised.
 #[derive(Debug, Clone)]
 pub struct ReferenceConfiguration {
-    /// Torque on the sun it is the mean configuration under, N·m (magnitude).
+    /// Torque on the sun (magnitude) under which it is the mean configuration, N·m.
     pub torque_nm: f64,
     /// Displacements of the races, n, m.
     pub q: DVector<f64>,
@@ -94,7 +96,7 @@ pub struct ReferenceConfiguration {
     pub(crate) stiffness: DMatrix<f64>,
 }
 
-/// What a reference is worked out from.
+/// Everything that a reference is computed from.
 pub(super) struct ReferenceInputs<'g> {
     pub(super) bodies: &'g Bodies,
     pub(super) races: &'g Races,
@@ -103,7 +105,8 @@ pub(super) struct ReferenceInputs<'g> {
 }
 
 impl ReferenceInputs<'_> {
-    /// A mesh with the races at q, from its unloaded phase 0; seen in the mirror with `sign` −1.
+    /// Pose and displacements of a mesh with the races at q (m), from phase 0 of the unloaded mesh;
+    /// mirrored at the line of centres with `sign` −1.
     pub(super) fn displaced(
         &self,
         of: &NominalMesh,
@@ -127,7 +130,8 @@ impl ReferenceInputs<'_> {
 }
 
 impl ReferenceConfiguration {
-    /// At displacements q (m) of the races, the meshes carrying `forces` (N) on the mean.
+    /// Reference at displacements q (m) of the races; `forces` (N) are the mean forces of the
+    /// meshes.
     pub(super) fn new(
         inputs: &ReferenceInputs<'_>,
         torque_nm: f64,
@@ -205,7 +209,8 @@ impl ReferenceConfiguration {
         Ok(Self { torque_nm, q, meshes, backside, loaded, stiffness })
     }
 
-    /// By how much loads have moved the phase of planet 0's sun mesh, from which positions count, cycles.
+    /// Change of the phase of planet 0's sun mesh by the load, cycles. Positions count from phase 0
+    /// of that mesh under load.
     pub fn lead(&self) -> f64 {
         self.meshes.first().map_or(0.0, |pose| self.loaded[pose.group].shift)
     }
@@ -216,9 +221,9 @@ impl ReferenceConfiguration {
         self.meshes.iter().map(of).collect()
     }
 
-    /// Angle between the line of action and the normal to the nominal line of centres of each mesh (sun
-    /// meshes, then ring meshes): the pressure angle of the loaded set as a model with fixed centres has
-    /// it, rad.
+    /// Angle between the line of action and the normal to the nominal line of centres of each mesh
+    /// (sun meshes, then ring meshes): the pressure angle that a model with fixed centres needs for
+    /// the loaded set, rad.
     pub fn pressure_angles(&self) -> Vec<f64> {
         let of = |pose: &MeshPose| {
             let alpha = self.loaded[pose.group].mesh.pressure_angle;
@@ -253,7 +258,7 @@ pub(super) fn at_rest(mesh: &Mesh) -> Result<MeshGradients, FeError> {
     Ok(still.map_err(|cause| FeError::NoEquilibrium(cause.to_string()))?.gradients())
 }
 
-/// Meshes that share tables, with the places of their members.
+/// Groups of meshes that share tables, each with the indices of its meshes.
 fn share(
     inputs: &ReferenceInputs<'_>,
     found: &[DisplacedMesh],

@@ -1,19 +1,20 @@
-//! How far linear kinematics about the mean loaded configuration are from exact ones in a result.
+//! Difference between linear kinematics about the mean loaded configuration and exact kinematics in
+//! a result.
 
 use crate::error::FeError;
 
-/// What exact kinematics, evaluated on a result, make of the approaches of its loaded pairs.
+/// Difference between exact and linear approaches of the loaded pairs of a result.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct KinematicRest {
     /// Largest difference of an approach from its linear form, m.
     pub largest: f64,
-    /// The same in parts of the sun's peak-to-peak motion; none where that is nil, as it is of a single
-    /// position. At rest that is the transmission error; in time translation counts as well.
+    /// The same divided by the sun's peak-to-peak motion; `None` where that is 0, as with a single
+    /// position. At rest the motion is the transmission error; in time translation counts as well.
     pub share: Option<f64>,
 }
 
-/// From this share on a result carries a warning, from that one on it is refused, unless the difference
-/// itself is below the length (m) beside it.
+/// Shares above which a result carries a warning (`WARNED`) or is refused (`REFUSED`), unless the
+/// difference itself is at most the length given second (m).
 const WARNED: (f64, f64) = (0.01, 1e-8);
 const REFUSED: (f64, f64) = (0.1, 1e-7);
 
@@ -25,7 +26,7 @@ impl KinematicRest {
     }
 
     fn is_beyond(&self, (share, least): (f64, f64)) -> bool {
-        // What is no number is beyond everything.
+        // NaN is beyond every limit.
         let is_small = self.largest <= least || self.share.is_some_and(|own| own <= share);
         !is_small
     }
@@ -35,7 +36,7 @@ impl KinematicRest {
         self.is_beyond(WARNED)
     }
 
-    /// Refuses results that linear kinematics do not give.
+    /// Refuses a result for which linear kinematics are not accurate enough.
     ///
     /// # Errors
     /// [`FeError::BeyondLinear`].
@@ -48,7 +49,7 @@ impl KinematicRest {
     }
 }
 
-/// The largest number; none if one is none.
+/// The largest of non-negative numbers; NaN if one of them is NaN.
 pub(crate) fn larger(each: impl Iterator<Item = f64>) -> f64 {
     each.fold(0.0, |a, b| if a.is_nan() || a >= b { a } else { b })
 }
@@ -60,11 +61,12 @@ mod tests {
     #[test]
     fn small_differences_pass_and_large_ones_are_named() {
         assert!(!KinematicRest::new(0.0, 0.0).is_worth_a_warning());
-        // One position has no transmission error to be a share of.
+        // A single position has no peak-to-peak motion, hence no share.
         let alone = KinematicRest::new(1e-12, 0.0);
         assert!(alone.share.is_none() && !alone.is_worth_a_warning());
         assert!(KinematicRest::new(1e-6, 0.0).check().is_err());
-        // Five planets may cancel their transmission error: nanometres are no matter.
+        // The transmission error of five planets may almost cancel: a difference of nanometres
+        // needs no warning.
         assert!(!KinematicRest::new(5e-9, 1e-9).is_worth_a_warning());
         let warned = KinematicRest::new(0.05e-6, 2e-6);
         assert!(warned.is_worth_a_warning() && warned.check().is_ok());

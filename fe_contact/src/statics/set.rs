@@ -1,7 +1,7 @@
 //! A whole set: races, phases of all meshes, and the loaded configuration it is linearised about.
 //!
-//! Tables of contact: `tables`. Meshes at a position: `placing`. How equilibrium is found:
-//! `equilibrium`; over a mesh cycle, and the loaded configuration: `cycle`.
+//! Its methods are in the modules `tables` (contact tables), `placing` (meshes at a position),
+//! `equilibrium`, and `cycle` (a mesh cycle, and the loaded configuration).
 
 use gearset::{Facing, MeshKind, MeshStart, Phasing, PlanetPositions, Scene};
 use nalgebra::DVector;
@@ -14,13 +14,13 @@ use super::races::{PLANETS, Races, SUN};
 use super::reference::{ReferenceConfiguration, ReferenceInputs};
 use crate::error::FeError;
 
-/// A set ready for loads.
+/// A set with the configuration about which it is linearised.
 #[derive(Debug, Clone)]
 pub struct StaticSet<'s> {
     pub(crate) bodies: &'s Bodies,
     pub(crate) races: Races,
-    /// Seen in the mirror if the torque is clockwise, so that the loaded flanks always are those of
-    /// a counter-clockwise one.
+    /// −1 if the torque is clockwise, else +1. With −1 everything is mirrored, so that the loaded
+    /// flanks are always those of a counter-clockwise torque.
     pub(crate) sign: f64,
     /// All meshes: sun meshes, then ring meshes.
     pub(super) nominal: Vec<NominalMesh>,
@@ -31,11 +31,12 @@ pub struct StaticSet<'s> {
 }
 
 impl<'s> StaticSet<'s> {
-    /// A set under a torque on the sun of the given sense, linearised about where it stands without
-    /// load: [`StaticSet::under`] puts it where a torque has it.
+    /// A set for a torque on the sun of the given sense, linearised about the unloaded
+    /// configuration; [`StaticSet::under`] linearises it about the mean configuration under a
+    /// torque.
     ///
     /// # Errors
-    /// If the scene is no whole set, or the carrier's mesh fails.
+    /// If the scene does not describe a whole set, or the carrier cannot be meshed.
     pub fn new(
         scene: &Scene,
         bodies: &'s Bodies,
@@ -43,7 +44,7 @@ impl<'s> StaticSet<'s> {
         imperfections: Imperfections,
     ) -> Result<Self, FeError> {
         let sign = sense.sign();
-        // The mirror keeps assembly steps whole.
+        // Mirroring changes the sign of the assembly steps, which stay whole numbers.
         let positions = PlanetPositions {
             psi_rad: scene.planets.psi_rad.iter().map(|psi| sign * psi).collect(),
             steps: scene
@@ -57,8 +58,9 @@ impl<'s> StaticSet<'s> {
             .ok_or_else(|| missing_mesh(MeshKind::RingPlanet))?;
         let at_zero = phasing.phases(0.0, Facing::CounterClockwise);
         let first = at_zero.sun_planet[0];
-        // The other flanks at the same sun angle. The planets stand where the flanks in front touch,
-        // one sun-mesh backlash ahead of where the backside flanks would.
+        // Phases of the backside flanks at the same sun angle. The planets stand where the front
+        // flanks of the sun meshes touch, one sun-mesh backlash ahead of where the backside flanks
+        // would touch.
         let at_backside = phasing.phases(-first * pitch_angle(bodies), Facing::Clockwise);
         let normal = bodies.geometry.normal_backlash(MeshKind::SunPlanet).unwrap_or(0.0);
         let ahead = normal / bodies.geometry.base_pitch;
@@ -93,8 +95,8 @@ impl<'s> StaticSet<'s> {
         Ok(Self { bodies, races, sign, nominal, start_angle, imperfections, reference })
     }
 
-    /// The same set linearised about given displacements q (n, m) of its races, the meshes carrying
-    /// `forces` (N; sun meshes, then ring meshes) on the mean.
+    /// The same set linearised about given displacements q (n, m) of its races; `forces` (N; sun
+    /// meshes, then ring meshes) are the mean forces of the meshes.
     ///
     /// # Errors
     /// If gears displaced by so much do not mesh.
@@ -145,22 +147,24 @@ impl<'s> StaticSet<'s> {
         f
     }
 
-    /// Angle of the sun's tooth 0 (mirrored frame) at a position, as the reference has it, rad.
+    /// Angle of the sun's tooth 0 (mirrored frame) at a position, with the sun's rotation at the
+    /// reference, rad.
     pub(super) fn sun_angle(&self, position: f64) -> f64 {
         let unloaded = position - self.reference.lead();
         let wound = self.races.of(SUN, 2).map_or(0.0, |i| self.reference.q[i]);
         self.start_angle + unloaded * pitch_angle(self.bodies) + wound / self.races.radii[2]
     }
 
-    /// Whether gap offsets change from one mesh cycle to the next.
+    /// Whether sun teeth have pitch errors, which make gap offsets differ from one mesh cycle to
+    /// the next.
     pub(crate) fn has_tooth_errors(&self) -> bool {
         !self.imperfections.pitch_errors.is_empty()
     }
 
     /// Phase of a front mesh (sun meshes, then ring meshes) at a position, cycles in [0, 1).
     ///
-    /// Positions count from where planet 0's sun mesh starts its path under the reference's load: a
-    /// windup common to all meshes is a shift of time.
+    /// Positions count from where planet 0's sun mesh starts its path under the reference's load,
+    /// so that a windup common to all meshes only shifts the time.
     pub(crate) fn phase(&self, mesh: usize, position: f64) -> f64 {
         cycle(position + self.offset(mesh))
     }
@@ -178,7 +182,7 @@ impl<'s> StaticSet<'s> {
         self.nominal[mesh].backside_offset + shift + self.reference.lead()
     }
 
-    /// Where all meshes stand in their cycles at position 0: sun meshes, then ring meshes.
+    /// Phases of all meshes at position 0: sun meshes, then ring meshes.
     pub(crate) fn law_starts(&self, has_backside: bool) -> Vec<MeshStart> {
         let one = |(mesh, of): (usize, &NominalMesh)| MeshStart {
             kind: of.kind,

@@ -1,16 +1,18 @@
-//! How the compliance of a mesh changes where its pairs move: the slopes of the deformed flanks.
+//! Slopes of the deformed flanks: how the compliance of a mesh changes as its pairs move along
+//! them.
 //!
-//! With W(P, σ, a') the elastic energy of a mesh whose pairs carry P, and E_k = ∂W/∂P_k the elastic approach
-//! of pair k (the gap of tip relief belongs to it),
+//! With W(P, σ, a') the elastic energy of a mesh whose pairs carry P, and E_k = ∂W/∂P_k the elastic
+//! approach of pair k (the gap of tip relief included),
 //!
 //! ```text
 //! κ_k = ∂E_k/∂σ,  rest = ∂W/∂σ − κᵀP        (and the same for a')
 //! ```
 //!
-//! κ is the slope that a pair meets as it moves over the deformed flanks. It is two to five per cent of the
-//! second harmonic of the sun's rotation at rest, and without it a mesh's forces are no gradient of its
-//! energy. Both come from differences of tables at places to either side: spread loads (as ports take
-//! them) miss what the edge of a tip does to a patch near it.
+//! κ is the slope that a pair meets as it moves along the deformed flanks. It contributes two to
+//! five per cent of the second harmonic of the sun's rotation at rest; without it the forces of a
+//! mesh are not the gradient of its energy. κ and rest are differences between contact tables to
+//! either side: distributed loads, as at ports, would miss the effect of the tip edge on a patch
+//! near it.
 
 use gearset::{DisplacedMesh, Mesh};
 use nalgebra::{DMatrix, DVector};
@@ -29,7 +31,8 @@ pub(crate) struct Slopes {
     pub(crate) rest: [f64; 2],
 }
 
-/// Tables to either side of a place of a mesh: σ on and back, a' wider and narrower.
+/// Contact tables of a mesh with σ increased and decreased by a step, and with a' increased and
+/// decreased by a step.
 #[derive(Debug, Clone)]
 pub(crate) struct NeighbourTables {
     tables: Vec<(Mesh, MeshTable)>,
@@ -39,11 +42,11 @@ pub(crate) struct NeighbourTables {
 /// Steps of the differences along the line of action and of the centre distance, m.
 const STEPS: [f64; 2] = [2e-5, 2e-5];
 
-/// Cells of a pair in tables of which only differences are taken.
+/// Most cells per pair in tables of which only differences are taken.
 const CELLS: usize = 20;
 
 impl NeighbourTables {
-    /// On cells as coarse as differences allow.
+    /// Tables with at most 20 cells per pair, which suffice for differences.
     pub(crate) fn coarse(
         bodies: &Bodies,
         mesh: &Mesh,
@@ -54,7 +57,7 @@ impl NeighbourTables {
         Self::new(bodies, mesh, phase, &CellSettings { cells, ..*settings }, STEPS)
     }
 
-    /// Beside a phase (cycles) of a mesh, steps in σ and a' in m.
+    /// Tables beside a phase (cycles) of a mesh, with steps in σ and a' (m).
     pub(super) fn new(
         bodies: &Bodies,
         mesh: &Mesh,
@@ -82,7 +85,7 @@ impl NeighbourTables {
         Ok(Self { tables, steps })
     }
 
-    /// Slopes where the pairs of the table between carry `forces` (N).
+    /// Slopes if the pairs of the table `between` the neighbours carry `forces` (N).
     pub(crate) fn slopes(
         &self,
         between: &MeshTable,
@@ -110,19 +113,21 @@ impl NeighbourTables {
     }
 }
 
-/// A mesh just touching at a phase.
+/// Pose of a mesh whose flanks, without tip relief, just touch at a phase (cycles).
 pub(super) fn unrelieved(mesh: &Mesh, phase: f64) -> Result<DisplacedMesh, FeError> {
     mesh.displaced(phase, &[0.0; 6]).map_err(|cause| FeError::NoEquilibrium(cause.to_string()))
 }
 
-/// Newton iterations for approaches under given forces.
+/// Most Newton iterations for the approaches under given forces.
 const MOST: usize = 80;
 
-/// Approach (m) from which a pair that is to carry is searched, and largest change of it in a step.
+/// Approach beyond first contact (m) from which the iteration for a loaded pair starts; an
+/// iteration reduces an approach by at most this much and increases it by at most twice as much.
 const STRIDE: f64 = 1e-5;
 
-/// Elastic approach E of the pairs of one table (m; tip relief belongs to it) if they carried the given
-/// forces on another table of the mesh, and the elastic energy W = PᵀE − ½ pᵀCp (J).
+/// Elastic approach E (m, tip relief included) of pairs on `table` under the `forces` (N) that the
+/// pairs of the same numbers carry on the table `between`, and the elastic energy W = PᵀE − ½ pᵀCp
+/// (J).
 fn elastic(
     mesh: &Mesh,
     table: &MeshTable,
@@ -140,7 +145,7 @@ fn elastic(
         .collect();
     let wanted = DVector::from_iterator(pairs.len(), pairs.iter().map(|p| forces[p.0]));
     let gap = |j: usize| still.clearance(mesh, table.pairs[j].index).unwrap_or(0.0);
-    // What does not carry stays away.
+    // Pairs without force are kept apart.
     let mut approaches = vec![-1.0; table.pairs.len()];
     let none = vec![0.0; table.pairs.len()];
     for (_, j) in &pairs {
@@ -169,7 +174,7 @@ fn elastic(
         });
         let step = tangent.lu().solve(&off);
         for (i, (_, j)) in pairs.iter().enumerate() {
-            // A pair that lost contact on the way comes back.
+            // A pair that lost contact in the iteration is moved back towards contact.
             let is_lost = now.pair_forces[*j] <= 0.0;
             approaches[*j] += match &step {
                 Some(step) if !is_lost && step[i].is_finite() => {

@@ -1,4 +1,4 @@
-//! A set in equilibrium: what came out, at one position and over a mesh cycle.
+//! Results of a set in equilibrium, at one position and over a mesh cycle.
 
 use gearset::MeshKind;
 
@@ -18,7 +18,7 @@ pub struct MeshState {
     pub force: f64,
     /// Rigid approach along the line of action, m.
     pub approach: f64,
-    /// ∂F/∂δ with every pair's approach growing alike, N/m.
+    /// ∂F/∂δ, the approaches of all pairs growing equally, N/m.
     pub tangent: f64,
     /// Loaded pairs.
     pub pairs: Vec<ToothPairLoad>,
@@ -44,10 +44,10 @@ pub struct SetState {
     pub meshes: Vec<MeshState>,
     /// Loaded backside flanks; phases count in the mirrored mesh.
     pub backside: Vec<MeshState>,
-    /// Torques that leave through carrier and ring.
+    /// Torques that the gears exert on carrier and ring.
     pub reactions: ThroughTorques,
-    /// What the approach of a loaded pair, worked out with exact kinematics at these displacements, is
-    /// off its linear form about the reference at most, m.
+    /// Kinematic rest: largest difference of a loaded pair's approach, by exact kinematics at these
+    /// displacements, from its linear form about the reference, m.
     pub kinematic_rest: f64,
     /// Largest imbalance of any race over the load.
     pub residual: f64,
@@ -96,10 +96,10 @@ impl CycleRange {
 pub struct SetCycle {
     /// Torque on the sun, N·m.
     pub torque_nm: f64,
-    /// By how much the torque's windup has moved the phase of planet 0's sun mesh, from whose start of
-    /// path positions count, cycles.
+    /// Change of the phase of planet 0's sun mesh by the windup under the torque, cycles. Positions
+    /// count from where that mesh starts its path.
     pub lead: f64,
-    /// Even positions from 0.
+    /// States at evenly spaced positions from 0.
     pub states: Vec<SetState>,
 }
 
@@ -142,7 +142,7 @@ impl SetCycle {
         self.range(|s| s.meshes[mesh].tangent)
     }
 
-    /// What linear kinematics leave out over the cycle.
+    /// Kinematic rest over the cycle.
     pub fn kinematic_rest(&self, sun_base_radius: f64) -> KinematicRest {
         let largest = larger(self.states.iter().map(|s| s.kinematic_rest));
         KinematicRest::new(largest, self.transmission_error(sun_base_radius).peak_to_peak())

@@ -10,7 +10,7 @@ use super::phase::PHASE_RESOLUTION;
 use super::set::StaticSet;
 use super::slopes::{NeighbourTables, Slopes};
 use crate::complementarity::ActiveSet;
-use crate::contact::{CellSettings, MeshTable};
+use crate::contact::{CellSettings, MeshTable, SharedMaps};
 use crate::error::FeError;
 
 /// Tables of all (meshes that share them, phase) some positions need, for one size of load; equal phases
@@ -19,6 +19,8 @@ use crate::error::FeError;
 pub struct SetTables {
     /// The tables.
     pub list: Vec<Arc<MeshTable>>,
+    /// Maps of each that sets in time have found.
+    pub(crate) maps: Vec<Arc<SharedMaps>>,
     place: HashMap<(usize, i64), usize>,
     /// Tables beside each, once slopes were asked for.
     beside: Vec<OnceLock<Arc<NeighbourTables>>>,
@@ -72,7 +74,8 @@ impl StaticSet<'_> {
         let place = wanted.iter().enumerate().map(|(i, (g, phase))| (key(*g, *phase), i)).collect();
         let list = list?;
         let beside = vec![OnceLock::new(); list.len()];
-        Ok(SetTables { list, place, beside, settings })
+        let maps = list.iter().map(|_| Arc::default()).collect();
+        Ok(SetTables { list, maps, place, beside, settings })
     }
 
     /// Lays out what [`StaticSet::slopes`] needs beside every table, on all threads.

@@ -1,4 +1,5 @@
-//! Where tooth pairs push at the two gears of a mesh, and the gears' static flexibility between those places.
+//! Points at which tooth pairs load the two gears of a mesh, and the gears' static flexibility
+//! between them.
 
 use gearset::{Mesh, MeshKind, MeshMember};
 use nalgebra::DMatrix;
@@ -6,30 +7,32 @@ use nalgebra::DMatrix;
 use super::bodies::Bodies;
 use crate::contact::{PairCells, PairFrame};
 
-/// One end of a tooth pair: where it pushes at a tooth of one gear.
+/// One end of a tooth pair: its load on a tooth of one gear.
 ///
-/// The load is spread over the matching depth, below which the FE field stands for the tooth, whatever
-/// the mesh: what it measures is smooth, so one load a pair serves.
+/// The load is distributed over a width set by the matching depth, below which the FE field does
+/// not depend on the elements. The displacement measured with it is smooth, so that one load per
+/// pair suffices.
 #[derive(Debug, Clone)]
 pub(crate) struct PairEnd {
     /// Angle of the tooth's axis in the mesh frame, rad.
     pub(crate) axis: f64,
     /// Functions of the flank with their weights.
     pub(crate) load: Vec<(usize, f64)>,
-    /// Which displacement of the flank closes the pair, in the tooth's frame.
+    /// Direction in which displacement of the flank increases the pair's approach, in the tooth's
+    /// frame.
     pub(crate) direction: [f64; 2],
 }
 
-/// Half-width of a pair's load in matching depths: wider than any contact patch, so that the cells'
-/// compliance always exceeds what is taken through the ports.
+/// Half-width of a pair's load in matching depths: wider than any contact patch, so that the
+/// compliance of the cells always exceeds that through the ports.
 const SPREAD_IN_DEPTHS: f64 = 1.5;
 
-/// The same in half-grids of cells, which are made for the load: counts where that is far above what
-/// the set is designed for.
+/// The same in half lengths of the grid of contact cells, which grows with the load. It is the
+/// wider one at loads far above the design load.
 const SPREAD_IN_GRIDS: f64 = 5.0 / 3.0;
 
-/// Both ends of a pair of a mesh at a phase (cycles), driver first, its load spread as `cells` asks;
-/// `None` where the pair's flanks cannot touch.
+/// Both ends of a pair of a mesh at a phase (cycles), driver first, with a load as wide as the grid
+/// of `cells` requires; `None` where the pair's flanks cannot touch.
 pub(crate) fn pair_ends(
     bodies: &Bodies,
     mesh: &Mesh,
@@ -43,7 +46,8 @@ pub(crate) fn pair_ends(
     Some([MeshMember::Driver, MeshMember::Driven].map(|member| {
         let gear = gears[member as usize];
         let tooth = frame.tooth(member);
-        // A driver displaced along the normal approaches, a driven gear against it.
+        // The approach increases as the driver moves along the normal, or the driven gear against
+        // it.
         let sign = if member == MeshMember::Driver { 1.0 } else { -1.0 };
         let normal = crate::fe_mesh::rotated(frame.normal, -tooth.axis);
         let (_, roll_length) = frame.flank_point(member, 0.0);
@@ -56,8 +60,8 @@ pub(crate) fn pair_ends(
     }))
 }
 
-/// Static FE flexibility between some pairs of a mesh at a phase (cycles), both gears', loads spread, m/N;
-/// pairs that cannot touch there have none.
+/// Static FE flexibility between some pairs of a mesh at a phase (cycles) under distributed loads,
+/// sum of both gears, m/N; 0 for pairs that cannot touch there.
 pub(crate) fn flexibility(
     bodies: &Bodies,
     mesh: &Mesh,

@@ -9,7 +9,7 @@ use super::packed::Packed;
 use crate::error::FeError;
 use crate::statics::{CARRIER, PLANETS, Races};
 
-/// Bearings between the planets' races and the seats of a carrier that may give way.
+/// Bearings between the planets' races and the pin seats of a carrier that may be flexible.
 ///
 /// With e the elongations (planet's race less seat, radial and tangential) and Q the bearings'
 /// forces,
@@ -18,8 +18,8 @@ use crate::statics::{CARRIER, PLANETS, Races};
 /// Q = (I/k + A)⁻¹ (e + τ ė)
 /// ```
 ///
-/// where A is the static flexibility of the carrier that its own state does not carry and τ the
-/// dashpots' ratio to the stiffness.
+/// where k is the stiffness of a bearing, A the part of the carrier's static flexibility that its
+/// own elastic state does not represent, and τ the ratio of dashpots to stiffness (s).
 #[derive(Debug)]
 pub(super) struct Bearings {
     /// Elongations of rigid seats on the races' coordinates, 2N×n.
@@ -30,7 +30,7 @@ pub(super) struct Bearings {
     /// I/k + A, m/N.
     pub(super) compliance: DMatrix<f64>,
     ratio: f64,
-    /// (K'⁻¹ + G)⁻¹ with K' = (I/k + A)⁻¹ (1 + 2τ/h).
+    /// (K'⁻¹ + G)⁻¹ with K' = (I/k + A)⁻¹ (1 + 2τ/h) and G the carrier's receptance at the seats.
     dynamic: DMatrix<f64>,
     /// rowsᵀ (K'⁻¹ + G)⁻¹.
     onto_races: Packed,
@@ -41,7 +41,7 @@ pub(super) struct Bearings {
     history: DVector<f64>,
     free: DVector<f64>,
     forces: DVector<f64>,
-    /// −Q: what presses against the seats' directions.
+    /// −Q: forces on the seats' ports, positive against the ports' directions, N.
     pressing: Vec<f64>,
     elongation: DVector<f64>,
 }
@@ -70,7 +70,7 @@ impl Bearings {
                 }
             }
         }
-        // What the carrier's own modes carry is not given twice.
+        // The flexibility that the carrier's own elastic state represents is not counted twice.
         let carried = carrier.carried_flexibility(&ports);
         let mut compliance =
             DMatrix::from_fn(2 * n, 2 * n, |i, j| flexibility[(i, j)] - carried[i * 2 * n + j]);
@@ -123,7 +123,8 @@ impl Bearings {
         Ok(onto_races * &self.rows)
     }
 
-    /// After the carrier's prediction: adds the bearings' history to the races' loads.
+    /// Adds to the races' loads what the bearings contribute from the state at the start of the
+    /// step; to be called after the carrier's prediction.
     pub(super) fn predict(
         &mut self,
         rule: &AverageAcceleration,
@@ -139,7 +140,7 @@ impl Bearings {
         self.onto_races.add_product(self.free.as_slice(), load.as_mut_slice());
     }
 
-    /// Ends the step with the races at x; the carrier's body is ended with it.
+    /// Ends the step of bearings and carrier with the races at x (m).
     pub(super) fn finish(
         &mut self,
         rule: &AverageAcceleration,
@@ -150,7 +151,7 @@ impl Bearings {
         self.elongation.fill(0.0);
         self.packed_rows.add_product(x.as_slice(), self.elongation.as_mut_slice());
         if carrier.unknowns() == 0 {
-            // Seats without a motion of their own: e = Bx, and nobody asks for Q.
+            // The carrier has no elastic state: e = Bx, and Q is not needed.
             self.state.advance(rule, self.elongation.as_slice());
             return;
         }
@@ -165,7 +166,7 @@ impl Bearings {
         carrier.finish(race, 0.0, &self.ports, &self.pressing);
     }
 
-    /// At rest with the races at x.
+    /// Puts bearings and carrier to rest with the races at x (m).
     pub(super) fn rest(
         &mut self,
         carrier: &mut dyn VibratingBody,

@@ -1,4 +1,4 @@
-//! What a set asks of a vibrating body, whichever fidelity of the ladder it stands on.
+//! Interface of a vibrating body, the same for every level of fidelity.
 
 use dynamics::Motion;
 
@@ -15,8 +15,8 @@ pub struct RaceMotion {
     pub a: [f64; 3],
 }
 
-/// A place where something pushes at the flexible part of a body: what it measures of the elastic
-/// displacement, ℓ u = Σ w u, is also how a unit force there loads the body.
+/// A place at which a force loads the flexible part of a body. The elastic displacement measured
+/// there is ℓ u = Σ w u, and a unit force there loads the degrees of freedom with ℓᵀ.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Port {
     /// (degree of freedom in the body's frame, weight).
@@ -37,21 +37,21 @@ impl Port {
     }
 }
 
-/// A body in one time step after another.
+/// A body that is advanced by time steps.
 ///
 /// A point is displaced by its race (x, y, u = rθ), carried along rigidly, plus the elastic
-/// displacement, which vanishes on the race. Within a step of Newmark's method a body answers
+/// displacement, which vanishes on the race. Within a step of Newmark's method the body gives
 ///
 /// ```text
 /// elastic displacement at port a   = free_a + c_aᵀ q − Σ_b G_ab P_b
-/// force the race asks for          = A q − L + Σ_a c_a P_a
+/// force needed on the race         = A q − L + Σ_a c_a P_a
 /// ```
 ///
 /// for race displacements q at the end of the step and forces P_b that press on its ports (positive
 /// against the ports' directions). A and G_ab do not change from step to step. Proportional damping
 /// C = αM + βK acts within the body.
 ///
-/// The race's coordinates may stand in a frame turned by `angle` (rad) less than the body's own.
+/// The body's own frame is turned by `angle` (rad) from the frame of the race's coordinates.
 pub trait VibratingBody: std::fmt::Debug + Send {
     /// A, 3×3, N/m.
     fn race_stiffness(&self) -> [[f64; 3]; 3];
@@ -68,8 +68,8 @@ pub trait VibratingBody: std::fmt::Debug + Send {
     /// G_ab for all pairs of some ports, by rows, m/N.
     fn receptance(&self, ports: &[Port]) -> Vec<f64>;
 
-    /// What of the ports' static flexibility the body's own state carries, by rows, m/N: the rest
-    /// is without inertia.
+    /// Part of the ports' static flexibility that the body's own elastic state represents, by rows,
+    /// m/N; the rest acts without inertia.
     fn carried_flexibility(&self, ports: &[Port]) -> Vec<f64>;
 
     /// Ends the step with the race displaced by q and one force P for each port.
@@ -81,7 +81,7 @@ pub trait VibratingBody: std::fmt::Debug + Send {
     /// Elastic state besides the race; empty where there are no unknowns.
     fn elastic_mut(&mut self) -> &mut Motion;
 
-    /// Modes that stand for the body, `None` where it has every degree of freedom.
+    /// Modes that represent the body, `None` where it has every degree of freedom.
     fn modes(&self) -> Option<&[FixedRaceMode]>;
 
     /// Degrees of freedom besides the race.
@@ -94,7 +94,7 @@ pub fn into_frame(v: [f64; 3], angle: f64) -> [f64; 3] {
     [cos * v[0] + sin * v[1], -sin * v[0] + cos * v[1], v[2]]
 }
 
-/// Back again.
+/// Inverse of [`into_frame`].
 pub fn out_of_frame(v: [f64; 3], angle: f64) -> [f64; 3] {
     into_frame(v, -angle)
 }

@@ -1,4 +1,4 @@
-//! The bodies of a vibrating set, on the fidelity its scene asks for.
+//! The bodies of a vibrating set, at the level of fidelity of its scene.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use crate::statics::{
     Bodies, CARRIER, FLEXIBILITY_FACTOR, PLANETS, RING, SUN, SetTables, StaticSet,
 };
 
-/// What all bodies of a set share.
+/// Settings that all bodies of a set share.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Settings {
     pub(super) fidelity: Fidelity,
@@ -27,8 +27,8 @@ pub(super) struct Settings {
     pub(super) rule: AverageAcceleration,
 }
 
-/// Refuses factors on the meshes' flexibility where bodies have elastic states of their own, which
-/// serve several meshes at once.
+/// Refuses flexibility factors other than 1 where bodies have elastic states of their own, which
+/// several meshes share.
 pub(super) fn one_flexibility(scene: &Scene, bodies: &Bodies) -> Result<(), FeError> {
     if scene.dynamics.fidelity == Fidelity::QuasiStatic {
         return Ok(());
@@ -48,7 +48,7 @@ pub(super) fn one_flexibility(scene: &Scene, bodies: &Bodies) -> Result<(), FeEr
     Ok(())
 }
 
-/// Ring, sun and planets, their teeth where the position `start` (cycles) has them.
+/// Ring, sun and planets, with their teeth as they stand at the position `start` (cycles).
 pub(super) fn gears<'s>(
     statics: &StaticSet<'s>,
     scene: &Scene,
@@ -78,7 +78,7 @@ pub(super) fn gears<'s>(
                 vibrating: make(),
                 unknown_of: unknown_of.clone(),
                 start: angles[kind + n],
-                // The sun turns ahead of the carrier, planets and ring turn back.
+                // Relative to the carrier the sun turns forwards, planets and ring turn backwards.
                 rate: body.mesh.outline.gear().pitch_angle() * if kind == SUN { 1.0 } else { -1.0 },
             });
         }
@@ -86,7 +86,7 @@ pub(super) fn gears<'s>(
     Ok(gears)
 }
 
-/// A maker of bodies of one kind, which share what is constant.
+/// A function that makes bodies of one kind, which share factors and modes.
 fn flexible<'a>(
     settings: &Settings,
     name: &'static str,
@@ -139,8 +139,9 @@ pub(super) fn carrier(
     Ok((make(), (0..2 * n).map(port).collect(), body.flexibility.clone()))
 }
 
-/// Mass, mass and polar inertia over r² of a body of the set's order, kg: of its mesh; a carrier
-/// without geometry weighs what the lumped parameters say, and planets carry what is fixed to them.
+/// Mass, mass and polar inertia over r² of a body (number in the set's order), kg, from its FE
+/// mesh. A carrier without geometry has the mass and inertia of the lumped parameters, or 0 if it
+/// is held; planets include the mass and inertia fixed to them.
 pub(super) fn body_mass(
     statics: &StaticSet<'_>,
     scene: &Scene,
@@ -182,7 +183,8 @@ pub(super) fn body_mass(
     }
 }
 
-/// Angle of tooth 0 of every body (carrier first, nil) at a position: that of a tooth in contact.
+/// Angle of tooth 0 of every body at a position (carrier first, 0), rad: that of a tooth in
+/// contact.
 fn start_angles(
     statics: &StaticSet<'_>,
     tables: &SetTables,

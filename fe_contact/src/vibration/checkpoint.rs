@@ -1,5 +1,5 @@
-//! The state of a set between two mesh cycles as plain numbers, from which it goes on as if it had
-//! never stopped.
+//! The state of a set between two mesh cycles as plain numbers, from which it continues with the
+//! same results.
 
 use dynamics::Motion;
 
@@ -7,15 +7,16 @@ use super::set::VibratingSet;
 use crate::error::FeError;
 
 impl VibratingSet<'_> {
-    /// Everything the next step starts from: races, bearings, bodies, forces of the tooth pairs.
-    /// To be taken after whole mesh cycles; maps and frames are not in it, since they only save work.
+    /// Everything the next step starts from: races, bearings, bodies, forces of the tooth pairs. To
+    /// be taken after whole mesh cycles. Contact maps and frames are left out, since they can be
+    /// computed again.
     pub fn state(&mut self) -> Vec<f64> {
         let mut out = vec![self.clock.cycles as f64];
         self.visit(&mut |list| out.extend_from_slice(list));
         out
     }
 
-    /// Goes on from a state of a set of the same scene and fidelity, at this set's own speed.
+    /// Continues from a state of a set of the same scene and fidelity, at this set's own speed.
     ///
     /// # Errors
     /// If the state is that of another kind of set.

@@ -1,4 +1,4 @@
-//! Where a set is in its mesh cycles, and the step that takes it on.
+//! Position of a set in its mesh cycles, and its time step.
 
 use dynamics::AverageAcceleration;
 
@@ -11,7 +11,7 @@ pub(super) struct Clock {
     pub(super) rotation: NominalRotation,
     pub(super) rule: AverageAcceleration,
     pub(super) step_in_cycle: usize,
-    /// Mesh cycles gone by.
+    /// Whole mesh cycles completed.
     pub(super) cycles: i64,
     /// Steps taken.
     pub(super) steps: u64,
@@ -39,7 +39,7 @@ impl Clock {
         self.steps as f64 * self.rule.step()
     }
 
-    /// Moves on by a step.
+    /// Advances by a step.
     pub(super) fn tick(&mut self) {
         self.steps += 1;
         if let NominalRotation::Turning { steps_per_cycle, .. } = self.rotation {
@@ -61,7 +61,7 @@ impl Clock {
         }
     }
 
-    /// Mesh cycles since the start, as an angle knows them.
+    /// Mesh cycles by which the gears have turned since the start; 0 for a standing set.
     pub(super) fn turned(&self) -> f64 {
         match self.rotation {
             NominalRotation::Standing { .. } => 0.0,

@@ -1,4 +1,4 @@
-//! Tables of contact of a set in time, the maps that were solved on them, and the slopes of its flanks.
+//! Contact tables of a set in time, the contact maps found on them, and the slopes of its flanks.
 
 use std::sync::Arc;
 
@@ -10,33 +10,34 @@ use crate::contact::{ContactMaps, MeshTable};
 use crate::error::FeError;
 use crate::statics::SetTables;
 
-/// What the contact problems of a set are solved on.
+/// Everything that the contact problems of a set in time are solved with.
 #[derive(Debug)]
 pub(super) struct ContactTables {
     pub(super) tables: SetTables,
-    /// Of each table.
+    /// Contact maps of each table.
     pub(super) maps: Vec<ContactMaps>,
-    /// By step in the cycle.
+    /// Slopes of the flanks, by step in the cycle.
     pub(super) leaning: Vec<Leaning>,
-    /// Tables on a grid of phases, where kinematics are exact at every step.
+    /// Tables on a grid of phases; `None` unless kinematics are exact at every step.
     pub(super) grid: Option<GridTables>,
 }
 
 impl ContactTables {
     pub(super) fn new(tables: SetTables, leaning: Vec<Leaning>, is_exact: bool) -> Self {
-        let maps = tables.list.iter().map(|_| ContactMaps::new(&tables.settings)).collect();
+        let of = |shared| ContactMaps::new(&tables.settings, Arc::clone(shared));
+        let maps = tables.maps.iter().map(of).collect();
         Self { tables, maps, leaning, grid: is_exact.then(GridTables::default) }
     }
 
-    /// Adds a table without maps; returns its place.
+    /// Adds a table without maps; returns its index.
     pub(super) fn add(&mut self, table: MeshTable) -> usize {
         self.tables.list.push(Arc::new(table));
-        self.maps.push(ContactMaps::new(&self.tables.settings));
+        self.maps.push(ContactMaps::new(&self.tables.settings, Arc::default()));
         self.maps.len() - 1
     }
 
-    /// Finds maps at some approaches (m) for the meshes of a frame that have none, or whose map gave way to
-    /// another.
+    /// Finds maps at some approaches (m) for the meshes of a frame that have none, or whose map was
+    /// replaced by another.
     pub(super) fn find_lost(
         &mut self,
         frame: &mut Frame,

@@ -14,8 +14,8 @@ pub struct Proportional {
 }
 
 impl Proportional {
-    /// What Newmark's rule leaves of q̈ + α q̇ once its part in the new displacement is taken out:
-    /// a* + α v* of each coordinate.
+    /// The term a* + α v* of each coordinate of a race: at the end of a step, Newmark's rule gives
+    /// q̈ + α q̇ = (4/h² + 2α/h) q − (a* + α v*).
     pub fn race_history(&self, rule: &AverageAcceleration, race: &RaceMotion) -> [f64; 3] {
         [0, 1, 2].map(|i| {
             rule.acceleration_history(race.x[i], race.v[i], race.a[i])

@@ -1,4 +1,4 @@
-//! Where the energy of a set on rigid races is, and where it went.
+//! Energies of a set with quasi-static bodies, and the work done in a step.
 
 use nalgebra::DVector;
 
@@ -15,17 +15,17 @@ pub struct Energies {
     pub kinetic: f64,
     /// Bearings and supports, the carrier's flexibility among them, and the turning of the meshes' forces.
     pub bearings: f64,
-    /// ½ pᵀ C p of all meshes, FE flexibility and half-planes, as if it did not lag, to first order in how
-    /// compliance changes where the pairs move.
+    /// ½ pᵀ C p of all meshes, FE flexibility and half-planes, without the lag; the change of the
+    /// compliance as pairs move is included to first order.
     pub contact: f64,
 }
 
-/// What one step did, J.
+/// Work and dissipation of one step, J.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StepWork {
     /// Work of the external forces, their mean over the step times the displacement.
     pub external: f64,
-    /// Lost in αM and in the dashpots.
+    /// Energy dissipated by αM and the dashpots.
     pub damped: f64,
     /// Work of the races against the pairs' forces, their mean over the step.
     pub against_contact: f64,
@@ -41,8 +41,9 @@ pub struct StepStart {
 }
 
 impl VibratingSet<'_> {
-    /// What the approach of a loaded pair, worked out with exact kinematics at the present displacements,
-    /// is off its linear form about the reference at most, m; nil where every step is exact.
+    /// Kinematic rest: largest difference of a loaded pair's approach, by exact kinematics at the
+    /// present displacements, from its linear form about the reference, m; 0 where kinematics are
+    /// exact at every step.
     pub fn kinematic_rest(&self) -> f64 {
         let (Some(frame), None) =
             (self.frames.current(self.clock.step_in_cycle), &self.contact.grid)
@@ -59,7 +60,8 @@ impl VibratingSet<'_> {
         }))
     }
 
-    /// Energies of the quasi-static fidelity; bodies with a state of their own have more.
+    /// Energies at fidelity `quasi_static`; those of elastic states at other fidelities are not
+    /// included.
     pub fn energies(&self) -> Energies {
         let m = self.motion();
         let x = DVector::from_column_slice(&m.x);
@@ -76,7 +78,7 @@ impl VibratingSet<'_> {
         }
     }
 
-    /// ½ pᵀ C p of the present forces; no number if a map gave way since.
+    /// ½ pᵀ C p of the present forces, J; NaN if a map was replaced since the step.
     fn contact_energy(&self) -> f64 {
         let Some(frame) = self.frames.current(self.clock.step_in_cycle) else { return 0.0 };
         let of = |mesh: &super::frame::FrameMesh| {
@@ -89,7 +91,8 @@ impl VibratingSet<'_> {
         energy - left.dot(&moved)
     }
 
-    /// What the meshes press the races with, N.
+    /// Generalised forces of the meshes on the races, positive if to be subtracted in their
+    /// equations, n, N.
     fn pressed(&self) -> DVector<f64> {
         match self.frames.current(self.clock.step_in_cycle) {
             Some(frame) => {
@@ -102,7 +105,7 @@ impl VibratingSet<'_> {
         }
     }
 
-    /// To be taken before a step, for [`VibratingSet::work_since`] after it.
+    /// State to be stored before a step, for [`VibratingSet::work_since`] after it.
     pub fn step_start(&self) -> StepStart {
         let m = self.motion();
         let x = DVector::from_column_slice(&m.x);
@@ -115,7 +118,7 @@ impl VibratingSet<'_> {
         }
     }
 
-    /// What the step since `start` did:
+    /// Work and dissipation of the step since `start`, for which
     ///
     /// ```text
     /// T₁ − T₀ + V₁ − V₀ = external − damped − against_contact
@@ -135,8 +138,8 @@ impl VibratingSet<'_> {
         }
     }
 
-    /// Contact energy Ψ of the law without lag at the frame of one step in the cycle, races at x, J;
-    /// `None` if that frame was never visited.
+    /// Contact energy Ψ without lag at the frame of one step in the cycle, with the races at x (m),
+    /// J; `None` if that frame was never visited.
     fn potential(
         &mut self,
         step_in_cycle: usize,
@@ -153,14 +156,15 @@ impl VibratingSet<'_> {
             maps.find(&self.contact.tables.list[table], delta, held, &ActiveSet)?;
             energy += maps.held(held).map_or(f64::NAN, |map| map.energy(delta));
         }
-        // What the slopes leave is the same at all displacements.
+        // The load that the slopes leave does not depend on the displacements.
         let left = self.contact.leaning[step_in_cycle].rest_of(&self.statics);
         Ok(Some(energy - left.dot(&(x - &self.statics.reference().q))))
     }
 
-    /// What the turning of the meshes did to the contact energy over the step since `start`, J: the
-    /// nominal rotation's own work, by the trapezoidal rule on both ends' displacements. It has to be
-    /// asked for after every step of a cycle that was gone through before, and knows no lag (β = 0).
+    /// Change of the contact energy by the nominal rotation over the step since `start`, J, by the
+    /// trapezoidal rule from the displacements at both ends. It is to be called after every step,
+    /// holds without lag (β = 0) only, and is `None` unless the set has visited the positions at
+    /// both ends before.
     ///
     /// # Errors
     /// If a contact problem fails.

@@ -1,8 +1,10 @@
-//! A set in time with exact kinematics at every step: slow, and what the linearised set is judged by.
+//! A set in time with exact kinematics at every step: slow, and the reference against which the
+//! linearised set is checked.
 //!
-//! At each step the meshes are placed where the gears are, and placed anew until that is where the step
-//! ends. Tables stand on a grid of phases so fine that a mesh is never farther than 4 µm of its path from
-//! one; over that distance approaches are exact, and compliance changes by its slopes.
+//! In each step the meshes are placed at the displacements of the gears, and again until these are
+//! the displacements at the end of the step. Contact tables are laid out on a grid of phases, such
+//! that a mesh is at most 4 µm of its path from a table; over that distance approaches are exact,
+//! and the compliance changes by the slopes of the flanks.
 
 use std::borrow::Cow;
 
@@ -15,30 +17,31 @@ use crate::contact::PairFrame;
 use crate::error::FeError;
 use crate::statics::{NeighbourTables, PlacedMesh, turned};
 
-/// Tables in a mesh cycle.
+/// Tables per mesh cycle.
 const GRID: f64 = 1120.0;
 
-/// Displacements that change by less than this are found, m.
+/// The iteration ends once displacements change by less than this, m.
 const FOUND: f64 = 1e-11;
 
-/// Placings of the meshes in one step before it is given up.
+/// Most placings of the meshes in one step.
 const MOST: usize = 12;
 
-/// Placings after which a mesh keeps its table: half-way between two of them it might go to and fro.
+/// Placings after which a mesh keeps its table: half-way between two tables it could otherwise
+/// alternate.
 const FREE: usize = 4;
 
-/// Meshes placed where the gears are.
+/// Meshes placed at displacements of the gears.
 struct PlacedStep {
     frame: Box<Frame>,
-    /// What the slopes of the flanks leave on the races, N.
+    /// Load that the slopes of the flanks leave on the races, N.
     load: DVector<f64>,
-    /// Places of the meshes' tables.
+    /// Indices of the meshes' tables.
     places: Vec<usize>,
 }
 
 impl VibratingSet<'_> {
-    /// The meshes at the end of the step where the races stand at x, on the tables nearest to them, or on
-    /// `kept` ones if there are any.
+    /// The meshes at the end of the step with the races at x (m), on the tables nearest in phase,
+    /// or on the tables `kept`.
     fn placed_at(
         &mut self,
         x: &DVector<f64>,
@@ -73,7 +76,7 @@ impl VibratingSet<'_> {
         Ok(PlacedStep { frame: Box::new(frame), load, places })
     }
 
-    /// Place of the table nearest to a phase.
+    /// Index of the table nearest to a phase (cycles), which is computed at its first use.
     fn grid_table(&mut self, mesh: usize, phase: f64) -> Result<usize, FeError> {
         let group = self.statics.reference().meshes[mesh].group;
         let key = (group, (phase * GRID).round() as i64);
@@ -92,7 +95,7 @@ impl VibratingSet<'_> {
         Ok(place)
     }
 
-    /// One mesh on a table of the grid, its gears as they stand.
+    /// One mesh on a table of the grid, with the exact pose of its gears.
     fn place_on_grid(
         &self,
         mesh: usize,
@@ -154,8 +157,8 @@ impl VibratingSet<'_> {
         Ok(PlacedMesh { kind, planet, phase, table, rows, offsets, errors, bends, turns })
     }
 
-    /// Contact of the step with the meshes placed where it ends; the loads on the races without them are
-    /// in `work.load`.
+    /// Solves the contact of the step with the meshes placed at its end. On entry `work.load` holds
+    /// the loads on the races other than those of the slopes.
     pub(super) fn exact_contact(&mut self) -> Result<Box<Frame>, FeError> {
         let given = self.work.load.clone();
         let mut x = DVector::from_column_slice(&self.race_dynamics.motion.x);

@@ -16,8 +16,8 @@ pub struct FixedRaceMode {
     pub shape: Vec<f64>,
 }
 
-/// The lowest modes of a body with its race held, groups of equal ones whole; `radius` is r in
-/// u = rθ.
+/// The lowest modes of a body with its race held; modes of equal frequency are kept together.
+/// `radius` is r in u = rθ (m).
 ///
 /// # Errors
 /// If the stiffness is not definite or the modes do not converge.

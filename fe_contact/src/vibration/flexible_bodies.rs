@@ -11,10 +11,10 @@ use super::race_motion::{add_to_race, race_motion};
 use super::teeth::fill_port;
 use crate::statics::{CARRIER, Races};
 
-/// Degrees of freedom of all bodies from which each gets a thread of its own.
+/// Degrees of freedom of all bodies together above which gears are computed in parallel.
 const LARGE: usize = 10_000;
 
-/// Ports of one gear and what presses on each, N.
+/// Ports of one gear and the force on each, N.
 type Loads = (Vec<Port>, Vec<f64>);
 
 /// All bodies of a set.
@@ -23,9 +23,10 @@ pub(super) struct FlexibleBodies<'s> {
     pub(super) carrier: Box<dyn VibratingBody>,
     /// Ring, sun, planets.
     pub(super) gears: Vec<VibratingGear<'s>>,
-    /// Whether bodies are worth a thread each.
+    /// Whether gears are computed in parallel.
     is_large: bool,
-    /// Motion of each gear's race at the start of the step, and the load it answers with.
+    /// Motion of each gear's race at the start of the step, and the load on the race that the
+    /// gear's prediction returns, N.
     started: Vec<(RaceMotion, [f64; 3])>,
     /// Ports and forces of each gear.
     pub(super) ports: Vec<Loads>,
@@ -51,8 +52,8 @@ impl<'s> FlexibleBodies<'s> {
             .chain(self.gears.iter().enumerate().map(|(k, g)| (k + 1, g.vibrating.as_ref())))
     }
 
-    /// Starts the step of all bodies and adds what they put on the races to `load` (n, N); large gears
-    /// side by side, which changes no bit.
+    /// Starts the step of all bodies and adds their loads on the races to `load` (n, N). Large
+    /// gears are computed in parallel, with bitwise the same result.
     pub(super) fn predict(
         &mut self,
         races: &Races,
@@ -123,7 +124,7 @@ impl<'s> FlexibleBodies<'s> {
         }
     }
 
-    /// Ports of all gears with a state of their own, after `cycles` mesh cycles.
+    /// Sets the ports of all gears with elastic states, after `cycles` mesh cycles.
     pub(super) fn fill_ports(&mut self, frame: &Frame, cycles: i64) {
         for ((gear, own), (ports, _)) in self.gears.iter().zip(&frame.own).zip(&mut self.ports) {
             if gear.vibrating.unknowns() == 0 {
@@ -152,7 +153,8 @@ impl<'s> FlexibleBodies<'s> {
         ports
     }
 
-    /// Static flexibility between pairs that the bodies' states carry, pairs×pairs, m/N.
+    /// Static flexibility between pairs that the bodies' elastic states represent, pairs×pairs,
+    /// m/N.
     pub(super) fn carried(&self, frame: &Frame, cycles: i64) -> DMatrix<f64> {
         let count = frame.offsets.len();
         let mut carried = DMatrix::zeros(count, count);

@@ -1,4 +1,4 @@
-//! One position of the mesh cycle as a vibrating set sees it: all that depends on it alone.
+//! Everything of a vibrating set that depends on the position in the mesh cycle only.
 
 use std::ops::Range;
 
@@ -20,7 +20,7 @@ const MOST_COMBINATIONS: usize = 6;
 /// One mesh of a frame: its pairs are `first..first + count`.
 #[derive(Debug, Clone)]
 pub(super) struct FrameMesh {
-    /// Table and maps.
+    /// Index of its table and of the table's contact maps.
     pub(super) table: usize,
     pub(super) first: usize,
     pub(super) count: usize,
@@ -31,17 +31,18 @@ pub(super) struct FrameMesh {
 }
 
 impl FrameMesh {
-    /// The map that holds, once one was found and while it is kept.
+    /// The map last found to hold; `None` if none was found or it was replaced since.
     #[inline]
     pub(super) fn map<'m>(&self, maps: &'m [ContactMaps]) -> Option<&'m ContactMap> {
         maps[self.table].held(&self.held)
     }
 }
 
-/// Approaches of all pairs for given free ones b, as long as certain maps hold: δ = W b + w.
+/// Approaches of all pairs for given approaches b without pair forces, valid while certain maps
+/// hold: δ = W b + w.
 #[derive(Debug, Clone)]
 pub(super) struct Combination {
-    /// Maps by their ids, one a mesh.
+    /// Ids of the maps, one per mesh.
     pub(super) maps: Vec<u64>,
     pub(super) slope: Packed,
     pub(super) offset: Vec<f64>,
@@ -49,10 +50,10 @@ pub(super) struct Combination {
     pub(super) laws: Vec<f64>,
 }
 
-/// A pair at a corner, as [`crate::statics::Bend`] has it.
+/// Second-order term of the gap of a pair in corner contact, as `Bend` in `statics/placed.rs`.
 #[derive(Debug, Clone)]
 pub(super) struct FrameBend {
-    /// Among all pairs of the frame.
+    /// Index among all pairs of the frame.
     pub(super) pair: usize,
     pub(super) mesh: usize,
     pub(super) slot: PairSlot,
@@ -68,13 +69,13 @@ pub(super) struct FrameBend {
 pub(super) struct Frame {
     /// Front meshes, then the backside ones where they may touch.
     pub(super) meshes: Vec<FrameMesh>,
-    /// What is taken from the rows' products, tooth errors included: a pair approaches by b·x − offset, m.
+    /// Offset of each pair, tooth errors included, m: its approach is b·x − offset.
     pub(super) offsets: Vec<f64>,
     /// The same without tooth errors, m.
     pub(super) perfect: Vec<f64>,
     /// Ends of each pair on the teeth; none for backside flanks.
     pub(super) ends: Vec<Option<[ToothPoint; 2]>>,
-    /// Number of the tooth of each end when the set has turned by less than a mesh cycle.
+    /// Number of the tooth of each end during the first mesh cycle.
     pub(super) teeth: Vec<Option<[i64; 2]>>,
     /// (Pair, end) of the ports of each gear.
     pub(super) own: Vec<Vec<(usize, usize)>>,
@@ -82,22 +83,23 @@ pub(super) struct Frame {
     pub(super) rigid: DMatrix<f64>,
     /// Approach on the races' coordinates within a step.
     pub(super) rows: Vec<ShortRow>,
-    /// Y: what a unit force on one pair takes from the approach of another within a step, beyond
-    /// the cells' own compliance, m/N.
+    /// Y: reduction of the approach of one pair by a unit force on another within a step, beyond
+    /// the compliance of the cells, m/N.
     pub(super) receptance: DMatrix<f64>,
-    /// Static FE flexibility that no body's state carries, m/N: within meshes, and between those of
-    /// bodies that have a state, which would carry a part of it alone.
+    /// Static FE flexibility that no body's elastic state represents, m/N: between pairs of one
+    /// mesh and, on bodies with elastic states, between pairs of different meshes.
     pub(super) lagging: DMatrix<f64>,
-    /// The same by columns: of all pairs, or of those of its own mesh where no other is coupled.
+    /// The same by columns: rows of all pairs, or of those of the same mesh where meshes are not
+    /// coupled.
     pub(super) lags: Vec<f64>,
     /// Whether the columns hold all pairs.
     pub(super) is_coupled: bool,
-    /// Pairs at corners, whose gaps bend.
+    /// Second-order terms of the gaps of pairs in corner contact.
     pub(super) bends: Vec<FrameBend>,
-    /// Where each pair's forces are remembered.
+    /// Index of each pair in the state of the lag.
     pub(super) slots: Vec<PairSlot>,
     pub(super) combinations: Vec<Combination>,
-    /// Which combination gives way next.
+    /// Index of the combination that is replaced next.
     pub(super) oldest: usize,
 }
 
@@ -107,13 +109,13 @@ pub(super) struct FrameInputs<'g> {
     pub(super) gears: &'g [VibratingGear<'g>],
     /// A⁻¹ of the races, n×n.
     pub(super) inverse: &'g DMatrix<f64>,
-    /// Weight of the forces at the end of a step in their lagged value.
+    /// Weight of the forces at the end of a step in their lagged value P̃.
     pub(super) lag_end: f64,
 }
 
 impl Frame {
-    /// `placed` with the place of each table; the first `front` are front flanks. `turned`: mesh
-    /// cycles since the start.
+    /// Frame of the meshes `placed`, whose tables have the indices `places`; the first `front` are
+    /// front flanks. `turned`: mesh cycles since the start.
     pub(super) fn new(
         inputs: &FrameInputs<'_>,
         placed: &[PlacedMesh<'_>],
@@ -200,7 +202,7 @@ impl Frame {
         Ok(frame)
     }
 
-    /// Pairs whose approach the past forces of a mesh change.
+    /// Pairs whose approach depends on the past forces of a mesh.
     pub(super) fn lagged_by(&self, mesh: &FrameMesh) -> Range<usize> {
         if self.is_coupled { 0..self.offsets.len() } else { mesh.first..mesh.first + mesh.count }
     }
@@ -210,7 +212,8 @@ impl Frame {
         self.meshes.iter().position(|m| pair < m.first + m.count).unwrap_or(0)
     }
 
-    /// Elastic part of one gear: couplings, receptances between its ports, lagging flexibility.
+    /// Adds the elastic part of one gear: couplings, receptances between its ports, lagging
+    /// flexibility.
     fn add_body(
         &mut self,
         inputs: &FrameInputs<'_>,
@@ -256,7 +259,7 @@ impl Frame {
             for (j, b) in places.iter().enumerate() {
                 let same = self.mesh_of(*a) == self.mesh_of(*b);
                 if !same && !carries {
-                    // Quasi-static bodies know each mesh alone, as statics do.
+                    // Quasi-static bodies do not couple different meshes, as in statics.
                     continue;
                 }
                 let ((on, tooth_on), (of, tooth_of)) = (&own[j], &own[i]);
@@ -265,7 +268,8 @@ impl Frame {
                     tooth_of - tooth_on,
                     (&of.end.load, of.end.direction),
                 );
-                // As in the cells' compliance, which holds what is within a mesh.
+                // With the factor, as in the compliance of the cells, which covers the pairs of one
+                // mesh.
                 let whole = whole * self.meshes[self.mesh_of(*a)].flexibility_factor;
                 self.lagging[(*a, *b)] += whole;
                 if carries {
@@ -278,7 +282,7 @@ impl Frame {
         }
     }
 
-    /// Offsets of all pairs with the races at x, the bends of gaps at corners among them, m.
+    /// Offsets of all pairs with the races at x (m), second-order terms of corner gaps included, m.
     pub(super) fn opened_at(&self, x: &[f64]) -> DVector<f64> {
         let mut offsets = DVector::from_column_slice(&self.offsets);
         for bend in &self.bends {
@@ -288,7 +292,7 @@ impl Frame {
         offsets
     }
 
-    /// Keeps a solved combination, the oldest giving way.
+    /// Stores a solved combination in place of the oldest if there are too many; returns its index.
     pub(super) fn keep(&mut self, combination: Combination) -> usize {
         if self.combinations.len() < MOST_COMBINATIONS {
             self.combinations.push(combination);

@@ -12,7 +12,7 @@ pub(super) struct Frames {
 }
 
 impl Frames {
-    /// None yet, for a cycle of `count` steps.
+    /// No frames yet, for a cycle of `count` steps.
     pub(super) fn new(count: usize) -> Self {
         let none = || (0..count).map(|_| None).collect();
         Self { plain: none(), with_backside: none(), touched_backside: false }

@@ -105,7 +105,7 @@ impl FullBody {
             factor.solve_one(&mut column);
             ports.iter().map(|port| port.read(&column)).collect()
         };
-        // A solution a port: worth a thread each.
+        // One solution of the system per port, in parallel.
         let columns: Vec<Vec<f64>> = ports.par_iter().map(column).collect();
         (0..n * n).map(|at| columns[at % n][at / n]).collect()
     }

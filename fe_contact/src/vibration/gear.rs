@@ -14,7 +14,7 @@ pub(super) struct VibratingGear<'s> {
     pub(super) unknown_of: Arc<Vec<usize>>,
     /// Angle of tooth 0 at the start, rad.
     pub(super) start: f64,
-    /// Angle by which it turns against the carrier in a mesh cycle, rad.
+    /// Angle by which it turns relative to the carrier in a mesh cycle, rad.
     pub(super) rate: f64,
 }
 
@@ -30,7 +30,7 @@ impl VibratingGear<'_> {
         ((axis - self.angle(turned)) / pitch).round() as i64
     }
 
-    /// By how many teeth the numbers of a position move on in a mesh cycle.
+    /// Change of the number of the tooth at a given position from one mesh cycle to the next.
     pub(super) fn teeth_per_cycle(&self) -> i64 {
         -self.rate.signum() as i64
     }

@@ -7,7 +7,7 @@ use crate::statics::NeighbourTables;
 /// Tables of the grid that were needed so far.
 #[derive(Debug, Default)]
 pub(super) struct GridTables {
-    /// By group of meshes and place on the grid.
+    /// Index of the table, by group of meshes and number of the phase on the grid.
     pub(super) place: HashMap<(usize, i64), usize>,
     pub(super) beside: HashMap<usize, NeighbourTables>,
 }

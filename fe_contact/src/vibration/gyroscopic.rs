@@ -1,4 +1,4 @@
-//! Terms of the carrier frame in the equations of the races.
+//! Terms of the rotating carrier frame in the equations of the races.
 
 use dynamics::RotatingFrame;
 use gearset::{Kinematics, Scene};
@@ -36,8 +36,9 @@ impl GyroscopicTerms {
     }
 }
 
-/// Speed of the carrier (rad/s) at a mesh frequency (Hz), seen so that the sun turns counter-clockwise
-/// against it, as positions in the mesh cycle count in either sense of torque.
+/// Speed of the carrier (rad/s) at a mesh frequency (Hz), positive in the sense in which the sun
+/// turns relative to the carrier; positions in the mesh cycle count in that sense for either sense
+/// of torque.
 pub(super) fn carrier_speed(scene: &Scene, mesh_frequency: f64) -> f64 {
     match Kinematics::from_scene(scene) {
         Ok(k) if k.mesh_frequency_hz > 0.0 => {

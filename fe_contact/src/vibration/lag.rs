@@ -1,4 +1,5 @@
-//! The lag that stiffness-proportional damping puts on flexibility without inertia.
+//! The lag of flexibility without inertia behind its load, caused by stiffness-proportional
+//! damping.
 //!
 //! Where FE flexibility F follows forces P without inertia of its own, βK leaves
 //!
@@ -6,11 +7,11 @@
 //! β u̇ + u = −F P,   so  u = −F P̃  with  β P̃' + P̃ = P
 //! ```
 //!
-//! β is microseconds, shorter than a step: the trapezoidal rule would ring on it. Forces are taken
-//! as the parabola through the last three steps instead, for which the equation is solved exactly.
-//! That is of second order for any ratio of step and lag, and damps what is faster than the step.
-//! The state belongs to tooth pairs, whose numbers move on by one whenever their mesh's phase starts
-//! anew.
+//! β is some microseconds, shorter than a step, so that the trapezoidal rule would oscillate.
+//! Instead the forces are interpolated by a parabola through the end of the step, its start and the
+//! start of the step before, for which the equation is solved exactly. This is of second order for
+//! any ratio of step and β, and damps motion faster than the step. The state belongs to tooth
+//! pairs, whose numbers grow by one whenever the phase of their mesh starts again at 0.
 
 use dynamics::AverageAcceleration;
 
@@ -18,7 +19,8 @@ use dynamics::AverageAcceleration;
 const LEAST: i64 = 4;
 const WIDTH: usize = 12;
 
-/// Weights of the forces at the end, at the start and one step before it, and of the state.
+/// Weights of the forces at the end and at the start of a step and one step earlier, and of the
+/// state P̃.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct LagRule {
     pub(super) end: f64,
@@ -55,7 +57,8 @@ impl LagRule {
     }
 }
 
-/// Forces of one mesh's pairs as the lag remembers them.
+/// State of the lag of one mesh, for each pair: P̃, and the forces at the end of the last step and
+/// of the one before, N.
 #[derive(Debug, Clone, Default)]
 pub(super) struct PairMemory {
     filtered: [f64; WIDTH],
@@ -63,12 +66,12 @@ pub(super) struct PairMemory {
     before: [f64; WIDTH],
 }
 
-/// Where a memory keeps the forces of a pair.
+/// Index of a pair in a [`PairMemory`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct PairSlot(u8);
 
 impl PairSlot {
-    /// A pair's own; those too far off share one that stays empty.
+    /// Index of a pair; pairs outside the stored range share one that stays empty.
     pub(super) fn of(pair: i64) -> Self {
         let place = u8::try_from(pair + LEAST).ok().filter(|i| usize::from(*i) < WIDTH);
         Self(place.unwrap_or(WIDTH as u8))
@@ -80,7 +83,7 @@ impl PairSlot {
 }
 
 impl PairMemory {
-    /// As if the forces had always been these.
+    /// Steady state under constant forces (N).
     pub(super) fn rest(&mut self, forces: impl Iterator<Item = (PairSlot, f64)>) {
         *self = Self::default();
         for (slot, force) in forces {
@@ -90,7 +93,7 @@ impl PairMemory {
         }
     }
 
-    /// All that is kept.
+    /// All values of the state.
     pub(super) fn lists(&mut self) -> [&mut [f64; WIDTH]; 3] {
         [&mut self.filtered, &mut self.now, &mut self.before]
     }
@@ -102,7 +105,8 @@ impl PairMemory {
         })
     }
 
-    /// Force of a pair at the end of the next step, as the last two ends have it, N.
+    /// Force of a pair at the end of the next step, extrapolated linearly from the last two and not
+    /// below 0, N.
     pub(super) fn expected(&self, slot: PairSlot) -> f64 {
         slot.place().map_or(0.0, |i| (2.0 * self.now[i] - self.before[i]).max(0.0))
     }
@@ -117,7 +121,8 @@ impl PairMemory {
         PairSlot::of(pair).place().map_or(0.0, |i| self.filtered[i])
     }
 
-    /// Takes in the forces at the end of the step; pairs that are not named carry nothing.
+    /// Advances the state by a step with the forces (N) at its end; pairs that are not listed carry
+    /// none.
     pub(super) fn advance(
         &mut self,
         rule: &LagRule,
@@ -167,7 +172,7 @@ mod tests {
         assert!((a.end - b.end).abs() < 1e-6 && (a.before - b.before).abs() < 1e-6);
     }
 
-    /// Parabolas are followed exactly: P = t² lags to t² − 2βt + 2β² − 2β² e^{−t/β}.
+    /// The solution for a parabola is exact: P = t² gives P̃ = t² − 2βt + 2β² − 2β² e^{−t/β}.
     #[test]
     fn a_parabola_is_followed_exactly() {
         let beta = 2.21e-6;

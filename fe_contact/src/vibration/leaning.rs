@@ -1,4 +1,4 @@
-//! Slopes of the deformed flanks at the positions of a mesh cycle, as the set's equilibrium deforms them.
+//! Slopes of the deformed flanks at the positions of a mesh cycle, in the equilibrium of the set.
 
 use nalgebra::DVector;
 
@@ -6,23 +6,23 @@ use crate::complementarity::ActiveSet;
 use crate::error::FeError;
 use crate::statics::{PlacedMesh, SetTables, Slopes, StaticSet};
 
-/// What the slopes of the flanks put into a set's rows at one position, and leave on its races.
+/// Slopes of the flanks of all meshes at one position, and the load that they leave on the races.
 #[derive(Debug, Clone)]
 pub(super) struct Leaning {
     /// Of each front mesh; none without load.
     slopes: Vec<Slopes>,
-    /// Loads that stay with the position: what the slopes leave of the gradient of the meshes' energy, and
-    /// what the turning of their forces takes from the reference, n, N.
+    /// Load on the races that depends on the position only, n, N: the rest of the gradient of the
+    /// meshes' energy, ∂W/∂σ − κᵀP and the same for a', and Σ F̄ ∂²δ q_ref.
     pub(super) load: DVector<f64>,
 }
 
 impl Leaning {
-    /// Nothing.
+    /// No slopes, and no load.
     pub(super) fn none(statics: &StaticSet<'_>) -> Self {
         Self { slopes: Vec::new(), load: DVector::zeros(statics.races.count) }
     }
 
-    /// At every one of some positions (cycles), in the equilibrium under the reference's torque.
+    /// At each of the `positions` (cycles), in the equilibrium under the reference's torque.
     pub(super) fn at(
         statics: &StaticSet<'_>,
         tables: &SetTables,
@@ -51,13 +51,13 @@ impl Leaning {
         Ok(list)
     }
 
-    /// What the slopes leave on the races without the turning of the forces, n, N.
+    /// Load that the slopes leave on the races, without Σ F̄ ∂²δ q_ref, n, N.
     pub(super) fn rest_of(&self, statics: &StaticSet<'_>) -> DVector<f64> {
         let reference = statics.reference();
         &self.load - &reference.stiffness * &reference.q
     }
 
-    /// Puts the slopes into the rows of the front meshes at the position.
+    /// Includes the slopes in the rows of the front meshes at the position.
     pub(super) fn apply(&self, statics: &StaticSet<'_>, placed: &mut [PlacedMesh<'_>]) {
         let mut known = DVector::zeros(self.load.len());
         for (mesh, (own, slopes)) in placed.iter_mut().zip(&self.slopes).enumerate() {

@@ -1,4 +1,4 @@
-//! A set linearised about its present state: all touching cells keep touching, no others begin to.
+//! A set linearised about its present state, with the set of touching cells kept.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -15,8 +15,8 @@ use crate::statics::CARRIER;
 /// M z̈ + C ż + K z + Rᵀ P = f,   P = S_c (R z − F P̃),   β P̃' + P̃ = P
 /// ```
 ///
-/// K without contact; R: approaches of the touching pairs, S_c their stiffness with the FE
-/// flexibility F that lags taken out. In slow motion P = S R z.
+/// K: stiffness without contact; R: approaches of the pairs; S_c: their stiffness S with the
+/// lagging FE flexibility F taken out. In slow motion P = S R z.
 #[derive(Debug, Clone)]
 pub struct LinearSet {
     /// M, kg.
@@ -25,14 +25,15 @@ pub struct LinearSet {
     pub damping: DMatrix<f64>,
     /// K without contact, N/m.
     pub supports: DMatrix<f64>,
-    /// Of K: what the meshes' forces add as they turn with their lines of action, and those of corners as
-    /// these move beyond the path, N/m; nothing damps it.
+    /// Part of K from the turning of the mesh forces with their lines of action and from the
+    /// second-order terms of corner gaps, N/m; it is undamped.
     pub turning: DMatrix<f64>,
     /// R, pairs×z.
     pub rows: DMatrix<f64>,
     /// S, pairs×pairs, N/m.
     pub contact: DMatrix<f64>,
-    /// S of each mesh with all its pairs approaching alike: sun meshes, then ring meshes, N/m.
+    /// Tangent stiffness of each mesh, the approaches of all its pairs growing equally: sun meshes,
+    /// then ring meshes, N/m.
     pub mesh_tangents: Vec<f64>,
     /// F, m/N.
     lagging: DMatrix<f64>,
@@ -96,14 +97,15 @@ impl VibratingSet<'_> {
             }
             first += modes.len();
         }
-        // Planet bearings on seats that may give way, and the central members' supports.
+        // Planet bearings on seats that may be flexible, and the central members' supports.
         let bearings = self.race_dynamics.bearings.linearised(lists[0].2, n, size)?;
         supports += bearings;
         damping += self.race_dynamics.bearing_ratio * &supports;
-        // The meshes' forces turn with their lines of action; that has no dashpot.
+        // Stiffness from mesh forces that turn with their lines of action; it is undamped.
         let mut turning = DMatrix::zeros(size, size);
         turning.view_mut((0, 0), (n, n)).copy_from(&self.statics.reference().stiffness);
-        // Corners: P (b − G'' Δe ∂e), whose derivative is −P G'' ∂e ∂eᵀ beside that of P.
+        // Generalised force of a corner: P (b − G'' Δe ∂e). Its derivative has the term −P G'' ∂e
+        // ∂eᵀ beside that of P.
         let mut rigid = frame.rigid.clone();
         for bend in &frame.bends {
             let row = bend.row.full(n);
@@ -160,8 +162,9 @@ impl VibratingSet<'_> {
             }
             first += modes.len();
         }
-        // What the modes carry within a mesh is in the cells' compliance and must not act twice; what
-        // they do not carry between meshes is nowhere else.
+        // Within a mesh the flexibility of the modes is part of the cells' compliance and must not
+        // act twice. Between meshes the static flexibility that the modes leave out appears nowhere
+        // else.
         let (carried, mut doubled) =
             (self.bodies.carried(frame, self.clock.cycles), -&frame.lagging);
         for mesh in &frame.meshes {
@@ -227,7 +230,7 @@ impl LinearSet {
         Ok((modes.lambda.iter().map(frequency).collect(), shapes))
     }
 
-    /// Modes with damping and lag that oscillate, by ascending frequency.
+    /// Oscillating modes with damping and lag, by ascending frequency.
     ///
     /// # Errors
     /// If the eigenproblem fails.

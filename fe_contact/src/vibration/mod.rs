@@ -1,4 +1,4 @@
-//! Sets in time: bodies on the fidelities of the fidelity ladder, contact inside every step.
+//! Sets in time: bodies at every level of fidelity, contact solved in every time step or tabulated.
 
 mod bearings;
 mod body;

@@ -1,4 +1,4 @@
-//! A rigid race with n modes of the body behind it; without any, the quasi-static body.
+//! A rigid race with n modes of the elastic body; with n = 0 the quasi-static body.
 
 use dynamics::{AverageAcceleration, Motion};
 
@@ -6,7 +6,7 @@ use super::body::{Port, RaceMotion, VibratingBody, into_frame, out_of_frame};
 use super::damping::Proportional;
 use super::fixed_race_mode::FixedRaceMode;
 
-/// A rigid race and some modes of the rest.
+/// A rigid race and n modes of the body with its race held.
 ///
 /// ```text
 /// M_rr (q̈ + α q̇) + Σ_j Γ_j (η̈_j + α η̇_j)                  = race loads

@@ -1,12 +1,12 @@
-//! Small matrices as every step multiplies by them: of twenty by twenty, laid out in the order in which
-//! they are read, without the strides that a general library allows for.
+//! Small dense matrices (about 20×20) for the products of every time step, stored in the order in
+//! which they are read, without the strides of a general library.
 
 use nalgebra::DMatrix;
 
-/// Rows of a block, which are summed side by side.
+/// Rows of a block, whose sums are formed simultaneously.
 const BLOCK: usize = 8;
 
-/// A sum with a block's columns times x added.
+/// `sum` plus the product of a block with x.
 #[inline(always)]
 fn added(mut sum: [f64; BLOCK], block: &[[f64; BLOCK]], x: &[f64]) -> [f64; BLOCK] {
     for (column, x) in block.iter().zip(x) {
@@ -17,7 +17,7 @@ fn added(mut sum: [f64; BLOCK], block: &[[f64; BLOCK]], x: &[f64]) -> [f64; BLOC
     sum
 }
 
-/// A dense matrix in blocks of rows, each by columns, the last one padded with nils.
+/// A dense matrix in blocks of rows, each stored by columns, the last one padded with zeros.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Packed {
     rows: usize,
@@ -40,7 +40,8 @@ impl Packed {
         let (x, out) = (&x[..self.columns], &mut out[..self.rows]);
         let blocks = self.data.chunks_exact(self.columns.max(1));
         for (block, out) in blocks.zip(out.chunks_mut(BLOCK)) {
-            // A length the compiler knows spares a whole block two calls that copy it.
+            // With a length known at compile time, a whole block is not copied by two library
+            // calls.
             if let Ok(whole) = <&mut [f64; BLOCK]>::try_from(&mut *out) {
                 *whole = added(*whole, block, x);
             } else {

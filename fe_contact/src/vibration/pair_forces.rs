@@ -1,4 +1,4 @@
-//! Forces and approaches of all tooth pairs of a set, and what past forces leave behind.
+//! Forces and approaches of all tooth pairs of a set, and the state of their lag.
 
 use nalgebra::DVector;
 
@@ -9,15 +9,15 @@ use super::lag::{LagRule, PairMemory};
 #[derive(Debug)]
 pub(super) struct PairForces {
     pub(super) lag: LagRule,
-    /// Of each front mesh.
+    /// State of the lag of each front mesh.
     pub(super) memory: Vec<PairMemory>,
     /// Forces of the pairs of the current frame, N.
     pub(super) forces: DVector<f64>,
     /// Approaches of the pairs, less gap offsets, m.
     pub(super) approaches: DVector<f64>,
-    /// What the bends of gaps at corners put on the races in the last step, n, N.
+    /// Load on the races from the second-order terms of corner gaps in the last step, n, N.
     pub(super) bent: DVector<f64>,
-    /// By step in the cycle: meshes whose phase starts anew at it.
+    /// By step in the cycle: meshes whose phase starts again at 0 with this step.
     pub(super) restarts: Vec<Vec<usize>>,
 }
 
@@ -39,7 +39,7 @@ impl PairForces {
         }
     }
 
-    /// Makes room for the pairs of a position: positions differ in their number of pairs.
+    /// Enlarges the vectors if a position has more pairs than any before.
     pub(super) fn fit(&mut self, count: usize) {
         if self.forces.len() < count {
             self.forces = DVector::zeros(count);
@@ -47,14 +47,15 @@ impl PairForces {
         }
     }
 
-    /// Moves the memories on of meshes whose phase starts anew at a step of the cycle.
+    /// Renumbers the pairs in the lag of those meshes whose phase starts again at a step of the
+    /// cycle.
     pub(super) fn restart(&mut self, step_in_cycle: usize) {
         for mesh in &self.restarts[step_in_cycle] {
             self.memory[*mesh].move_on();
         }
     }
 
-    /// Remembers the forces at the end of a step.
+    /// Advances the lag by the forces at the end of a step.
     pub(super) fn advance(&mut self, frame: &Frame) {
         for (memory, mesh) in self.memory.iter_mut().zip(&frame.meshes) {
             let own = &self.forces.as_slice()[mesh.first..mesh.first + mesh.count];
@@ -63,7 +64,7 @@ impl PairForces {
         }
     }
 
-    /// As if the forces `p` (N) of a frame's pairs had always been these.
+    /// Sets the lag to its steady state under the forces `p` (N) of a frame's pairs.
     pub(super) fn rest(&mut self, frame: &Frame, p: &DVector<f64>) {
         for (memory, mesh) in self.memory.iter_mut().zip(&frame.meshes) {
             let own = &p.as_slice()[mesh.first..mesh.first + mesh.count];

@@ -6,7 +6,7 @@ use super::set::VibratingSet;
 use crate::error::FeError;
 
 impl VibratingSet<'_> {
-    /// The frame of the current step, built where it is not there yet.
+    /// The frame of the current step, built if it does not exist yet.
     pub(super) fn take_frame(&mut self, with_backside: bool) -> Result<Box<Frame>, FeError> {
         let k = self.clock.step_in_cycle;
         if let Some(mut frame) = self.frames.take(k, with_backside) {
@@ -52,7 +52,7 @@ impl VibratingSet<'_> {
         Ok(frame)
     }
 
-    /// Gap offsets with the teeth that are in mesh now.
+    /// Sets the gap offsets to those of the teeth that are in mesh now.
     fn renew_offsets(&self, frame: &mut Frame) {
         let turned = match self.clock.rotation {
             NominalRotation::Standing { .. } => self.clock.position(0),
@@ -76,8 +76,8 @@ mod tests {
     use super::*;
     use crate::statics::{Bodies, Imperfections};
 
-    /// A pair keeps its teeth from step to step, when its number moves on and when a cycle ends; the
-    /// teeth it is given stand where the turning gears have them.
+    /// A pair keeps its teeth from step to step, also when its number grows by one and when a cycle
+    /// ends, and these teeth are where the turning gears have them.
     #[test]
     fn pairs_keep_their_teeth() {
         let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
@@ -106,12 +106,14 @@ mod tests {
                         .map(|(end, tooth)| {
                             let gear = &set.bodies.gears[end.body - 1];
                             let count = gear.body.mesh.outline.gear().teeth as i64;
-                            // The axis of a whole number of pitches from where tooth 0 is now.
+                            // The tooth's axis must be a whole number of pitches from that of tooth
+                            // 0.
                             let turned = set.clock.position(set.clock.step_in_cycle);
                             let pitch = gear.body.mesh.outline.gear().pitch_angle();
                             let exact = (end.axis - gear.angle(turned)) / pitch;
-                            // Under load a planet stands between where its two meshes touch, half of
-                            // their approaches from either: some 20 µm at its base radius of 46 mm.
+                            // Under load a planet is between the positions in which its two meshes
+                            // just touch, half of their approaches from either: up to 20 µm at its
+                            // base radius of 46 mm.
                             let apart = (exact - exact.round()).abs() * pitch;
                             assert!(apart < 20e-6 / 45.6e-3, "{exact}");
                             (tooth + gear.teeth_per_cycle() * set.clock.cycles).rem_euclid(count)
@@ -131,7 +133,7 @@ mod tests {
                 let same = before.iter().find(|(m, p, earlier, _)| {
                     m == mesh && *p + i64::from(phase < earlier) == *pair
                 });
-                // Pairs come within reach and leave it.
+                // Some pairs have just become candidates for contact and were none before.
                 if let Some((_, _, _, earlier)) = same {
                     assert_eq!(earlier, teeth, "mesh {mesh}, pair {pair}, phase {phase}");
                     kept += 1;
@@ -142,9 +144,9 @@ mod tests {
         assert!(kept > 70 * 8);
     }
 
-    /// Maps that give way to others cost time, not accuracy. With three planets the meshes of a kind are
-    /// in phase and share a table; one planet's pin stands off by little enough that they still do, and they
-    /// need different maps at once.
+    /// Contact maps that are replaced by others cost time, not accuracy. With three planets the
+    /// meshes of a kind are in phase and share a table. The pin of one planet is displaced by so
+    /// little that they still do, but they need different maps in the same step.
     #[test]
     fn few_maps_march_as_many_do() {
         for (name, most) in [("oh58_4p", 1), ("oh58_3p", 2)] {

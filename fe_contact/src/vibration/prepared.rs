@@ -1,4 +1,4 @@
-//! What has to be in order before a set can turn, and what sets of one scene share.
+//! Checks before a set can move, and the data that sets of one scene share.
 
 use gearset::{Facing, Fidelity, MeshKinematics, Scene};
 
@@ -10,7 +10,7 @@ use crate::statics::{Bodies, Imperfections, SetTables, StaticSet};
 /// Fewest steps of a mesh cycle.
 const LEAST_STEPS: usize = 16;
 
-/// Under what load a set vibrates.
+/// Load about which a set vibrates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Loading {
     /// Torque on the sun (magnitude) about whose mean configuration the set is linearised, N·m.
@@ -19,8 +19,8 @@ pub struct Loading {
     pub mesh_force: f64,
 }
 
-/// What sets of one scene share at any speed: the loaded configuration, tables of contact and the races'
-/// matrices.
+/// Data that sets of one scene share at any speed: the loaded configuration with the races'
+/// stiffness, contact tables, and slopes of the flanks.
 #[derive(Debug, Clone)]
 pub struct Prepared<'s> {
     pub(super) statics: StaticSet<'s>,
@@ -31,12 +31,13 @@ pub struct Prepared<'s> {
 }
 
 impl<'s> Prepared<'s> {
-    /// What sets of one scene, loading and number of steps share at any speed. Where the scene asks for
-    /// exact kinematics (`dynamics.kinematics`) and the set turns, they are exact at every step; a standing
-    /// set is linearised about its mean configuration in either case.
+    /// Computes the data that sets of one scene, loading and number of steps share at any speed.
+    /// Where the scene asks for exact kinematics (`dynamics.kinematics`) and the set turns, they
+    /// are exact at every step; a standing set is linearised about its mean configuration in either
+    /// case.
     ///
     /// # Errors
-    /// If the scene lacks what the bodies need, or a mesh or a table cannot be had.
+    /// If the scene lacks what the bodies need, or a mesh or a table cannot be computed.
     pub fn new(
         scene: &Scene,
         bodies: &'s Bodies,
@@ -53,7 +54,8 @@ impl<'s> Prepared<'s> {
         let mut statics = statics.under(loading.torque_nm)?;
         let positions = rotation.positions();
         if is_exact {
-            // Lines of action are taken where they are; tables are laid out where the gears come to stand.
+            // The actual lines of action are used, so that the linearised turning of mesh forces is
+            // dropped; tables are laid out in the run, at the phases that occur.
             statics.reference.stiffness.fill(0.0);
             let tables = statics.tables(loading.mesh_force, &positions[..1])?;
             let leaning = vec![Leaning::none(&statics); positions.len()];
@@ -64,7 +66,7 @@ impl<'s> Prepared<'s> {
         Ok(Self { statics, tables, leaning, is_exact })
     }
 
-    /// Refuses a scene or a rotation that was not prepared for.
+    /// Refuses a scene or a rotation for which the data were not prepared.
     pub(super) fn check(&self, scene: &Scene, rotation: &NominalRotation) -> Result<(), FeError> {
         solves_contact(scene)?;
         fit(scene, rotation)?;
@@ -85,7 +87,7 @@ impl<'s> Prepared<'s> {
     }
 }
 
-/// Refuses the fidelity whose meshes follow a law.
+/// Refuses fidelity `mesh_law`, which does not solve contact.
 fn solves_contact(scene: &Scene) -> Result<(), FeError> {
     match scene.dynamics.fidelity {
         Fidelity::MeshLaw => Err(FeError::NoContact),
@@ -93,8 +95,8 @@ fn solves_contact(scene: &Scene) -> Result<(), FeError> {
     }
 }
 
-/// Refuses damping that is no number, and steps that leave nothing of a cycle: scenes can be built in
-/// memory, past the reader's checks.
+/// Refuses damping that is negative or not finite, fewer than 16 steps per mesh cycle, and a mesh
+/// frequency that is not positive: scenes can be built in memory, without the checks of the parser.
 pub(super) fn fit(scene: &Scene, rotation: &NominalRotation) -> Result<(), FeError> {
     let refuse = |key: &str, value: f64, allowed: &str, why: &str| {
         let (key, value) = (key.to_owned(), format!("{value}"));

@@ -1,4 +1,5 @@
-//! The races' equations of motion within one time step: inertia, supports, bearings, turning frame.
+//! The races' equations of motion within one time step: inertia, supports, bearings, rotating
+//! frame.
 
 use dynamics::{AverageAcceleration, Motion};
 use gearset::Scene;
@@ -18,7 +19,7 @@ use crate::statics::{PLANETS, Races, StaticSet, planet_bearing};
 #[derive(Debug)]
 pub(super) struct RaceDynamics {
     pub(super) damping: Proportional,
-    /// Dashpots over stiffness, s.
+    /// Ratio of dashpots to stiffness, s.
     pub(super) bearing_ratio: f64,
     /// Masses of the races' coordinates, rigid bodies, n, kg.
     pub(super) mass: Vec<f64>,
@@ -27,17 +28,18 @@ pub(super) struct RaceDynamics {
     pub(super) supports: DVector<f64>,
     /// (I/k + A)⁻¹ with the carrier's whole static flexibility, 2N×2N, N/m.
     pub(super) seat_stiffness: DMatrix<f64>,
-    /// Terms of the turning carrier frame, if they act.
+    /// Terms of the rotating carrier frame, if they act.
     gyroscopic: Option<GyroscopicTerms>,
-    /// A⁻¹, n×n, and as every step multiplies by it.
+    /// A⁻¹, n×n, m/N; `packed_inverse` is the same, stored for the products of every step.
     pub(super) inverse: DMatrix<f64>,
     pub(super) packed_inverse: Packed,
     pub(super) motion: Motion,
 }
 
 impl RaceDynamics {
-    /// At rest at the reference's displacements. `seats`: ports of the carrier's seats and their static
-    /// flexibility (2N×2N, m/N); `carrier_speed` (rad/s) if the terms of the turning frame act.
+    /// At rest at the reference's displacements. `seats`: ports of the carrier's seats and their
+    /// static flexibility (2N×2N, m/N); `carrier_speed` (rad/s) if the terms of the rotating frame
+    /// act.
     pub(super) fn new(
         statics: &StaticSet<'_>,
         scene: &Scene,
@@ -121,7 +123,7 @@ impl RaceDynamics {
         if let Some(terms) = &self.gyroscopic {
             a += &terms.gyroscopic * rule.damping() + &terms.centripetal;
         }
-        // The meshes' forces turn with their lines of action.
+        // Stiffness from mesh forces that turn with their lines of action.
         a += &statics.reference().stiffness;
         let singular = || FeError::NoEquilibrium("the races have no inertia".into());
         self.inverse = a.try_inverse().ok_or_else(singular)?;
@@ -129,8 +131,8 @@ impl RaceDynamics {
         Ok(())
     }
 
-    /// Adds what past velocities leave in the dashpots of the supports and in the turning frame to the
-    /// load (n, N); `history` (n, m/s) takes what velocities are counted from.
+    /// Adds the part of the dashpots of the supports and of the gyroscopic terms that is known at
+    /// the start of the step to the load (n, N); `history` receives v* of Newmark's rule (n, m/s).
     pub(super) fn add_history(
         &self,
         rule: &AverageAcceleration,
@@ -173,7 +175,8 @@ impl RaceDynamics {
         self.motion.v.iter().zip(&self.mass).map(|(v, m)| 0.5 * m * v * v).sum()
     }
 
-    /// Energy lost in αM and in the dashpots over a step from (x, v) of its start, J.
+    /// Energy dissipated by αM and the dashpots over a step in which the races move by `moved` (n,
+    /// m) from velocities `start_v` (n, m/s), J.
     pub(super) fn damped_since(
         &self,
         rule: &AverageAcceleration,

@@ -6,7 +6,7 @@ use nalgebra::DVector;
 use super::body::RaceMotion;
 use crate::statics::Races;
 
-/// Motion of one body's race; held coordinates are still.
+/// Motion of one body's race; 0 for held coordinates.
 pub(super) fn race_motion(races: &Races, motion: &Motion, body: usize) -> RaceMotion {
     let mut race = RaceMotion::default();
     for axis in 0..3 {

@@ -1,4 +1,4 @@
-//! The equilibrium a vibrating set starts from, on its own fidelity.
+//! The equilibrium from which a vibrating set starts, with the bodies of its own fidelity.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -35,8 +35,8 @@ impl VibratingSet<'_> {
         let has_backside = found.meshes.len() > 2 * self.statics.races.planets();
         let (mut q, mut p) = (found.q.clone(), all(&found.answers));
         let mut frame = self.take_frame(has_backside)?;
-        // Bodies with a state of their own feel all meshes at once; the cells' compliance knows one
-        // mesh alone.
+        // Bodies with elastic states couple their meshes; the compliance of the cells covers one
+        // mesh only.
         let across = self.across_meshes(&frame);
         if across.amax() > 0.0 && torque_nm != 0.0 {
             for _ in 0..30 {
@@ -76,7 +76,8 @@ impl VibratingSet<'_> {
         Ok(())
     }
 
-    /// Static flexibility between pairs of different meshes, on bodies with a state of their own, m/N.
+    /// Static flexibility between pairs of different meshes, through bodies with elastic states,
+    /// m/N.
     fn across_meshes(&self, frame: &Frame) -> DMatrix<f64> {
         let mut across = frame.lagging.clone() + self.bodies.carried(frame, self.clock.cycles);
         for mesh in &frame.meshes {

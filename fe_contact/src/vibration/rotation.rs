@@ -1,4 +1,4 @@
-//! How a set turns nominally, vibration aside.
+//! Nominal rotation of a set, about which it vibrates.
 
 /// Nominal rotation of a set: none, or at a constant mesh frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]

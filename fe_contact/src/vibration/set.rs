@@ -1,13 +1,13 @@
 //! A set in time: Newmark's method with contact solved inside every step.
 //!
-//! The nominal turning is exact kinematics; what is computed is vibration about it, in the carrier
+//! The nominal rotation is exact kinematics; the vibration about it is computed, in the carrier
 //! frame. Within a step everything but contact is linear, so the approaches of all tooth pairs are
 //!
 //! ```text
 //! δ = b − Y P,   P = S δ + P₀ on the cells that touch
 //! ```
 //!
-//! with b from the state at the step's beginning. Cells that turn out wrong are changed until all
+//! with b from the state at the start of the step. The set of touching cells is changed until all
 //! complementarity conditions hold.
 
 use dynamics::Motion;
@@ -43,18 +43,19 @@ pub struct VibratingSet<'s> {
     pub(super) work: Workspace,
     /// External forces on the races' coordinates at the end of the step, n, N.
     pub external: DVector<f64>,
-    /// What it took so far.
+    /// Counts of operations so far.
     pub counts: Counts,
 }
 
-/// What a run took.
+/// Counts of operations of a run.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Steps.
     pub steps: u64,
     /// Solutions of the linear system of all pairs.
     pub solutions: u64,
-    /// Combinations of contact sets that were met for the first time, or again after they gave way.
+    /// Combinations of contact sets that occurred for the first time, or again after they had been
+    /// replaced by others.
     pub combinations: u64,
     /// Steps in which backside flanks took part.
     pub with_backside: u64,
@@ -65,7 +66,7 @@ impl<'s> VibratingSet<'s> {
     /// that torque; it stands there without motion until [`VibratingSet::rest`] finds its equilibrium.
     ///
     /// # Errors
-    /// If the scene lacks what the bodies need, or a mesh, a factor or a table cannot be had.
+    /// If the scene lacks what the bodies need, or a mesh, a factor or a table cannot be computed.
     pub fn new(
         scene: &Scene,
         bodies: &'s Bodies,
@@ -78,10 +79,10 @@ impl<'s> VibratingSet<'s> {
         Self::assemble(scene, prepared, rotation)
     }
 
-    /// A set like [`VibratingSet::new`] on what was prepared for the same scene.
+    /// A set as from [`VibratingSet::new`], with data prepared for the same scene.
     ///
     /// # Errors
-    /// As [`VibratingSet::new`], and if other steps in the cycle were prepared for.
+    /// As [`VibratingSet::new`], and if the data were prepared for other steps in the cycle.
     pub fn on(
         scene: &Scene,
         prepared: &Prepared<'s>,

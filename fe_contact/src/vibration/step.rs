@@ -1,4 +1,4 @@
-//! One time step: the bodies' predictions, contact of all pairs, the bodies' answers.
+//! One time step: the bodies' predictions, contact of all pairs, and the bodies' state at the end.
 
 use dynamics::Motion;
 use nalgebra::{DMatrix, DVector};
@@ -12,10 +12,10 @@ use crate::complementarity::ActiveSet;
 use crate::contact::ContactMaps;
 use crate::error::FeError;
 
-/// Newton iterations of one step before it is given up.
+/// Most Newton iterations of one step.
 const MOST_ITERATIONS: usize = 60;
 
-/// Displacements above this (m) are no vibration of a gear set.
+/// Displacements above this (m) are refused as divergence.
 const BOUND: f64 = 1e-2;
 
 impl VibratingSet<'_> {
@@ -66,11 +66,12 @@ impl VibratingSet<'_> {
         Ok(())
     }
 
-    /// The bends of gaps at corners where the races and the pairs' forces P are expected at the end of the
-    /// step: what they open the gaps by, and P G'' Δe ∂e on the races.
+    /// Second-order terms of corner gaps at the displacements of the races and the pair forces P
+    /// expected at the end of the step: the gaps open by ½ G'' Δe², and P G'' Δe ∂e is added to the
+    /// load on the races.
     ///
-    /// The term is some thousandths of a mesh's stiffness; expected to the order of the step it needs no
-    /// iteration.
+    /// The term is some thousandths of the stiffness of a mesh. Extrapolation of the order of the
+    /// time step suffices, without iteration.
     fn bend(&mut self, frame: &mut Frame) {
         let h = self.clock.rule.step();
         let Motion { x, v, a } = &self.race_dynamics.motion;
@@ -89,7 +90,8 @@ impl VibratingSet<'_> {
         self.work.load += &self.pairs.bent;
     }
 
-    /// The same for a frame with backside flanks, the loads being in already.
+    /// The same for a frame with backside flanks, for which the load on the races was already
+    /// added.
     fn bend_again(&mut self, frame: &mut Frame) {
         for bend in &mut frame.bends {
             let moved = bend.row.dot(&self.work.expected) - bend.offset;
@@ -104,7 +106,8 @@ impl VibratingSet<'_> {
         self.race_dynamics.packed_inverse.add_product(load.as_slice(), free.as_mut_slice());
     }
 
-    /// Moves the clock on, and the memories of meshes whose phase starts anew.
+    /// Advances the clock, and renumbers the pairs in the lag of meshes whose phase starts again at
+    /// 0.
     fn tick(&mut self) {
         self.clock.tick();
         if let NominalRotation::Turning { .. } = self.clock.rotation {
@@ -117,7 +120,7 @@ impl VibratingSet<'_> {
         let count = frame.offsets.len();
         self.bodies.fill_ports(frame, self.clock.cycles);
         let work = &mut self.work;
-        // Positions differ in their number of pairs: the vectors fit the largest.
+        // Positions differ in their number of pairs: the vectors are sized for the largest.
         if work.b.len() < count {
             work.b = DVector::zeros(count);
         }
@@ -152,7 +155,8 @@ impl VibratingSet<'_> {
         let approaches = &mut self.pairs.approaches.as_mut_slice()[..count];
         let forces = &mut self.pairs.forces.as_mut_slice()[..count];
         if frame.meshes.iter().any(|mesh| mesh.map(&self.contact.maps).is_none()) {
-            // First guess at a position not met before, or whose map gave way: the forces of the last step.
+            // First guess at a position not visited before, or for a mesh whose map was replaced:
+            // the forces of the last step.
             forces.fill(0.0);
             for (memory, mesh) in self.pairs.memory.iter().zip(&frame.meshes) {
                 let own = mesh.first..mesh.first + mesh.count;
@@ -172,7 +176,8 @@ impl VibratingSet<'_> {
                 Some(place) => place,
                 None => {
                     let Some(made) = combine(frame, &self.contact.maps, &work.ids)? else {
-                        // Meshes of one table: the map of one gave way to that of another.
+                        // Meshes that share a table: the map of one was replaced by that of
+                        // another.
                         self.contact.find_lost(frame, approaches)?;
                         continue;
                     };
@@ -182,10 +187,10 @@ impl VibratingSet<'_> {
             };
             self.counts.solutions += 1;
             let chosen = &frame.combinations[place];
-            // forces takes the approaches until they hold: δ = W b + w
+            // `forces` holds the new approaches δ = W b + w until the maps are found to hold.
             forces.copy_from_slice(&chosen.offset);
             chosen.slope.add_product(b, forces);
-            // Where sets alternate, a part of the way is taken.
+            // From iteration 12 on, half of the step is taken, in case contact sets alternate.
             let part = if iteration < 12 { 1.0 } else { 0.5 };
             residual = 0.0;
             for (delta, next) in approaches.iter_mut().zip(&*forces) {
@@ -235,7 +240,8 @@ impl VibratingSet<'_> {
         Err(FeError::NotConverged { iterations: MOST_ITERATIONS, residual })
     }
 
-    /// Refuses what the tables do not cover, and motion beyond all bounds.
+    /// Refuses patches beyond their grids, deflections beyond the window of the tables, and
+    /// divergence.
     fn check(&self, frame: &Frame) -> Result<(), FeError> {
         for (i, x) in self.work.x.iter().enumerate() {
             if x.is_nan() || x.abs() > BOUND {
@@ -275,14 +281,15 @@ impl VibratingSet<'_> {
     }
 }
 
-/// The combination whose maps hold now, if it was solved before; `ids` takes the maps' ids.
+/// Index of the combination of the present maps, if it was solved before; `ids` receives the maps'
+/// ids.
 fn combination(frame: &Frame, ids: &mut Vec<u64>) -> Option<usize> {
     ids.clear();
     ids.extend(frame.meshes.iter().map(|mesh| mesh.held.id()));
     frame.combinations.iter().position(|c| c.maps == *ids)
 }
 
-/// (I + Y S) δ = b − Y P₀; `None` if a mesh has no map.
+/// Solves (I + Y S) δ = b − Y P₀ for δ as a function of b; `None` if a mesh has no map.
 fn combine(
     frame: &Frame,
     maps: &[ContactMaps],

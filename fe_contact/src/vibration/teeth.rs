@@ -1,4 +1,4 @@
-//! Where tooth pairs push at the bodies of a set, at one position of the mesh cycle.
+//! Points at which tooth pairs load the bodies of a set, at one position of the mesh cycle.
 
 use super::body::Port;
 use crate::body::GearBody;
@@ -6,8 +6,8 @@ use crate::error::FeError;
 use crate::fe_mesh::FeGearMesh;
 use crate::statics::{PLANETS, PairEnd, PlacedMesh, StaticSet, body_numbers, pair_ends};
 
-/// One end of a tooth pair on a body of the set. Only what inertia and damping change of the elastic
-/// displacement goes through this: the static part is the cells' compliance.
+/// One end of a tooth pair on a body of the set. Only the part of the elastic displacement due to
+/// inertia and damping passes through it; the static part is in the compliance of the cells.
 #[derive(Debug, Clone)]
 pub(super) struct ToothPoint {
     /// Body in the set's order: carrier, ring, sun, planets.
@@ -33,8 +33,8 @@ pub(super) fn tooth_points(
         let [driver, driven] = pair_ends(statics.bodies, mesh, placed.phase, cells)?;
         let [first, second] = numbers;
         let point = |body: usize, end: PairEnd| {
-            // The mesh frame stands ψ on from the carrier frame, and is the planet's own; under load it
-            // is turned with the line of centres.
+            // The mesh frame is turned by ψ_n from the carrier frame and is the frame of the
+            // planet's coordinates; under load it is turned further with the line of centres.
             let psi = if body < PLANETS { statics.races.psi[placed.planet] } else { 0.0 };
             ToothPoint { body, axis: end.axis + psi + direction, end }
         };

@@ -1,4 +1,4 @@
-//! Vectors that a step works in, kept so that steps need no new memory.
+//! Vectors used within a step, kept so that steps allocate no memory.
 
 use nalgebra::DVector;
 
@@ -7,17 +7,18 @@ use nalgebra::DVector;
 pub(super) struct Workspace {
     /// Load on the races, n, N.
     pub(super) load: DVector<f64>,
-    /// What of it the tooth pairs leave to the races, n, N.
+    /// The load less the forces of the tooth pairs, n, N.
     pub(super) left: DVector<f64>,
     /// Displacements under the load alone, n, m.
     pub(super) free: DVector<f64>,
-    /// Where the races are expected at the end of the step, n, m.
+    /// Expected displacements of the races at the end of the step, n, m.
     pub(super) expected: Vec<f64>,
-    /// Free approaches of the pairs, m; as long as the most pairs met so far.
+    /// Approaches b of the pairs without pair forces, m; sized for the largest number of pairs so
+    /// far.
     pub(super) b: DVector<f64>,
     /// Displacements at the end of the step, n, m.
     pub(super) x: DVector<f64>,
-    /// What velocities are counted from at the end of the step, n, m/s.
+    /// v* of Newmark's rule (velocity at the end of the step = 2x/h − v*), n, m/s.
     pub(super) history: Vec<f64>,
     /// Ids of the maps that hold.
     pub(super) ids: Vec<u64>,

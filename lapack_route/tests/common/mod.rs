@@ -17,7 +17,7 @@ pub fn scene(name: &str) -> Scene {
     Scene::from_file(&project_file(&format!("scenes/{name}.toml"))).unwrap()
 }
 
-/// SplitMix64 (Steele, Lea & Flood 2014): small, seeded, the same everywhere.
+/// Pseudo-random numbers from a seed, the same on every machine: SplitMix64 (Steele, Lea & Flood 2014).
 pub struct Random(u64);
 
 impl Random {
@@ -73,19 +73,19 @@ impl Random {
             1 => Freedom::Held,
             _ => Freedom::Free,
         };
-        // Some members float, some are free to turn.
+        // Some members have no bearing, some no torsional support.
         let bearing = if self.one_in(4) { 0.0 } else { self.stiffness() };
         let torsional = if self.one_in(2) { 0.0 } else { self.stiffness() };
         Support { motion, bearing, torsional: Torsional::PerLength(torsional) }
     }
 
-    /// Planet 0 at zero, the others anywhere but in the same place.
+    /// Planet 0 at zero, the others at random but distinct positions.
     fn positions(&mut self) -> PlanetPositions {
         let count = 1 + self.below(12) as usize;
         if self.one_in(3) {
             return PlanetPositions::equally_spaced(count);
         }
-        // Each in its own sector, so that no two meet.
+        // Each in a sector of its own, so that no two coincide.
         let sector = TAU / count as f64;
         let off = |random: &mut Self, n: usize| match n {
             0 => 0.0,

@@ -11,11 +11,11 @@ pub fn scene(name: &str) -> Scene {
     Scene::from_file(&path).unwrap()
 }
 
-/// Model and modes of a scene; the residual is asserted.
+/// Model and modes of a scene, whose frequencies rounding must not have spoilt.
 pub fn modes(scene: &Scene) -> (LumpedModel, NaturalModes) {
     let model = LumpedModel::from_scene(scene).unwrap();
     let modes = NaturalModes::of(&model).unwrap();
-    assert!(modes.residual < 1e-12, "{:e}", modes.residual);
+    assert!(modes.groups.iter().all(|g| g.uncertainty < 1e-11));
     (model, modes)
 }
 

@@ -5,7 +5,7 @@ use super::canvas::{Anchor, Canvas, Pen, Pixel, Type};
 const FRAME: Pen = Pen::new("#333333", 1.0);
 const GRID: Pen = Pen::new("#e6e8ea", 0.8);
 
-/// Height of a line of tick labels, px.
+/// Text style of tick labels.
 pub(crate) const TICK_TEXT: Type = Type::new(11, Anchor::Middle);
 
 /// Values from one end of an axis to the other.
@@ -17,7 +17,7 @@ pub(crate) struct Scale {
 }
 
 impl Scale {
-    /// Even, between two ends.
+    /// Linear between two ends.
     pub(crate) fn linear(low: f64, high: f64) -> Self {
         let high = if high > low { high } else { low + 1.0 };
         Self { low, high, is_log: false }
@@ -154,10 +154,10 @@ impl Axes {
     }
 }
 
-/// Places for labels that stay a gap apart and below a limit, each cluster about where it wants to be;
-/// places wanted must grow.
+/// Places for labels at least `gap` apart and at most at `high`. Labels that would overlap form a cluster
+/// centred on the mean of their wanted places; `wanted` must be ascending.
 pub(crate) fn spread(wanted: &[f64], gap: f64, high: f64) -> Vec<f64> {
-    // Without the gaps, what remains is to fit a sequence that does not fall: means of whatever falls.
+    // With the gaps subtracted this is isotonic regression: places that decrease are replaced by their mean.
     let mut clusters: Vec<(f64, usize)> = Vec::new();
     for (i, place) in wanted.iter().enumerate() {
         let (mut mean, mut count) = (place - gap * i as f64, 1);

@@ -7,7 +7,7 @@ use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 
 use super::picture::Picture;
 
-/// As charts drawn by kuva ask for.
+/// The fonts that kuva's own charts ask for.
 const FONTS: &str = "DejaVu Sans, Verdana, Liberation Sans, Arial, sans-serif";
 
 /// Place in the picture, px.
@@ -32,7 +32,7 @@ impl Pen {
     }
 }
 
-/// Which part of a text its place is.
+/// Which point of a text its position refers to.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Anchor {
     Start,
@@ -71,13 +71,13 @@ impl Type {
     }
 }
 
-/// A picture in the making.
+/// A picture being drawn.
 pub(crate) struct Canvas {
     scene: Scene,
 }
 
 impl Canvas {
-    /// White, so many pixels wide and high.
+    /// A white canvas of this width and height, px.
     pub(crate) fn new([width, height]: [f64; 2]) -> Self {
         let mut scene = Scene::new(width, height);
         scene.font_family = Some(FONTS.into());
@@ -153,7 +153,7 @@ impl Canvas {
         self.circle(centre, radius, fill, None);
     }
 
-    /// A circle that lets through what is behind it.
+    /// A circle without fill.
     pub(crate) fn ring(&mut self, centre: Pixel, radius: f64, pen: Pen) {
         self.circle(centre, radius, "#ffffff", Some(pen));
     }

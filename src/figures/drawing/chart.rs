@@ -10,14 +10,14 @@ use kuva::render::render::render_multiple;
 use super::palette::colour;
 use super::picture::Picture;
 
-/// One curve, or points that nothing joins.
+/// One curve, or unconnected points.
 pub(crate) struct Curve {
     name: String,
     pub(crate) points: Vec<(f64, f64)>,
     is_dashed: bool,
-    /// Of a line, px.
+    /// Width of the line, px.
     width: f64,
-    /// The colour of its place among the curves if not given.
+    /// If `None`, the palette's colour for the curve's index.
     colour: Option<&'static str>,
     /// Radius of points instead of a line, px.
     dots: Option<f64>,
@@ -66,14 +66,14 @@ pub(crate) struct Panel<'a> {
     pub(crate) is_log: bool,
 }
 
-/// SVG of curves over one pair of axes.
+/// Curves over one pair of axes.
 pub(crate) fn chart(labels: &Labels<'_>, curves: &[Curve]) -> Picture {
     let plots = plots(curves);
     let layout = layout(labels, &plots).with_subtitle(&labels.subtitle).with_subtitle_size(12);
     Picture::new(render_multiple(plots, layout))
 }
 
-/// SVG of panels in so many columns under one title.
+/// Panels in `columns` columns under one title.
 pub(crate) fn panels(title: &str, columns: usize, size: (f64, f64), list: &[Panel<'_>]) -> Picture {
     let (mut all, mut layouts) = (Vec::new(), Vec::new());
     for panel in list {

@@ -1,5 +1,5 @@
-//! What all figures are drawn with, on the scenes of kuva, which nothing outside this folder sees: line
-//! charts, and a canvas with axes for what charts cannot show.
+//! Drawing tools of all figures: line charts, and a canvas with axes for what charts cannot show. Only this
+//! folder uses kuva.
 
 mod axes;
 mod canvas;

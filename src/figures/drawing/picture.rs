@@ -1,4 +1,4 @@
-//! A drawing that leaves as SVG and as PNG.
+//! A finished drawing, written as SVG and as PNG.
 
 use std::path::{Path, PathBuf};
 
@@ -6,7 +6,7 @@ use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::render::Scene;
 
-/// Pixels of a PNG for one of the SVG.
+/// Pixels of the PNG per pixel of the SVG.
 const SCALE: f32 = 2.0;
 
 /// A finished drawing.
@@ -31,8 +31,8 @@ impl Picture {
         SvgBackend::default().render_scene(&self.0)
     }
 
-    /// Writes `NAME.svg` and `NAME.png`, the latter with two pixels for one, into a folder, which is made
-    /// if need be.
+    /// Writes `NAME.svg` and `NAME.png`, the latter with twice the resolution, into a folder, which is
+    /// created if necessary.
     ///
     /// # Errors
     /// If a file cannot be written, or the PNG cannot be drawn.

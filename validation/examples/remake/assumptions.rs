@@ -8,7 +8,7 @@ use validation::{Figure, Ledger};
 pub(crate) fn remake() -> crate::Outcome {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../snapshots/verdict.snap");
     let text = std::fs::read_to_string(path)?;
-    // A snapshot's own head stands before the JSON.
+    // The header that insta writes precedes the JSON.
     let start = text.find("\n{").ok_or("no verdict in the snapshot")?;
     let verdict: Value = serde_json::from_str(&text[start..])?;
     let checks = verdict["checks"].as_array().ok_or("no checks in the verdict")?;

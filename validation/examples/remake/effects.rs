@@ -1,5 +1,5 @@
-//! Prints the tables of `docs/fe_dynamics_effects.md`: what changes the tabled frequencies, one by one,
-//! and how the linearised FE/contact set compares with the lumped model with parameters from it.
+//! Prints the tables of `docs/fe_dynamics_effects.md`: the effect of single changes on the tabled
+//! frequencies, and the linearised FE/contact set against the lumped model with parameters from it.
 
 use experiments::modal::{Preload, agreement};
 use fe_contact::statics::Bodies;

@@ -13,16 +13,17 @@ use gearset::{LoadCase, MeshKinematics, Scene};
 use rayon::prelude::*;
 use validation::{PublishedScene, Reference, scene};
 
-/// Resonances as the torque study names them, with what is read of the sun.
+/// Resonances as the torque study names them, each with the response of the sun that is evaluated.
 const RESONANCES: [(&str, Response); 2] = [
     ("lowest translational", Response::Translation(Part::Sun)),
     ("lowest rotational", Response::Rotation(Part::Sun)),
 ];
 
-/// Speeds to either side of a peak, in parts of its own: about a half-width at 2 % damping.
+/// Distance of the speeds to either side of a peak, as a share of its speed: about a half-width at 2 %
+/// damping.
 const ASIDE: f64 = 0.018;
 
-/// Cycles of linear and of exact kinematics repeat to this.
+/// Largest change from cycle to cycle of a steady state, with linear and with exact kinematics.
 const TOLERANCES: [f64; 2] = [1e-7, 2e-5];
 
 type Outcome<T> = Result<T, Box<dyn std::error::Error + Send + Sync>>;

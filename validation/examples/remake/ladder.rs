@@ -1,13 +1,13 @@
-//! Error against cost, the fidelities of the ladder by steps and contact cells: `kept/ladder.toml`.
-//! Twenty minutes on two cores, most of them modes, `kept/full_sweep.toml` given.
+//! Error and cost of the fidelities by steps per cycle and contact cells: `kept/ladder.toml`. Needs
+//! `kept/full_sweep.toml`; twenty minutes on two cores, most of them for modes of the bodies.
 //!
 //! `cargo run --release -p validation --example remake -- ladder > ladder.toml && mv ladder.toml kept/`
 //!
-//! Error: place and height of the peak of the sun's rotation in the second harmonic, four planets under
-//! 1413 N·m, against `full` without the error of steps. Cost: time of a step once the set is steady, all fidelities in turns
-//! in one run, over that of the lumped model in time at 140 steps; of `full` three cycles, beside the
-//! lumped model, once a first one has met every position. Flanks of eight elements, as the truth
-//! has, and its tables of contact.
+//! Error: speed and height of the peak of the sun's rotation in the second harmonic, four planets under
+//! 1413 N·m, against `full` without the error of the time step. Cost: time of a step of the steady set over
+//! that of the lumped model in time at 140 steps, all fidelities alternating in one run; for `full`, three
+//! cycles alternating with the lumped model, after a first cycle that visits every position. Flanks of eight
+//! elements and contact tables as in `kept/full_sweep.toml`.
 
 use std::time::Instant;
 
@@ -19,13 +19,13 @@ use fe_contact::statics::{Bodies, Imperfections};
 use gearset::{Fidelity, LoadCase, Scene};
 use validation::{FullSweep, FullSweepPoint, PublishedScene, scene};
 
-/// Speeds about the peak, rpm, as near each other as those of the truth.
+/// Speeds about the peak, rpm, with the spacing of those in `kept/full_sweep.toml`.
 const SPEEDS: [f64; 7] = [1540.0, 1570.0, 1600.0, 1630.0, 1660.0, 1690.0, 1720.0];
 
 /// Speed at which steps are timed, rpm.
 const TIMED_RPM: f64 = 1630.0;
 
-/// Rounds of timing, and how long a batch of one round takes, s.
+/// Rounds of timing, and least duration of the batch of steps in one round, s.
 const ROUNDS: usize = 31;
 const BATCH_S: f64 = 0.02;
 
@@ -45,7 +45,7 @@ struct Setting {
 
 fn settings(cells: u32) -> Vec<Setting> {
     let mut list = Vec::new();
-    // The first is what costs are compared with.
+    // Costs are divided by that of the first.
     for steps in [140, 70, 280, 560] {
         list.push(Setting { model: Model::Lumped, steps, cells });
     }
@@ -123,7 +123,7 @@ pub(crate) fn remake() -> crate::Outcome {
 
     let settings = settings(scene.fe_contact.contact_cells);
     let mut tops = Vec::new();
-    // Bodies hold the cells' settings; sets borrow them.
+    // The number of contact cells is a setting of the bodies, which the models borrow.
     let made: Vec<(Scene, Bodies)> = settings
         .iter()
         .map(|s| {
@@ -180,7 +180,7 @@ pub(crate) fn remake() -> crate::Outcome {
         println!("coordinates = {}\nsolutions = {:.2}", effort.coordinates, effort.solutions);
     }
 
-    // Every degree of freedom: each position costs a solution a port before its first step.
+    // Every degree of freedom: the first step at a position needs one solution per port.
     scene.dynamics.fidelity = Fidelity::Full;
     scene.dynamics.steps_per_cycle = 140;
     let bodies = Bodies::new(&scene)?;

@@ -1,5 +1,5 @@
-//! Where growth with torque comes from: harmonics of the loaded transmission error of one sun mesh and one
-//! ring mesh alone, their sum at the set's own phases, and what the whole set does at rest, four planets.
+//! Origin of the growth with torque: harmonics of the loaded transmission error of one sun mesh and one ring
+//! mesh alone, their sum at the mesh phases of the set, and those of the whole set at rest, four planets.
 //!
 //! `cargo run --release -p validation --example remake -- loaded_te`
 //!
@@ -9,7 +9,7 @@
 //! u_l = T_s,l (1/N) Σ_n e^{i2πl φ_sn} + T_r,l (1/N) Σ_n e^{i2πl φ_rn}
 //! ```
 //!
-//! with T the meshes' own harmonics over their phase and φ where they stand at position 0.
+//! with T_s and T_r the harmonics of one mesh alone over its phase, and φ the mesh phases at position 0.
 
 use std::f64::consts::TAU;
 

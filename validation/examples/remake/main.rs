@@ -1,4 +1,4 @@
-//! Remakes what is kept and tabled, one thing at a time, to standard output:
+//! Recomputes one kept file or table of the pages and writes it to standard output:
 //! `cargo run --release -p validation --example remake -- NAME`; without a name it lists them.
 
 mod assumptions;
@@ -17,7 +17,7 @@ mod truth;
 use std::error::Error;
 use std::process::ExitCode;
 
-/// What comes of remaking something.
+/// Result of remaking one file or table.
 type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
 
 type Remake = fn() -> Outcome;

@@ -1,5 +1,5 @@
-//! Makes `kept/parameter_bands.toml`: how far what the paper leaves open (tooth thickness, fillets, pin seats,
-//! plane state) moves tabled frequencies, masses and mesh stiffnesses.
+//! Makes `kept/parameter_bands.toml`: how far the parameters that the paper leaves open (tooth thickness,
+//! fillets, pin seats, plane state) move tabled frequencies, masses and mesh stiffnesses.
 
 use validation::Reference;
 use validation::parameter_bands::study;

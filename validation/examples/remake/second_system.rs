@@ -1,6 +1,6 @@
 //! Finds the parameters of `scenes/oh58_4p_second_system.toml`: the one stiffness of all bearings and
 //! the inertia fixed to each planet with which the lumped model's lowest translational and rotational
-//! modes stand at the 622 and 782 Hz that section 4.2 of the paper prints.
+//! modes have the 622 and 782 Hz that section 4.2 of the paper prints.
 //!
 //! `cargo run --release -p validation --example remake -- second_system`
 

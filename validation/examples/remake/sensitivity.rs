@@ -1,5 +1,5 @@
-//! What damping, plane state, fillets and the mesh's own choices do to the growth of the first peaks with
-//! torque: heights at 2260 N·m over those at 565 N·m, four planets.
+//! Effect of damping, plane state and fillets on the growth of the first peaks with torque: heights at
+//! 2260 N·m over those at 565 N·m, four planets.
 //!
 //! `cargo run --release -p validation --example remake -- sensitivity`
 

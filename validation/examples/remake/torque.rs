@@ -1,6 +1,6 @@
 //! Follows the resonances of section 4.2 over torque on its three scenes, as TOML for
-//! `kept/torque_peaks.toml`: heights over those at 565 N·m in the sun and in planet 0, and the
-//! growth of the static deflection's harmonics that drive them. About five minutes on two cores.
+//! `kept/torque_peaks.toml`: heights over those at 565 N·m of the sun and of planet 0, and the growth
+//! of the same harmonics of the sun at rest. About five minutes on two cores.
 //!
 //! `cargo run --release -p validation --example remake -- torque > kept/torque_peaks.toml`
 

@@ -5,11 +5,11 @@
 //!
 //! Compliance: `softening` s makes the factors on the FE flexibility 1 + s (f − 1), f being those of
 //! `scenes/oh58_4p_published_stiffness.toml`, so that s = 0 is the default scene and s = 1 the paper's
-//! printed stiffness. γ: through the planet's share of the tooth thickness, fillets of 0.5 mm so that
-//! every root has room. Beside the map, lines over s at the default share: damping halved and doubled,
-//! and tips relieved by 10 µm from a quarter of the tooth's depth. One resonance a mode: lowest
-//! translational in l = 1, lowest rotational in l = 2, third translational in l = 3; 84 steps a cycle,
-//! cycles repeating to 1e-5. The static deflection's growth stands beside that of the peaks.
+//! printed stiffness. γ is varied through the planet's share of the tooth thickness, with fillets of 0.5 mm,
+//! which fit into every root. In addition to the map, lines over s at the default share: damping halved and
+//! doubled, and tips relieved by 10 µm from a quarter of the tooth's depth. One resonance per mode: lowest
+//! translational in l = 1, lowest rotational in l = 2, third translational in l = 3; 84 steps per cycle,
+//! successive cycles agreeing to 1e-5. The growth of the static harmonics is given beside that of the peaks.
 
 use experiments::models::FeContact;
 use experiments::sweep::{Part, naturals};
@@ -25,7 +25,7 @@ const TORQUES: [f64; 4] = [565.0, 1130.0, 1695.0, 2260.0];
 const SOFTENINGS: [f64; 4] = [0.0, 0.5, 1.0, 1.5];
 const SHARES: [f64; 5] = [0.43, 0.46, 0.49, 0.52, 0.55];
 
-/// Torque at which the meshes' stiffness is stated, N·m, and positions of its mean.
+/// Torque at which the mean mesh stiffness is given, N·m, and number of positions of the mean.
 const STIFFNESS_AT: (f64, usize) = (1130.0, 28);
 
 const FILLET_M: f64 = 0.5e-3;
@@ -38,7 +38,7 @@ type Outcome<T> = Result<T, Box<dyn std::error::Error + Send + Sync>>;
 struct Choice {
     line: &'static str,
     softening: f64,
-    /// `None`: the default scene's.
+    /// Planet's share of the tooth thickness; `None`: that of the default scene.
     share: Option<f64>,
     damping: f64,
     relief: f64,
@@ -63,7 +63,7 @@ fn choices() -> Vec<Choice> {
     list
 }
 
-/// The default scene, so changed; `soft` are the factors that give the printed stiffness.
+/// The default scene with a choice applied; `soft` are the factors that give the printed stiffness.
 fn chosen(base: &Scene, soft: PerMesh, choice: Choice) -> Scene {
     let mut scene = base.clone();
     scene.dynamics.steps_per_cycle = 84;
@@ -137,7 +137,7 @@ pub(crate) fn remake() -> crate::Outcome {
     println!("source = \"own computation, quasi-static fidelity, 84 steps a cycle\"");
     println!("command = \"cargo run --release -p validation --example remake -- torque_map\"");
     println!("torques_nm = {TORQUES:?}");
-    // Two at a time, so that what is found is printed as it comes, in order.
+    // Two at a time, so that results are printed in order as they are found.
     for two in choices().chunks(2) {
         let texts: Vec<Outcome<String>> =
             two.par_iter().map(|choice| cell(&base, soft, *choice)).collect();

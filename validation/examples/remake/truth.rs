@@ -4,11 +4,10 @@
 //!
 //! `cargo run --release -p validation --example remake -- truth > kept/full_sweep.toml`
 //!
-//! Flanks of eight elements, as every fidelity it is compared with must have. 140 steps a cycle; what steps do, of
-//! second order and alike on all fidelities, is told from quasi-static bodies at 140, 280 and 560 steps about the
-//! peak.
-//! Each speed starts at few steps, and every finer run from the steady state before it, which saves most
-//! cycles of the dear ones.
+//! Flanks have eight elements, as at every fidelity that is compared with these results. A cycle has
+//! 140 steps; the error of the time step, which is of second order and alike at all fidelities, follows from
+//! quasi-static bodies at 140, 280 and 560 steps about the peak. Each speed starts with few steps, and every
+//! finer run starts from the steady state of the coarser one, which saves most cycles of the expensive runs.
 
 use experiments::sweep::{
     Coordinate, FeModel, Part, Response, SteadySettings, SweepModel, SweepPoint, steady,
@@ -25,14 +24,14 @@ const FLANK_ELEMENTS: u32 = 8;
 #[derive(Clone, Copy)]
 struct SpeedPlan {
     speed_rpm: f64,
-    /// Steps a cycle: every run from the state of the one before, the first only to get there.
+    /// Steps per cycle of successive runs, each from the state of the one before; the first is not recorded.
     steps: &'static [u32],
-    /// Cycles repeat to this.
+    /// Largest change of the steady state from cycle to cycle.
     tolerance: f64,
 }
 
-/// Every degree of freedom. At the last speed the sun turns by a hundredth of what the planets do, whose
-/// rotation says how far cycles repeat: they repeat more closely there.
+/// Runs with every degree of freedom. At the last speed the sun's rotation is a hundredth of the planets', by
+/// which the change from cycle to cycle is measured, so that the tolerance is smaller there.
 const PLANS: [SpeedPlan; 5] = [
     SpeedPlan { speed_rpm: 1600.0, steps: &[35, 140], tolerance: TOLERANCE },
     SpeedPlan { speed_rpm: 1630.0, steps: &[35, 140], tolerance: TOLERANCE },
@@ -41,15 +40,15 @@ const PLANS: [SpeedPlan; 5] = [
     SpeedPlan { speed_rpm: 2196.0, steps: &[35, 140], tolerance: 1e-6 },
 ];
 
-/// The same of quasi-static bodies.
+/// The same with quasi-static bodies.
 const STEPS_ALONE: SpeedPlan =
     SpeedPlan { speed_rpm: 0.0, steps: &[35, 140, 280, 560], tolerance: TOLERANCE };
 const SPEEDS_ALONE: [f64; 3] = [1600.0, 1630.0, 1660.0];
 
-/// Tables for twice the usual load: at resonance meshes carry more.
+/// Contact tables for twice the usual load, because mesh forces at resonance exceed the usual one.
 const TABLES: usize = 1;
 
-/// Cycles repeat to this in general.
+/// Largest change of a steady state from cycle to cycle at the other speeds.
 const TOLERANCE: f64 = 3e-5;
 
 fn numbers(values: impl Iterator<Item = f64>) -> String {

@@ -1,5 +1,5 @@
-//! What of the difference to the paper is parameters, and what is model: the tabled modes from
-//! three models, and the effect of every single change on them.
+//! Which part of the difference to the paper is due to parameters and which to the model: the tabled modes
+//! from three models, and the effect of every single change on them.
 
 use experiments::NaturalMode;
 use experiments::modal::{
@@ -12,8 +12,8 @@ use serde::Serialize;
 
 use crate::catalogue::scene;
 use crate::error::ValidationError;
+use crate::published_table::Table;
 use crate::reference::Reference;
-use crate::suites::tables::Table;
 
 mod tabled;
 mod tables;
@@ -25,9 +25,9 @@ pub use variant::{Base, Variant};
 /// A change's effect on one tabled mode.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Effect {
-    /// Of its frequency (a pair's mean), percent of the base's.
+    /// Change of its frequency (of a pair's mean), percent of the base's.
     pub percent: f64,
-    /// What lies between the two of a pair, percent of the mean.
+    /// Difference of the two frequencies of a pair, percent of their mean.
     pub split_percent: f64,
 }
 
@@ -59,17 +59,17 @@ pub struct Effects {
     pub lumped_from_fe_hz: Vec<f64>,
     /// FE/contact, linearised, Hz.
     pub fe_contact_hz: Vec<f64>,
-    /// The same without the turning of the meshes' forces.
+    /// The same without the stiffness of mesh forces that turn with their lines of action, Hz.
     pub still_hz: Vec<f64>,
     /// Split of each row in the last two models, percent.
     pub split_percent: [Vec<f64>; 2],
-    /// Changes one by one; no effects where bodies were not at hand.
+    /// Changes one by one; `None` for those whose bodies were not given.
     pub variants: Vec<(Variant, Option<Vec<Effect>>)>,
     /// Changes one after the other, the published lumped model first.
     pub path: Vec<PathStep>,
 }
 
-/// What effects are worked out with.
+/// Input of the tables of effects.
 #[derive(Debug, Clone, Copy)]
 pub struct EffectStudy<'b> {
     /// Bodies of the table's scene.
@@ -77,7 +77,7 @@ pub struct EffectStudy<'b> {
     /// Bodies of the changes that need their own, [`Variant::own_bodies`]; a change whose bodies are
     /// not here has no effects.
     pub own: &'b [(Variant, Bodies)],
-    /// Where and under what torque the set stands.
+    /// Position and torque of the standing set.
     pub preload: Preload,
     /// The changes.
     pub variants: &'b [Variant],
@@ -86,10 +86,10 @@ pub struct EffectStudy<'b> {
 /// A model's tabled modes.
 type Rows = Vec<TabledFrequency>;
 
-/// Works the tables of effects out.
+/// Computes the tables of effects.
 ///
 /// # Errors
-/// If a scene, an equilibrium or an eigenproblem cannot be had.
+/// If a scene cannot be used, or an equilibrium or an eigenproblem cannot be solved.
 pub fn effects(
     reference: &Reference,
     table: Table,
@@ -186,7 +186,7 @@ fn effect_of(base: &Rows, rows: &Rows) -> Vec<Effect> {
     base.iter().zip(rows).map(one).collect()
 }
 
-/// Frequencies of a lumped scene in the frame of its turning carrier.
+/// Frequencies of a lumped scene in the frame of its rotating carrier.
 fn turning(scene: &Scene) -> Result<Vec<NaturalMode>, ValidationError> {
     let missing = || ValidationError::Incomplete("operating speed");
     let kinematics = Kinematics::from_scene(scene).ok().ok_or_else(missing)?;
@@ -207,7 +207,7 @@ impl Effects {
         found.and_then(|(_, effects)| effects.as_deref())
     }
 
-    /// What the parameters' effects one by one leave of their joint effect, for each row, percent:
+    /// Sum of the single effects of the parameters less their joint effect, for each row, percent:
     /// Σ ln(f_i/f_lumped) − ln(f_published/f_lumped).
     pub fn remainders_percent(&self) -> Vec<f64> {
         let joint =
@@ -219,8 +219,9 @@ impl Effects {
         joint.enumerate().map(|(row, joint)| 100.0 * (single(row) - joint)).collect()
     }
 
-    /// FE/contact against the lumped model from FE, less the effects of the carrier's giving way and of forces
-    /// that turn with their lines of action, for each row, percent: what the model has besides.
+    /// Difference of FE/contact from the lumped model with parameters from FE that is left without the
+    /// effects of the flexible carrier and of mesh forces that turn with their lines of action, for each row,
+    /// percent.
     pub fn beyond_carrier_percent(&self) -> Vec<f64> {
         let rigid = self.of(Variant::RigidCarrier);
         let of = |(row, (fe, from_fe)): (usize, (&f64, &f64))| {
@@ -235,7 +236,7 @@ impl Effects {
 mod tests {
     use super::*;
 
-    /// Every combination of effects that multiply up to the whole leaves nothing.
+    /// Single effects whose product is the joint effect leave no remainder.
     #[test]
     fn remainders_vanish_for_effects_that_multiply() {
         let single = [3.0, -2.0, 0.5, 1.0];
@@ -251,7 +252,7 @@ mod tests {
             printed_fe_contact_hz: vec![1.0],
             published_hz: vec![1000.0 * whole],
             lumped_from_fe_hz: vec![1000.0],
-            // The carrier's giving way takes 2 % off, and something else 0.1 %.
+            // The flexible carrier lowers the frequency by 2 %, another effect by 0.1 %.
             still_hz: vec![1000.0 / 1.02 * 0.999],
             fe_contact_hz: vec![1000.0 / 1.02 * 0.999],
             split_percent: [vec![0.0], vec![0.0]],

@@ -3,8 +3,8 @@
 use experiments::NaturalMode;
 use lumped::ModeType;
 
+use crate::mode_type::type_named;
 use crate::reference::ModeTable;
-use crate::suites::mode_lists::type_named;
 
 /// One row of a table as a model gives it.
 #[derive(Debug, Clone, PartialEq)]

@@ -86,7 +86,7 @@ impl Effects {
 }
 
 fn signed(percent: f64) -> String {
-    // Minus nothing is nothing.
+    // Avoids -0.00.
     let text = format!("{percent:+.2}");
     if text.trim_start_matches(['+', '-']) == "0.00" { "0.00".into() } else { text }
 }

@@ -21,7 +21,7 @@ pub enum Base {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Variant {
-    /// The carrier does not give way.
+    /// A rigid carrier.
     RigidCarrier,
     /// Another radius of the carrier's pin seats, m.
     PinSeat(f64),
@@ -33,7 +33,7 @@ pub enum Variant {
     Torque(f64),
     /// Another position of the mesh cycle, cycles.
     Position(f64),
-    /// Planets at equal angles; with four of these teeth that cannot be assembled.
+    /// Planets at equal angles; four planets with these tooth numbers cannot be assembled so.
     EqualSpacing,
     /// 24.6° for both meshes, as the printed lumped frequencies have it.
     PrintedAngles,
@@ -41,7 +41,7 @@ pub enum Variant {
     PrintedMasses,
     /// 350e6 N/m for every mesh.
     PrintedMeshes,
-    /// Gyroscopic and centripetal terms of the carrier's turning at the scene's speed.
+    /// Gyroscopic and centripetal terms of the carrier's rotation at the scene's speed.
     Gyroscopic,
 }
 
@@ -62,7 +62,7 @@ impl Variant {
         Self::Position(0.25),
         Self::Position(0.5),
         Self::Position(0.75),
-        // Where corner contact sets in in all meshes of three planets at once.
+        // The position at which corner contact starts in all meshes of three planets at once.
         Self::Position(0.836),
         Self::PrintedAngles,
         Self::EqualSpacing,
@@ -75,7 +75,7 @@ impl Variant {
     pub const TO_PUBLISHED: [Self; 4] =
         [Self::PrintedAngles, Self::EqualSpacing, Self::PrintedMasses, Self::PrintedMeshes];
 
-    /// Head of its column.
+    /// Name of its row in the tables.
     pub fn name(&self) -> String {
         match self {
             Self::RigidCarrier => "rigid carrier".into(),
@@ -104,7 +104,7 @@ impl Variant {
         }
     }
 
-    /// Whether gears must be meshed anew.
+    /// Whether new finite-element meshes of the gears are needed.
     pub fn needs_bodies(&self) -> bool {
         matches!(self, Self::PlaneStress | Self::PlanetShare(_))
     }
@@ -156,7 +156,7 @@ impl Variant {
         (scene, preload)
     }
 
-    /// Meshes the gears of every variant that needs its own; they serve any number of planets.
+    /// Makes the bodies of every variant that needs its own; they serve any number of planets.
     ///
     /// # Errors
     /// If a variant cannot be meshed.
@@ -179,7 +179,7 @@ mod tests {
     use crate::catalogue::{PublishedScene, scene};
     use experiments::modal::lumped_frequencies;
 
-    /// The four changes are all that sets a scene with parameters from FE apart from the published one.
+    /// A scene with parameters from FE differs from the published one by the four changes only.
     #[test]
     fn all_changes_to_published_give_the_published_frequencies() {
         let set = scene(PublishedScene::Oh58FourPlanets).unwrap();

@@ -1,14 +1,14 @@
-//! How far what the paper leaves open moves what is held against it.
+//! How far parameters that the paper does not give move the values that are compared with it.
 //!
-//! A value printed from a finite-element model whose tooth thickness, fillets, pin seats and plane state are
-//! not printed can be asked to agree with ours only within what those may do. Each of them gets an interval
-//! from geometry or practice ([`study`]), its two ends are computed one at a time, and the effects are added
-//! up by sign: the sum of all that lower a value is the lower end of its band, of all that raise it the upper
-//! one. Nothing in that knows the printed value. `kept/parameter_bands.toml` holds the result.
+//! The paper does not give tooth thickness, fillets, pin seats and plane state of its finite-element model,
+//! so that its values can be expected to agree with ours only within the effects of these. Each parameter has
+//! an interval from geometry or design practice; the two ends are computed one parameter at a time
+//! ([`study`]). The effects that lower a value add up to the lower end of its band, those that raise it to
+//! the upper end. The printed value does not enter. `kept/parameter_bands.toml` holds the result.
 
 use serde::{Deserialize, Serialize};
 
-use crate::reference::{ReferenceError, parse};
+use crate::reference_file::{ReferenceError, parse};
 
 mod intervals;
 mod study;
@@ -16,36 +16,36 @@ mod study;
 pub use intervals::{full_fillet, generated_fillet, intervals, share_of_tip_lands};
 pub use study::study;
 
-/// An open parameter and how far it may reach.
+/// A parameter that the paper leaves open, with its interval.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Interval {
-    /// What it is called in the effects of every row.
+    /// Name by which the effects of every row refer to it.
     pub name: String,
     /// Unit of the three numbers; none where they only name a case.
     pub unit: String,
     /// Lower end.
     pub lower: f64,
-    /// What the scene has.
+    /// Value in the scene.
     pub base: f64,
     /// Upper end.
     pub upper: f64,
     /// Whether it describes gears and carrier, and counts in [`BandRow::band_percent`]; the state in which the
     /// set was struck (position, preload) counts in [`BandRow::band_with_state_percent`] only.
     pub is_body: bool,
-    /// Why it may reach so far and no farther.
+    /// Reason for both ends.
     pub reason: String,
 }
 
-/// What one parameter does to one value over its interval, percent of our value.
+/// Effect of one parameter on one value over its interval, percent of our value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ParameterEffect {
     /// Name of the interval.
     pub parameter: String,
-    /// At its lower end; of a position, the least over the cycle.
+    /// At its lower end; for the position, the least over the cycle.
     pub at_lower_percent: f64,
-    /// At its upper end; of a position, the largest over the cycle.
+    /// At its upper end; for the position, the largest over the cycle.
     pub at_upper_percent: f64,
 }
 
@@ -63,7 +63,7 @@ pub struct BandRow {
     pub ours: f64,
     /// Value of the paper, or of the standard's formula on the same gears.
     pub printed: f64,
-    /// Half a unit of its last digit.
+    /// Half a unit of the last digit of the printed value.
     pub half_digit: f64,
     /// Sums of the effects by sign, parameters of gears and carrier, percent of our value.
     pub band_percent: [f64; 2],
@@ -97,24 +97,24 @@ pub fn band_of<'e>(effects: impl Iterator<Item = &'e ParameterEffect>) -> [f64; 
 
 /// Whether a printed value lies within a band about our own, the rounding of the print added.
 ///
-/// A band or value that is no number holds nothing.
+/// `false` if the band or a value is not a number.
 pub fn is_within(ours: f64, band_percent: [f64; 2], printed: f64, half_digit: f64) -> bool {
     let [low, high] = band_percent.map(|percent| ours * (1.0 + 0.01 * percent));
     low - half_digit <= printed && printed <= high + half_digit
 }
 
 impl BandRow {
-    /// Whether the printed value lies within what gears and carrier leave open.
+    /// Whether the printed value lies within the band of the parameters of gears and carrier.
     pub fn holds(&self) -> bool {
         is_within(self.ours, self.band_percent, self.printed, self.half_digit)
     }
 
-    /// Whether it lies within that and what position and preload leave open.
+    /// Whether it lies within the band of these parameters, position and preload.
     pub fn holds_with_state(&self) -> bool {
         is_within(self.ours, self.band_with_state_percent, self.printed, self.half_digit)
     }
 
-    /// How far the printed value is outside the band, in percent of our value; nothing inside.
+    /// How far the printed value is outside the band, in percent of our value; 0 inside.
     pub fn outside_percent(&self) -> f64 {
         let percent = |x: f64| 100.0 * (x / self.ours - 1.0);
         let above = percent(self.printed - self.half_digit) - self.band_percent[1];
@@ -191,7 +191,7 @@ mod tests {
         assert!((row(979.5).outside_percent() - 1.0).abs() < 1e-12);
     }
 
-    /// What is kept is what its own effects give, and has every row that is to be judged by it.
+    /// Kept bands are the sums of their kept effects, and every value judged by a band has a row.
     #[test]
     fn kept_bands_are_the_sums_of_their_effects() {
         let kept = ParameterBands::load().unwrap();
@@ -203,7 +203,7 @@ mod tests {
             let all = band_of(row.effect.iter());
             for (kept, made) in [(row.band_percent, sums), (row.band_with_state_percent, all)] {
                 for k in 0..2 {
-                    // Printed to 1e-4 %, up to fourteen of them.
+                    // Effects are rounded to 1e-4 %, their sum by less than 1e-3 %.
                     assert!((kept[k] - made[k]).abs() < 1e-3, "{}", row.id);
                 }
             }

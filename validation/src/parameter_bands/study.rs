@@ -1,4 +1,4 @@
-//! Both ends of every interval, one at a time.
+//! Effects of both ends of every interval, one parameter at a time.
 
 use experiments::NaturalMode;
 use experiments::modal::{Preload, linear_modes, lumped_frequencies, lumped_from_fe, preloaded};
@@ -14,9 +14,9 @@ use super::{BandRow, Interval, ParameterBands, ParameterEffect, band_of};
 use crate::catalogue::scene;
 use crate::effects::{TabledFrequency, tabled};
 use crate::error::ValidationError;
+use crate::published_table::Table;
 use crate::reference::Reference;
 use crate::suites::fe::iso6336;
-use crate::suites::tables::Table;
 
 /// Torque of the tables, N m.
 const TORQUE: f64 = 1130.0;
@@ -34,7 +34,7 @@ struct Value {
     half_digit: f64,
 }
 
-/// Everything one variant gives; in the same order for all.
+/// All values of one variant, in the same order for every variant.
 type Values = Vec<Value>;
 
 fn preload(torque_nm: f64, position: f64) -> Preload {
@@ -140,7 +140,7 @@ fn bodies_and_meshes(set: &Scene, bodies: &Bodies) -> Result<Values, ValidationE
     let width = bodies.geometry.face_width;
     for (kind, secant) in &secants {
         let formula = iso6336::mean_stiffness(set, *kind).ok_or_else(missing)?;
-        // The formula is of the same gears: what is judged is the ratio of the two.
+        // The formula uses the same gears, so that the ratio of the two is judged.
         values.push(Value {
             id: format!("fe.iso_6336.{}", kind.name()),
             what: format!(
@@ -173,7 +173,7 @@ fn bodies_and_meshes(set: &Scene, bodies: &Bodies) -> Result<Values, ValidationE
     Ok(values)
 }
 
-/// Every value with gears and carrier so changed.
+/// All values of the scenes that `change` makes.
 fn values(
     reference: &Reference,
     change: &dyn Fn(&Scene) -> Result<Scene, ValidationError>,
@@ -219,7 +219,7 @@ fn ends(
 ) -> Result<[Vec<f64>; 2], ValidationError> {
     let nothing: Vec<f64> = vec![0.0; base.len()];
     let same = |scene: &Scene| Ok(scene.clone());
-    // States move frequencies only; those come first among the values.
+    // Position and preload affect only frequencies, which come first among the values.
     let state = |torque, position| -> Result<Vec<f64>, ValidationError> {
         let list = frequencies(reference, &same, bodies, preload(torque, position))?;
         let mut effects = percent(base, &list);
@@ -251,10 +251,10 @@ fn ends(
     }
 }
 
-/// Digits that are kept of an effect.
+/// An effect rounded to the 1e-4 % that are kept.
 fn rounded(percent: f64) -> f64 {
     let kept = (percent * 1e4).round() * 1e-4;
-    // Minus nothing is nothing; and sums of ten-thousandths print as such.
+    // Avoids -0, and binary remainders in the printed multiples of 1e-4.
     if kept == 0.0 { 0.0 } else { (kept * 1e4).round() / 1e4 }
 }
 
@@ -264,15 +264,15 @@ fn shown(interval: &Interval) -> Interval {
     Interval { lower, base, upper, ..interval.clone() }
 }
 
-/// Seven digits: what is kept of values and of the ends of intervals.
+/// Seven digits, as values and the ends of intervals are kept.
 fn digits(x: f64) -> f64 {
     format!("{x:.6e}").parse().unwrap_or(x)
 }
 
-/// Works out all bands; `heard` is told of every parameter before its turn.
+/// Computes all bands; `heard` is called with the name of every parameter before it is varied.
 ///
 /// # Errors
-/// If a scene, an equilibrium or an eigenproblem cannot be had.
+/// If a scene cannot be used, or an equilibrium or an eigenproblem cannot be solved.
 pub fn study(
     reference: &Reference,
     command: &str,

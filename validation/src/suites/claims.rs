@@ -12,7 +12,7 @@ use crate::worst::{paired, worst};
 use super::Checks;
 use super::tables::modes_of;
 
-/// Rows of Tables 2 and 3 that both have.
+/// Modes that both Table 2 and Table 3 list: type and number of rows.
 const ROWS: [(ModeType, usize); 2] = [(ModeType::Translational, 3), (ModeType::Rotational, 2)];
 
 /// `scenes`: three planets, four planets.

@@ -1,5 +1,5 @@
-//! Why the printed four-planet frequencies differ from those of the printed geometry: first the
-//! pressure angles are put right, then the spacing.
+//! Why the printed four-planet frequencies differ from those of the printed geometry: first the pressure
+//! angles are corrected, then the spacing.
 
 use experiments::models::{Changed, Lumped};
 use experiments::{ModalModel, NaturalMode, distinct, frequencies_of};

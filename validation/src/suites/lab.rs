@@ -12,13 +12,14 @@ use crate::Profile;
 use crate::catalogue::{PublishedScene, scene};
 use crate::error::ValidationError;
 use crate::judged::Judged;
-use crate::reference::{Reference, ReferenceError};
+use crate::reference::Reference;
+use crate::reference_file::ReferenceError;
 
 /// What the suites share.
 pub(crate) struct Lab<'r> {
     pub(crate) reference: &'r Reference,
     pub(crate) profile: Profile,
-    /// Four planets; the gears are those of three planets too.
+    /// Four planets; the set with three planets has the same gears.
     pub(crate) four: Scene,
     pub(crate) three: Scene,
     pub(crate) bodies: Arc<Bodies>,
@@ -75,7 +76,7 @@ impl<'r> Lab<'r> {
         Ok(set.cycle(load.sun_load_nm(), positions, &ActiveSet)?)
     }
 
-    /// A check that is about to be judged.
+    /// A declared check, to be compared with a result.
     pub(crate) fn about<'a>(
         &'a self,
         id: &'a str,
@@ -90,7 +91,7 @@ impl<'r> Lab<'r> {
     }
 }
 
-/// The error of a model, as it is.
+/// The unchanged error of a model.
 pub(crate) fn of_model(source: ModelError) -> ValidationError {
     ValidationError::Model(source)
 }

@@ -174,7 +174,7 @@ fn own_structure(lab: &Lab<'_>) -> Checks {
 }
 
 /// Runs every suite that has ids starting with `only` on our own models, in the order of the report; `progress`
-/// hears of each.
+/// is told when each starts and ends.
 pub(crate) fn all(
     reference: &Reference,
     profile: Profile,
@@ -202,7 +202,7 @@ pub(crate) fn all(
     Ok(checks)
 }
 
-/// Every suite that a foreign model can be asked, as far as it answers.
+/// Every suite whose question a foreign model answers.
 pub(crate) fn foreign(reference: &Reference, models: &Models<'_>, only: &str) -> Checks {
     let mut checks = Vec::new();
     for Askable { suite, question } in ASKABLE {
@@ -222,7 +222,7 @@ pub(crate) fn foreign(reference: &Reference, models: &Models<'_>, only: &str) ->
             _ => continue,
         };
         match found {
-            // A table answers what it holds.
+            // Suites whose scenes are not in recorded tables are left out.
             Err(error) if error.is_not_recorded() => {}
             found => checks.extend(found?),
         }
@@ -231,7 +231,7 @@ pub(crate) fn foreign(reference: &Reference, models: &Models<'_>, only: &str) ->
     Ok(checks)
 }
 
-/// A foreign model by what it can be asked.
+/// A foreign model, by the questions that it answers.
 #[derive(Clone, Copy, Default)]
 pub struct Models<'m> {
     /// Natural modes.

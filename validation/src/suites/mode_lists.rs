@@ -5,14 +5,6 @@ use lumped::ModeType;
 
 use crate::reference::Frequencies;
 
-/// The type a word names; anything else is `Mixed`, of which no sound published set has any.
-pub(crate) fn type_named(name: &str) -> ModeType {
-    [ModeType::Rotational, ModeType::Translational, ModeType::Planet]
-        .into_iter()
-        .find(|t| t.name() == name)
-        .unwrap_or(ModeType::Mixed)
-}
-
 /// The reference frequencies of each type.
 pub(crate) fn by_type(reference: &Frequencies) -> [(ModeType, &[f64]); 3] {
     [

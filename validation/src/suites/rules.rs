@@ -106,7 +106,7 @@ fn forbidden_by_rule(sun_teeth: u32, harmonic: u32) -> &'static str {
     }
 }
 
-/// How often Table 4 and the phasor sums say different things.
+/// Number of cases in which Table 4 and the phasor sums disagree.
 fn disagreements() -> f64 {
     let mut count = 0;
     for planets in 3..=8 {

@@ -1,10 +1,10 @@
-//! What section 4.2 of Parker, Agashe & Vijayakar (2000) says of growth with torque, one by one.
+//! The statements of section 4.2 of Parker, Agashe & Vijayakar (2000) on growth with torque, one by one.
 
 use lumped::ModeType;
 
 use experiments::torque::Followed;
 
-/// A statement with how far it holds.
+/// A statement with the number of comparisons in which it holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Statement {
     /// `monotonic`, `rotation_above_translation`, `third_below_rotation`.

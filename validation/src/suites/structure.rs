@@ -37,7 +37,7 @@ pub(crate) fn checks(model: &dyn ModalModel, scenes: &[Scene], reference: &Refer
     Ok(vec![spectrum, about.equal(0.0, diametrical as f64)])
 }
 
-/// Mirror images of random sets, whose mode shapes our own model tells.
+/// Mirror images of random sets; mode shapes are needed, which only our own lumped model gives here.
 pub(crate) fn mirror(scenes: &[Scene], reference: &Reference) -> Checks {
     let mut random = fastrand::Rng::with_seed(2000);
     let [template] = scenes else {

@@ -1,4 +1,4 @@
-//! Table 1 closed on itself: one base pitch, two operating angles, one centre distance.
+//! Consistency of Table 1: one base pitch, two operating pressure angles, one centre distance.
 
 use gearset::{Facing, Geometry, LoadCase, Mesh, MeshKind, MeshMember, Phasing, Scene};
 
@@ -25,7 +25,7 @@ fn rows(reference: &Reference, set: &Scene, geometry: &Geometry) -> Checks {
     let (sp, rp) = (mesh(MeshKind::SunPlanet)?, mesh(MeshKind::RingPlanet)?);
     let (t, d) = (&reference.parker.table1, &reference.parker.derived);
     let base = |m: &Mesh, member| 2e3 * m.gear(member).base_radius;
-    // The centre distance each mesh's printed angle asks for.
+    // The centre distance that follows from each mesh's printed pressure angle.
     let asked = |sum_mm: f64, angle_deg: f64| 0.5 * sum_mm / angle_deg.to_radians().cos();
     let (sun, planet) = (base(sp, MeshMember::Driver), base(sp, MeshMember::Driven));
     let ring = base(rp, MeshMember::Driven);
@@ -59,7 +59,7 @@ fn rows(reference: &Reference, set: &Scene, geometry: &Geometry) -> Checks {
     Ok(checks)
 }
 
-/// Gears placed by the phases touch where they should.
+/// Gears placed by γ and the mesh phases touch on the loaded flanks of all meshes.
 fn closure(
     reference: &Reference,
     set: &Scene,
@@ -74,8 +74,8 @@ fn mesh_frequency(set: &Scene) -> Result<f64, ValidationError> {
     Ok(LoadCase::of_scene(set)?.at_speed(2500.0).mesh_frequency_hz)
 }
 
-/// Largest deviation of any normal gap from what it should be (nil on the loaded flanks, the
-/// normal backlash on the others), over one sun pitch, both senses of load, m.
+/// Largest deviation of any normal gap from its theoretical value (0 on the loaded flanks, the normal
+/// backlash on the others), over one sun pitch, both senses of load, m.
 fn largest_misfit(set: &Scene, geometry: &Geometry) -> Result<f64, ValidationError> {
     let incomplete = || ValidationError::Incomplete("whole set of gears");
     let phasing = Phasing::new(geometry, &set.planets).ok_or_else(incomplete)?;

@@ -1,4 +1,4 @@
-//! Tables of mesh force from the cells.
+//! Tables of mesh force, computed from the contact cells.
 
 use gearset::{CurveKey, Facing, FlankSide, MeshCurve, MeshKind, MeshLaw, MeshLawPlan, Scene};
 use rayon::prelude::*;
@@ -13,12 +13,13 @@ use crate::statics::{
     missing_mesh, turned,
 };
 
-/// What a law is made for.
+/// Settings of a mesh law.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeshLawSettings {
     /// Torque on the sun (magnitude) about whose equilibrium the set is to move, N·m.
     pub torque_nm: f64,
-    /// Largest force of a mesh that the tables hold over the mean one; beyond, forces go straight on.
+    /// Largest tabulated force of a mesh divided by the mean one; beyond it forces are extrapolated
+    /// linearly.
     pub reach: f64,
     /// Steps of each curve from first contact to the largest force.
     pub nodes: usize,
@@ -37,13 +38,14 @@ impl MeshLawSettings {
     }
 }
 
-/// The law of a whole set under a torque on the sun of the given sense, at even steps of a mesh cycle;
-/// deterministic, on all threads.
+/// The law of a whole set under a torque on the sun of the given sense, at evenly spaced steps of a
+/// mesh cycle. It is computed on all threads; their number does not change the result.
 ///
-/// The set is linearised about its mean configuration under the torque: phases and centre distances are
-/// those of the loaded gears. A mesh's deflection is its approach on the path of contact. A pair that
-/// touches with a corner approaches by its own arms; what corners and the slopes of the deformed flanks
-/// put beside the line of action is a load by phase, with the forces of the equilibrium there.
+/// The set is linearised about its mean configuration under the torque: phases and centre distances
+/// are those of the loaded gears. A mesh's deflection is its approach on the path of contact. A
+/// pair in corner contact approaches with its own moment arms. The forces beside the line of
+/// action, from corner contacts and from the slopes of the deformed flanks, are the side load, a
+/// function of phase with the pair forces of the equilibrium there.
 ///
 /// # Errors
 /// If the scene is no whole set, contact cannot be solved, or the settings are unfit.
@@ -80,7 +82,7 @@ pub fn mesh_law(
     };
     let made: Vec<Made> =
         plan.curves.par_iter().map(|key| job.make(key)).collect::<Result<_, _>>()?;
-    // Every mesh of a kind goes through the same cycle.
+    // All meshes of a kind pass through the same cycle, so that one mean share serves all of them.
     let mean = |kind: MeshKind| {
         let own = plan.curves.iter().zip(&made).filter(|(key, _)| key.kind == kind);
         let shares: Vec<f64> = own.filter_map(|(_, made)| made.share).collect();
@@ -127,15 +129,15 @@ fn at_rest(statics: &StaticSet<'_>, steps: usize, mean_force: f64) -> Result<Vec
     Ok(list)
 }
 
-/// One curve; of front flanks, the damped share of the flexibility and the load beside the line of
-/// action under the mean force.
+/// One curve; for front flanks with the damped share of the flexibility and the side load, both in
+/// the equilibrium at its phase.
 struct Made {
     curve: MeshCurve,
     share: Option<f64>,
     side_load: [f64; 6],
 }
 
-/// What all curves of a law are made with.
+/// Everything that the curves of a law have in common.
 struct Job<'j, 's> {
     statics: &'j StaticSet<'s>,
     at_rest: Vec<AtRest>,
@@ -145,7 +147,7 @@ struct Job<'j, 's> {
     nodes: usize,
 }
 
-/// Phases nearer than this are the same phase, rounded differently, cycles.
+/// Phases that differ by less than this are equal but for rounding, cycles.
 const SAME_PHASE: f64 = 1e-11;
 
 impl Job<'_, '_> {
@@ -176,7 +178,8 @@ impl Job<'_, '_> {
                 };
                 let rest = self.at_rest.iter().find(is_here);
                 let rest = rest.ok_or_else(|| missing_mesh(key.kind))?;
-                // Where the mesh rests its pairs approach as they do in the set.
+                // At the deflection of the equilibrium the pairs have the approaches of the
+                // equilibrium.
                 for (k, pair) in table.pairs.iter().enumerate() {
                     if let Some((_, own)) = rest.approaches.iter().find(|a| a.0 == pair.index) {
                         along.extra[k] = own - along.arms[k] * rest.deflection;
@@ -197,8 +200,8 @@ impl Job<'_, '_> {
         }
     }
 
-    /// What a mesh puts on its gears beside its line of action: with pair forces P and the derivatives A
-    /// of the pairs' approaches,
+    /// Side load of a mesh on its gears: with pair forces P and the derivatives A of the pairs'
+    /// approaches,
     ///
     /// ```text
     /// −Σ P (A_σ − κ_σ) ∂σ − Σ P (A_a − κ_a) ∂a' + (∂W/∂σ − κᵀP) ∂σ + …
@@ -266,7 +269,7 @@ fn curve(
         let found = at(table, along, start + i as f64 * step, &mut warm)?;
         (forces[i], tangents[i]) = (found.force, found.stiffness);
     }
-    // Just after first contact one cell carries.
+    // Tangent just after first contact, where one cell carries the force.
     tangents[0] = at(table, along, start + 1e-6 * step, &mut None)?.stiffness;
     MeshCurve::new(start, step, &forces, &tangents)
         .map_err(|cause| FeError::Curve { phase: table.phase, cause })

@@ -1,4 +1,5 @@
-//! One mesh at a deflection: forces of its pairs, and the deflection that a force takes.
+//! One mesh at a deflection: forces of its pairs, and the deflection at which it carries a given
+//! force.
 
 use nalgebra::DMatrix;
 
@@ -23,7 +24,7 @@ impl Approaches {
 
 /// A mesh at a deflection.
 pub(super) struct DeflectedMesh {
-    /// F = Σ a P, the slope of a potential, N.
+    /// F = Σ a P, the derivative of the contact potential Ψ with respect to δ, N.
     pub(super) force: f64,
     /// dF/dδ, N/m.
     pub(super) stiffness: f64,
@@ -33,7 +34,8 @@ pub(super) struct DeflectedMesh {
     pub(super) tangent: DMatrix<f64>,
 }
 
-/// A mesh at a deflection; `warm` takes the cells in contact.
+/// A mesh at a deflection (m); `warm` is the guess of the cells in contact, and receives those
+/// found.
 pub(super) fn at(
     table: &MeshTable,
     along: &Approaches,
@@ -55,7 +57,7 @@ pub(super) fn at(
     Ok(DeflectedMesh { force, stiffness, pair_forces, tangent })
 }
 
-/// Deflection at which a mesh carries a force at least, and at most some percent more, m.
+/// Deflection at which a mesh carries at least a force (N), and at most 2 % more, m.
 pub(super) fn deflection_for(
     table: &MeshTable,
     along: &Approaches,
@@ -63,7 +65,7 @@ pub(super) fn deflection_for(
 ) -> Result<f64, FeError> {
     let start = first_contact(table, along);
     let mut warm = None;
-    // About one pair of steel teeth.
+    // The first stiffness is about that of one pair of steel teeth.
     let mut delta = start + force / (2.0e9 * table.face_width * 10.0);
     for _ in 0..60 {
         let found = at(table, along, delta, &mut warm)?;

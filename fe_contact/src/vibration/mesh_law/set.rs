@@ -1,5 +1,5 @@
-//! A set in time whose mesh forces follow a law: the quasi-static fidelity's races, masses, bearings and
-//! carrier, and table look-up instead of contact.
+//! A set in time whose mesh forces follow a mesh law: races, masses, bearings and carrier of the
+//! quasi-static fidelity, with table look-up in place of contact.
 
 use dynamics::{AverageAcceleration, Coupled, CoupledState, Coupling, LinearPart, Motion};
 use gearset::{Facing, MeshLaw, Scene};
@@ -22,9 +22,9 @@ pub struct MeshLawSet<'s> {
 }
 
 impl<'s> MeshLawSet<'s> {
-    /// A set at rest without load at step 0 of a mesh cycle under a torque on the sun of the given sense,
-    /// turning; as many steps a cycle as the law has. The law's torque (N·m, magnitude) says about which
-    /// mean configuration deflections are linear.
+    /// A turning set for a torque on the sun of the given sense, at first without motion and load
+    /// at step 0 of a mesh cycle, with as many steps per cycle as the law. `torque_nm` is that of
+    /// the law (N·m, magnitude); deflections are linear about the mean configuration under it.
     ///
     /// # Errors
     /// If the scene lacks what the set needs, or the law is for another one.
@@ -162,7 +162,8 @@ impl<'s> MeshLawSet<'s> {
         out.extend_from_slice(self.system.forces());
     }
 
-    /// Whether the law's tables hold all deflections of the present step; beyond they go straight on.
+    /// Whether all deflections of the present step are within the law's tables; beyond them forces
+    /// are extrapolated linearly.
     pub fn is_within_tables(&self) -> bool {
         let (tables, step) = (self.system.law(), self.state().step_in_cycle);
         let deflections = self.system.deflections();
@@ -175,7 +176,8 @@ impl<'s> MeshLawSet<'s> {
         self.system.motion()
     }
 
-    /// Puts the set into motion at a step of the cycle, on the same coordinates.
+    /// Gives the races' free coordinates displacements `x` (m) and velocities `v` (m/s) at a step
+    /// of the cycle.
     ///
     /// # Errors
     /// If there is not one number for each coordinate.
@@ -189,12 +191,12 @@ impl<'s> MeshLawSet<'s> {
         set.map_err(|cause| failed(&self.statics, cause))
     }
 
-    /// Everything that decides how the set goes on, exactly.
+    /// The complete state, from which the set continues exactly.
     pub fn state(&self) -> &CoupledState {
         self.system.state()
     }
 
-    /// Goes on from a state of this set, bit by bit as it did before.
+    /// Continues from a state of this set, with bitwise the same results as before.
     ///
     /// # Errors
     /// If the state is of another set.
@@ -224,7 +226,7 @@ impl<'s> MeshLawSet<'s> {
     }
 }
 
-/// Loads beside the lines of action on the races' coordinates, by step, N.
+/// Side loads on the races' coordinates, by step of the cycle, N.
 fn side_loads(races: &Races, law: &MeshLaw) -> Vec<Vec<f64>> {
     let planets = races.planets();
     let of_step = |step: usize| {
@@ -234,7 +236,7 @@ fn side_loads(races: &Races, law: &MeshLaw) -> Vec<Vec<f64>> {
                 if mesh < planets { (SUN, mesh) } else { (RING, mesh - planets) };
             let (sin, cos) = races.psi[planet].sin_cos();
             let [x, y, u, zeta, eta, spin] = law.side_load(mesh, step);
-            // The mesh frame stands ψ on from the carrier frame.
+            // The mesh frame is turned by ψ_n from the carrier frame.
             let turned = [cos * x - sin * y, sin * x + cos * y, u];
             for (body, own) in [(central, turned), (PLANETS + planet, [zeta, eta, spin])] {
                 for (axis, f) in own.into_iter().enumerate() {
@@ -249,7 +251,7 @@ fn side_loads(races: &Races, law: &MeshLaw) -> Vec<Vec<f64>> {
     (0..law.steps()).map(of_step).collect()
 }
 
-/// In the words of a set.
+/// The error with body and quantity in place of a coordinate's number.
 #[cold]
 fn failed(statics: &StaticSet<'_>, cause: dynamics::CoupledError) -> FeError {
     match cause {

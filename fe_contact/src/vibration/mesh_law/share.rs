@@ -6,14 +6,15 @@ use super::deflected_mesh::{Approaches, DeflectedMesh};
 use crate::contact::{MeshTable, PairCells};
 use crate::statics::{Bodies, flexibility};
 
-/// Share of the elastic bodies in the flexibility of a mesh under a force: with pair forces p = S a that
-/// a unit of deflection adds, and F the bodies' flexibility between the pairs,
+/// Share of the elastic bodies in the flexibility of a mesh under a force: with p = S a the pair
+/// forces that a unit of deflection adds, and F the bodies' flexibility between the pairs,
 ///
 /// ```text
 /// s = pᵀ F p / pᵀ a
 /// ```
 ///
-/// that is, the elastic energy in the bodies over all of it. The half-plane's part has no damping.
+/// that is, the elastic energy in the bodies divided by the whole elastic energy. The half-planes
+/// are undamped.
 pub(super) fn damped_share(
     bodies: &Bodies,
     mesh: &Mesh,

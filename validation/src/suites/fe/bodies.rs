@@ -1,4 +1,4 @@
-//! Masses and inertias against the paper's lumped ones, and the tooth thickness that suits them.
+//! Masses and inertias against the paper's lumped ones, and the tooth thickness at which they agree best.
 
 use fe_contact::Elastic;
 use fe_contact::body::CarrierBody;

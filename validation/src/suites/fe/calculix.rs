@@ -10,7 +10,7 @@ use crate::suites::{Checks, Lab};
 pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     let kept = &lab.reference.calculix;
     let mut checks = judged(lab, &kept.case)?;
-    // Every row beside the place of the next.
+    // The control compares every recorded row at the mesh and phase of the next.
     let mut shifted = kept.case.clone();
     let places: Vec<_> = kept.case.iter().map(|c| (c.scene.clone(), c.phase)).collect();
     let next = places.iter().cycle().skip(1);
@@ -39,7 +39,7 @@ fn judged(lab: &Lab<'_>, cases: &[CalculixCase]) -> Checks {
         let title = format!("{mesh} mesh, phase {phase}, {um} µm approach: force ({})", case.what);
         checks.push(lab.about(&id, &title)?.source(&source).number(case.force_n, own.force));
         for pair in &case.pair {
-            // Without a peak of its own (at corners) a row says nothing of pressure.
+            // Rows of corner contacts record no peak pressure.
             let Some(expected) = pair.peak_pressure_mpa else { continue };
             let found = own.pairs.iter().find(|p| p.index == pair.index);
             let actual = found.and_then(|p| p.peak_pressure).map_or(f64::NAN, |p| 1e-6 * p);

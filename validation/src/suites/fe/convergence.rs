@@ -1,4 +1,4 @@
-//! Matching depth, contact cells and elements: what the result owes to each.
+//! Sensitivity of the result to matching depth, contact cells, elements and contact solver.
 
 use dynamics::grid_convergence_index;
 use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, Lemke};
@@ -11,7 +11,7 @@ use crate::suites::lab::MESHES;
 use crate::suites::{Checks, Lab};
 use crate::worst::{paired, peak_to_peak, worst};
 
-/// Positions of the mesh cycle; corners and single contact are among them.
+/// Positions of the mesh cycle; corner contacts and single pairs are among them.
 const POSITIONS: usize = 20;
 
 /// Depths over the default one: a plateau of a factor 2.
@@ -68,7 +68,7 @@ fn cells(lab: &Lab<'_>, kind: MeshKind) -> Result<Check, ValidationError> {
 fn elements(lab: &Lab<'_>) -> Checks {
     let default = lab.four.fe_contact.flank_elements;
     let grids = [10, default, 20];
-    // One grid after the other: two sets of gears are enough for one machine.
+    // One grid after the other, so that at most two sets of gears are in memory.
     let mut cycles = Vec::new();
     for flank in grids {
         let mut scene = lab.four.clone();
@@ -114,7 +114,7 @@ fn interior_point() -> Option<&'static dyn ComplementaritySolver> {
     return None;
 }
 
-/// Three solvers on the same teeth, a corner in contact.
+/// Three solvers on the same contact problem, which includes a corner contact.
 fn solvers(lab: &Lab<'_>, kind: MeshKind) -> Checks {
     let name = kind.name();
     let phase = 0.95;

@@ -1,14 +1,14 @@
-//! The fidelities of the ladder against bodies with every degree of freedom, whose transients are kept.
+//! The fidelities against bodies with every degree of freedom, whose impulse tests are kept.
 
 use experiments::modal::{FeMode, ImpulseSettings, impulse_test};
 use gearset::{Fidelity, LoadCase};
 
 use crate::own_truth::FullImpulseSet;
-use crate::suites::tables::Table;
+use crate::published_table::Table;
 use crate::suites::{Checks, Lab};
 use crate::worst::{paired, worst};
 
-/// Largest differences of one test from full bodies.
+/// Natural frequencies (Hz) and damping ratios that one test identified.
 type Found = Vec<(f64, f64)>;
 
 pub(crate) fn checks(lab: &Lab<'_>) -> Checks {

@@ -8,7 +8,7 @@ use crate::reference::Reference;
 use crate::suites::lab::of_model;
 use crate::suites::{Checks, Lab};
 
-/// N·m: 1000 lb-in, and how many multiples of it.
+/// First torque, N·m (1000 lb-in), and number of its multiples.
 const FIRST: f64 = 113.0;
 const TORQUES: u32 = 12;
 
@@ -39,7 +39,7 @@ fn torques() -> Vec<f64> {
     (1..=TORQUES).map(|i| FIRST * f64::from(i)).collect()
 }
 
-/// What is said of the figure, of anybody's mesh cycles.
+/// The paper's statements on the figure, judged on the mesh cycles of any model.
 pub(crate) fn asked(model: &dyn StaticModel, scenes: &[Scene], reference: &Reference) -> Checks {
     let mut checks = Vec::new();
     for scene in scenes {
@@ -64,7 +64,7 @@ fn judged(reference: &Reference, found: &[(f64, f64)]) -> Checks {
     let both = vec![grows(|p| p.0), grows(|p| p.1)];
     let about = reference.about("fe.fig12.monotonic", title)?.source(&source);
     checks.push(about.equal(vec![others, others], both));
-    // Grows more rapidly at every torque, not only on the whole.
+    // "More rapidly" is judged for every step of torque, not only over the whole range.
     let faster = found.windows(2).filter(|w| w[1].0 - w[0].0 > w[1].1 - w[0].1).count() as f64;
     let title = "steps of torque, of eleven, over which rotation grows more than translation";
     let about = reference.about("fe.fig12.rotation_faster", title)?.source(&source);

@@ -22,7 +22,8 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     Ok(checks)
 }
 
-/// Two cylinders pressed together with a relative radius (m), against Hertz for the right one.
+/// Two cylinders of relative radius `pressed` (m) pressed together, against Hertz for the radius of the
+/// check.
 fn cylinders(lab: &Lab<'_>, pressed: f64) -> Checks {
     let mut checks = Vec::new();
     let m = &lab.bodies.material;
@@ -59,7 +60,7 @@ fn mid_flank(lab: &Lab<'_>) -> Checks {
         Ok::<_, ValidationError>(())
     };
     for kind in MESHES {
-        // Mid-flank of both gears; alone in the sun mesh, beside another pair in the ring mesh.
+        // Pair 0 is mid-flank on both gears: alone in the sun mesh, beside another pair in the ring mesh.
         let phase = if kind == MeshKind::SunPlanet { 0.7 } else { 0.5 };
         let at = at_phase(&lab.bodies, kind, lab.force, phase, &ActiveSet)?;
         let mesh = lab.bodies.geometry.mesh(kind).ok_or(ValidationError::Incomplete("mesh"))?;

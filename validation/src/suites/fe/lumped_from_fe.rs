@@ -9,7 +9,7 @@ use crate::catalogue::scene;
 use crate::check::Check;
 use crate::effects::{Base, Effect, EffectStudy, Effects, Variant, effects};
 use crate::error::ValidationError;
-use crate::suites::tables::Table;
+use crate::published_table::Table;
 use crate::suites::{Checks, Lab};
 use crate::worst::worst;
 
@@ -63,8 +63,8 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     Ok(checks)
 }
 
-/// One position, in percent of a mesh cycle: FE/contact with a rigid carrier against the lumped model fed
-/// there.
+/// One position, in percent of a mesh cycle: FE/contact with a rigid carrier against the lumped model with
+/// parameters from FE at that position.
 fn rigid_carrier(
     lab: &Lab<'_>,
     name: &str,
@@ -114,8 +114,8 @@ fn where_worst(found: &Agreement) -> String {
     }
 }
 
-/// The whole mesh cycle: the largest difference, how often it is beyond the limit of single positions, and
-/// the difference with every pair along the line of action.
+/// The whole mesh cycle: the largest difference, the number of positions at which it exceeds the limit of a
+/// single position, and the largest difference with every pair pressing along the line of action.
 fn cycle(lab: &Lab<'_>, table: Table, kept: f64) -> Checks {
     let name = table.planets();
     let corners = format!("lumped_from_fe.corners.{name}");
@@ -134,7 +134,7 @@ fn cycle(lab: &Lab<'_>, table: Table, kept: f64) -> Checks {
             lab.reference.tolerance(&format!("lumped_from_fe.rigid_carrier.{name}.0"), 0.0)?;
         let set = scene(table.consistent())?;
         let (mut all, mut straight, mut beyond) = (Vec::new(), Vec::new(), 0);
-        // Half a cycle on, opposed planets of four have changed places.
+        // Half a cycle later, opposed planets of four have exchanged their mesh phases.
         let repeats = if table == Table::Three { 2 } else { 1 };
         for k in 0..SCANNED / repeats {
             let position = f64::from(k) / f64::from(SCANNED);
@@ -152,7 +152,7 @@ fn cycle(lab: &Lab<'_>, table: Table, kept: f64) -> Checks {
     ])
 }
 
-/// Tangents in the wrong meshes must be noticed.
+/// Control: the tangent stiffnesses of sun and ring meshes exchanged.
 fn control(lab: &Lab<'_>) -> Result<Check, ValidationError> {
     let found = agreement_after(&lab.three, &lab.bodies, &preload(0.0), |from_fe| {
         for own in &mut from_fe.overrides {
@@ -163,7 +163,7 @@ fn control(lab: &Lab<'_>) -> Result<Check, ValidationError> {
     Ok(lab.reference.control("lumped_from_fe.control.exchanged", &spoilt)?)
 }
 
-/// The printed FE/contact rows against the lumped model with parameters from FE: the independent estimate.
+/// The printed FE/contact rows against the lumped model with parameters from FE.
 fn rows(lab: &Lab<'_>, found: &Effects) -> Checks {
     let number = found.table.number();
     let source = &lab.reference.parker.source;
@@ -182,7 +182,8 @@ fn rows(lab: &Lab<'_>, found: &Effects) -> Checks {
     Ok(checks)
 }
 
-/// Parameters add up from the published to the lumped model with parameters from FE; beyond it there is the carrier.
+/// The single effects of the parameters add up to the difference between the two lumped models; FE/contact
+/// differs from the one with parameters from FE by the flexible carrier, within a limit.
 fn parts(lab: &Lab<'_>, found: &Effects) -> Checks {
     let name = found.table.planets();
     let id = format!("lumped_from_fe.additive.{name}");
@@ -198,7 +199,7 @@ fn parts(lab: &Lab<'_>, found: &Effects) -> Checks {
     Ok(vec![additive, beyond])
 }
 
-/// Every tabled mode is there under every change.
+/// Every tabled mode exists under every change.
 fn every_mode(lab: &Lab<'_>, found: &Effects) -> Result<Check, ValidationError> {
     let id = format!("lumped_from_fe.effects.{}", found.table.planets());
     let title = format!(

@@ -1,4 +1,4 @@
-//! Suites about the FE/contact model, and those that FE/contact is asked.
+//! Suites about the FE/contact model, and suites about mesh cycles and steady states of any model.
 
 pub(crate) mod bodies;
 pub(crate) mod calculix;

@@ -1,4 +1,4 @@
-//! The virtual modal test: Tables 2 and 3, routes to the same frequencies, what pulses excite.
+//! The virtual modal test: Tables 2 and 3, identified against linearised modes, what pulses excite.
 
 use experiments::modal::{
     FeMode, ImpulseSettings, ImpulseTest, impulse_test, linear_modes, mesh_influence, preloaded,
@@ -11,14 +11,14 @@ use lumped::ModeType;
 
 use crate::check::Check;
 use crate::error::ValidationError;
+use crate::mode_type::type_named;
+use crate::published_table::Table;
 use crate::reference::Reference;
 use crate::suites::lab::of_model;
-use crate::suites::mode_lists::type_named;
-use crate::suites::tables::Table;
 use crate::suites::{Checks, Lab};
 use crate::worst::{paired, worst};
 
-/// Preload of the paper's speed sweeps, N m; its impulse tests' own is not given.
+/// Preload of the paper's speed sweeps, N m; the paper does not give that of its impulse tests.
 const TORQUE: f64 = 1130.0;
 
 /// Position of the standing set, cycles. The paper gives none; other positions are in
@@ -38,7 +38,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
         let typed = linear_modes(&set, &set.linearised()?)?;
         checks.extend(routes(lab, name, &typed, &test)?);
         let own = leaks(set.races(), &test)?;
-        // Three planets are in phase: nothing leaks at any position.
+        // Three planets are in phase: rotation and translation are uncoupled at every position.
         let half = match name {
             "three" => None,
             _ => {
@@ -60,7 +60,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     Ok(checks)
 }
 
-/// Our own rows of Tables 2 and 3, by impulse tests, with how far each follows the meshes.
+/// Our own rows of Tables 2 and 3, by impulse tests, with the sensitivity of each to mesh stiffness.
 pub(crate) fn tables(lab: &Lab<'_>) -> Checks {
     let model = FeContact::sharing(lab.gears.clone()).by(ModalRoute::ImpulseTest);
     let mut checks = Vec::new();
@@ -69,7 +69,7 @@ pub(crate) fn tables(lab: &Lab<'_>) -> Checks {
         let mut own = printed(&model, std::slice::from_ref(scene), lab.reference)?;
         remark(lab, scene, &mut own)?;
         checks.extend(own);
-        // By linearisation, which is much cheaper and as far off.
+        // By linearisation, which is much cheaper and deviates by as much.
         let spoilt = Changed::new(&lab.fe, stiffer_bearings);
         let spoilt = printed(&spoilt, std::slice::from_ref(scene), lab.reference)?;
         let id = format!("table{number}.fe_contact.control.bearings");
@@ -79,7 +79,7 @@ pub(crate) fn tables(lab: &Lab<'_>) -> Checks {
     Ok(checks)
 }
 
-/// Every bearing half as stiff again.
+/// Every bearing 1.5 times as stiff.
 fn stiffer_bearings(scene: &mut Scene) {
     let supports = &mut scene.supports;
     supports.planet_bearing *= 1.5;
@@ -133,7 +133,7 @@ fn rows(table: Table, modes: &[NaturalMode], reference: &Reference) -> Checks {
     Ok(checks)
 }
 
-/// Notes beside each row how far its frequency follows the meshes.
+/// Adds to the note of each row the sensitivity of its frequency to mesh stiffness.
 fn remark(lab: &Lab<'_>, scene: &Scene, checks: &mut [Check]) -> Result<(), ValidationError> {
     let set = preloaded(scene, &lab.bodies, &settings(POSITION).preload)?;
     let linear = set.linearised()?;
@@ -149,8 +149,8 @@ fn remark(lab: &Lab<'_>, scene: &Scene, checks: &mut [Check]) -> Result<(), Vali
     Ok(())
 }
 
-/// Types, pairs counted once. Rows that the paper has in another order are no matter of types: each type's
-/// modes are in order.
+/// Types, pairs counted once. The order of modes of different types, which may differ from the paper's, is
+/// not compared here; within a type the modes are in ascending order.
 fn types(
     table: Table,
     modes: &[NaturalMode],
@@ -207,9 +207,10 @@ fn leaks(races: &Races, test: &ImpulseTest) -> Result<[f64; 2], ValidationError>
     Ok([force.rotation / force.translation, torque.translation / torque.rotation])
 }
 
-/// Force excites translation, torque rotation: exact for planets in phase. Where phases differ, so do
-/// the meshes at any one position, and something leaks across; half a cycle on, opposed planets have
-/// changed places and the set is itself turned by 180°, so that as much leaks again.
+/// With planets in phase a force on the sun excites its translation alone and a torque its rotation alone.
+/// Where phases differ, the meshes differ at any one position and the two motions are coupled. Half a cycle
+/// later opposed planets have exchanged their mesh phases; the set is then itself rotated by 180°, and the
+/// coupling must be the same.
 fn pulses(lab: &Lab<'_>, name: &str, own: [f64; 2], half: Option<[f64; 2]>) -> Checks {
     let what = [("force", "rotation over translation"), ("torque", "translation over rotation")];
     let mut checks = Vec::new();

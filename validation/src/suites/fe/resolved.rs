@@ -78,7 +78,7 @@ fn over_resolved(
     };
     let (driver, driven) = (fine(MeshMember::Driver)?, fine(MeshMember::Driven)?);
     let mut settings = lab.bodies.cells(FORCE);
-    // Alone, a corner gives way further than beside its neighbours.
+    // A pair alone in corner contact deflects more than one that shares the load, so the window is wider.
     settings.window = 1e-3;
     let bodies = lab.bodies.pair(kind).ok_or_else(missing)?;
     let deflection = |pair: [&GearBody; 2], settings: &CellSettings| {

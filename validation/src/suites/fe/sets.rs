@@ -42,7 +42,7 @@ const ORDER: [usize; 4] = [0, 2, 3, 1];
 /// Torque on the sun of all these checks, N·m.
 const TORQUE: f64 = 1413.0;
 
-/// Our own model: what anybody's is asked, balance and flanks of its own, controls.
+/// Our own model: the checks of any model, equilibrium of the races and reversed torque, controls.
 pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     let scenes = [lab.three.clone(), lab.four.clone()];
     let mut checks = asked(&lab.fe, &scenes, lab.reference)?;
@@ -50,7 +50,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     let displaced =
         Imperfections { displaced_planets: vec![(1, 0.0, 50e-6)], ..Imperfections::default() };
     checks.push(control(lab, "fe.sets.control.displaced_planet", &[displaced])?);
-    // One of these teeth stands in planet 1's mesh in this cycle.
+    // One of these sun teeth is in mesh with planet 1 in this cycle.
     let pitch = |tooth| Imperfections {
         pitch_errors: vec![PitchError { tooth, amount: 10e-6 }],
         ..Imperfections::default()
@@ -59,7 +59,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     Ok(checks)
 }
 
-/// Sharing judged of imperfect gears; of several, those that share least evenly.
+/// The sharing check on sets with imperfect gears; of several, one that fails it counts.
 fn control(
     lab: &Lab<'_>,
     id: &str,
@@ -75,7 +75,7 @@ fn control(
     Ok(lab.reference.control(id, &judged)?)
 }
 
-/// What holds of anybody's mesh cycles. `scenes`: sets of three or four planets.
+/// Checks on the mesh cycles of any model. `scenes`: sets of three or four planets.
 pub(crate) fn asked(model: &dyn StaticModel, scenes: &[Scene], reference: &Reference) -> Checks {
     let mut checks = Vec::new();
     for scene in scenes {
@@ -172,12 +172,12 @@ fn numbering(
     Ok(reference.about("fe.sets.numbering", title)?.at_most(worst(off)))
 }
 
-/// Force of a planet's mesh; not a number if it is not there.
+/// Force of a planet's mesh; not a number if there is none.
 fn force(forces: &[f64], planet: usize) -> f64 {
     forces.get(planet).copied().unwrap_or(f64::NAN)
 }
 
-/// Balance of all races, and flanks of the other sense.
+/// Equilibrium of all races, and the flanks that reversed torque loads.
 fn own(lab: &Lab<'_>) -> Checks {
     let run = |scene: &Scene, torque: f64| {
         lab.set(scene, &lab.bodies, torque, POSITIONS, Imperfections::default())
@@ -187,7 +187,7 @@ fn own(lab: &Lab<'_>) -> Checks {
     let title =
         "largest imbalance of force or moment on any race, over the load, three and four planets";
     let balance = lab.about("fe.sets.balance", title)?.at_most(worst(residuals));
-    // Reversed torque alone: other flanks, other phases, another result.
+    // Torque reversed without mirroring the set: other flanks with other phases carry the load.
     let reversed = run(&lab.four, -TORQUE)?;
     let phase = |cycle: &SetCycle, n: usize| cycle.states[0].meshes[n].phase;
     let other = |a: f64, b: f64| (a - b - (a - b).round()).abs() > 1e-6;

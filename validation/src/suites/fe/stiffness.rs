@@ -1,4 +1,4 @@
-//! What the paper's mesh stiffness of 350e6 N/m can be.
+//! The paper's mesh stiffness of 350e6 N/m against that of one mesh and of two meshes in series.
 
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::contact::{Location, MeshTable};
@@ -56,7 +56,7 @@ fn clipped_mean_stiffness(lab: &Lab<'_>, kind: MeshKind) -> Result<f64, Validati
     let mesh = lab.bodies.geometry.mesh(kind).ok_or_else(missing)?;
     let pair = lab.bodies.pair(kind).ok_or_else(missing)?;
     let mut settings = lab.bodies.cells(lab.force);
-    // No window beyond the path.
+    // Without the window, pairs beyond the path are no candidates for contact.
     settings.window = 0.0;
     let mut sum = 0.0;
     for i in 0..POSITIONS {

@@ -18,9 +18,9 @@ use crate::Profile;
 use crate::catalogue::{PublishedScene, scene};
 use crate::check::Check;
 use crate::error::ValidationError;
+use crate::published_table::Table;
 use crate::reference::Reference;
 use crate::suites::lab::of_model;
-use crate::suites::tables::Table;
 use crate::suites::{Checks, Lab};
 use crate::worst::worst;
 
@@ -31,10 +31,10 @@ const TORQUE: f64 = 1130.0;
 const FROM: f64 = 450.0;
 const TO: f64 = 2500.0;
 
-/// Peaks that stand out by less are left alone.
+/// Peaks less than this many times as high as the curve on either side are not judged.
 const PROMINENT: f64 = 1.3;
 
-/// Speeds are asked for again so far to either side of a peak, in parts of its speed, at so many places.
+/// Half-width of the refinement about a peak, as a share of its speed, and number of its speeds.
 const SPAN: f64 = 0.015;
 const AROUND: usize = 5;
 
@@ -46,7 +46,7 @@ pub(crate) fn under(scene: &Scene, sun_torque_nm: f64) -> Result<LoadCase, Valid
     Ok(LoadCase::of_scene(scene)?.with_sun_torque(sun_torque_nm))
 }
 
-/// Speeds from first to last (rpm), each by the same part above the one before.
+/// Speeds from first to last (rpm), each 1 + `ratio` times the one before.
 pub(crate) fn speeds(first: f64, last: f64, ratio: f64) -> Vec<f64> {
     let count = ((last / first).ln() / ratio.ln_1p()).floor() as i32;
     (0..=count).map(|i| first * (1.0 + ratio).powi(i)).collect()
@@ -60,7 +60,7 @@ fn strengths(scene: &Scene) -> Result<Vec<ExcitationStrengths>, ValidationError>
     excitation_of_scene(scene, HARMONICS).ok_or(ValidationError::Incomplete("teeth"))
 }
 
-/// What sweeps are called after: the number of planets.
+/// Name of a sweep: the number of planets in words.
 fn planets(scene: &Scene) -> &'static str {
     match scene.planets.count() {
         5 => "five",
@@ -68,7 +68,7 @@ fn planets(scene: &Scene) -> &'static str {
     }
 }
 
-/// Load case and speeds of a set's sweep, by how far each speed is above the one before.
+/// Load case and speeds of a set's sweep; `ratios`: relative speed steps of three and four planets, of five.
 fn asked_of(scene: &Scene, ratios: [f64; 2]) -> Result<(LoadCase, Vec<f64>), ValidationError> {
     let [usual, five] = ratios;
     Ok(match scene.planets.count() {
@@ -77,18 +77,18 @@ fn asked_of(scene: &Scene, ratios: [f64; 2]) -> Result<(LoadCase, Vec<f64>), Val
     })
 }
 
-/// Ratios of speeds of the quick and of the full profile, of three and four planets and of five.
+/// Relative speed steps of the quick and of the full profile, each of three and four planets and of five.
 const QUICK: [f64; 2] = [0.02, 0.08];
 const FULL: [f64; 2] = [0.005, 0.02];
 
-/// Five planets on a grid that their mesh phases divide.
+/// Five planets, with a number of steps per cycle that makes their mesh phases whole steps.
 fn five_planets() -> Result<Scene, ValidationError> {
     let mut five = scene(PublishedScene::FivePlanets)?;
     five.dynamics.steps_per_cycle = 140;
     Ok(five)
 }
 
-/// What holds of anybody's steady states: forbidden and allowed harmonics, peaks where the model has natural
+/// Checks on the steady states of any model: forbidden and allowed harmonics, peaks if the model has natural
 /// modes too, the order of the meshes of equally spaced planets.
 pub(crate) fn asked(
     model: &dyn SteadyStateModel,
@@ -172,7 +172,7 @@ fn phasing(reference: &Reference, scene: &Scene, name: &str, states: &[&SteadySt
     Ok(checks)
 }
 
-/// How far the peaks stand from where modes should have them.
+/// Distance of the peaks from ω_n/l of the modes that the harmonic may excite.
 fn peaks(reference: &Reference, name: &str, list: &[Assigned]) -> Result<Check, ValidationError> {
     let id = format!("sweep.peaks.{name}");
     let title = format!(
@@ -184,7 +184,7 @@ fn peaks(reference: &Reference, name: &str, list: &[Assigned]) -> Result<Check, 
     Ok(reference.about(&id, &title)?.note(note).at_most(off))
 }
 
-/// The lowest mode of each kind, each where its own harmonics meet it.
+/// The harmonics in which the lowest mode of each kind is resonant within the sweep.
 fn harmonics_of_modes(
     reference: &Reference,
     scene: &Scene,
@@ -238,7 +238,7 @@ fn harmonics_of_modes(
     Ok(checks)
 }
 
-/// The sun meshes' forces follow one another as the planets' phases say.
+/// The forces of the sun meshes follow one another with the phase differences of the planets' meshes.
 fn order(
     reference: &Reference,
     scene: &Scene,
@@ -253,7 +253,7 @@ fn order(
     Ok(reference.about(&id, &title)?.at_most(worst(off)))
 }
 
-/// How the marches of our own models went.
+/// Whether our own models reach steady states, and the energy between harmonics.
 fn marches(lab: &Lab<'_>, name: &str, points: &[&SweepPoint]) -> Checks {
     let words = words(name);
     let id = format!("sweep.unsteady.{name}");
@@ -267,7 +267,7 @@ fn marches(lab: &Lab<'_>, name: &str, points: &[&SweepPoint]) -> Checks {
     Ok(checks)
 }
 
-/// A sweep over some speeds, and closer about its peaks.
+/// A sweep over given speeds, refined about its peaks.
 fn swept(model: &dyn SweepModel, grid: &[f64]) -> Result<Sweep, ValidationError> {
     let plan = Plan::new(grid, &[Direction::Up], steady_settings())?;
     let mut found = run(model, &plan, &Memory, &|_| ())?;
@@ -296,7 +296,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     Ok(checks)
 }
 
-/// Five planets: harmonics that move planets only, translations only, rotations only.
+/// Five planets: each harmonic excites only planet modes, only translational or only rotational ones.
 fn five(lab: &Lab<'_>, ratios: [f64; 2]) -> Checks {
     let scene = five_planets()?;
     let (case, grid) = asked_of(&scene, ratios)?;
@@ -309,15 +309,15 @@ fn five(lab: &Lab<'_>, ratios: [f64; 2]) -> Checks {
     Ok(checks)
 }
 
-/// The reduced models under the same judging as the fidelity they are made from: meshes that follow a law,
-/// between FE bodies' races and in the lumped model.
+/// The models with tabulated mesh forces, judged as the fidelity from which they are made: the mesh law
+/// between the races of the FE bodies and in the lumped model.
 fn reduced(lab: &Lab<'_>, ratios: [f64; 2]) -> Checks {
     let scene = &lab.four;
     let (case, grid) = asked_of(scene, ratios)?;
     let law = MeshLawModel::new(scene, &lab.bodies, case)?;
     let naturals = lab.fe.natural_modes(scene, &case).map_err(of_model)?;
     let mut checks = Vec::new();
-    // The lumped model's modes are its own: the printed masses, not those of the meshes.
+    // The lumped model has the printed masses, hence other modes than FE/contact: its peaks are not judged.
     for (name, model, naturals) in
         [("four_mesh_law", &law, Some(naturals.as_slice())), ("four_lumped", &law.lumped(), None)]
     {
@@ -343,7 +343,7 @@ fn static_harmonics(lab: &Lab<'_>) -> Result<[Vec<[f64; 2]>; 3], ValidationError
     Ok([one(0)?, one(1)?, one(2)?])
 }
 
-/// As the speed goes to zero what is left is the static deflection.
+/// As the speed goes to zero the response approaches the static deflection.
 fn slow(lab: &Lab<'_>) -> Checks {
     let settings = SteadySettings { between_cycles: 0, ..steady_settings() };
     let case = under(&lab.four, TORQUE)?.at_speed(20.0);
@@ -356,7 +356,7 @@ fn slow(lab: &Lab<'_>) -> Checks {
             let largest = largest.fold(0.0f64, f64::max);
             for (l, [re, im]) in still[axis].iter().enumerate().skip(1) {
                 let size = re.hypot(*im);
-                // What is forbidden is nothing on either side.
+                // Forbidden harmonics vanish in both and have no relative difference.
                 if size > 1e-6 * largest {
                     let line = point.line(Part::Sun, coordinate, l);
                     let (a, p) = line.map_or((f64::NAN, 0.0), |l| (l.amplitude, l.phase_rad));
@@ -370,7 +370,7 @@ fn slow(lab: &Lab<'_>) -> Checks {
     Ok(vec![lab.about("sweep.static_limit.four", title)?.at_most(worst(off_percent))])
 }
 
-/// One speed of a set, as sweeps have it.
+/// The steady state of a set at one speed.
 fn at_speed(
     lab: &Lab<'_>,
     scene: &Scene,
@@ -402,7 +402,7 @@ fn controls(lab: &Lab<'_>) -> Checks {
     let bearing = Some(0.8 * softer.supports.planet_bearing);
     softer.overrides.push(PlanetOverride { planet: 1, bearing, ..PlanetOverride::default() });
     forbids("softer_bearing", &softer, none())?;
-    // Half a cycle is no whole number of steps then, and what is forbidden is there: an artefact.
+    // Half a cycle is then not a whole number of steps, and forbidden harmonics appear as an artefact.
     let mut odd = lab.four.clone();
     odd.dynamics.steps_per_cycle = 141;
     forbids("odd_grid", &odd, none())?;
@@ -420,7 +420,7 @@ fn controls(lab: &Lab<'_>) -> Checks {
 
     let pitch =
         Imperfections { pitch_errors: vec![PitchError { tooth: 5, amount: 10e-6 }], ..none() };
-    // The sun's teeth come round after as many mesh cycles.
+    // The same sun teeth are in mesh again after as many mesh cycles as the sun has teeth.
     let teeth = lab.bodies.geometry.sun.as_ref().map_or(1, |sun| sun.teeth) as usize;
     let settings =
         SteadySettings { most_cycles: 4 * teeth, between_cycles: teeth, ..steady_settings() };
@@ -430,8 +430,8 @@ fn controls(lab: &Lab<'_>) -> Checks {
     Ok(checks)
 }
 
-/// How far the sun meshes' forces are from following one another as the planets' mesh phases say, in
-/// cycles of the harmonic: F_n(t) = F_0(t + φ_n/f_m) in sets of equally spaced planets.
+/// Largest deviation of the sun meshes' forces from F_n(t) = F_0(t + φ_n/f_m), which holds for equally spaced
+/// planets with the mesh phases φ_n, in cycles of the harmonic.
 fn order_of_meshes(point: &SteadyState, scene: &Scene) -> Option<f64> {
     let teeth = f64::from(scene.teeth?.sun?);
     let mut largest = 0.0f64;

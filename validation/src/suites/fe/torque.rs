@@ -51,7 +51,7 @@ const ALL: [(&str, usize, &str); 3] = [
     ),
 ];
 
-/// What is said of growth at rest.
+/// The comparison of growth at rest with that of the peaks.
 const STATIC: &str = "torques at which the static harmonics (rotation l = 2, translation l = 1) stand in the same order of growth as the resonant peaks";
 
 const PARTS: [(&str, bool); 2] = [("sun", true), ("planet", false)];
@@ -102,7 +102,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     Ok(checks)
 }
 
-/// What is said of the first peaks, of anybody's steady states of the default scene.
+/// The statements about the first peaks, judged on any model's steady states of the default scene.
 pub(crate) fn asked(
     model: &dyn SteadyStateModel,
     modal: Option<&dyn ModalModel>,
@@ -190,7 +190,7 @@ fn all_peaks(lab: &Lab<'_>, system: &System<'_>) -> Checks {
             let id = format!("torque.all.{statement}.{name}.{part}");
             let title = format!("{words}, {part}: comparisons in which {about}");
             let own = judged.as_ref().map(|list| list.iter().find(|s| s.name == statement));
-            // A statement that was not judged holds nowhere.
+            // A statement that was not judged counts as holding in no comparison.
             let holding = own.map(|s| s.map_or(0, |s| s.holding));
             checks.push(counted(lab.reference, &id, &title, asked, holding)?);
         }

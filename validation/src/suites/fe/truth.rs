@@ -1,5 +1,4 @@
-//! Fidelities of the ladder over speed against bodies with every degree of freedom, whose steady states are
-//! kept.
+//! The fidelities over speed against bodies with every degree of freedom, whose steady states are kept.
 
 use fe_contact::statics::Imperfections;
 use gearset::Fidelity;
@@ -14,14 +13,14 @@ use experiments::sweep::{
     run, top_of_three,
 };
 
-/// Steps a cycle of the truth, with which harmonics are compared; and those of the cheapest fidelity within the
-/// limits of the peak (`kept/ladder.toml`).
+/// Steps per cycle of the kept results, at which harmonics are compared; and those of the cheapest fidelity
+/// within the limits of the peak (`kept/ladder.toml`).
 const STEPS: u32 = 140;
 const FINE: u32 = 280;
 
 /// What is measured of a fidelity, percent.
 struct Differences {
-    /// Place and height of the rotational peak, full bodies without the error of steps.
+    /// Speed and height of the rotational peak, against full bodies without the error of the time step.
     peak: [f64; 2],
     /// Harmonics of motion and of mesh forces at equal steps.
     harmonics: [f64; 2],
@@ -113,7 +112,7 @@ fn swept(lab: &Lab<'_>, fidelity: Fidelity, steps: u32) -> Result<Sweep, Validat
     Ok(run(&model, &plan, &Memory, &|_| ())?)
 }
 
-/// Kept points as those of a sweep come.
+/// Kept points by speed, as a sweep returns its own.
 fn by_speed(kept: &FullSweep) -> Vec<&FullSweepPoint> {
     let mut truth: Vec<&FullSweepPoint> = kept.of_steps(STEPS).collect();
     truth.sort_by(|a, b| a.speed_rpm.total_cmp(&b.speed_rpm));
@@ -135,7 +134,7 @@ fn differences(kept: &FullSweep, own: &Sweep) -> Result<Differences, ValidationE
     let own = own.ok_or_else(incomplete)?;
     let percent = |own: f64, full: f64| 100.0 * (own / full - 1.0);
 
-    // Every harmonic at every speed, at equal steps: what the bodies' inertia does.
+    // Every harmonic at every speed, at equal steps: the effect of the inertia of elastic displacement.
     let mut harmonics = [Vec::new(), Vec::new()];
     for (point, full) in points.iter().zip(&truth) {
         let motion = |response: Response| move |l: usize| response.amplitude(point, l);

@@ -1,5 +1,5 @@
-//! Three planets in phase on soft bearings: however far the set winds up, a mesh stays that of the pair
-//! alone at its centre distance and phase.
+//! Three planets in phase on soft bearings: at any windup of the set a mesh deflects as the isolated gear
+//! pair does at the same centre distance and phase.
 
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::contact::MeshTable;
@@ -22,11 +22,11 @@ const BEARINGS: [(&str, &str, f64); 3] = [
 
 /// Largest differences of planet 0's sun mesh from the pair alone over a mesh cycle, µm.
 struct Differences {
-    /// Where all pairs that press do so on the path.
+    /// Where all loaded pairs are on the theoretical path.
     on_path: f64,
     /// At all positions.
     anywhere: f64,
-    /// How far the planet is from its place without load.
+    /// Displacement of the planet's centre from its unloaded position.
     windup: f64,
 }
 
@@ -74,7 +74,7 @@ fn differences(lab: &Lab<'_>, set: &StaticSet<'_>) -> Result<Differences, Valida
         let places = [x, y, turned, zeta, eta, rolled];
         let found = nominal.displaced(state.position - cycle.lead, &places);
         let found = found.map_err(|_| missing())?;
-        // Pairs count from the phase within the cycle.
+        // Pair numbers refer to the phase reduced to one cycle.
         let found = found.turned_by(-(found.phase() - own.phase).round());
         let mesh = nominal.at_center_distance(found.center_distance).map_err(|_| missing())?;
         let phase = found.phase().rem_euclid(1.0);

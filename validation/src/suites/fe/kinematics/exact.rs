@@ -11,10 +11,10 @@ use crate::error::ValidationError;
 use crate::suites::{Checks, Lab};
 use crate::worst::{peak_to_peak, worst};
 
-/// A tenth of the paper's preload, half of it, it, and twice it, N·m.
+/// 0.1, 0.5, 1 and 2 times the paper's preload, N·m.
 const TORQUES: [f64; 4] = [113.0, 565.0, 1130.0, 2260.0];
 
-/// The one of the quick profile.
+/// The torque of the quick profile, N·m.
 const TORQUE: f64 = 1130.0;
 
 /// Harmonics below this count as this large, µm.
@@ -28,9 +28,9 @@ const SOFT: [f64; 2] = [1.9, 2.6];
 #[derive(Clone, Copy)]
 struct Differences {
     torque: f64,
-    /// Of a harmonic of the sun's rotation or of its translation over the largest of that, percent.
+    /// Largest error of a harmonic of the sun's rotation or translation, over its largest harmonic, percent.
     harmonics: f64,
-    /// What linear kinematics leave of an approach, over the peak-to-peak transmission error, percent.
+    /// Largest error of an approach by linear kinematics, over the peak-to-peak transmission error, percent.
     rest: f64,
 }
 
@@ -49,7 +49,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     let id = "fe.kinematics.exact.control.unloaded";
     checks.push(control(lab, id, "fe.kinematics.exact.harmonics.four", off)?);
     for (planets, is_soft, set) in sets()? {
-        // Carriers are none of the bodies.
+        // `Bodies` do not contain the carrier, so that both carriers share them.
         let meshes = if is_soft { "soft" } else { "own" };
         let is_run =
             lab.runs(&format!("fe.kinematics.exact.harmonics.{planets}.{meshes}.rigid"))?;
@@ -93,7 +93,7 @@ fn sets() -> Result<Vec<(&'static str, bool, Scene)>, ValidationError> {
     ])
 }
 
-/// Checks of one set by what was found under each torque; not run if that is nothing.
+/// Checks of one set by the differences under each torque; not run if there are none.
 fn judged(lab: &Lab<'_>, id: &str, words: &str, found: Option<&[Differences]>) -> Checks {
     let most = |of: fn(&Differences) -> f64| {
         let found = found?;

@@ -1,5 +1,5 @@
-//! Kinematics of loaded sets: theorems that hold only where meshes are taken as displaced gears have
-//! them, and the linearised set against exact kinematics.
+//! Kinematics of loaded sets: theorems that hold only if meshes are evaluated at the displaced positions of
+//! the gears, and the linearised set against exact kinematics.
 
 pub(crate) mod bearings;
 pub(crate) mod exact;
@@ -19,7 +19,7 @@ use crate::suites::Lab;
 /// Even, and a multiple of 14, the denominator of the OH-58's phases.
 const POSITIONS: usize = 28;
 
-/// Harmonics of mesh frequency that are looked at.
+/// Harmonics of the mesh frequency that are compared.
 const HARMONICS: usize = 5;
 
 /// A set without load.

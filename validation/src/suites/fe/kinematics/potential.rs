@@ -1,4 +1,4 @@
-//! Forces of the meshes are the gradient of one potential: what it costs to move the races.
+//! The forces of the meshes are the gradient of one potential, their energy over the races' displacements.
 
 use fe_contact::statics::{CARRIER, StaticSet};
 
@@ -10,7 +10,7 @@ use crate::worst::worst;
 
 const TORQUE: f64 = 1130.0;
 
-/// Half of what a difference spans, m.
+/// Half of the span of a central difference, m.
 const STEP: f64 = 0.2e-6;
 
 /// Largest displacement of a race from the mean loaded configuration, m.
@@ -19,11 +19,12 @@ const MOVED: f64 = 3e-6;
 /// Positions in the mesh cycle; the first is that of the quick profile.
 const AT: [f64; 3] = [0.15, 0.4, 0.8];
 
-/// How differences of the potential differ from forces, over an even share of the torque.
+/// Largest differences between difference quotients of the potential and forces, over an even share of the
+/// torque.
 struct Differences {
-    /// From the gradient.
+    /// Against the gradient.
     gradient: f64,
-    /// From its part along the lines of action.
+    /// Against the part of the gradient along the lines of action.
     along_lines: f64,
 }
 
@@ -63,7 +64,7 @@ fn differences(
     let along_lines = along_lines(lab, set, q.as_slice(), gradient.as_slice())?;
     let mut moved = q.clone();
     let mut off = [Vec::new(), Vec::new()];
-    // No mesh touches the carrier.
+    // The carrier's coordinates enter no mesh.
     let carrier = [0, 1, 2].map(|axis| set.races().of(CARRIER, axis));
     for i in (0..q.len()).filter(|i| !carrier.contains(&Some(*i))) {
         let mut at = |step: f64| {
@@ -91,13 +92,13 @@ fn along_lines(
 ) -> Result<Vec<f64>, ValidationError> {
     let races = set.races();
     let mut part = vec![0.0; q.len()];
-    // Rows of the meshes made orthogonal one after the other.
+    // Gradients of the meshes' approaches, orthonormalised one after the other.
     let mut rows: Vec<Vec<f64>> = Vec::new();
     for kind in MESHES {
         let missing = || ValidationError::Incomplete("mesh");
         let mesh = lab.bodies.geometry.mesh(kind).ok_or_else(missing)?;
         for planet in 0..races.planets() {
-            // Lines of action know nothing of the phase.
+            // The line of action does not depend on the phase.
             let places = races.mesh_displacements(kind, planet, q);
             let displaced = mesh.displaced(0.0, &places).map_err(|_| missing())?;
             let mut row = races.approach(kind, planet, &displaced.gradients().approach);

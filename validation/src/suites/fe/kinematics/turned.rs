@@ -1,11 +1,11 @@
-//! A set that further loads hold wound along its mechanism: bearings being isotropic, it is the same set,
-//! turned.
+//! A set that additional loads hold wound along its mechanism: with isotropic bearings it is the same set,
+//! rotated.
 //!
-//! Planets orbit by κ, rolling in the held ring and on the sun, so that all meshes stay closed. Loads
-//! f = K q(κ) balance what the bearings do to that. At equal places of the pairs nothing but the frame has
-//! changed: mesh forces, the length of the sun's translation and its rotation beyond the rolled-in one
-//! stay as they are. Linear kinematics about the unloaded set take displacements of millimetres for
-//! straight ones and know none of this.
+//! The planets orbit by κ, rolling in the held ring and on the sun, so that all meshes stay in contact. Loads
+//! f = K q(κ) balance the bearing forces of this motion. At equal positions of the tooth pairs only the frame
+//! has changed: mesh forces, the magnitude of the sun's translation, and the sun's rotation less the rotation
+//! that winding rolls in must stay the same. Kinematics linear about the unloaded set treat displacements of
+//! millimetres as straight lines and violate this.
 
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{PLANETS, SUN, SetCycle, SetState};
@@ -77,7 +77,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     Ok(checks)
 }
 
-/// An elastic carrier is tied to the frame it is drawn in.
+/// The scene with a rigid carrier: the compliance of an elastic one would not rotate with the planets.
 fn with_rigid_carrier(scene: &Scene) -> Result<Scene, ValidationError> {
     let mut scene = scene.clone();
     let geometry = scene.geometry.as_mut().ok_or(ValidationError::Incomplete("geometry"))?;
@@ -102,7 +102,7 @@ struct Wound {
     rolled_in: f64,
 }
 
-/// A mesh cycle wound by so many 140ths of one.
+/// A mesh cycle of the set wound by `wound`/140 of a mesh cycle.
 fn run(lab: &Lab<'_>, scene: &Scene, wound: f64, about: About) -> Result<Wound, ValidationError> {
     let missing = || ValidationError::Incomplete("numbers of teeth");
     let (_, ring_teeth) = scene.teeth.and_then(|t| t.sun_ring()).ok_or_else(missing)?;

@@ -1,4 +1,4 @@
-//! Virtual work: over a mesh cycle the mean torques on carrier and ring are those of the numbers of
+//! Virtual work: over a mesh cycle the mean torques on carrier and ring are those given by the numbers of
 //! teeth, whatever the deflections.
 //!
 //! The potential of a set at rest is the same a mesh cycle later, while the sun's torque has done its
@@ -7,8 +7,8 @@
 //!
 //! The mean of N even positions of a periodic function f is off that over the cycle by V/(8 N²) at most,
 //! V the variation of f' (Peano's kernel of the trapezoidal rule), which the second differences of the
-//! positions give as N Σ|Δ²f|. It is not the range that counts: planets out of phase level out each
-//! other's torques but not the kinks where pairs come and go.
+//! positions give as N Σ|Δ²f|. The bound has to use V and not the range of f: with planets out of phase the
+//! torques even out, but the kinks where pairs enter and leave contact remain.
 
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{SetCycle, SetState};
@@ -22,7 +22,7 @@ use crate::worst::worst;
 
 const TORQUE: f64 = 2260.0;
 
-/// Positions of the finer mean, of the full profile.
+/// Positions of the finer mean, which only the full profile computes.
 const FINE: usize = 4 * POSITIONS;
 
 pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
@@ -87,7 +87,7 @@ fn means(scene: &Scene, cycle: &SetCycle) -> Result<[f64; 2], ValidationError> {
     ])
 }
 
-/// Moment on the set that nothing balances, over the sun's torque.
+/// Unbalanced moment on the set, over the sun's torque.
 fn open(cycle: &SetCycle) -> f64 {
     let t = cycle.torque_nm;
     let sum = |s: &SetState| s.reactions.carrier_nm + s.reactions.ring_nm - t;

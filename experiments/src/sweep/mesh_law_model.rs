@@ -7,8 +7,8 @@ use fe_contact::vibration::{MeshLawSet, MeshLawSettings, mesh_law};
 use gearset::{Fidelity, LoadCase, MeshLaw, Scene};
 use lumped::TimeVarying;
 
-use super::feed::SweepModel;
 use super::marching::{Effort, Marching};
+use super::sweep_model::SweepModel;
 use crate::error::ExperimentError;
 
 /// A set whose meshes follow a law made under the torque of the sweep.
