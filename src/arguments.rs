@@ -126,15 +126,16 @@ pub enum ContactSolver {
 pub struct Static {
     /// Scene file: a whole set, or one mesh (`kind = "gear_pair"`).
     pub scene: PathBuf,
-    /// Torques on the sun, N·m; negative is clockwise. A set's operating torque if left out.
+    /// Torques on the sun, N·m; negative is clockwise. If left out, what a set's operating point loads the sun with.
     #[arg(long, value_name = "NM,…", value_delimiter = ',', allow_negative_numbers = true)]
-    pub torque_nm: Vec<f64>,
+    pub sun_torque_nm: Vec<f64>,
     /// Normal force of a gear pair, N.
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub normal_force_n: Option<f64>,
-    /// Number of evenly spaced positions in the mesh cycle, from phase 0.
-    #[arg(long, default_value_t = 140, value_parser = clap::value_parser!(u32).range(1..=100_000))]
-    pub positions: u32,
+    /// Number of evenly spaced positions in the mesh cycle, from phase 0 [default: 140].
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=100_000),
+          conflicts_with = "approach_um")]
+    pub positions: Option<u32>,
     /// Solver of the contact problem.
     #[arg(long, value_enum, default_value_t = ContactSolver::ActiveSet)]
     pub solver: ContactSolver,
@@ -144,7 +145,7 @@ pub struct Static {
     pub figures: Option<PathBuf>,
     /// Gear pair only: instead of loading the driving gear, rotate its race by this approach divided by its
     /// base radius, at one phase; µm.
-    #[arg(long, value_name = "UM", conflicts_with_all = ["normal_force_n", "torque_nm"])]
+    #[arg(long, value_name = "UM", conflicts_with_all = ["normal_force_n", "sun_torque_nm"])]
     pub approach_um: Option<f64>,
     /// Phase of that approach, cycles.
     #[arg(long, value_name = "CYCLES", requires = "approach_um", allow_negative_numbers = true)]
@@ -152,13 +153,13 @@ pub struct Static {
     /// Write the same problem as a CalculiX input deck.
     #[arg(long, value_name = "FILE", requires = "approach_um")]
     pub export_inp: Option<PathBuf>,
-    /// Elements per half-width of the contact in that deck.
-    #[arg(long, value_name = "N", default_value_t = 12.0, value_parser = elements, requires = "export_inp")]
-    pub export_per_half_width: f64,
-    /// Elements along the other flanks in that deck.
-    #[arg(long, value_name = "N", default_value_t = 12, requires = "export_inp",
+    /// Elements per half-width of the contact in that deck [default: 12].
+    #[arg(long, value_name = "N", value_parser = elements, requires = "export_inp")]
+    pub export_per_half_width: Option<f64>,
+    /// Elements along the other flanks in that deck [default: 12].
+    #[arg(long, value_name = "N", requires = "export_inp",
           value_parser = clap::value_parser!(u32).range(3..=64))]
-    pub export_flank_elements: u32,
+    pub export_flank_elements: Option<u32>,
     /// Teeth kept on either side of the loaded ones in that deck; whole gears if left out.
     #[arg(long, value_name = "N", requires = "export_inp")]
     pub export_teeth: Option<u32>,
@@ -166,22 +167,50 @@ pub struct Static {
     pub format: TableFormat,
 }
 
+/// Positions of a mesh cycle where the command line names none.
+const POSITIONS: u32 = 140;
+
+impl Static {
+    /// Number of positions in the mesh cycle.
+    pub fn position_count(&self) -> usize {
+        self.positions.unwrap_or(POSITIONS) as usize
+    }
+
+    /// The first of the options that only a gear pair turned by an approach has, if it is not turned by one.
+    pub fn without_approach(&self) -> Option<&'static str> {
+        // The parser lets a `requires` pass where what is required conflicts with an option that is there.
+        let given = [
+            ("--phase", self.phase.is_some()),
+            ("--export-inp", self.export_inp.is_some()),
+            ("--export-per-half-width", self.export_per_half_width.is_some()),
+            ("--export-flank-elements", self.export_flank_elements.is_some()),
+            ("--export-teeth", self.export_teeth.is_some()),
+        ];
+        let first = given.into_iter().find(|(_, is_given)| *is_given).map(|(name, _)| name);
+        first.filter(|_| self.approach_um.is_none())
+    }
+}
+
 #[derive(Debug, Args)]
 pub struct Impulse {
     /// Scene file of a whole set.
     pub scene: PathBuf,
-    /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out.
+    /// Torque on the sun, N·m; negative is clockwise. If left out, what the operating point loads the sun with.
     #[arg(long, value_name = "NM", allow_negative_numbers = true)]
-    pub torque_nm: Option<f64>,
+    pub sun_torque_nm: Option<f64>,
     /// Position in the mesh cycle where the set stands, 0 to 1.
     #[arg(long, value_name = "CYCLES", default_value_t = 0.0, allow_negative_numbers = true)]
     pub position: f64,
-    /// Time step, µs.
-    #[arg(long, value_name = "US", default_value_t = 5.0, allow_negative_numbers = true)]
-    pub step_us: f64,
-    /// Length of each free decay, ms.
-    #[arg(long, value_name = "MS", default_value_t = 40.0, allow_negative_numbers = true)]
-    pub duration_ms: f64,
+    /// Time step, µs; 67 steps in the period of the band's upper end if left out.
+    #[arg(long, value_name = "US", allow_negative_numbers = true)]
+    pub step_us: Option<f64>,
+    /// Length of each free decay, ms; 40 or, if longer, 30 periods of the lowest mode if left out.
+    #[arg(long, value_name = "MS", allow_negative_numbers = true)]
+    pub duration_ms: Option<f64>,
+    /// Frequencies in which modes are identified, Hz; if left out, the lower half of the linearised modes and on
+    /// to the next gap. Linearised modes outside the band are listed.
+    #[arg(long, value_name = "LOW:HIGH", value_parser = two, allow_negative_numbers = true)]
+    pub band_hz: Option<[f64; 2]>,
     /// Also linearise over the mesh cycle at half, once and one and a half times the torque.
     #[arg(long)]
     pub band: bool,
@@ -309,6 +338,14 @@ fn elements(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(x) if (1.0..=100.0).contains(&x) => Ok(x),
         _ => Err("a number from 1 to 100".into()),
+    }
+}
+
+fn two(text: &str) -> Result<[f64; 2], String> {
+    let parts: Vec<Option<f64>> = text.split(':').map(|part| part.trim().parse().ok()).collect();
+    match parts[..] {
+        [Some(low), Some(high)] => Ok([low, high]),
+        _ => Err("two frequencies as LOW:HIGH, in Hz".into()),
     }
 }
 

@@ -99,8 +99,12 @@ pub fn factored_modes(
             return Err(EigenError::Residual { residual: 1.0, limit: 0.0, size: n });
         }
         let v = columns.column(j) / omega;
-        modes.omega[place] = omega;
-        modes.uncertainty[place] = uncertainty(&g, &v, omega);
+        // Rayleigh's quotient ‖G v‖ takes the error of v in second order only; what it differs by from the length of
+        // the rotated column shows the size of what the factorisation did; twice that is what is said of it.
+        let quotient = (&g * &v).norm();
+        modes.omega[place] = quotient.min(omega);
+        modes.uncertainty[place] =
+            uncertainty(&g, &v, omega) + 2.0 * (quotient - omega).abs() / quotient.min(omega);
         modes.vectors.set_column(place, &v);
     }
     for j in 0..n {
@@ -264,7 +268,8 @@ mod tests {
                     "{soft} {stiff} {light}: {found} {want}"
                 );
             }
-            assert!(found.uncertainty.iter().all(|u| *u < 1e-12));
+            // The bound allows for springs that only seem to be redundant: (ε ω_max/ω_min)² at most.
+            assert!(found.uncertainty.iter().all(|u| *u < 1e-4));
         }
     }
 
@@ -282,7 +287,7 @@ mod tests {
         // A rigid body of the total mass on the soft spring: ω² = k/Σm.
         let want = (1e-9f64 / 1009.000001).sqrt();
         assert!((found.omega[0] / want - 1.0).abs() < 1e-12, "{} {want}", found.omega[0]);
-        assert!(found.uncertainty[0] < 1e-11);
+        assert!(found.uncertainty[0] < 1e-3);
     }
 
     #[test]

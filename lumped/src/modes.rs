@@ -126,7 +126,13 @@ impl NaturalModes {
             let projections = kinds.projections(m, |i, j| root[i] * phi(i, j));
             let directions = split(m, &projections)?;
             let lambda = solution.lambda[range.clone()].iter().sum::<f64>() / m as f64;
-            let uncertainty = solution.uncertainty[range].iter().fold(0.0f64, |a, u| a.max(*u));
+            // The mean stands for all of a group, which are equal to a part of EQUAL only.
+            let spread = solution.lambda[range.clone()]
+                .iter()
+                .fold(0.0f64, |a, l| a.max((l - lambda).abs()));
+            let apart = if lambda > 0.0 { 0.5 * spread / lambda } else { 0.0 };
+            let uncertainty =
+                solution.uncertainty[range].iter().fold(0.0f64, |a, u| a.max(*u)) + apart;
             let types =
                 [ModeType::Rotational, ModeType::Translational, ModeType::Planet, ModeType::Mixed];
             for mode_type in types {

@@ -4,8 +4,8 @@ use std::io::Write;
 
 use experiments::ExperimentError;
 use experiments::modal::{
-    FeMode, FrequencyBand, ImpulseSettings, ImpulseTest, Preload, SettingsError, frequency_band,
-    impulse_test, linear_modes, mesh_influence, preloaded,
+    FeMode, FrequencyBand, ImpulseSettings, ImpulseTest, Preload, SettingsError, band_of,
+    frequency_band, impulse_test, linear_modes, mesh_influence, preloaded,
 };
 use fe_contact::FeError;
 use fe_contact::statics::{Bodies, Races};
@@ -40,13 +40,15 @@ pub(super) struct Found {
     /// Linearised modes in the band of the test with their ∂ln f/∂ln k_mesh; none for bodies with
     /// every degree of freedom.
     pub(super) linear: Option<Vec<(FeMode, f64)>>,
+    /// Linearised modes outside the band, with quasi-static bodies in place of full ones.
+    pub(super) outside: Vec<FeMode>,
     pub(super) band: Option<FrequencyBand>,
 }
 
 pub(super) fn run(arguments: &Impulse, out: &mut dyn Write) -> Result<(), CommandError> {
     let scene = read_scene(&arguments.scene)?;
-    let settings = settings(arguments, &scene)?;
-    let found = find(arguments, scene, &settings)?;
+    let preload = preload(arguments, &scene)?;
+    let found = find(arguments, scene, preload)?;
     #[cfg(feature = "charts")]
     if let Some(folder) = &arguments.figures {
         draw(&found, folder)?;
@@ -68,8 +70,8 @@ fn draw(found: &Found, folder: &std::path::Path) -> Result<(), CommandError> {
     Ok(save(&figures.map_err(ValidationError::from)?, folder)?)
 }
 
-/// What is asked for, if it makes sense.
-fn settings(arguments: &Impulse, scene: &Scene) -> Result<ImpulseSettings, CommandError> {
+/// The preload that is asked for; every argument that can be judged without the set's modes is judged here.
+fn preload(arguments: &Impulse, scene: &Scene) -> Result<Preload, CommandError> {
     let path = &arguments.scene;
     if scene.kind != SceneKind::Planetary {
         return Err(unfit(path, "`kind` is \"gear_pair\": a modal test needs \"planetary\""));
@@ -82,14 +84,18 @@ fn settings(arguments: &Impulse, scene: &Scene) -> Result<ImpulseSettings, Comma
                       take \"quasi_static\", \"modal\" or \"full\"";
         return Err(unfit(path, reason));
     }
-    let torque_nm = match arguments.torque_nm {
+    let torque_nm = match arguments.sun_torque_nm {
         Some(torque) => torque,
         None => operating_torque(path, scene)?,
     };
-    let mut settings = ImpulseSettings::at(LoadCase::standing(torque_nm), arguments.position);
-    settings.preload.step_s = 1e-6 * arguments.step_us;
-    settings.duration_s = 1e-3 * arguments.duration_ms;
-    settings.check().map_err(|e| refused(argument(&e), e.to_string()))?;
+    let usual = ImpulseSettings::at(LoadCase::standing(torque_nm), arguments.position);
+    let band_hz = arguments.band_hz.map_or(usual.band_hz, |[low, high]| (low, high));
+    // A band of one's own is judged with step and decay; without one, these wait for the band.
+    let judged = match arguments.band_hz {
+        Some(_) => asked(arguments, usual.preload, band_hz),
+        None => usual,
+    };
+    judged.check().map_err(|e| refused(argument(&e), e.to_string()))?;
     if arguments.band && scene.dynamics.fidelity == Fidelity::Full {
         let reason = "`dynamics.fidelity` = \"full\" has no small linearisation: take \"modal\"";
         return Err(refused("--band", reason));
@@ -102,53 +108,77 @@ fn settings(arguments: &Impulse, scene: &Scene) -> Result<ImpulseSettings, Comma
         let reason = "CSV has one row a mode and no place for it: take text, json or --figures";
         return Err(refused("--band", reason));
     }
-    Ok(settings)
+    Ok(usual.preload)
+}
+
+/// Settings for a band, step and decay as asked for.
+fn asked(arguments: &Impulse, preload: Preload, band_hz: (f64, f64)) -> ImpulseSettings {
+    let mut settings = ImpulseSettings::in_band(preload.load, preload.position, band_hz);
+    if let Some(step_us) = arguments.step_us {
+        settings.preload.step_s = 1e-6 * step_us;
+    }
+    if let Some(duration_ms) = arguments.duration_ms {
+        settings.duration_s = 1e-3 * duration_ms;
+    }
+    settings
 }
 
 /// The argument a setting comes from.
 fn argument(error: &SettingsError) -> &'static str {
     match error {
-        SettingsError::NoTorque | SettingsError::Torque(_) => "--torque-nm",
+        SettingsError::NoTorque | SettingsError::Torque(_) => "--sun-torque-nm",
         SettingsError::Position(_) => "--position",
+        SettingsError::Band { .. } => "--band-hz",
         SettingsError::Step { .. } => "--step-us",
         SettingsError::Duration { .. } | SettingsError::Steps { .. } => "--duration-ms",
     }
 }
 
-fn find(
-    arguments: &Impulse,
-    scene: Scene,
-    settings: &ImpulseSettings,
-) -> Result<Found, CommandError> {
+fn find(arguments: &Impulse, scene: Scene, preload: Preload) -> Result<Found, CommandError> {
     let path = &arguments.scene;
-    let torque = settings.preload.load.sun_torque_nm;
+    let torque = preload.load.sun_torque_nm;
     let failed = |e: ExperimentError| match e {
-        ExperimentError::Unsteady { .. } => refused("--torque-nm", e.to_string()),
+        ExperimentError::Unsteady { .. } => refused("--sun-torque-nm", e.to_string()),
         ExperimentError::Fe(FeError::NotConverged { .. } | FeError::NoEquilibrium(_)) => {
-            refused("--torque-nm", format!("{torque:e} N·m: {e}"))
+            refused("--sun-torque-nm", format!("{torque:e} N·m: {e}"))
         }
         _ => unfit(path, e.to_string()),
     };
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
-    let set = preloaded(&scene, &bodies, &settings.preload).map_err(|e| failed(e.into()))?;
+    let is_full = scene.dynamics.fidelity == Fidelity::Full;
+    let mut linear_scene = scene.clone();
+    if is_full {
+        // Full bodies have no small linearisation: the quasi-static one says where modes are.
+        linear_scene.dynamics.fidelity = Fidelity::QuasiStatic;
+    }
+    let set = preloaded(&linear_scene, &bodies, &preload).map_err(|e| failed(e.into()))?;
     let races = set.races().clone();
-    let linear = if scene.dynamics.fidelity == Fidelity::Full {
-        None
-    } else {
-        let linear = set.linearised().map_err(fe_refused(path))?;
-        let modes = linear_modes(&set, &linear).map_err(failed)?;
-        let influence = mesh_influence(&linear).map_err(failed)?;
-        let (low, high) = settings.band_hz;
-        let all = modes.into_iter().zip(influence.iter().map(|i| i.all_meshes));
-        Some(all.filter(|(m, _)| (low..=high).contains(&m.frequency_hz)).collect())
-    };
+    let linear = set.linearised().map_err(fe_refused(path))?;
+    let modes = linear_modes(&set, &linear).map_err(failed)?;
+    let influence = mesh_influence(&linear).map_err(failed)?;
     drop(set);
-    let test = impulse_test(&scene, &bodies, settings).map_err(failed)?;
+    let frequencies: Vec<f64> = modes.iter().map(|m| m.frequency_hz).collect();
+    let band_hz = match arguments.band_hz {
+        Some([low, high]) => (low, high),
+        None => band_of(&frequencies)
+            .ok_or_else(|| unfit(path, "no body can move: every `motion` is \"held\""))?,
+    };
+    let settings = asked(arguments, preload, band_hz);
+    settings.check().map_err(|e| refused(argument(&e), e.to_string()))?;
+    let (low, high) = band_hz;
+    let is_inside = |m: &FeMode| (low..=high).contains(&m.frequency_hz);
+    let (inside, outside): (Vec<_>, Vec<_>) = modes
+        .into_iter()
+        .zip(influence.iter().map(|i| i.all_meshes))
+        .partition(|(mode, _)| is_inside(mode));
+    let outside = outside.into_iter().map(|(mode, _)| mode).collect();
+    let linear = (!is_full).then_some(inside);
+    let test = impulse_test(&scene, &bodies, &settings).map_err(failed)?;
     let band = arguments.band.then(|| {
         let preload: &Preload = &settings.preload;
         let (factors, count) = (&BAND_TORQUES, BAND_POSITIONS);
         frequency_band(&scene, &bodies, preload, factors, count, BAND_HIGHEST_HZ)
     });
     let band = band.transpose().map_err(failed)?;
-    Ok(Found { scene, bodies, races, test, linear, band })
+    Ok(Found { scene, bodies, races, test, linear, outside, band })
 }

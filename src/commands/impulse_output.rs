@@ -11,7 +11,7 @@ use super::impulse::Found;
 #[derive(Debug, Serialize, JsonSchema)]
 pub(crate) struct ImpulseOutput {
     /// On the sun; clockwise if negative.
-    pub(super) torque_nm: f64,
+    pub(super) sun_torque_nm: f64,
     /// Where the set stands in the mesh cycle.
     pub(super) position: f64,
     pub(super) step_us: f64,
@@ -27,12 +27,22 @@ pub(crate) struct ImpulseOutput {
     pub(super) steps: u64,
     /// Whether the linearised modes are given; they are not at fidelity full.
     pub(super) has_linearisation: bool,
+    /// Linearised modes outside the band, in which none is identified; of quasi-static bodies at fidelity full.
+    pub(super) outside_band: Vec<OutsideMode>,
     /// Modes in the band, identified from the decays, linearised, or both; ascending.
     pub(super) modes: Vec<ModeEntry>,
     pub(super) pulses: Vec<PulseEntry>,
     pub(super) identification: IdentificationEntry,
     /// With `--band`, else null.
     pub(super) band: Option<BandOutput>,
+}
+
+/// A linearised mode outside the band.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct OutsideMode {
+    pub(super) frequency_hz: f64,
+    /// rotational, translational, planet or mixed.
+    pub(super) mode_type: String,
 }
 
 /// One mode.
@@ -150,7 +160,7 @@ impl ImpulseOutput {
             Fidelity::Full => ("full", None),
         };
         Self {
-            torque_nm: load.sun_torque_nm,
+            sun_torque_nm: load.sun_torque_nm,
             position,
             step_us: 1e6 * step_s,
             duration_ms: 1e3 * settings.duration_s,
@@ -159,6 +169,14 @@ impl ImpulseOutput {
             body_modes,
             steps: test.steps,
             has_linearisation: found.linear.is_some(),
+            outside_band: found
+                .outside
+                .iter()
+                .map(|m| OutsideMode {
+                    frequency_hz: m.frequency_hz,
+                    mode_type: m.mode_type.name().into(),
+                })
+                .collect(),
             modes: modes(&test.modes, found.linear.as_deref().unwrap_or(&[])),
             pulses: test.decays.iter().map(|d| pulse(found, d)).collect(),
             identification: IdentificationEntry {

@@ -5,7 +5,12 @@ use std::io::Write;
 use crate::error::CommandError;
 use crate::output::{self, share};
 
-use super::impulse_output::{BandMode, BandOutput, ImpulseOutput, ModeEntry, PulseEntry};
+use super::impulse_output::{
+    BandMode, BandOutput, ImpulseOutput, ModeEntry, OutsideMode, PulseEntry,
+};
+
+/// Modes outside the band that the text names.
+const MOST_OUTSIDE: usize = 12;
 
 /// Text of a cell without a value.
 const NOTHING: &str = "–";
@@ -19,7 +24,7 @@ pub(super) fn text(
     writeln!(
         out,
         "{} N·m on the sun at position {} of the mesh cycle; decays of {} ms in steps of {} µs",
-        plain(result.torque_nm),
+        plain(result.sun_torque_nm),
         result.position,
         plain(result.duration_ms),
         plain(result.step_us)
@@ -35,7 +40,21 @@ pub(super) fn text(
     modes(result, out)?;
     pulses(&result.pulses, out)?;
     let (order, [low, high]) = (result.identification.order, result.band_limits_hz);
-    writeln!(out, "identified at order {order} between {low} and {high} Hz")?;
+    writeln!(out, "identified at order {order} between {low:.0} and {high:.0} Hz")?;
+    if !result.outside_band.is_empty() {
+        let one = |m: &OutsideMode| format!("{:.1} ({})", m.frequency_hz, m.mode_type);
+        let list: Vec<String> = result.outside_band.iter().map(one).collect();
+        let shown = list.len().min(MOST_OUTSIDE);
+        let more = match list.len() - shown {
+            0 => String::new(),
+            n => format!(" and {n} more (--format json lists all)"),
+        };
+        writeln!(
+            out,
+            "outside this band, which --band-hz sets, linearised modes at {} Hz{more}",
+            list[..shown].join(", ")
+        )?;
+    }
     match &result.band {
         Some(found) => band(found, out),
         None => Ok(()),
@@ -170,7 +189,14 @@ pub(super) fn csv(result: &ImpulseOutput, out: &mut dyn Write) -> Result<(), Com
             theirs.map(|l| l.mesh_sensitivity),
         ];
         let cells = cells.map(|x| x.map_or_else(String::new, |x| x.to_string()));
-        std::iter::once(m.mode_type.clone()).chain(cells).collect()
+        std::iter::once(m.mode_type.clone()).chain(cells).chain(["true".to_owned()]).collect()
+    };
+    let outside = |m: &OutsideMode| -> Vec<String> {
+        let mut row = vec![String::new(); 11];
+        row[0].clone_from(&m.mode_type);
+        row[6] = m.frequency_hz.to_string();
+        row[10] = "false".into();
+        row
     };
     let header = [
         "mode_type",
@@ -183,6 +209,8 @@ pub(super) fn csv(result: &ImpulseOutput, out: &mut dyn Write) -> Result<(), Com
         "linearised_damping_ratio",
         "difference_percent",
         "mesh_sensitivity",
+        "is_in_band",
     ];
-    output::csv(out, &header, result.modes.iter().map(row))
+    let rows = result.modes.iter().map(row).chain(result.outside_band.iter().map(outside));
+    output::csv(out, &header, rows)
 }

@@ -73,6 +73,11 @@ pub(crate) fn run(arguments: &Modes, out: &mut dyn Write) -> Result<(), CommandE
         let reason = format!("{bad} is not a finite speed in rpm");
         return Err(CommandError::Argument { argument: "--carrier-speeds-rpm", reason });
     }
+    if arguments.details && arguments.format == Format::Json {
+        let reason =
+            "JSON holds the sensitivities anyway: leave it out, or take --format text".into();
+        return Err(CommandError::Argument { argument: "--details", reason });
+    }
     let (model, modes) = solve(&scene).map_err(|reason| unfit(&arguments.scene, reason))?;
     let mut result = describe(&model, &modes);
     if !arguments.carrier_speeds_rpm.is_empty() {

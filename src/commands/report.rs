@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use validation::{Reference, Status, ValidationError, Verdict, steps};
+use validation::{Check, Reference, Status, ValidationError, Verdict, steps};
 
 use crate::error::CommandError;
 
@@ -113,12 +113,19 @@ fn markdown(verdict: &Verdict) -> Result<String, CommandError> {
         );
     }
     text.push_str("\n## Tolerances\n\n");
-    let mut reasons: Vec<(String, &str)> =
-        verdict.checks.iter().map(|c| (cells(c)[3].clone(), c.tolerance.reason.as_str())).collect();
-    reasons.sort();
-    reasons.dedup();
-    for (tolerance, reason) in reasons {
-        let _ = writeln!(text, "- {tolerance}: {reason}");
+    text.push_str("| checks | tolerance | reason |\n|---|---|---|\n");
+    // One row for neighbours in the list that share tolerance and reason.
+    let same = |a: &Check, b: &Check| {
+        cells(a)[3] == cells(b)[3] && a.tolerance.reason == b.tolerance.reason
+    };
+    for group in verdict.checks.chunk_by(same) {
+        let (first, last) = (&group[0], &group[group.len() - 1]);
+        let ids = match group.len() {
+            1 => first.id.clone(),
+            n => format!("{} to {} ({n})", first.id, last.id),
+        };
+        let [.., tolerance] = cells(first);
+        let _ = writeln!(text, "| {ids} | {tolerance} | {} |", first.tolerance.reason);
     }
     Ok(text)
 }

@@ -12,6 +12,7 @@ use super::static_approach::ApproachOutput;
 use super::static_pair::PairOutput;
 use super::static_set::SetOutput;
 use super::sweep_output::SweepOutput;
+use super::validate::ControlsOutput;
 
 /// `(file name, schema)` of each verb; the files in `schemas/` are regenerated with the snapshots.
 pub fn schemas() -> Vec<(&'static str, Schema)> {
@@ -20,6 +21,7 @@ pub fn schemas() -> Vec<(&'static str, Schema)> {
     }
     vec![
         ("validate", of::<Verdict>()),
+        ("validate_controls", of::<ControlsOutput>()),
         ("modes", of::<ModesOutput>()),
         ("rules", of::<RulesOutput>()),
         ("scene_check", of::<SceneSummary>()),

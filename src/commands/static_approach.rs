@@ -63,8 +63,8 @@ pub(super) fn run(
     let (seconds, solve_seconds) = (start.elapsed().as_secs_f64(), before.elapsed().as_secs_f64());
     if let Some(file) = &arguments.export_inp {
         let settings = DeckSettings {
-            per_half_width: arguments.export_per_half_width,
-            flank_elements: arguments.export_flank_elements as usize,
+            per_half_width: arguments.export_per_half_width.unwrap_or(12.0),
+            flank_elements: arguments.export_flank_elements.unwrap_or(12) as usize,
             teeth: arguments.export_teeth.map(|n| n as usize),
             ..DeckSettings::default()
         };

@@ -72,7 +72,7 @@ pub(super) fn run(
     let kind = scene.pair.ok_or_else(|| unfit(path, "`mesh` is absent"))?;
     let bodies = Bodies::new(scene).map_err(fe_refused(path))?;
     let solver = statics::solver(arguments.solver);
-    let positions = arguments.positions as usize;
+    let positions = arguments.position_count();
     let cycle = pair_cycle(&bodies, kind, force, positions, solver).map_err(fe_refused(path))?;
     #[cfg(feature = "charts")]
     if let Some(folder) = &arguments.figures {

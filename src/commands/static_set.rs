@@ -27,7 +27,7 @@ pub(crate) struct SetOutput {
 #[derive(Debug, Serialize, JsonSchema)]
 struct TorqueOutput {
     /// On the sun.
-    torque_nm: f64,
+    sun_torque_nm: f64,
     /// Shift of the phase of planet 0's sun mesh by windup; positions count from where this mesh starts its
     /// path of contact under load.
     loaded_phase_shift_cycles: f64,
@@ -121,7 +121,7 @@ pub(super) fn run(
         let load = LoadCase::standing(*torque);
         let set = StaticSet::new(scene, &bodies, load.sense(), Imperfections::default())
             .map_err(fe_refused(path))?;
-        let positions = arguments.positions as usize;
+        let positions = arguments.position_count();
         cycles.push(set.cycle(load.sun_load_nm(), positions, solver).map_err(fe_refused(path))?);
     }
     let radius = bodies.geometry.sun.as_ref().map(|sun| sun.base_radius);
@@ -181,7 +181,7 @@ fn describe(cycle: &SetCycle, radius: f64) -> TorqueOutput {
     let rest = cycle.kinematic_rest(radius);
     let (equilibrium_iterations, contact_iterations) = cycle.iterations();
     TorqueOutput {
-        torque_nm: cycle.torque_nm,
+        sun_torque_nm: cycle.torque_nm,
         loaded_phase_shift_cycles: cycle.lead,
         sun_rotation_rms_urad: rotation * 1e6,
         sun_translation_rms_um: translation * 1e6,
@@ -224,7 +224,7 @@ fn csv(cycles: &[SetCycle], out: &mut dyn Write) -> Result<(), CommandError> {
         }
     }
     let header = [
-        "torque_nm",
+        "sun_torque_nm",
         "position",
         "mesh",
         "planet",

@@ -19,6 +19,9 @@ pub(crate) fn run(arguments: &Static, out: &mut dyn Write) -> Result<(), Command
         let reason = "[geometry] is absent: teeth are needed to touch";
         return Err(unfit(&arguments.scene, reason));
     }
+    if let Some(option) = arguments.without_approach() {
+        return Err(refused(option, "has no use without --approach-um, which turns a gear pair"));
+    }
     match scene.kind {
         SceneKind::GearPair if arguments.approach_um.is_some() => {
             static_approach::run(arguments, &scene, out)
@@ -52,8 +55,8 @@ pub(super) fn refused(argument: &'static str, reason: impl Into<String>) -> Comm
 }
 
 fn pair_force(arguments: &Static, scene: &Scene) -> Result<f64, CommandError> {
-    if !arguments.torque_nm.is_empty() {
-        let argument = "--torque-nm";
+    if !arguments.sun_torque_nm.is_empty() {
+        let argument = "--sun-torque-nm";
         return Err(refused(argument, "a gear pair is loaded by --normal-force-n, in N"));
     }
     let Some(force) = arguments.normal_force_n else {
@@ -72,14 +75,14 @@ fn pair_force(arguments: &Static, scene: &Scene) -> Result<f64, CommandError> {
 fn set_torques(arguments: &Static, scene: &Scene) -> Result<Vec<f64>, CommandError> {
     if arguments.normal_force_n.is_some() {
         let argument = "--normal-force-n";
-        return Err(refused(argument, "a whole set is loaded by --torque-nm on the sun"));
+        return Err(refused(argument, "a whole set is loaded by --sun-torque-nm"));
     }
-    if let Some(bad) = arguments.torque_nm.iter().find(|t| !t.is_finite() || **t == 0.0) {
+    if let Some(bad) = arguments.sun_torque_nm.iter().find(|t| !t.is_finite() || **t == 0.0) {
         let reason = format!("{bad}: allowed are finite torques other than 0 N·m");
-        return Err(refused("--torque-nm", reason));
+        return Err(refused("--sun-torque-nm", reason));
     }
-    if !arguments.torque_nm.is_empty() {
-        return Ok(arguments.torque_nm.clone());
+    if !arguments.sun_torque_nm.is_empty() {
+        return Ok(arguments.sun_torque_nm.clone());
     }
     Ok(vec![operating_torque(&arguments.scene, scene)?])
 }
@@ -88,7 +91,8 @@ fn set_torques(arguments: &Static, scene: &Scene) -> Result<Vec<f64>, CommandErr
 pub(super) fn operating_torque(path: &Path, scene: &Scene) -> Result<f64, CommandError> {
     let torque = LoadCase::of_scene(scene).ok().map(|case| case.sun_torque_nm);
     torque.filter(|t| *t != 0.0).ok_or_else(|| {
-        let reason = "`operation.torque_nm` is absent or 0: give it, or the argument --torque-nm";
+        let reason =
+            "`operation.torque_nm` is absent or 0: give it, or the argument --sun-torque-nm";
         unfit(path, reason)
     })
 }

@@ -4,6 +4,7 @@ use std::io::Write;
 
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use validation::{
     Asks, Models, Reference, Registry, ValidationError, Verdict, judge_model, validate_with,
@@ -27,6 +28,10 @@ pub(crate) fn run(
         Profile::Quick => validation::Profile::Quick,
         Profile::Full => validation::Profile::Full,
     };
+    if arguments.details && matches!(arguments.format, Format::Json) {
+        let reason = "JSON lists every check anyway: leave it out, or take --format text".into();
+        return Err(CommandError::Argument { argument: "--details", reason });
+    }
     if arguments.controls {
         return suites(arguments, out).map(|()| true);
     }
@@ -83,17 +88,24 @@ fn recorded(folder: &Path, only: &str) -> Result<Verdict, CommandError> {
     judge_model(&models, only).map_err(|e| refused(e.to_string()))
 }
 
+/// `validate --controls --format json`.
+#[derive(Serialize, JsonSchema)]
+pub(crate) struct ControlsOutput {
+    suites: Vec<SuiteControls>,
+}
+
 /// One suite with its negative controls.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct SuiteControls {
     suite: String,
-    asks: Asks,
+    /// natural_modes, mesh_cycle or steady_states of any model, or own_numerics.
+    asks: String,
     about: String,
     controls: Vec<ControlOutput>,
 }
 
 /// A negative control: what is spoilt, and the check that must fail.
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct ControlOutput {
     id: String,
     spoils: String,
@@ -104,10 +116,24 @@ struct ControlOutput {
 fn suites(arguments: &Validate, out: &mut dyn Write) -> Result<(), CommandError> {
     let registry = Registry::load().map_err(ValidationError::from)?;
     let own = registry.suite.into_iter().filter(|s| s.name.starts_with(&arguments.only));
-    let list: Vec<SuiteControls> = own
+    let (kind, words) = (
+        |asks: Asks| match asks {
+            Asks::NaturalModes => "natural_modes",
+            Asks::MeshCycle => "mesh_cycle",
+            Asks::SteadyStates => "steady_states",
+            Asks::OwnNumerics => "own_numerics",
+        },
+        |asks: &str| match asks {
+            "natural_modes" => "natural modes of any model",
+            "mesh_cycle" => "mesh cycles at rest of any model",
+            "steady_states" => "steady states of any model",
+            _ => "our own models",
+        },
+    );
+    let suites: Vec<SuiteControls> = own
         .map(|suite| SuiteControls {
             suite: suite.name,
-            asks: suite.asks,
+            asks: kind(suite.asks).to_owned(),
             about: suite.about,
             controls: suite
                 .control
@@ -117,15 +143,10 @@ fn suites(arguments: &Validate, out: &mut dyn Write) -> Result<(), CommandError>
         })
         .collect();
     if let Format::Json = arguments.format {
-        return output::json(out, &list);
+        return output::json(out, &ControlsOutput { suites });
     }
-    for suite in &list {
-        let asks = match suite.asks {
-            Asks::NaturalModes => "natural modes of any model",
-            Asks::MeshCycle => "mesh cycles at rest of any model",
-            Asks::SteadyStates => "steady states of any model",
-            Asks::OwnNumerics => "our own models",
-        };
+    for suite in &suites {
+        let asks = words(&suite.asks);
         writeln!(out, "{} ({asks}): {}", suite.suite, suite.about)?;
         for control in &suite.controls {
             writeln!(out, "  {}", control.id)?;

@@ -4,7 +4,7 @@
 use gearset::{AllowedKinds, Kinematics, Scene, excitation_of_scene};
 use lumped::{ModeType, NaturalModes};
 
-use super::drawing::{Curve, Labels, Picture, chart, colour_of};
+use super::drawing::{Curve, Labels, Picture, chart_with_words, colour_of};
 
 const HARMONICS: u32 = 5;
 const TOP_SPEED_RPM: f64 = 2500.0;
@@ -18,11 +18,13 @@ pub fn campbell(scene: &Scene, modes: &NaturalModes) -> Option<Picture> {
     let mut at_top = scene.clone();
     at_top.operation.as_mut()?.speed_rpm = TOP_SPEED_RPM;
     let top_mesh_hz = Kinematics::from_scene(&at_top).ok()?.mesh_frequency_hz;
-    let mut curves = Vec::new();
+    let (mut curves, mut words) = (Vec::new(), Vec::new());
     for l in 1..=HARMONICS {
         let reach = (TOP_FREQUENCY_HZ / (f64::from(l) * top_mesh_hz)).min(1.0);
         let end = (reach * TOP_SPEED_RPM, reach * f64::from(l) * top_mesh_hz);
         curves.push(Curve::new("", vec![(0.0, 0.0), end]).thin("#9aa0a6"));
+        // Below the upper end of the line, to its right.
+        words.push((format!("l = {l}"), 0.955 * end.0 + 15.0, 0.93 * end.1));
     }
     for mode_type in [ModeType::Translational, ModeType::Rotational, ModeType::Planet] {
         let (mut can, mut cannot) = (Vec::new(), Vec::new());
@@ -55,7 +57,7 @@ pub fn campbell(scene: &Scene, modes: &NaturalModes) -> Option<Picture> {
         x: "sun speed, rpm",
         y: "natural frequency, Hz",
     };
-    Some(chart(&labels, &curves))
+    Some(chart_with_words(&labels, &curves, &words))
 }
 
 fn admits(allowed: AllowedKinds, mode_type: ModeType) -> bool {

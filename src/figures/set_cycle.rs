@@ -40,10 +40,13 @@ fn transmission_error(cycle: &SetCycle, radius: f64, about: &str) -> Picture {
 
 fn load_sharing(cycle: &SetCycle, about: &str) -> Picture {
     let meshes = cycle.states[0].meshes.iter().enumerate();
+    let count = cycle.states[0].meshes.len();
     let curves: Vec<Curve> = meshes
         .map(|(i, m)| {
             let forces = over(cycle, |s| s.meshes[i].force * 1e-3);
             let curve = Curve::new(format!("{} {}", m.kind.name(), m.planet), forces);
+            // Planets in phase carry the same: what lies below shows at the sides of what lies on top.
+            let curve = curve.wide(1.2 + 1.1 * (count - 1 - i) as f64);
             if m.kind == MeshKind::RingPlanet { curve.dashed() } else { curve }
         })
         .collect();

@@ -45,31 +45,143 @@ fn modes_of_oh58_as_json() {
     assert_eq!(all, 17);
 }
 
+/// A scene of the repository with a coarse mesh, and lines put in place of others.
+fn coarse(folder: &Path, name: &str, changes: &[(&str, &str)]) -> String {
+    let mut text =
+        std::fs::read_to_string(scene(name)).unwrap() + "\n[fe_contact]\nflank_elements = 8\n";
+    for (old, new) in changes {
+        assert!(text.contains(old), "{name} has no {old}");
+        text = text.replace(old, new);
+    }
+    let path = folder.join(format!("{}_{name}", changes.len()));
+    std::fs::write(&path, text).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+/// Every verb in every way that changes what it prints: schema, whether it has CSV, arguments.
+fn every_verb(folder: &Path) -> Vec<(&'static str, bool, Vec<String>)> {
+    let own = csv_of_own_modes().to_str().unwrap().to_owned();
+    let (set, pair) = (scene("oh58_4p.toml"), scene("oh58_sun_planet_pair.toml"));
+    let plain = coarse(folder, "oh58_4p.toml", &[]);
+    let full = coarse(
+        folder,
+        "oh58_3p.toml",
+        &[("[fe_contact]", "[dynamics]\nfidelity = \"full\"\n[fe_contact]")],
+    );
+    let words = |line: &str| line.split(' ').map(str::to_owned).collect::<Vec<_>>();
+    vec![
+        ("validate", false, words("validate --only table1.")),
+        ("validate_controls", false, words("validate --controls --only fe.hertz")),
+        ("mesh", false, words(&format!("mesh {plain}"))),
+        ("static_set", true, words(&format!("static {plain} --positions 2"))),
+        (
+            "static_set",
+            true,
+            words(&format!("static {plain} --positions 1 --sun-torque-nm 500,-900")),
+        ),
+        ("static_pair", true, words(&format!("static {pair} --normal-force-n 1e4 --positions 2"))),
+        ("static_approach", true, words(&format!("static {pair} --approach-um 20 --phase 0.7"))),
+        ("impulse", true, words(&format!("impulse {plain} --duration-ms 10"))),
+        ("impulse", false, words(&format!("impulse {plain} --duration-ms 10 --band"))),
+        ("impulse", true, words(&format!("impulse {full} --duration-ms 10 --band-hz 400:1500"))),
+        ("modes", false, words(&format!("modes {set}"))),
+        ("modes", false, words(&format!("modes {set} --carrier-speeds-rpm 0,535.7"))),
+        ("modes", false, words(&format!("modes {}", scene("lin_parker_1999_3p.toml")))),
+        ("rules", false, words(&format!("rules {set}"))),
+        ("scene_check", false, words(&format!("scene check {set}"))),
+        ("scene_check", false, words(&format!("scene check {pair}"))),
+        ("scene_check", false, words(&format!("scene check {}", scene("lin_parker_1999_4p.toml")))),
+        ("compare", false, words(&format!("compare {own} --scene {set}"))),
+    ]
+}
+
 #[test]
-fn every_json_output_keeps_to_its_schema() {
-    let modes = csv_of_own_modes();
-    let set = scene("oh58_4p.toml");
-    let pair = scene("oh58_sun_planet_pair.toml");
-    let runs: [(&str, Vec<&str>); 10] = [
-        ("validate", vec!["validate", "--only", "table"]),
-        ("mesh", vec!["mesh", &set]),
-        ("static_set", vec!["static", &set, "--positions", "1"]),
-        ("static_pair", vec!["static", &pair, "--normal-force-n", "1e4", "--positions", "2"]),
-        ("static_approach", vec!["static", &pair, "--approach-um", "20", "--phase", "0.7"]),
-        ("impulse", vec!["impulse", &set, "--duration-ms", "10", "--band"]),
-        ("modes", vec!["modes", &set, "--carrier-speeds-rpm", "0,535.7"]),
-        ("rules", vec!["rules", &set]),
-        ("scene_check", vec!["scene", "check", &set]),
-        ("compare", vec!["compare", modes.to_str().unwrap(), "--scene", &set]),
-    ];
-    for (name, mut arguments) in runs {
-        arguments.extend(["--format", "json"]);
-        let result = json(&arguments);
+fn every_verb_keeps_to_its_formats() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, has_csv, arguments) in every_verb(folder.path()) {
+        let of = |format: &str| {
+            let mut all: Vec<&str> = arguments.iter().map(String::as_str).collect();
+            all.extend(["--format", format]);
+            let (code, out, err) = run(&all);
+            assert_eq!(code, 0, "{all:?}: {err}");
+            out
+        };
+        let result: Value = serde_json::from_str(&of("json")).unwrap();
         let path = format!("{}/schemas/{name}.json", env!("CARGO_MANIFEST_DIR"));
         let schema: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
         let validator = jsonschema::validator_for(&schema).unwrap();
         let faults: Vec<_> = validator.iter_errors(&result).map(|e| e.to_string()).collect();
-        assert!(faults.is_empty(), "{name}: {faults:?}");
+        assert!(faults.is_empty(), "{arguments:?}: {faults:?}");
+        let text = of("text");
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+        if has_csv {
+            let table = of("csv");
+            let mut reader = csv::Reader::from_reader(table.as_bytes());
+            assert!(reader.headers().unwrap().len() > 2, "{table}");
+            // Rows of another length are errors.
+            let rows = reader.records().collect::<Result<Vec<_>, _>>().unwrap();
+            assert!(!rows.is_empty() && !table.contains("NaN"), "{table}");
+        }
+    }
+}
+
+/// A reader that goes away after some bytes.
+struct Closing(usize);
+
+impl std::io::Write for Closing {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        if self.0 == 0 {
+            return Err(std::io::ErrorKind::BrokenPipe.into());
+        }
+        let taken = bytes.len().min(self.0);
+        self.0 -= taken;
+        Ok(taken)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        if self.0 == 0 { Err(std::io::ErrorKind::BrokenPipe.into()) } else { Ok(()) }
+    }
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_fault() {
+    let set = scene("oh58_4p.toml");
+    let pair = scene("oh58_sun_planet_pair.toml");
+    for (line, format) in [
+        (format!("modes {set}"), "json"),
+        (format!("rules {set}"), "text"),
+        (format!("static {pair} --normal-force-n 1e4 --positions 3"), "csv"),
+        (format!("static {pair} --approach-um 20"), "csv"),
+    ] {
+        let words = ["epicyclic"].into_iter().chain(line.split(' ')).chain(["--format", format]);
+        let mut err = Vec::new();
+        let code = epicyclic::run(words, &mut Closing(50), &mut err);
+        assert_eq!((code, err.len()), (0, 0), "{line}: {}", String::from_utf8_lossy(&err));
+    }
+}
+
+#[test]
+fn options_without_use_are_refused() {
+    let (set, pair) = (scene("oh58_4p.toml"), scene("oh58_sun_planet_pair.toml"));
+    for (line, option) in [
+        (format!("static {pair} --normal-force-n 1e4 --phase 0.3"), "--phase"),
+        (format!("static {pair} --normal-force-n 1e4 --export-inp deck.inp"), "--export-inp"),
+        (format!("static {pair} --normal-force-n 1e4 --export-teeth 2"), "--export-teeth"),
+        (format!("static {set} --phase 0.3"), "--phase"),
+        (format!("static {pair} --approach-um 20 --positions 5"), "--positions"),
+        (format!("static {set} --approach-um 20"), "--approach-um"),
+        (format!("static {set} --normal-force-n 20"), "--normal-force-n"),
+        (format!("static {pair} --sun-torque-nm 20"), "--sun-torque-nm"),
+        (format!("impulse {set} --band --format csv"), "--band"),
+        (format!("impulse {set} --band-hz 900:400"), "--band-hz"),
+        (format!("impulse {set} --band-hz 0:400"), "--band-hz"),
+        (format!("modes {set} --details --format json"), "--details"),
+        ("validate --details --format json".to_owned(), "--details"),
+        ("validate --controls --profile full".to_owned(), "--profile"),
+    ] {
+        let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!((code, out.as_str()), (2, ""), "{line}");
+        assert!(err.contains(option), "{line}: {err}");
     }
 }
 
@@ -97,12 +209,44 @@ fn compare_agrees_with_itself_and_not_with_the_published_spacing() {
 }
 
 #[test]
+fn compare_takes_letter_case_an_index_column_and_a_table_that_ends() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = scene("oh58_4p_as_published.toml");
+    let compared = |text: &str, more: &[&str]| {
+        let path = folder.path().join("modes.csv");
+        std::fs::write(&path, text).unwrap();
+        let mut all = vec!["compare", path.to_str().unwrap(), "--scene", &set];
+        all.extend(more);
+        run(&all)
+    };
+    // As pandas writes it.
+    let table =
+        ",Frequency_Hz,Mode_Type,Multiplicity\n0,774.08,Translational,2\n1,1150.19,ROTATIONAL,\n";
+    let (code, out, err) = compared(table, &["--tolerance-percent", "1.5"]);
+    assert_eq!(code, 0, "{out}{err}");
+    assert!(out.contains("above the list's highest frequency"), "{out}");
+    let (code, ..) = compared(table, &["--tolerance-percent", "1.5", "--whole"]);
+    assert_eq!(code, 1);
+}
+
+#[test]
+fn files_without_end_are_refused() {
+    let set = scene("oh58_4p.toml");
+    for line in ["modes /dev/zero".to_owned(), format!("compare /dev/zero --scene {set}")] {
+        let (code, _, err) = run(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!(code, 2, "{err}");
+        assert!(err.contains("longer than 1 MB"), "{err}");
+    }
+}
+
+#[test]
 fn bad_tables_of_modes_name_line_and_column() {
     let folder = tempfile::tempdir().unwrap();
     let cases = [
         ("hz\n1\n", "`hz` is not known"),
         ("frequency_hz\nabc\n", "line 2, `frequency_hz` is `abc`"),
         ("frequency_hz\n-1\n", "line 2, `frequency_hz` is `-1`"),
+        ("frequency_hz,unknown\n1,2\n", "`unknown` is not known"),
         ("frequency_hz,mode_type\n1,wobble\n", "line 2, `mode_type` is `wobble`"),
         ("frequency_hz,multiplicity\n1,0\n", "line 2, `multiplicity` is `0`"),
         ("frequency_hz\n", "no rows"),
@@ -250,10 +394,10 @@ fn static_refuses_what_makes_no_sense_with_one_message() {
     let cases: [(&[&str], &str); 9] = [
         (&["static", &pair], "--normal-force-n"),
         (&["static", &pair, "--normal-force-n", "-5"], "above 0 N"),
-        (&["static", &pair, "--torque-nm", "5"], "--normal-force-n"),
-        (&["static", &set, "--normal-force-n", "5"], "--torque-nm"),
-        (&["static", &set, "--torque-nm", "0"], "other than 0"),
-        (&["static", &set, "--torque-nm", "nan"], "finite"),
+        (&["static", &pair, "--sun-torque-nm", "5"], "--normal-force-n"),
+        (&["static", &set, "--normal-force-n", "5"], "--sun-torque-nm"),
+        (&["static", &set, "--sun-torque-nm", "0"], "other than 0"),
+        (&["static", &set, "--sun-torque-nm", "nan"], "finite"),
         (&["static", &set, "--approach-um", "5"], "only a gear pair"),
         (&["static", &lumped], "[geometry] is absent"),
         (&["static", &pair, "--normal-force-n", "5", "--positions", "0"], "--positions"),
@@ -272,11 +416,14 @@ fn impulse_refuses_what_makes_no_sense_with_one_message() {
     let cases: [(&[&str], &str); 16] = [
         (&["impulse", &pair], "`kind` is \"gear_pair\""),
         (&["impulse", &lumped], "[geometry] is absent"),
-        (&["impulse", &set, "--torque-nm", "0"], "argument --torque-nm: 0 N·m: nothing touches"),
-        (&["impulse", &set, "--torque-nm", "-0"], "nothing touches"),
-        (&["impulse", &set, "--torque-nm", "nan"], "finite torque"),
-        (&["impulse", &set, "--torque-nm", "inf"], "finite torque"),
-        (&["impulse", &set, "--torque-nm", "1e9"], "--torque-nm"),
+        (
+            &["impulse", &set, "--sun-torque-nm", "0"],
+            "argument --sun-torque-nm: 0 N·m: nothing touches",
+        ),
+        (&["impulse", &set, "--sun-torque-nm", "-0"], "nothing touches"),
+        (&["impulse", &set, "--sun-torque-nm", "nan"], "finite torque"),
+        (&["impulse", &set, "--sun-torque-nm", "inf"], "finite torque"),
+        (&["impulse", &set, "--sun-torque-nm", "1e9"], "--sun-torque-nm"),
         (&["impulse", &set, "--step-us", "0"], "step above 0"),
         (&["impulse", &set, "--step-us", "-5"], "step above 0"),
         (&["impulse", &set, "--step-us", "60"], "has 8 steps"),
@@ -314,7 +461,7 @@ fn impulse_as_text_csv_and_pictures() {
     let folder = tempfile::tempdir().unwrap();
     let figures = folder.path().join("figures").display().to_string();
     let set = scene("oh58_3p.toml");
-    let short = ["impulse", &set, "--torque-nm", "-1130", "--duration-ms", "20"];
+    let short = ["impulse", &set, "--sun-torque-nm", "-1130", "--duration-ms", "20"];
     let with = |more: &[&str]| {
         let (code, out, err) = run(&[&short[..], more].concat());
         assert_eq!(code, 0, "{err}");
@@ -349,8 +496,16 @@ fn impulse_as_text_csv_and_pictures() {
 fn impulse_without_a_small_linearisation() {
     let folder = tempfile::tempdir().unwrap();
     let path = with_fidelity(folder.path(), "oh58_3p.toml", "fidelity = \"full\"");
-    let (code, text, err) =
-        run(&["impulse", &path, "--torque-nm", "1130", "--step-us", "40", "--duration-ms", "12"]);
+    let (code, text, err) = run(&[
+        "impulse",
+        &path,
+        "--sun-torque-nm",
+        "1130",
+        "--step-us",
+        "40",
+        "--duration-ms",
+        "12",
+    ]);
     assert_eq!(code, 0, "{err}");
     assert!(text.contains("fidelity: full") && text.contains("no small linearisation"), "{text}");
     let rows: Vec<&str> = text.lines().filter(|l| l.contains("ational ")).collect();
@@ -366,7 +521,7 @@ fn figures_and_meshes_are_written_where_asked() {
     let drawn = run(&[
         "static",
         &set,
-        "--torque-nm",
+        "--sun-torque-nm",
         "400,800",
         "--positions",
         "4",

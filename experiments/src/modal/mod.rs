@@ -17,4 +17,4 @@ pub use impulse::{Contents, Decay, ImpulseTest, Pulse, impulse_test, pulses};
 pub use linear::{MeshInfluence, Preload, linear_modes, mesh_influence, preloaded};
 pub use lumped_from_fe::{lumped_frequencies, lumped_from_fe, lumped_from_tangents, majority};
 pub use mode::{FeMode, of_type};
-pub use settings::{ImpulseSettings, SettingsError};
+pub use settings::{ImpulseSettings, SettingsError, band_of};

@@ -13,6 +13,42 @@ const STEPS_IN_PERIOD: f64 = 8.0;
 /// Most steps of one decay, to limit memory and time.
 const MOST_STEPS: f64 = 1e5;
 
+/// Step (s) and band (Hz) whose product the default step of any band has: 67 steps in the shortest period, so that
+/// average acceleration lowers the highest frequency by 0.07 %.
+const STEP_AT_3_KHZ: f64 = 5e-6 * 3000.0;
+
+/// Periods of the lowest mode of the band in a decay by default.
+const PERIODS: f64 = 30.0;
+
+/// Length of a decay by default where that is longer than the periods, s.
+const USUAL_DURATION_S: f64 = 0.04;
+
+/// Neighbouring frequencies with at least this ratio have a gap between them at which a band may end.
+const GAP: f64 = 1.5;
+
+/// Highest over lowest frequency of a band by default: a wider one needs more steps than a decay may have.
+const WIDEST: f64 = 40.0;
+
+/// Modes below this are rigid-body motion, Hz.
+const RIGID_HZ: f64 = 1.0;
+
+/// Band of an impulse test that covers the lower half of some natural frequencies (Hz, in any order) and goes on
+/// to the next gap of a factor 1.5: from half the lowest to the geometric mean of the last frequency within and
+/// the next, or 1.4 times the last if the next is farther. Rigid-body motion is left out. `None` without a mode.
+pub fn band_of(frequencies_hz: &[f64]) -> Option<(f64, f64)> {
+    let mut list: Vec<f64> = frequencies_hz.iter().copied().filter(|f| *f > RIGID_HZ).collect();
+    list.sort_by(f64::total_cmp);
+    let lowest = *list.first()?;
+    let half = list.len().div_ceil(2);
+    let is_end = |k: &usize| list.get(k + 1).is_none_or(|next| *next > GAP * list[*k]);
+    let mut last = (half - 1..list.len()).find(is_end).unwrap_or(list.len() - 1);
+    while list[last] > WIDEST * lowest {
+        last -= 1;
+    }
+    let next = list.get(last + 1).copied().unwrap_or(f64::INFINITY);
+    Some((0.5 * lowest, list[last] * (next / list[last]).sqrt().min(1.4)))
+}
+
 /// Settings of an impulse test.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImpulseSettings {
@@ -42,6 +78,16 @@ pub enum SettingsError {
     /// A position outside the mesh cycle.
     #[error("{0}: allowed is a position in the mesh cycle, from 0 to 1")]
     Position(f64),
+    /// A band without width, or with an end that is no frequency.
+    #[error(
+        "{low} to {high} Hz: allowed are finite frequencies above 0, the first below the second"
+    )]
+    Band {
+        /// Lowest frequency, Hz.
+        low: f64,
+        /// Highest frequency, Hz.
+        high: f64,
+    },
     /// A time step that is not positive, or too long for the upper end of the band.
     #[error(
         "{} µs: allowed is a step above 0, at most {} µs, so that the shortest period of the band ({} Hz) has {STEPS_IN_PERIOD} steps",
@@ -81,6 +127,12 @@ pub enum SettingsError {
     },
 }
 
+/// A number above 0 rounded to two digits, which people can read.
+fn two_digits(x: f64) -> f64 {
+    let digit = 10f64.powf(x.log10().floor() - 1.0);
+    (x / digit).round() * digit
+}
+
 /// A number with at most six decimal places; very small and very large ones in exponent notation.
 fn shown(x: f64) -> String {
     if x != 0.0 && !(1e-4..1e6).contains(&x.abs()) {
@@ -100,6 +152,16 @@ impl ImpulseSettings {
             trial_steps: 400,
             is_short: false,
         }
+    }
+
+    /// Settings at a preload for another band: the step follows its upper end, the decay its lower one.
+    pub fn in_band(load: LoadCase, position: f64, band_hz: (f64, f64)) -> Self {
+        let (low, high) = band_hz;
+        // The lowest mode lies at twice the lower end (see [`band_of`]).
+        let duration_s = USUAL_DURATION_S.max(PERIODS / (2.0 * low));
+        let (duration_s, step_s) = (two_digits(duration_s), two_digits(STEP_AT_3_KHZ / high));
+        let preload = Preload { load, position, step_s };
+        Self { preload, duration_s, band_hz, ..Self::at(load, position) }
     }
 
     /// The same for bodies with every FE degree of freedom: 10 ms, and only the pulses needed to excite all
@@ -134,6 +196,10 @@ impl ImpulseSettings {
         }
         if !(0.0..=1.0).contains(&position) {
             return Err(SettingsError::Position(position));
+        }
+        let (low, high) = self.band_hz;
+        if !(low > 0.0 && low < high && high.is_finite()) {
+            return Err(SettingsError::Band { low, high });
         }
         let longest_s = 1.0 / (STEPS_IN_PERIOD * self.band_hz.1);
         if !(step_s > 0.0 && step_s <= longest_s) {
@@ -175,6 +241,39 @@ mod tests {
         let mut settings = ImpulseSettings::at(LoadCase::standing(1130.0), 0.0);
         change(&mut settings);
         settings.check().unwrap_err()
+    }
+
+    #[test]
+    fn the_band_follows_the_modes_and_step_and_decay_follow_the_band() {
+        // OH-58 with four planets, linearised: a gap of a factor 3 above 2.2 kHz.
+        let oh58 = [775.0, 783.0, 1154.0, 1691.0, 1707.0, 1717.0, 1764.0, 2152.0, 2157.0];
+        let mut all = oh58.to_vec();
+        all.extend([0.0, 6900.0, 7100.0, 7200.0, 7500.0, 9000.0, 11e3, 12e3, 14e3]);
+        let (low, high) = band_of(&all).unwrap();
+        assert_eq!(low, 387.5);
+        assert!((high - 1.4 * 2157.0).abs() < 1e-9);
+        let settings = ImpulseSettings::in_band(LoadCase::standing(1130.0), 0.0, (low, high));
+        assert_eq!(settings.check(), Ok(()));
+        assert!((settings.preload.step_s - 5.0e-6).abs() < 1e-12);
+        assert!((settings.duration_s - 0.04).abs() < 2e-3);
+        // A soft set: its lowest pair is far below the others, and all of the lower half is there.
+        let (low, high) = band_of(&[94.0, 94.0, 622.0, 700.0, 1500.0, 5000.0]).unwrap();
+        assert!(low < 94.0 && high > 700.0 && high < 1500.0);
+        let soft = ImpulseSettings::in_band(LoadCase::standing(1130.0), 0.0, (low, high));
+        assert_eq!(soft.check(), Ok(()));
+        assert!(soft.duration_s > 0.3 && soft.preload.step_s > 1e-5);
+        // Whatever a set's frequencies, the settings are allowed.
+        for spread in [1.01, 1.4, 1.6, 3.0, 10.0, 100.0] {
+            let list: Vec<f64> = (0..12).map(|k| 20.0 * f64::powi(spread, k)).collect();
+            let band = band_of(&list).unwrap();
+            let settings = ImpulseSettings::in_band(LoadCase::standing(1.0), 0.0, band);
+            assert_eq!(settings.check(), Ok(()), "{spread}: {band:?}");
+        }
+        assert_eq!(band_of(&[0.0, 0.3]), None);
+        for band_hz in [(0.0, 1.0), (5.0, 5.0), (f64::NAN, 2.0), (1.0, f64::INFINITY)] {
+            let found = refusal(|s| s.band_hz = band_hz);
+            assert!(matches!(found, SettingsError::Band { .. }), "{found}");
+        }
     }
 
     #[test]

@@ -66,11 +66,11 @@ impl Scale {
         let decades = (self.high / self.low).log10();
         let factors: &[f64] = if decades < 3.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
         let (from, to) = (self.low.log10().floor() as i32, self.high.log10().floor() as i32);
+        // All labels of an axis in one form: plain numbers, or powers where one needs them.
+        let is_plain = from >= -3 && to <= 4;
         let values = (from..=to).flat_map(|k| {
-            factors.iter().map(move |f| match k {
-                -3..=4 => (f * 10f64.powi(k), None),
-                _ => (f * 10f64.powi(k), Some(format!("{f}e{k}"))),
-            })
+            let label = move |f: &f64| (!is_plain).then(|| format!("{f}e{k}"));
+            factors.iter().map(move |f| (f * 10f64.powi(k), label(f)))
         });
         let short = |v: f64| {
             let text = format!("{v:.3}");

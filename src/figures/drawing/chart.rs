@@ -1,9 +1,11 @@
 //! Line charts, drawn the same way by every verb.
 
+use std::sync::Arc;
+
 use kuva::plot::{LinePlot, LineStyle, MarkerShape, ScatterPlot};
-use kuva::render::annotations::ReferenceLine;
+use kuva::render::annotations::{ReferenceLine, TextAnnotation};
 use kuva::render::figure::Figure;
-use kuva::render::layout::Layout;
+use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
 use kuva::render::render::render_multiple;
 
@@ -32,6 +34,12 @@ impl Curve {
 
     pub(crate) fn dashed(mut self) -> Self {
         self.is_dashed = true;
+        self
+    }
+
+    /// A line of a width, px.
+    pub(crate) fn wide(mut self, width: f64) -> Self {
+        self.width = width;
         self
     }
 
@@ -68,9 +76,31 @@ pub(crate) struct Panel<'a> {
 
 /// Curves over one pair of axes.
 pub(crate) fn chart(labels: &Labels<'_>, curves: &[Curve]) -> Picture {
+    chart_with_words(labels, curves, &[])
+}
+
+/// The same with words at points of the plane.
+pub(crate) fn chart_with_words(
+    labels: &Labels<'_>,
+    curves: &[Curve],
+    words: &[(String, f64, f64)],
+) -> Picture {
     let plots = plots(curves);
-    let layout = layout(labels, &plots).with_subtitle(&labels.subtitle).with_subtitle_size(12);
+    let mut layout = layout(labels, &plots).with_subtitle(&labels.subtitle).with_subtitle_size(12);
+    for (text, x, y) in words {
+        let words = TextAnnotation::new(text, *x, *y).with_color("#5f6368").with_font_size(11);
+        layout = layout.with_annotation(words);
+    }
     Picture::new(render_multiple(plots, layout))
+}
+
+/// Every label of a logarithmic axis in the one form that suits all.
+fn power_of_ten(value: f64) -> String {
+    let exponent = value.abs().log10();
+    if (exponent - exponent.round()).abs() < 1e-8 {
+        return format!("1e{}", exponent.round() as i32);
+    }
+    format!("{value:.0e}")
 }
 
 /// Panels in `columns` columns under one title.
@@ -86,7 +116,11 @@ pub(crate) fn panels(title: &str, columns: usize, size: (f64, f64), list: &[Pane
         if let Some((low, high)) = panel.x_range {
             layout = layout.with_x_axis_min(low).with_x_axis_max(high);
         }
-        layouts.push(if panel.is_log { layout.with_log_y() } else { layout });
+        layouts.push(if panel.is_log {
+            layout.with_log_y().with_y_tick_format(TickFormat::Custom(Arc::new(power_of_ten)))
+        } else {
+            layout
+        });
         all.push(plots);
     }
     let figure = Figure::new(list.len().div_ceil(columns), columns)
