@@ -240,7 +240,7 @@ pub struct Sweep {
     pub speeds_rpm: [f64; 3],
     /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out.
     #[arg(long, value_name = "NM", allow_negative_numbers = true)]
-    pub torque_nm: Option<f64>,
+    pub sun_torque_nm: Option<f64>,
     /// Model whose motion is integrated.
     #[arg(long, value_enum, default_value_t = Model::FeContact)]
     pub model: Model,
@@ -257,14 +257,15 @@ pub struct Sweep {
     /// Largest change of a steady state from cycle to cycle, over its peak-to-peak vibration.
     #[arg(long, default_value_t = 1e-9, value_parser = small)]
     pub tolerance: f64,
-    /// Cycles after which a set that has not settled is recorded as it is.
+    /// Cycles after which a set that has not settled is recorded as it is, flagged as subharmonic or not
+    /// periodic.
     #[arg(long, default_value_t = 2000, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub most_cycles: u32,
     /// Cycles over which the energy between harmonics is measured, 0 for none.
     #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(0..=10_000))]
     pub between_cycles: u32,
     /// Folder for finished points, then the table (CSV) and a sidecar (JSON); the same command resumes from
-    /// the points in it.
+    /// the points in it. A folder with anything else that would be overwritten is refused.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Also draw figures into this folder (SVG, PNG): waterfalls and the harmonics of each quantity.

@@ -41,6 +41,9 @@ pub enum ExperimentError {
     /// A plan of a sweep.
     #[error(transparent)]
     Plan(#[from] crate::sweep::PlanError),
+    /// A speed of a sweep at which no steady state could be computed.
+    #[error(transparent)]
+    Failed(Box<crate::sweep::FailedPoint>),
     /// A point of a sweep that could not be kept or read.
     #[error(transparent)]
     Store(#[from] crate::sweep::StoreError),

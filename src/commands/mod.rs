@@ -16,6 +16,8 @@ mod static_set;
 mod statics;
 mod suite_progress;
 mod sweep;
+mod sweep_claim;
+mod sweep_manifest;
 mod sweep_output;
 #[cfg(feature = "parquet")]
 mod sweep_parquet;
@@ -76,7 +78,7 @@ fn dispatch(
         Verb::Rules(arguments) => rules::run(&arguments, out).map(|()| true),
         Verb::Static(arguments) => statics::run(&arguments, out).map(|()| true),
         Verb::Impulse(arguments) => impulse::run(&arguments, out).map(|()| true),
-        Verb::Sweep(arguments) => sweep::run(&arguments, out).map(|()| true),
+        Verb::Sweep(arguments) => sweep::run(&arguments, out, err).map(|()| true),
         Verb::Mesh(arguments) => mesh::run(&arguments, out).map(|()| true),
         Verb::Scene(verb) => scene::run(&verb, out).map(|()| true),
         Verb::Compare(arguments) => compare::run(&arguments, out),

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use experiments::ExperimentError;
 use experiments::sweep::{
-    Direction, FeModel, Memory, MeshLawModel, Plan, PlanError, PointStore, SteadySettings, Sweep,
-    SweepModel, even_speeds, run as run_plan,
+    Direction, FeModel, Kept, LUMPED, Memory, MeshLawModel, Plan, PlanError, PointStore,
+    SteadySettings, Sweep, SweepModel, even_speeds, fidelity_name, run as run_plan,
 };
 use fe_contact::statics::{Bodies, Imperfections};
 use gearset::{Fidelity, LoadCase, Scene, SceneKind};
@@ -17,8 +17,10 @@ use crate::error::CommandError;
 use crate::output;
 
 use super::statics::{operating_torque, refused};
-use super::sweep_output::{SweepOutput, text, write_csv};
-use super::sweep_store::{Folder, Manifest, write_whole};
+use super::sweep_claim::{Claim, PEAKS, PLAN};
+use super::sweep_manifest::Manifest;
+use super::sweep_output::{SweepOutput, text, write_csv, write_failed};
+use super::sweep_store::{Folder, write_whole};
 use super::{fe_refused, read_scene, unfit};
 
 /// Longest scene file that is kept beside its results, bytes: no longer one is read as a scene.
@@ -30,10 +32,18 @@ const SPAN: f64 = 0.04;
 /// Peaks at least this many times as high as the curve to either side are refined.
 const PROMINENT: f64 = 1.25;
 
-pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(), CommandError> {
+/// Runs the sweep: results to `out`; beside a table on `out`, which has no place for them, speeds that could
+/// not be computed go to `err`.
+pub(super) fn run(
+    arguments: &SweepArguments,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
+) -> Result<(), CommandError> {
     let path = &arguments.scene;
     let scene = read_scene(path)?;
     let task = Task::new(arguments, &scene)?;
+    // Bodies and tables take minutes: a folder that cannot be used is refused before.
+    let _claim = task.claim()?;
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let model: Box<dyn SweepModel> = match (arguments.model, scene.dynamics.fidelity) {
         (Model::FeContact, Fidelity::MeshLaw) => {
@@ -45,13 +55,13 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
         (Model::Lumped, _) => Box::new(MeshLawModel::new(&scene, &bodies, task.case)?.lumped()),
     };
     let model = model.as_ref();
-    let mut sweep = task.march(model, &task.plan, "plan.json")?;
+    let mut sweep = task.march(model, &task.plan, PLAN)?;
     if arguments.refine > 0 {
         let steady = task.plan.steady.clone();
         let around = sweep.around_peaks(PROMINENT, SPAN, arguments.refine as usize, steady);
         if !around.chains.is_empty() {
-            let more = task.march(model, &around, "plan_peaks.json")?;
-            sweep.chains.extend(more.chains);
+            let more = task.march(model, &around, PEAKS)?;
+            sweep.extend(more);
         }
     }
     #[cfg(feature = "charts")]
@@ -80,7 +90,10 @@ pub(super) fn run(arguments: &SweepArguments, out: &mut dyn Write) -> Result<(),
     }
     match arguments.format {
         TableFormat::Json => output::json(out, &result),
-        TableFormat::Csv => write_csv(&sweep, &scene.title, out),
+        TableFormat::Csv => {
+            write_csv(&sweep, &scene.title, out)?;
+            write_failed(&result, err)
+        }
         TableFormat::Text => text(&result, out),
     }
 }
@@ -113,6 +126,8 @@ struct Task<'a> {
     /// Torque and driven member; speeds are the plan's.
     case: LoadCase,
     plan: Plan,
+    /// Name of the fidelity or model, as the model itself gives it.
+    fidelity: String,
 }
 
 impl<'a> Task<'a> {
@@ -124,11 +139,11 @@ impl<'a> Task<'a> {
         if scene.geometry.is_none() {
             return Err(unfit(path, "[geometry] is absent: teeth are needed to touch"));
         }
-        let torque_nm = match arguments.torque_nm {
+        let torque_nm = match arguments.sun_torque_nm {
             Some(t) if t.is_finite() && t != 0.0 => t,
             Some(t) => {
                 let reason = format!("{t}: allowed is a finite torque other than 0 N·m");
-                return Err(refused("--torque-nm", reason));
+                return Err(refused("--sun-torque-nm", reason));
             }
             None => operating_torque(path, scene)?,
         };
@@ -153,7 +168,23 @@ impl<'a> Task<'a> {
         let plan = Plan::new(&speeds, directions, steady).map_err(refuse("--speeds-rpm"))?;
         let failed = |source| CommandError::File { what: "cannot read", path: path.into(), source };
         let text = gearset::read_text(path, MOST_BYTES).map_err(failed)?;
-        Ok(Self { arguments, text, case, plan })
+        let fidelity = match arguments.model {
+            Model::FeContact => fidelity_name(scene.dynamics.fidelity),
+            Model::Lumped => LUMPED.into(),
+        };
+        Ok(Self { arguments, text, case, plan, fidelity })
+    }
+
+    /// What a folder of a plan's points says that they were computed from.
+    fn manifest(&self, plan: &Plan) -> Manifest {
+        let (text, fidelity) = (self.text.clone(), self.fidelity.clone());
+        Manifest::new(text, fidelity, self.case.sun_torque_nm, plan.clone())
+    }
+
+    /// The folder of `--out` for this process alone; `None` without that argument.
+    fn claim(&self) -> Result<Option<Claim>, CommandError> {
+        let Some(folder) = &self.arguments.out else { return Ok(None) };
+        Claim::of(folder, &self.manifest(&self.plan), self.arguments.refine).map(Some)
     }
 
     /// Runs one plan and stores its points if a folder is given.
@@ -165,15 +196,10 @@ impl<'a> Task<'a> {
     ) -> Result<Sweep, CommandError> {
         let bar = progress(plan.points() as u64);
         let store: Box<dyn PointStore> = match &self.arguments.out {
-            Some(folder) => {
-                let text = self.text.clone();
-                let wanted =
-                    Manifest::new(text, model.name(), self.case.sun_torque_nm, plan.clone());
-                Box::new(Folder::open(folder, manifest, &wanted)?)
-            }
+            Some(folder) => Box::new(Folder::open(folder, manifest, &self.manifest(plan))?),
             None => Box::new(Memory),
         };
-        let done = |_: &experiments::sweep::SweepPoint| bar.inc(1);
+        let done = |_: &Kept| bar.inc(1);
         let found = run_plan(model, plan, store.as_ref(), &done);
         bar.finish_and_clear();
         found.map_err(|e| match e {

@@ -2,7 +2,9 @@
 
 use std::io::Write;
 
-use experiments::sweep::{Part, Response, SteadySettings, Sweep, SweepPoint};
+use experiments::sweep::{
+    FailedPoint, MOST_REPEATS, Part, Response, SteadySettings, Sweep, SweepPoint,
+};
 use gearset::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -20,7 +22,7 @@ pub struct SweepOutput {
     /// Version of the program.
     version: String,
     /// Torque on the sun, N·m.
-    torque_nm: f64,
+    sun_torque_nm: f64,
     /// Steps in a mesh cycle.
     steps_per_cycle: u32,
     /// Largest change of a steady state from cycle to cycle, over its peak-to-peak vibration.
@@ -31,17 +33,20 @@ pub struct SweepOutput {
     harmonics: usize,
     /// Cycles over which energy between harmonics is measured.
     between_cycles: usize,
-    /// Points by chain.
-    chains: Vec<ChainOutput>,
+    /// Points by speed, at one speed in the order of their chains. The translation that tables and figures show
+    /// is √(R² + T²) of the amplitudes R and T of `radial` and `tangential` in one harmonic.
+    points: Vec<ChainPoint>,
+    /// Speeds at which nothing could be computed, by speed.
+    failed: Vec<FailedPoint>,
 }
 
-/// One chain.
+/// A point with the chain that it belongs to.
 #[derive(Debug, Serialize, JsonSchema)]
-struct ChainOutput {
-    /// Name.
-    name: String,
-    /// Points in the order they were computed in.
-    points: Vec<SweepPoint>,
+struct ChainPoint {
+    /// Chain of the plan: `up_00`, `down_00`, `peak_00` and so on.
+    chain: String,
+    #[serde(flatten)]
+    point: SweepPoint,
 }
 
 /// The JSON file beside the table of a sweep.
@@ -53,6 +58,8 @@ pub(super) struct Sidecar<'a> {
     scene_file: &'a str,
     columns: [(&'static str, &'static str); 14],
     points: Vec<PointHead<'a>>,
+    /// Speeds that have no rows in the table, with the reason.
+    failed: &'a [FailedPoint],
 }
 
 /// A point without its harmonics.
@@ -65,7 +72,10 @@ struct PointHead<'a> {
     residual: f64,
     is_steady: bool,
     between_harmonics: Option<f64>,
-    backside_contact: f64,
+    repeats_after: Option<usize>,
+    lowest_force_n: f64,
+    contact_loss: f64,
+    backside_contact: Option<f64>,
     times_load_doubled: usize,
     kinematic_rest_m: Option<f64>,
     kinematic_rest_share: Option<f64>,
@@ -74,19 +84,25 @@ struct PointHead<'a> {
 const COLUMNS: [(&str, &str); 14] = [
     ("scene", "title of the scene"),
     ("fidelity", "fidelity of the fidelity ladder"),
-    ("torque_nm", "torque on the sun, N m"),
+    ("sun_torque_nm", "torque on the sun, N m"),
     ("speed_rpm", "speed of the input member, rpm"),
     ("mesh_frequency_hz", "mesh frequency, Hz"),
     ("chain", "chain of the plan: up, down, or about a peak"),
     ("body", "carrier, ring, sun, planet_n, sun_mesh_n, ring_mesh_n"),
     (
         "coordinate",
-        "radial, tangential (m; central bodies: towards planet 0), rotation (rad), force (N), share and contact_loss (1)",
+        "radial, tangential (m; central bodies: towards planet 0), rotation (rad), translation (m; square root of the sum of the squared amplitudes of radial and tangential), force (N); with harmonic 0 alone: share (largest load share of the mesh), contact_loss (part of the time without force), backside_contact (part of the time in which backside flanks press), lowest_force (N)",
     ),
-    ("harmonic", "harmonic of the mesh frequency; 0 is the mean"),
+    (
+        "harmonic",
+        "harmonic of the mesh frequency; 0 is the mean, and stands beside quantities without harmonics",
+    ),
     ("amplitude", "amplitude in the unit of the next column"),
     ("unit", "unit"),
-    ("phase_rad", "phase of A cos(2 pi l f_m t + phase), t from position 0, rad"),
+    (
+        "phase_rad",
+        "phase of A cos(2 pi l f_m t + phase), t from position 0, rad; 0 for quantities without phase",
+    ),
     ("cycles", "mesh cycles marched"),
     ("residual", "change of the last two cycles over the largest peak-to-peak vibration"),
 ];
@@ -94,25 +110,26 @@ const COLUMNS: [(&str, &str); 14] = [
 impl SweepOutput {
     pub(super) fn new(
         scene: &Scene,
-        torque_nm: f64,
+        sun_torque_nm: f64,
         settings: &SteadySettings,
         sweep: &Sweep,
     ) -> Self {
-        let chain = |(name, points): &(String, Vec<SweepPoint>)| ChainOutput {
-            name: name.clone(),
-            points: points.clone(),
+        let point = |(chain, point): (&str, &SweepPoint)| ChainPoint {
+            chain: chain.to_owned(),
+            point: point.clone(),
         };
         Self {
             scene: scene.title.clone(),
             fidelity: sweep.fidelity.clone(),
             version: env!("CARGO_PKG_VERSION").into(),
-            torque_nm,
+            sun_torque_nm,
             steps_per_cycle: scene.dynamics.steps_per_cycle,
             tolerance: settings.tolerance,
             most_cycles: settings.most_cycles,
             harmonics: settings.harmonics,
             between_cycles: settings.between_cycles,
-            chains: sweep.chains.iter().map(chain).collect(),
+            points: sweep.by_speed().into_iter().map(point).collect(),
+            failed: sweep.failed_by_speed().into_iter().cloned().collect(),
         }
     }
 
@@ -122,28 +139,30 @@ impl SweepOutput {
         head.insert("scene".into(), self.scene.clone().into());
         head.insert("fidelity".into(), self.fidelity.clone().into());
         head.insert("version".into(), self.version.clone().into());
-        head.insert("torque_nm".into(), self.torque_nm.into());
+        head.insert("sun_torque_nm".into(), self.sun_torque_nm.into());
         head.insert("steps_per_cycle".into(), self.steps_per_cycle.into());
         head.insert("tolerance".into(), self.tolerance.into());
         head.insert("most_cycles".into(), self.most_cycles.into());
         head.insert("harmonics".into(), self.harmonics.into());
         head.insert("between_cycles".into(), self.between_cycles.into());
-        let points = self.chains.iter().flat_map(|chain| {
-            chain.points.iter().map(|p| PointHead {
-                chain: &chain.name,
-                speed_rpm: p.state.case.speed_rpm,
-                mesh_frequency_hz: p.state.case.mesh_frequency_hz,
-                cycles: p.cycles,
-                residual: p.residual,
-                is_steady: p.is_steady,
-                between_harmonics: p.between,
-                backside_contact: p.backside_contact,
-                times_load_doubled: p.size,
-                kinematic_rest_m: p.kinematic_rest_m,
-                kinematic_rest_share: p.kinematic_rest_share,
-            })
+        let points = self.points.iter().map(|ChainPoint { chain, point: p }| PointHead {
+            chain,
+            speed_rpm: p.state.case.speed_rpm,
+            mesh_frequency_hz: p.state.case.mesh_frequency_hz,
+            cycles: p.cycles,
+            residual: p.residual,
+            is_steady: p.is_steady,
+            between_harmonics: p.between,
+            repeats_after: p.repeats_after,
+            lowest_force_n: p.lowest_force_n,
+            contact_loss: p.contact_loss,
+            backside_contact: p.backside_contact,
+            times_load_doubled: p.size,
+            kinematic_rest_m: p.kinematic_rest_m,
+            kinematic_rest_share: p.kinematic_rest_share,
         });
-        Sidecar { head, scene_file, columns: COLUMNS, points: points.collect() }
+        let (columns, points) = (COLUMNS, points.collect());
+        Sidecar { head, scene_file, columns, points, failed: &self.failed }
     }
 }
 
@@ -160,9 +179,34 @@ pub(super) fn write_csv(
     Ok(writer.flush()?)
 }
 
-/// One line per speed: strongest harmonics of the sun's motion, contact loss, cycles and residual.
+/// Speeds that could not be computed, each with its reason; nothing if there are none.
+pub(super) fn write_failed(result: &SweepOutput, out: &mut dyn Write) -> Result<(), CommandError> {
+    if result.failed.is_empty() {
+        return Ok(());
+    }
+    let (failed, all) = (result.failed.len(), result.points.len() + result.failed.len());
+    writeln!(out, "{failed} of {all} speeds could not be computed:")?;
+    for point in &result.failed {
+        writeln!(out, "  {:.1} rpm ({}): {}", point.case.speed_rpm, point.chain, point.reason)?;
+    }
+    Ok(())
+}
+
+/// Below the table: what each column is.
+const LEGEND: &str = "\
+rotation, translation: the sun's strongest harmonic, and its number l as a multiple of the mesh frequency
+translation: √(R² + T²) of the amplitudes R and T of the radial and the tangential displacement
+lowest N: lowest force of any mesh during a cycle, N
+no contact: largest part of the time in which a mesh carries nothing; – for never
+backside: part of the time in which backside flanks of any mesh press; n/a for a model without backside flanks
+repeats: mesh cycles after which the motion repeats; – for none up to 8: not periodic, or not settled yet
+cycles: mesh cycles integrated; residual: change between the last two of them over the peak-to-peak vibration";
+
+/// One line per speed: strongest harmonics of the sun's motion, contact, cycles and residual; then a legend,
+/// warnings, and the speeds that could not be computed.
 pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), CommandError> {
-    writeln!(out, "{}: {}, {} N·m on the sun\n", result.scene, result.fidelity, result.torque_nm)?;
+    let (scene, fidelity, torque) = (&result.scene, &result.fidelity, result.sun_torque_nm);
+    writeln!(out, "{scene}: {fidelity}, {torque} N·m on the sun\n")?;
     let header = [
         "chain",
         "rpm",
@@ -171,50 +215,164 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
         "l",
         "translation µm",
         "l",
+        "lowest N",
         "no contact",
+        "backside",
+        "repeats",
         "cycles",
         "residual",
     ];
-    let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9]);
-    let (mut unsteady, mut beyond) = (0, 0);
-    for chain in &result.chains {
-        for p in &chain.points {
-            let rotation = Response::Rotation(Part::Sun).strongest(&p.state, result.harmonics);
-            let translation =
-                Response::Translation(Part::Sun).strongest(&p.state, result.harmonics);
-            unsteady += usize::from(!p.is_steady);
-            beyond += usize::from(p.is_beyond_linear);
-            table.add_row([
-                chain.name.clone(),
-                format!("{:.1}", p.state.case.speed_rpm),
-                format!("{:.1}", p.state.case.mesh_frequency_hz),
-                format!("{:.3}", 1e6 * rotation.0),
-                rotation.1.to_string(),
-                format!("{:.4}", 1e6 * translation.0),
-                if translation.0 > 1e-12 { translation.1.to_string() } else { "–".into() },
-                output::share(p.state.largest_contact_loss()),
-                p.cycles.to_string(),
-                format!("{:.0e}", p.residual),
-            ]);
-        }
+    let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]);
+    for ChainPoint { chain, point: p } in &result.points {
+        let rotation = Response::Rotation(Part::Sun).strongest(&p.state, result.harmonics);
+        let translation = Response::Translation(Part::Sun).strongest(&p.state, result.harmonics);
+        table.add_row([
+            chain.clone(),
+            format!("{:.1}", p.state.case.speed_rpm),
+            format!("{:.1}", p.state.case.mesh_frequency_hz),
+            format!("{:.3}", 1e6 * rotation.0),
+            rotation.1.to_string(),
+            format!("{:.4}", 1e6 * translation.0),
+            if translation.0 > 1e-12 { translation.1.to_string() } else { "–".into() },
+            format!("{:.0}", p.lowest_force_n),
+            output::share(p.contact_loss),
+            p.backside_contact.map_or("n/a".into(), output::share),
+            p.repeats_after.map_or("–".into(), |cycles| cycles.to_string()),
+            p.cycles.to_string(),
+            format!("{:.0e}", p.residual),
+        ]);
     }
     writeln!(out, "{table}")?;
-    writeln!(
-        out,
-        "Sun's strongest harmonic l of the mesh frequency; no contact: largest part of a cycle in which a mesh carries nothing."
-    )?;
+    writeln!(out, "{LEGEND}")?;
+    let count = |is: fn(&SweepPoint) -> bool| {
+        result.points.iter().filter(|ChainPoint { point, .. }| is(point)).count()
+    };
+    let beyond = count(|p| p.is_beyond_linear);
     if beyond > 0 {
         writeln!(
             out,
             "Warning: at {beyond} of these speeds approaches of tooth pairs are off their linear form about the mean loaded configuration by more than 1 % of the sun's motion; `dynamics.kinematics` = \"exact\" sweeps without it, slowly."
         )?;
     }
+    let apart = count(|p| p.contact_loss > 0.0);
+    if apart > 0 {
+        writeln!(
+            out,
+            "At {apart} of these speeds teeth part: a mesh carries nothing for part of the time."
+        )?;
+    }
+    let subharmonic = count(|p| p.repeats_after.is_some_and(|cycles| cycles > 1));
+    if subharmonic > 0 {
+        writeln!(
+            out,
+            "At {subharmonic} of these speeds the motion is subharmonic: it repeats only after 2 to {MOST_REPEATS} mesh cycles, and the harmonics are those of a single one."
+        )?;
+    }
+    let unsteady = count(|p| p.repeats_after.is_none());
     if unsteady > 0 {
         writeln!(
             out,
-            "{unsteady} of these do not repeat from cycle to cycle within {} cycles: see their residuals.",
+            "{unsteady} of these do not repeat after 1 to {MOST_REPEATS} mesh cycles, {} cycles after their start: they are not periodic or have not settled; see their residuals.",
             result.most_cycles
         )?;
     }
-    Ok(())
+    write_failed(result, out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use experiments::sweep::{Coordinate, Line, SteadyState};
+    use gearset::LoadCase;
+
+    /// A sweep of three chains: two speeds found, the first in the second chain, and one that failed.
+    fn sweep() -> Sweep {
+        let case = |rpm: f64| LoadCase::turning(1130.0, rpm, 0.35 * rpm);
+        let point = |rpm: f64, repeats_after: Option<usize>| {
+            let line = |coordinate, amplitude| Line {
+                part: Part::Sun,
+                coordinate,
+                harmonic: 1,
+                amplitude,
+                phase_rad: 0.0,
+            };
+            let lines = vec![
+                line(Coordinate::Radial, 3e-6),
+                line(Coordinate::Tangential, 4e-6),
+                line(Coordinate::Rotation, 1e-6),
+            ];
+            SweepPoint {
+                state: SteadyState { case: case(rpm), lines },
+                cycles: 40,
+                residual: 1e-10,
+                is_steady: repeats_after == Some(1),
+                between: None,
+                repeats_after,
+                lowest_force_n: 0.0,
+                contact_loss: 0.25,
+                backside_contact: None,
+                size: 0,
+                kinematic_rest_m: None,
+                kinematic_rest_share: None,
+                is_beyond_linear: false,
+            }
+        };
+        let failed = FailedPoint {
+            chain: "up_00".into(),
+            case: case(1600.0),
+            reason: "the motion diverges".into(),
+            error: None,
+        };
+        let chains = vec![
+            ("up_00".to_owned(), vec![point(1700.0, Some(2))]),
+            ("peak_00".to_owned(), vec![point(1500.0, None)]),
+        ];
+        Sweep { fidelity: "quasi-static".into(), chains, failed: vec![failed] }
+    }
+
+    fn result() -> SweepOutput {
+        let scene = gearset::template(gearset::SceneKind::Planetary);
+        let scene = Scene::from_toml(scene).unwrap();
+        SweepOutput::new(&scene, 1130.0, &SteadySettings::default(), &sweep())
+    }
+
+    #[test]
+    fn a_failed_speed_is_in_every_output() {
+        let mut out = Vec::new();
+        text(&result(), &mut out).unwrap();
+        let text = String::from_utf8(out).unwrap();
+        let last =
+            "1 of 3 speeds could not be computed:\n  1600.0 rpm (up_00): the motion diverges\n";
+        assert!(text.ends_with(last), "{text}");
+        let json = serde_json::to_value(result()).unwrap();
+        assert_eq!(json["failed"][0]["speed_rpm"], 1600.0);
+        assert_eq!(json["failed"][0]["reason"], "the motion diverges");
+        let sidecar = serde_json::to_value(result().sidecar("")).unwrap();
+        assert_eq!(sidecar["failed"], json["failed"]);
+        assert_eq!(sidecar["sun_torque_nm"], 1130.0);
+        let mut table = Vec::new();
+        write_csv(&sweep(), "a set", &mut table).unwrap();
+        let table = String::from_utf8(table).unwrap();
+        assert!(!table.contains("1600") && table.contains("sun,translation,1,"), "{table}");
+    }
+
+    #[test]
+    fn the_text_is_by_speed_and_explains_its_columns() {
+        let mut out = Vec::new();
+        text(&result(), &mut out).unwrap();
+        let text = String::from_utf8(out).unwrap();
+        assert!(text.find("1500.0").unwrap() < text.find("1700.0").unwrap(), "{text}");
+        for column in ["translation", "lowest N", "no contact", "backside", "repeats", "residual"] {
+            assert!(LEGEND.contains(&format!("{column}:")), "{column} is not explained");
+            assert!(text.contains(column), "{text}");
+        }
+        for words in [
+            "At 2 of these speeds teeth part",
+            "At 1 of these speeds the motion is subharmonic",
+            "1 of these do not repeat after 1 to 8 mesh cycles",
+            "n/a",
+        ] {
+            assert!(text.contains(words), "{words}: {text}");
+        }
+    }
 }

@@ -24,7 +24,7 @@ use Column::{Count, Number, Text};
 const COLUMNS: [(&str, Column); 14] = [
     ("scene", Text(|row| &row.scene)),
     ("fidelity", Text(|row| &row.fidelity)),
-    ("torque_nm", Number(|row| row.torque_nm)),
+    ("sun_torque_nm", Number(|row| row.sun_torque_nm)),
     ("speed_rpm", Number(|row| row.speed_rpm)),
     ("mesh_frequency_hz", Number(|row| row.mesh_frequency_hz)),
     ("chain", Text(|row| &row.chain)),
@@ -88,7 +88,7 @@ mod tests {
         let row = |speed_rpm: f64, harmonic| TableRow {
             scene: "a set".into(),
             fidelity: "quasi-static".into(),
-            torque_nm: 1130.0,
+            sun_torque_nm: 1130.0,
             speed_rpm,
             mesh_frequency_hz: 0.5 * speed_rpm,
             chain: "up_00".into(),

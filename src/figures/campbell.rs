@@ -24,7 +24,7 @@ pub fn campbell(scene: &Scene, modes: &NaturalModes) -> Option<Picture> {
         let end = (reach * TOP_SPEED_RPM, reach * f64::from(l) * top_mesh_hz);
         curves.push(Curve::new("", vec![(0.0, 0.0), end]).thin("#9aa0a6"));
         // Below the upper end of the line, to its right.
-        words.push((format!("l = {l}"), 0.955 * end.0 + 15.0, 0.93 * end.1));
+        words.push((format!("l = {l}"), 0.93 * end.0 + 90.0, 0.92 * end.1));
     }
     for mode_type in [ModeType::Translational, ModeType::Rotational, ModeType::Planet] {
         let (mut can, mut cannot) = (Vec::new(), Vec::new());

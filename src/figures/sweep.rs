@@ -122,10 +122,15 @@ fn subject(sweep: &Sweep, context: &SweepContext<'_>) -> Option<Subject> {
         0 => String::new(),
         n => format!("; {n} of {} points not settled", points.len()),
     };
+    let failed = match sweep.failed.len() {
+        0 => String::new(),
+        1 => "; 1 speed could not be computed".to_owned(),
+        n => format!("; {n} speeds could not be computed"),
+    };
     Some(Subject {
         title: context.scene.title.clone(),
         caption: format!(
-            "fidelity {}, {:.0} N·m on the sun, {:.0} to {:.0} rpm{unsettled}",
+            "fidelity {}, {:.0} N·m on the sun, {:.0} to {:.0} rpm{unsettled}{failed}",
             sweep.fidelity,
             context.torque_nm,
             first.state.case.speed_rpm,

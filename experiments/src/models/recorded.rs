@@ -5,12 +5,14 @@
 //! | file | a row is | columns |
 //! |---|---|---|
 //! | `modes.csv` | a natural frequency | `scene`, `frequency_hz`, `mode_type` (`rotational`, `translational`, `planet`, `mixed`), `multiplicity` (1 if absent) |
-//! | `mesh_cycle.csv` | one quantity at one position | `scene`, `torque_nm` (on the sun), `position` (0 to 1), `body`, `coordinate`, `value` |
-//! | `steady_states.csv` | one harmonic at one speed | `scene`, `torque_nm` (on the sun), `speed_rpm`, `mesh_frequency_hz`, `body`, `coordinate`, `harmonic`, `amplitude`, `phase_rad` |
+//! | `mesh_cycle.csv` | one quantity at one position | `scene`, `sun_torque_nm`, `position` (0 to 1), `body`, `coordinate`, `value` |
+//! | `steady_states.csv` | one harmonic at one speed | `scene`, `sun_torque_nm`, `speed_rpm`, `mesh_frequency_hz`, `body`, `coordinate`, `harmonic`, `amplitude`, `phase_rad` |
 //!
 //! `scene` is the title in the scene file. Bodies are `sun`, `planet_0`, `sun_mesh_0`, `ring_mesh_0` and so on;
 //! coordinates are `x`, `y`, `rotation` and `force` in a mesh cycle, `radial`, `tangential`, `rotation` and `force`
-//! in steady states, which are written so by `epicyclic sweep --out`. Units are Hz, N m, rpm, m, rad, N.
+//! in steady states, which are written so by `epicyclic sweep --out`; its further coordinates (`translation`,
+//! `share`, `contact_loss`, `lowest_force`, `backside_contact`) may be there. `sun_torque_nm` is the torque on the
+//! sun. Units are Hz, N m, rpm, m, rad, N.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -100,7 +102,7 @@ struct ModeRow {
 #[derive(Serialize, Deserialize)]
 struct CycleRow {
     scene: String,
-    torque_nm: f64,
+    sun_torque_nm: f64,
     position: f64,
     body: String,
     coordinate: String,
@@ -110,7 +112,7 @@ struct CycleRow {
 #[derive(Serialize, Deserialize)]
 struct StateRow {
     scene: String,
-    torque_nm: f64,
+    sun_torque_nm: f64,
     speed_rpm: f64,
     mesh_frequency_hz: f64,
     body: String,
@@ -227,7 +229,7 @@ impl Recorded {
             cycle.states.iter().flat_map(move |state| {
                 let row = move |part: Part, coordinate: &str, value: f64| CycleRow {
                     scene: scene.clone(),
-                    torque_nm: cycle.case.sun_torque_nm,
+                    sun_torque_nm: cycle.case.sun_torque_nm,
                     position: state.position,
                     body: part.name(),
                     coordinate: coordinate.to_owned(),
@@ -248,7 +250,7 @@ impl Recorded {
         let states = self.steady_states.iter().flat_map(|(scene, state)| {
             state.lines.iter().map(move |line| StateRow {
                 scene: scene.clone(),
-                torque_nm: state.case.sun_torque_nm,
+                sun_torque_nm: state.case.sun_torque_nm,
                 speed_rpm: state.case.speed_rpm,
                 mesh_frequency_hz: state.case.mesh_frequency_hz,
                 body: line.part.name(),
@@ -289,13 +291,13 @@ impl Recorded {
     }
 
     fn take_rest(&mut self, path: &Path, row: CycleRow) -> Result<(), RecordedError> {
-        finite(path, "torque_nm", row.torque_nm)?;
+        finite(path, "sun_torque_nm", row.sun_torque_nm)?;
         finite(path, "position", row.position)?;
         finite(path, "value", row.value)?;
         let part = part_named(path, &row.body)?;
-        let case = LoadCase::standing(row.torque_nm);
+        let case = LoadCase::standing(row.sun_torque_nm);
         let is_own = |(scene, cycle): &(String, MeshCycle)| {
-            *scene == row.scene && cycle.case.sun_torque_nm == row.torque_nm
+            *scene == row.scene && cycle.case.sun_torque_nm == row.sun_torque_nm
         };
         let at = match self.mesh_cycles.iter().position(is_own) {
             Some(at) => at,
@@ -329,7 +331,7 @@ impl Recorded {
 
     fn take_line(&mut self, path: &Path, row: StateRow) -> Result<(), RecordedError> {
         for (column, value) in [
-            ("torque_nm", row.torque_nm),
+            ("sun_torque_nm", row.sun_torque_nm),
             ("speed_rpm", row.speed_rpm),
             ("mesh_frequency_hz", row.mesh_frequency_hz),
             ("amplitude", row.amplitude),
@@ -343,7 +345,7 @@ impl Recorded {
             path: path.to_owned(),
             column: "coordinate",
             value: row.coordinate.clone(),
-            allowed: "radial, tangential, rotation, force, share or contact_loss",
+            allowed: "radial, tangential, rotation, translation, force, share, contact_loss, lowest_force or backside_contact",
         })?;
         let line = Line {
             part,
@@ -354,14 +356,15 @@ impl Recorded {
         };
         let is_own = |(scene, state): &(String, SteadyState)| {
             *scene == row.scene
-                && state.case.sun_torque_nm == row.torque_nm
+                && state.case.sun_torque_nm == row.sun_torque_nm
                 && state.case.speed_rpm == row.speed_rpm
         };
         // The newest first: rows come by speed.
         match self.steady_states.iter_mut().rev().find(|own| is_own(own)) {
             Some((_, state)) => state.lines.push(line),
             None => {
-                let case = LoadCase::turning(row.torque_nm, row.speed_rpm, row.mesh_frequency_hz);
+                let case =
+                    LoadCase::turning(row.sun_torque_nm, row.speed_rpm, row.mesh_frequency_hz);
                 self.steady_states.push((row.scene, SteadyState { case, lines: vec![line] }));
             }
         }
@@ -498,12 +501,15 @@ mod tests {
             ("a,1,inf,sun,x,1", "position"),
             ("a,1,0,sun,x,NaN", "value"),
         ] {
-            let header = "scene,torque_nm,position,body,coordinate,value";
+            let header = "scene,sun_torque_nm,position,body,coordinate,value";
             write("mesh_cycle.csv", &format!("{header}\n{row}\n"));
             assert!(refusal().contains(column), "{}", refusal());
         }
-        write("mesh_cycle.csv", "scene,torque_nm,position,body,coordinate,value\na,1,0,sun,x,1\n");
-        write("steady_states.csv", "scene,torque_nm\na,1\n");
+        write(
+            "mesh_cycle.csv",
+            "scene,sun_torque_nm,position,body,coordinate,value\na,1,0,sun,x,1\n",
+        );
+        write("steady_states.csv", "scene,sun_torque_nm\na,1\n");
         assert!(refusal().contains("steady_states.csv"), "{}", refusal());
     }
 }

@@ -32,8 +32,15 @@ pub trait Marching {
     /// carrier frame, counter-clockwise.
     fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>);
 
-    /// Force of each mesh: sun meshes, ring meshes, then backside flanks if any touch, N.
+    /// Force of each mesh: sun meshes, ring meshes, then, if any backside flanks touch, the force of the
+    /// backside flanks of each mesh in the same order, N.
     fn mesh_forces(&self, out: &mut Vec<f64>);
+
+    /// Whether the model has backside flanks, so that [`mesh_forces`](Self::mesh_forces) without forces of
+    /// them means that none touches; `false` leaves backside contact out of the results.
+    fn has_backside(&self) -> bool {
+        true
+    }
 
     /// Kinematic rest (largest deviation of a pair's approach from its linear form) and the sun's base
     /// radius, m; `None` for a model without approaches of single pairs.

@@ -8,8 +8,11 @@ use gearset::{Fidelity, LoadCase, MeshLaw, Scene};
 use lumped::TimeVarying;
 
 use super::marching::{Effort, Marching};
-use super::sweep_model::SweepModel;
+use super::sweep_model::{SweepModel, fidelity_name};
 use crate::error::ExperimentError;
+
+/// Name of the lumped model, as tables print it.
+pub const LUMPED: &str = "lumped";
 
 /// A set whose meshes follow a law made under the torque of the sweep.
 #[derive(Debug)]
@@ -51,7 +54,7 @@ impl<'s> MeshLawModel<'s> {
 
 impl SweepModel for MeshLawModel<'_> {
     fn name(&self) -> String {
-        if self.is_lumped { "lumped".into() } else { "mesh-law".into() }
+        if self.is_lumped { LUMPED.into() } else { fidelity_name(Fidelity::MeshLaw) }
     }
 
     fn case(&self) -> LoadCase {
@@ -76,13 +79,14 @@ impl SweepModel for MeshLawModel<'_> {
         _: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
         let (law, torque) = (self.law.clone(), self.case.sun_load_nm());
+        let has_backside = law.has_backside();
         let (sense, mesh_frequency) = (self.case.sense(), case.mesh_frequency_hz);
         if self.is_lumped {
             let set = TimeVarying::new(&self.scene, sense, law, mesh_frequency)?;
-            return Ok(Box::new(LumpedMarching(set, torque)));
+            return Ok(Box::new(LumpedMarching(set, torque, has_backside)));
         }
         let set = MeshLawSet::on(&self.scene, &self.loaded, mesh_frequency, law)?;
-        Ok(Box::new(LawMarching(set, torque)))
+        Ok(Box::new(LawMarching(set, torque, has_backside)))
     }
 }
 
@@ -114,10 +118,10 @@ fn shaped(flat: &[f64], pattern: &CoupledState) -> Option<CoupledState> {
 /// A state of another kind of set.
 const FOREIGN: ExperimentError = ExperimentError::Incomplete("state that fits this model");
 
-/// A set with the torque it rests under, N m.
-struct LawMarching<'s>(MeshLawSet<'s>, f64);
+/// A set with the torque it rests under (N m), and whether its law tabulates backside flanks.
+struct LawMarching<'s>(MeshLawSet<'s>, f64, bool);
 
-struct LumpedMarching(TimeVarying, f64);
+struct LumpedMarching(TimeVarying, f64, bool);
 
 macro_rules! marching {
     ($which:ty) => {
@@ -136,6 +140,10 @@ macro_rules! marching {
 
             fn mesh_forces(&self, out: &mut Vec<f64>) {
                 self.0.mesh_forces(out);
+            }
+
+            fn has_backside(&self) -> bool {
+                self.2
             }
 
             fn effort(&self) -> Effort {

@@ -1,6 +1,7 @@
 //! Speed sweeps: steady states of a turning set by marching, their harmonics, as fixed plans.
 
 mod extrapolation;
+mod failed_point;
 mod judge;
 mod marching;
 mod mesh_law_model;
@@ -14,9 +15,10 @@ mod state;
 mod steady;
 mod sweep_model;
 
+pub use failed_point::FailedPoint;
 pub use judge::{Assigned, Content, assigned, contents, peak_speeds};
 pub use marching::{Effort, Marching};
-pub use mesh_law_model::MeshLawModel;
+pub use mesh_law_model::{LUMPED, MeshLawModel};
 pub use naturals::naturals;
 pub use peaks::{Peak, Response, peaks, top_of_three};
 pub use plan::{Chain, Direction, Plan, PlanError, even_speeds};
@@ -24,5 +26,5 @@ pub use point::{SweepPoint, TableRow};
 pub use record::Record;
 pub use run::{Kept, Memory, PointStore, StoreError, Sweep, run};
 pub use state::{Coordinate, Line, Part, SteadyState};
-pub use steady::{Steady, SteadySettings, steady};
-pub use sweep_model::{FeModel, HEADROOM, SweepModel};
+pub use steady::{MOST_REPEATS, Steady, SteadySettings, steady};
+pub use sweep_model::{FeModel, HEADROOM, SweepModel, fidelity_name};

@@ -7,7 +7,9 @@ use super::state::{Coordinate, Part, SteadyState};
 pub enum Response {
     /// Rotation of a body, rad.
     Rotation(Part),
-    /// Translation of a body, √(|radial|² + |tangential|²), m.
+    /// Translation of a body: √(R² + T²) of the amplitudes R and T of its radial and tangential displacement
+    /// in one harmonic, m. For motion along a straight line it is the amplitude of that motion, for a circular
+    /// orbit √2 times the radius.
     Translation(Part),
 }
 

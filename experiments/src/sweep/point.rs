@@ -22,8 +22,18 @@ pub struct SweepPoint {
     pub is_steady: bool,
     /// Energy between mesh harmonics over all vibration.
     pub between: Option<f64>,
-    /// Part of the cycle in which backside flanks press.
-    pub backside_contact: f64,
+    /// Number of mesh cycles after which the motion repeats within the tolerance: 1 for a steady state, 2 to 8
+    /// for a subharmonic response; absent if it repeats after none of these, because it is not periodic or has
+    /// not settled yet. Harmonics are those of one mesh cycle in any case; contact is counted over one period,
+    /// or over 8 mesh cycles if there is none.
+    pub repeats_after: Option<usize>,
+    /// Lowest force of any mesh, N; 0 where flanks part.
+    pub lowest_force_n: f64,
+    /// Largest part of the time in which a mesh carries no force, 0 to 1.
+    pub contact_loss: f64,
+    /// Part of the time in which backside flanks of any mesh press, 0 to 1; absent for a model without
+    /// backside flanks.
+    pub backside_contact: Option<f64>,
     /// How often the load the tables are made for was doubled.
     pub size: usize,
     /// What approaches of tooth pairs are off their linear form about the mean loaded configuration at
@@ -43,7 +53,7 @@ pub struct TableRow {
     /// Fidelity or model.
     pub fidelity: String,
     /// Torque on the sun, N m.
-    pub torque_nm: f64,
+    pub sun_torque_nm: f64,
     /// Speed of the input member, rpm.
     pub speed_rpm: f64,
     /// f_m, Hz.
@@ -106,12 +116,13 @@ impl SweepPoint {
         for mesh in 0..2 * planets {
             add(part(mesh), Coordinate::Force, first + mesh)?;
         }
-        let forces: Vec<Vec<f64>> =
-            (0..2 * planets).map(|mesh| record.channel(first + mesh)).collect();
-        let steps = record.len().max(1) as f64;
+        let watched = found.watched();
+        let forces: Vec<Vec<f64>> = (0..2 * planets).map(|mesh| watched.mesh_force(mesh)).collect();
+        let steps = watched.len().max(1) as f64;
+        let (mut lowest_force_n, mut contact_loss) = (f64::INFINITY, 0.0f64);
         for side in 0..2 {
             let side = side * planets..(side + 1) * planets;
-            let total: Vec<f64> = (0..record.len())
+            let total: Vec<f64> = (0..watched.len())
                 .map(|k| forces[side.clone()].iter().map(|f| f[k]).sum())
                 .collect();
             for mesh in side {
@@ -127,6 +138,12 @@ impl SweepPoint {
                 };
                 lines.push(single(Coordinate::Share, share.fold(0.0f64, f64::max)));
                 lines.push(single(Coordinate::ContactLoss, lost));
+                let lowest = forces[mesh].iter().fold(f64::INFINITY, |a, f| a.min(*f));
+                lines.push(single(Coordinate::LowestForce, lowest));
+                let behind = watched.backside_share(Some(mesh));
+                lines.extend(behind.map(|share| single(Coordinate::BacksideContact, share)));
+                lowest_force_n = lowest_force_n.min(lowest);
+                contact_loss = contact_loss.max(lost);
             }
         }
         Ok(Self {
@@ -135,7 +152,10 @@ impl SweepPoint {
             residual: found.residual,
             is_steady: found.residual <= settings.tolerance,
             between: found.between,
-            backside_contact: record.with_backside as f64 / steps,
+            repeats_after: found.repeats_after,
+            lowest_force_n,
+            contact_loss,
+            backside_contact: watched.backside_share(None),
             size,
             kinematic_rest_m: found.rest.map(|rest| rest.largest),
             kinematic_rest_share: found.rest.and_then(|rest| rest.share),

@@ -14,8 +14,10 @@ pub struct Record {
     planets: usize,
     samples: Vec<f64>,
     forces: Vec<f64>,
-    /// Steps in which backside flanks pressed.
-    pub with_backside: usize,
+    /// Whether backside flanks of each mesh (sun meshes, ring meshes) pressed, by rows as the samples.
+    backside: Vec<bool>,
+    /// Whether the model has backside flanks.
+    has_backside: bool,
 }
 
 /// Channels of the sun: x, y, rotation.
@@ -64,7 +66,8 @@ impl Record {
         set.mesh_forces(&mut self.forces);
         let fronts = 2 * self.planets;
         self.samples.extend(self.forces.iter().take(fronts));
-        self.with_backside += usize::from(self.forces.iter().skip(fronts).any(|f| *f > 0.0));
+        let behind = self.forces.get(fronts..).unwrap_or_default();
+        self.backside.extend((0..fronts).map(|mesh| behind.get(mesh).is_some_and(|f| *f > 0.0)));
     }
 
     /// Records `steps` time steps from the present state on.
@@ -78,12 +81,38 @@ impl Record {
         steps: usize,
     ) -> Result<(), ExperimentError> {
         self.samples.clear();
-        self.with_backside = 0;
+        self.backside.clear();
+        self.has_backside = set.has_backside();
         for _ in 0..steps {
             self.take(set, first_planet_rad);
             set.step()?;
         }
         Ok(())
+    }
+
+    /// Appends the samples of a record of the same set that follows this one in time.
+    pub(super) fn append(&mut self, next: Record) {
+        self.samples.extend(next.samples);
+        self.backside.extend(next.backside);
+        self.has_backside = next.has_backside;
+    }
+
+    /// Forces of one mesh (sun meshes 0 to N−1, ring meshes N to 2N−1) in order of time, N.
+    pub fn mesh_force(&self, mesh: usize) -> Vec<f64> {
+        self.channel(self.displacements() + mesh)
+    }
+
+    /// Share of the samples, 0 to 1, in which backside flanks press: of one mesh (numbered as in
+    /// [`mesh_force`](Self::mesh_force)), or for `None` of any mesh. `None` if the model has no backside
+    /// flanks.
+    pub fn backside_share(&self, mesh: Option<usize>) -> Option<f64> {
+        let presses = |row: &&[bool]| match mesh {
+            Some(mesh) => row.get(mesh).copied().unwrap_or(false),
+            None => row.contains(&true),
+        };
+        let rows = self.backside.chunks(2 * self.planets.max(1));
+        let share = rows.filter(presses).count() as f64 / self.len().max(1) as f64;
+        self.has_backside.then_some(share)
     }
 
     /// Largest sample of one channel less its smallest.

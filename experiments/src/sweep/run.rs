@@ -1,11 +1,13 @@
 //! Runs a plan: chains side by side, points kept as soon as they are there.
 
+use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 use std::sync::Mutex;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::failed_point::FailedPoint;
 use super::judge::peak_centres;
 use super::plan::{Chain, Plan};
 use super::point::{SweepPoint, TableRow};
@@ -15,13 +17,19 @@ use super::sweep_model::SweepModel;
 use crate::error::ExperimentError;
 use crate::table_growth::large_enough;
 
-/// A finished point with the state its chain goes on from.
+/// A finished point: a steady state or motion found, or a failure.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Kept {
-    /// The point.
-    pub point: SweepPoint,
-    /// State after it.
-    pub state: Vec<f64>,
+#[serde(rename_all = "snake_case")]
+pub enum Kept {
+    /// A point with the state its chain goes on from.
+    Found {
+        /// The point.
+        point: SweepPoint,
+        /// State after it.
+        state: Vec<f64>,
+    },
+    /// A speed at which nothing could be computed; its chain goes on from the state before it.
+    Failed(FailedPoint),
 }
 
 /// Why a point could not be kept or read.
@@ -68,14 +76,48 @@ pub struct Sweep {
     pub fidelity: String,
     /// Points by chain, in its order.
     pub chains: Vec<(String, Vec<SweepPoint>)>,
+    /// Speeds at which nothing could be computed, chain by chain, in the order of each chain.
+    pub failed: Vec<FailedPoint>,
 }
 
 impl Sweep {
+    /// All points with the name of their chain, by speed; at one speed in the order of the chains.
+    pub fn by_speed(&self) -> Vec<(&str, &SweepPoint)> {
+        let mut all: Vec<(&str, &SweepPoint)> = Vec::new();
+        for (name, points) in &self.chains {
+            all.extend(points.iter().map(|point| (name.as_str(), point)));
+        }
+        all.sort_by(|(_, a), (_, b)| a.state.case.speed_rpm.total_cmp(&b.state.case.speed_rpm));
+        all
+    }
+
     /// All points by speed.
     pub fn points(&self) -> Vec<&SweepPoint> {
-        let mut all: Vec<&SweepPoint> = self.chains.iter().flat_map(|(_, list)| list).collect();
-        all.sort_by(|a, b| a.state.case.speed_rpm.total_cmp(&b.state.case.speed_rpm));
+        self.by_speed().into_iter().map(|(_, point)| point).collect()
+    }
+
+    /// Failed points by speed; at one speed in the order of the chains.
+    pub fn failed_by_speed(&self) -> Vec<&FailedPoint> {
+        let mut all: Vec<&FailedPoint> = self.failed.iter().collect();
+        all.sort_by(|a, b| a.case.speed_rpm.total_cmp(&b.case.speed_rpm));
         all
+    }
+
+    /// The sweep, if every speed of its plan has a result.
+    ///
+    /// # Errors
+    /// [`ExperimentError::Failed`] with the failed point of lowest speed.
+    pub fn complete(self) -> Result<Self, ExperimentError> {
+        match self.failed_by_speed().first() {
+            Some(first) => Err(ExperimentError::Failed(Box::new((*first).clone()))),
+            None => Ok(self),
+        }
+    }
+
+    /// Adds the points of another sweep of the same model, such as one about the peaks of this one.
+    pub fn extend(&mut self, more: Self) {
+        self.chains.extend(more.chains);
+        self.failed.extend(more.failed);
     }
 
     /// Harmonics of all points by speed.
@@ -96,83 +138,102 @@ impl Sweep {
         Plan::around(&centres, span, count, steady)
     }
 
-    /// The tidy table.
+    /// The tidy table: all points by speed, at one speed in the order of the chains. Each body's radial,
+    /// tangential and rotational harmonics are followed by those of its translation.
     pub fn rows(&self, scene: &str) -> impl Iterator<Item = TableRow> {
-        self.chains.iter().flat_map(move |(chain, points)| {
-            points.iter().flat_map(move |p| {
-                p.state.lines.iter().map(move |line| TableRow {
-                    scene: scene.to_owned(),
-                    fidelity: self.fidelity.clone(),
-                    torque_nm: p.state.case.sun_torque_nm,
-                    speed_rpm: p.state.case.speed_rpm,
-                    mesh_frequency_hz: p.state.case.mesh_frequency_hz,
-                    chain: chain.clone(),
-                    body: line.part.name(),
-                    coordinate: line.coordinate.name().to_owned(),
-                    harmonic: line.harmonic,
-                    amplitude: line.amplitude,
-                    unit: line.coordinate.unit().to_owned(),
-                    phase_rad: line.phase_rad,
-                    cycles: p.cycles,
-                    residual: p.residual,
-                })
+        self.by_speed().into_iter().flat_map(move |(chain, p)| {
+            p.state.with_translations().into_iter().map(move |line| TableRow {
+                scene: scene.to_owned(),
+                fidelity: self.fidelity.clone(),
+                sun_torque_nm: p.state.case.sun_torque_nm,
+                speed_rpm: p.state.case.speed_rpm,
+                mesh_frequency_hz: p.state.case.mesh_frequency_hz,
+                chain: chain.to_owned(),
+                body: line.part.name(),
+                coordinate: line.coordinate.name().to_owned(),
+                harmonic: line.harmonic,
+                amplitude: line.amplitude,
+                unit: line.coordinate.unit().to_owned(),
+                phase_rad: line.phase_rad,
+                cycles: p.cycles,
+                residual: p.residual,
             })
         })
     }
 }
 
-/// Runs every chain of a plan; `done` hears of each point, finished now or before.
+/// Runs every chain of a plan; `done` hears of each point, finished now or before, failed ones included.
+///
+/// A speed whose march to the steady state fails is recorded in [`Sweep::failed`]. Its chain goes on with the
+/// next speed from the state after its last point that succeeded, or from rest if there is none.
 ///
 /// # Errors
-/// If a point fails or cannot be kept; finished points stay kept.
+/// If the set cannot be built or brought to rest, or a point cannot be kept or read; finished points stay
+/// kept.
 pub fn run(
     model: &dyn SweepModel,
     plan: &Plan,
     store: &dyn PointStore,
-    done: &(dyn Fn(&SweepPoint) + Sync),
+    done: &(dyn Fn(&Kept) + Sync),
 ) -> Result<Sweep, ExperimentError> {
     plan.steady.check(model.steps_per_cycle())?;
-    let found: Mutex<BTreeMap<usize, Vec<SweepPoint>>> = Mutex::default();
+    type Chained = (Vec<SweepPoint>, Vec<FailedPoint>);
+    let found: Mutex<BTreeMap<usize, Chained>> = Mutex::default();
     plan.chains.par_iter().enumerate().try_for_each(|(k, chain)| {
-        let mut points = Vec::with_capacity(chain.speeds_rpm.len());
+        let (mut points, mut failed) = Chained::default();
         let mut state: Option<Vec<f64>> = None;
         for (index, speed) in chain.speeds_rpm.iter().enumerate() {
             let kept = match store.load(chain, index)? {
                 Some(kept) => kept,
                 None => {
-                    let kept = one(model, *speed, state.as_deref(), &plan.steady)?;
+                    let kept = one(model, chain, *speed, state.as_deref(), &plan.steady)?;
                     store.save(chain, index, &kept)?;
                     kept
                 }
             };
-            done(&kept.point);
-            points.push(kept.point);
-            state = Some(kept.state);
+            done(&kept);
+            match kept {
+                Kept::Found { point, state: after } => {
+                    points.push(point);
+                    state = Some(after);
+                }
+                Kept::Failed(point) => failed.push(point),
+            }
         }
         if let Ok(mut all) = found.lock() {
-            all.insert(k, points);
+            all.insert(k, (points, failed));
         }
         Ok::<(), ExperimentError>(())
     })?;
     let found = found.into_inner().unwrap_or_default();
-    let chains = plan.chains.iter().map(|c| c.name.clone()).zip(found.into_values()).collect();
-    Ok(Sweep { fidelity: model.name(), chains })
+    let (points, failed): (Vec<_>, Vec<_>) = found.into_values().unzip();
+    let chains = plan.chains.iter().map(|c| c.name.clone()).zip(points).collect();
+    Ok(Sweep { fidelity: model.name(), chains, failed: failed.concat() })
 }
 
-/// One steady state, tables laid out for more where the load outgrows them.
+/// One steady state, tables laid out for more where the load outgrows them; a failed point if the march
+/// fails.
+///
+/// # Errors
+/// If the set cannot be built, brought to rest or put into `state`: faults that do not depend on the speed.
 fn one(
     model: &dyn SweepModel,
+    chain: &Chain,
     speed_rpm: f64,
     state: Option<&[f64]>,
     settings: &SteadySettings,
 ) -> Result<Kept, ExperimentError> {
     let case = model.case().at_speed(speed_rpm);
-    large_enough(|size| {
+    // Once a set has been built and has a state to start from, larger tables may fail, but the set-up is sound.
+    let has_started = Cell::new(false);
+    let last = RefCell::default();
+    let attempt = |size: usize| {
         let mut set = model.turning(&case, size)?;
         match state {
             Some(state) => set.restore(state)?,
             None => set.rest()?,
         }
+        has_started.set(true);
         let steps = model.steps_per_cycle();
         let found =
             steady(set.as_mut(), model.planets(), model.first_planet_rad(), steps, settings)?;
@@ -180,6 +241,20 @@ fn one(
             rest.check()?;
         }
         let point = SweepPoint::new(case, &found, settings, size)?;
-        Ok(Kept { point, state: set.state() })
-    })
+        Ok(Kept::Found { point, state: set.state() })
+    };
+    let found = large_enough(|size| {
+        attempt(size).inspect_err(|error: &ExperimentError| {
+            last.replace((size, error.to_string()));
+        })
+    });
+    match found {
+        Err(error) if has_started.get() => {
+            Ok(Kept::Failed(FailedPoint::new(&chain.name, case, error, last.into_inner())))
+        }
+        other => other,
+    }
 }
+
+#[cfg(test)]
+mod tests;

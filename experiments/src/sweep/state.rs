@@ -4,6 +4,8 @@ use gearset::LoadCase;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::peaks::Response;
+
 /// What a line is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -82,19 +84,31 @@ pub enum Coordinate {
     Force,
     /// Largest share of all sun (ring) meshes' force in the cycle.
     Share,
-    /// Part of the cycle without force.
+    /// Part of the cycle without force, 0 to 1.
     ContactLoss,
+    /// Lowest mesh force over the cycle, N.
+    LowestForce,
+    /// Part of the cycle in which backside flanks of the mesh press, 0 to 1; absent for a model without
+    /// backside flanks.
+    BacksideContact,
+    /// √(R² + T²) of the amplitudes R and T of the radial and the tangential displacement in the same
+    /// harmonic, m; it has no phase. Written to the tidy table only; for motion along a straight line it is
+    /// the amplitude of that motion, for a circular orbit √2 times the radius.
+    Translation,
 }
 
 impl Coordinate {
     /// All of them.
-    const ALL: [Self; 6] = [
+    const ALL: [Self; 9] = [
         Self::Radial,
         Self::Tangential,
         Self::Rotation,
         Self::Force,
         Self::Share,
         Self::ContactLoss,
+        Self::LowestForce,
+        Self::BacksideContact,
+        Self::Translation,
     ];
 
     /// The quantity that tables call so.
@@ -114,16 +128,19 @@ impl Coordinate {
             Self::Force => "force",
             Self::Share => "share",
             Self::ContactLoss => "contact_loss",
+            Self::LowestForce => "lowest_force",
+            Self::BacksideContact => "backside_contact",
+            Self::Translation => "translation",
         }
     }
 
     /// Unit.
     pub fn unit(self) -> &'static str {
         match self {
-            Self::Radial | Self::Tangential => "m",
+            Self::Radial | Self::Tangential | Self::Translation => "m",
             Self::Rotation => "rad",
-            Self::Force => "N",
-            Self::Share | Self::ContactLoss => "1",
+            Self::Force | Self::LowestForce => "N",
+            Self::Share | Self::ContactLoss | Self::BacksideContact => "1",
         }
     }
 }
@@ -164,6 +181,29 @@ impl SteadyState {
         self.lines
             .iter()
             .find(|l| l.part == part && l.coordinate == coordinate && l.harmonic == harmonic)
+    }
+
+    /// The lines with those of each body's [`Coordinate::Translation`] after its rotation, in every harmonic
+    /// of vibration (from 1).
+    pub fn with_translations(&self) -> Vec<Line> {
+        let mut all = Vec::with_capacity(self.lines.len());
+        for (i, line) in self.lines.iter().enumerate() {
+            all.push(line.clone());
+            let next = self.lines.get(i + 1).map(|l| (l.part, l.coordinate));
+            let is_last = next != Some((line.part, line.coordinate));
+            if line.coordinate != Coordinate::Rotation || !is_last {
+                continue;
+            }
+            let translation = |harmonic: usize| Line {
+                coordinate: Coordinate::Translation,
+                harmonic,
+                amplitude: Response::Translation(line.part).amplitude(self, harmonic),
+                phase_rad: 0.0,
+                ..line.clone()
+            };
+            all.extend((1..=line.harmonic).map(translation));
+        }
+        all
     }
 
     /// Largest part of the mesh cycle in which a mesh carries no force, 0 to 1.

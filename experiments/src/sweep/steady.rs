@@ -42,7 +42,29 @@ pub struct Steady {
     pub between: Option<f64>,
     /// Kinematic rest at a sample of positions; `None` if the model has none.
     pub rest: Option<KinematicRest>,
+    /// Number of mesh cycles after which the motion repeats within the tolerance: 1 for a steady state, 2 to
+    /// [`MOST_REPEATS`] for a subharmonic response; `None` if it repeats after none of these.
+    pub repeats_after: Option<usize>,
+    /// The cycles after `record` over which contact is watched where the motion does not repeat from cycle
+    /// to cycle: as many as it takes to repeat, or [`MOST_REPEATS`] if it does not.
+    further: Option<Record>,
 }
+
+impl Steady {
+    /// The cycles over which the lowest mesh forces, loss of contact and backside contact are counted: the
+    /// last cycle of a steady state, otherwise all cycles of one period of the motion, or
+    /// [`MOST_REPEATS`] cycles of a motion without period.
+    pub fn watched(&self) -> &Record {
+        self.further.as_ref().unwrap_or(&self.record)
+    }
+}
+
+/// Largest number of mesh cycles after which a motion is tested for repeating.
+pub const MOST_REPEATS: usize = 8;
+
+/// A motion is called subharmonic only if its change from one cycle to the next exceeds the tolerance by this
+/// factor: transients that have nearly died out change within the tolerance over one cycle or several.
+const CLEARLY: f64 = 10.0;
 
 /// Number of positions of a mesh cycle at which exact kinematics are evaluated.
 const SAMPLED: usize = 14;
@@ -71,6 +93,12 @@ pub fn steady(
             ahead.take(set, start, &now, &before, residual)?;
         }
     }
+    let (repeats_after, further) = if residual <= settings.tolerance {
+        (Some(1), None)
+    } else {
+        let (period, watched) = period(set, planets, first_planet_rad, steps, settings.tolerance)?;
+        (period, Some(watched))
+    };
     let between = match settings.between_cycles {
         0 => None,
         count => {
@@ -79,7 +107,38 @@ pub fn steady(
         }
     };
     let rest = sampled_rest(set, &now, steps)?;
-    Ok(Steady { record: now, cycles, residual, between, rest })
+    Ok(Steady { record: now, cycles, residual, between, rest, repeats_after, further })
+}
+
+/// Number of mesh cycles (2 to [`MOST_REPEATS`]) after which a motion that is not steady repeats within the
+/// tolerance, `None` if after none of these; and the cycles marched for one period or, without one, for
+/// [`MOST_REPEATS`] cycles.
+fn period(
+    set: &mut dyn Marching,
+    planets: usize,
+    first_planet_rad: f64,
+    steps: usize,
+    tolerance: f64,
+) -> Result<(Option<usize>, Record), ExperimentError> {
+    // The first cycle is marched anew: a leap may lie between the last cycle of the march and the next.
+    let mut first = Record::new(planets);
+    first.march(set, first_planet_rad, steps)?;
+    let mut watched = first.clone();
+    let mut differs = false;
+    for cycles in 1..=MOST_REPEATS {
+        let mut next = Record::new(planets);
+        next.march(set, first_planet_rad, steps)?;
+        let change = next.change_from(&first);
+        if cycles == 1 {
+            differs = change > CLEARLY * tolerance;
+        } else if differs && change <= tolerance {
+            return Ok((Some(cycles), watched));
+        }
+        if cycles < MOST_REPEATS {
+            watched.append(next);
+        }
+    }
+    Ok((None, watched))
 }
 
 /// Kinematic rest over one more cycle, also relative to the sun's largest peak-to-peak motion over the

@@ -39,6 +39,16 @@ pub trait SweepModel: Sync {
     ) -> Result<Box<dyn Marching + '_>, ExperimentError>;
 }
 
+/// Name of a fidelity of the FE/contact model, as tables print it.
+pub fn fidelity_name(fidelity: Fidelity) -> String {
+    match fidelity {
+        Fidelity::QuasiStatic => "quasi-static".into(),
+        Fidelity::Modal(n) => format!("modal({n})"),
+        Fidelity::Full => "full".into(),
+        Fidelity::MeshLaw => "mesh-law".into(),
+    }
+}
+
 /// Tables are made for this many times the even share of the load: resonance must fit.
 pub const HEADROOM: f64 = 2.0;
 
@@ -84,12 +94,7 @@ impl<'s> FeModel<'s> {
 
 impl SweepModel for FeModel<'_> {
     fn name(&self) -> String {
-        match self.scene.dynamics.fidelity {
-            Fidelity::QuasiStatic => "quasi-static".into(),
-            Fidelity::Modal(n) => format!("modal({n})"),
-            Fidelity::Full => "full".into(),
-            Fidelity::MeshLaw => "mesh-law".into(),
-        }
+        fidelity_name(self.scene.dynamics.fidelity)
     }
 
     fn case(&self) -> LoadCase {

@@ -147,7 +147,7 @@ pub(crate) fn remake() -> crate::Outcome {
     let mut sets = Vec::new();
     for (setting, model) in settings.iter().zip(&models) {
         let plan = Plan::new(&SPEEDS, &[Direction::Up], steady_settings.clone())?;
-        let sweep = run(model.as_ref(), &plan, &Memory, &|_| ())?;
+        let sweep = run(model.as_ref(), &plan, &Memory, &|_| ())?.complete()?;
         let points = sweep.points();
         tops.push(highest(&sweep.states()).ok_or("no peak")?);
         let size =

@@ -270,9 +270,9 @@ fn marches(lab: &Lab<'_>, name: &str, points: &[&SweepPoint]) -> Checks {
 /// A sweep over given speeds, refined about its peaks.
 fn swept(model: &dyn SweepModel, grid: &[f64]) -> Result<Sweep, ValidationError> {
     let plan = Plan::new(grid, &[Direction::Up], steady_settings())?;
-    let mut found = run(model, &plan, &Memory, &|_| ())?;
+    let mut found = run(model, &plan, &Memory, &|_| ())?.complete()?;
     let around = found.around_peaks(PROMINENT, SPAN, AROUND, steady_settings());
-    found.chains.extend(run(model, &around, &Memory, &|_| ())?.chains);
+    found.extend(run(model, &around, &Memory, &|_| ())?.complete()?);
     Ok(found)
 }
 
@@ -303,7 +303,7 @@ fn five(lab: &Lab<'_>, ratios: [f64; 2]) -> Checks {
     let bodies = lab.gears.of(&scene)?;
     let model = FeModel::new(&scene, &bodies, Imperfections::default(), case);
     let plan = Plan::new(&grid, &[Direction::Up], steady_settings())?;
-    let found = run(&model, &plan, &Memory, &|_| ())?;
+    let found = run(&model, &plan, &Memory, &|_| ())?.complete()?;
     let mut checks = marches(lab, "five", &found.points())?;
     checks.extend(judged(lab.reference, &scene, "five", &found.states(), None)?);
     Ok(checks)
@@ -381,7 +381,7 @@ fn at_speed(
     let bodies = lab.gears.of(scene)?;
     let model = FeModel::new(scene, &bodies, imperfections, case);
     let plan = Plan::new(&[case.speed_rpm], &[Direction::Up], settings)?;
-    Ok(run(&model, &plan, &Memory, &|_| ())?)
+    Ok(run(&model, &plan, &Memory, &|_| ())?.complete()?)
 }
 
 /// Negative controls: the same judgement of spoilt sets.

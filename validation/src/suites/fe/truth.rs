@@ -109,7 +109,7 @@ fn swept(lab: &Lab<'_>, fidelity: Fidelity, steps: u32) -> Result<Sweep, Validat
     let model =
         FeModel::new(&scene, &bodies, Imperfections::default(), under(&scene, kept.torque_nm)?);
     let model = model.with_tables(kept.table_size);
-    Ok(run(&model, &plan, &Memory, &|_| ())?)
+    Ok(run(&model, &plan, &Memory, &|_| ())?.complete()?)
 }
 
 /// Kept points by speed, as a sweep returns its own.
