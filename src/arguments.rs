@@ -301,13 +301,15 @@ pub enum SceneVerb {
         #[arg(long, value_enum, default_value_t = Kind::Planetary)]
         kind: Kind,
     },
-    /// Read a scene, report every fault, explain what it says.
+    /// Read a scene, report every fault, explain what it says, warn of unlikely values, list what verbs lack.
     Check {
         /// Scene file.
         scene: PathBuf,
         #[arg(long, value_enum, default_value_t = Format::Text)]
         format: Format,
     },
+    /// Print the JSON schema of scene files, by which editors complete and check them.
+    Schema,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

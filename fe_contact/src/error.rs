@@ -103,7 +103,7 @@ pub enum FeError {
     },
     /// A loaded patch reaches an end of its grid of contact cells where the flanks continue.
     #[error(
-        "at mesh phase {phase:.4} the contact patch of pair {pair} reaches the end of its grid of ±{reach_mm:.3} mm under {force_n:.0} N"
+        "at mesh phase {phase:.4} the contact patch of pair {pair} reaches the end of its grid of ±{reach_mm:.3} mm under {force_n:.0} N; a smaller torque (`operation.torque_nm`), or a gentler `tip_relief` (a smaller `amount_um`, a `start_diameter_mm` farther from the tip), keeps it inside"
     )]
     GridOverflow {
         /// Mesh phase, cycles.

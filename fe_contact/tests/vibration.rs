@@ -435,3 +435,96 @@ fn added_mass_rides_on_the_planets_races() {
     let count = |value: f64| more.iter().filter(|m| (*m - value).abs() < 1e-12).count();
     assert_eq!((count(0.25), count(turning), count(0.0)), (6, 3, more.len() - 9));
 }
+
+/// One complex coordinate of a mass on an isotropic spring in a frame turning at Ω, z = x + iy, obeys
+/// z̈ + 2iΩ ż + (ω₀² − Ω²) z = 0 and so z = A e^{s₁t} + B e^{s₂t}, s = i(−Ω ± ω₀): at rest in space the
+/// plane of its vibration turns backwards at Ω in the frame. Newmark's average acceleration is the
+/// trapezoidal rule and multiplies each term by (1 + sh/2)/(1 − sh/2) a step.
+///
+/// In an unloaded set the sun, turned back into the middle of its backlash, touches nothing and is such
+/// a mass on its bearing. With the ring held the carrier turns at Ω = 2π f_m/Z_r.
+#[test]
+fn a_free_sun_vibrates_in_a_plane_that_stands_still_in_space() {
+    type C = nalgebra::Complex<f64>;
+    const FREQUENCY: f64 = 20_000.0;
+    const STEPS: usize = 28;
+    let run = |gyroscopic: bool| -> (Vec<C>, f64, f64) {
+        let mut scene = scene("oh58_3p", Fidelity::QuasiStatic);
+        scene.dynamics.gyroscopic = gyroscopic;
+        scene.damping.mass_proportional_per_s = 0.0;
+        scene.damping.stiffness_proportional_s = 0.0;
+        scene.damping.bearing_s = 0.0;
+        let bodies = Bodies::new(&scene).unwrap();
+        let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
+        let unloaded = Loading { torque_nm: 0.0, mesh_force: 8e3 };
+        let rotation =
+            NominalRotation::Turning { mesh_frequency: FREQUENCY, steps_per_cycle: STEPS };
+        let made = VibratingSet::new(&scene, &bodies, sense, none, rotation, unloaded);
+        let mut set = made.unwrap();
+        set.rest(0.0).unwrap();
+        let of = |axis| set.races().of(fe_contact::statics::SUN, axis).unwrap();
+        let [x, y, turning] = [0, 1, 2].map(of);
+        let step = 1.0 / (FREQUENCY * STEPS as f64);
+        let masses = [set.masses()[x], set.masses()[turning]];
+        // A pulse of one step, F h = m v, turns the sun back by half its backlash in 40 steps; then it is
+        // stopped, and a lateral pulse starts the vibration: 10 µm, a tenth of the backlash.
+        let backlash = bodies.geometry.normal_backlash(gearset::MeshKind::SunPlanet).unwrap();
+        let speed = 0.5 * backlash / (40.0 * step);
+        set.external[turning] = -masses[1] * speed / step;
+        set.step().unwrap();
+        set.external[turning] = 0.0;
+        for _ in 0..39 {
+            set.step().unwrap();
+        }
+        set.external[turning] = masses[1] * speed / step;
+        set.step().unwrap();
+        set.external[turning] = 0.0;
+        let stiffness = 87.6e6;
+        let omega = (stiffness / masses[0]).sqrt();
+        set.external[x] = masses[0] * 10e-6 * omega / step;
+        set.step().unwrap();
+        set.external[x] = 0.0;
+        // The force of a pulse acts on both steps beside its end.
+        set.step().unwrap();
+        let mut path = Vec::new();
+        let here = |set: &VibratingSet<'_>| {
+            let m = set.motion();
+            (C::new(m.x[x], m.x[y]), C::new(m.v[x], m.v[y]))
+        };
+        let (z, v) = here(&set);
+        path.push(z);
+        path.push(v);
+        for _ in 0..600 {
+            set.step().unwrap();
+            path.push(here(&set).0);
+        }
+        let mut forces = Vec::new();
+        set.mesh_forces(&mut forces);
+        assert!(forces.iter().all(|p| p.abs() < 1e-6), "the sun must touch nothing: {forces:?}");
+        (path, omega, step)
+    };
+    let carrier = std::f64::consts::TAU * FREQUENCY / 99.0;
+    let apart = |(path, omega, step): &(Vec<C>, f64, f64), carrier: f64| {
+        let (z, v, i) = (path[0], path[1], C::i());
+        let s = [i * (omega - carrier), i * (-omega - carrier)];
+        // A + B = z, s₁A + s₂B = v
+        let a = (v - s[1] * z) / (s[0] - s[1]);
+        let mut terms = [a, z - a];
+        let factors = s.map(|s| (1.0 + s * 0.5 * step) / (1.0 - s * 0.5 * step));
+        let (mut worst, mut size) = (0.0f64, 0.0f64);
+        for found in &path[2..] {
+            (terms[0] *= factors[0], terms[1] *= factors[1]);
+            worst = worst.max((found - terms[0] - terms[1]).norm());
+            size = size.max(found.norm());
+        }
+        worst / size
+    };
+    let turning = run(true);
+    // The plane turns by 600 steps of Ωh, more than a radian.
+    assert!(600.0 * carrier * turning.2 > 1.0);
+    assert!(apart(&turning, carrier) < 1e-8, "{:e}", apart(&turning, carrier));
+    // The opposite sense, and no terms at all, are far off.
+    assert!(apart(&turning, -carrier) > 0.5 && apart(&turning, 0.0) > 0.5);
+    let still = run(false);
+    assert!(apart(&still, 0.0) < 1e-8, "{:e}", apart(&still, 0.0));
+}

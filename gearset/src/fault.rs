@@ -47,6 +47,27 @@ pub enum SceneError {
     },
 }
 
+/// The text with every control character but line ends and tabs replaced, byte for byte, so that it can be
+/// shown on a terminal and spans into it stay valid.
+pub(crate) fn printable(text: &str) -> String {
+    let is_line_end = |at: usize| text[at + 1..].starts_with('\n');
+    text.char_indices()
+        .map(|(at, c)| match c {
+            '\n' | '\t' => c,
+            '\r' if is_line_end(at) => c,
+            // U+0080 to U+009F have two bytes, as `¿`; all others have one.
+            c if c.is_control() => {
+                if c.len_utf8() == 2 {
+                    '¿'
+                } else {
+                    '?'
+                }
+            }
+            c => c,
+        })
+        .collect()
+}
+
 fn join(faults: &[Fault]) -> String {
     faults.iter().map(Fault::to_string).collect::<Vec<_>>().join("; ")
 }

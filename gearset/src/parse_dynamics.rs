@@ -22,10 +22,11 @@ pub(crate) fn dynamics(s: Section<'_, '_>) -> DynamicsInput {
     ];
     let name = s.choice("fidelity", &names, "what stands behind the teeth");
     let modes = s.integer("modes", (1, 400), "modes of each body with its race held");
-    if modes.is_some() && name != Some(Name::Modal) {
+    let is_known = !s.is_doubtful("fidelity");
+    if modes.is_some() && name != Some(Name::Modal) && is_known {
         s.fault("modes", "with fidelity = \"modal\"", "no other fidelity takes a number of modes");
     }
-    if name == Some(Name::Modal) && !s.has("modes") {
+    if name == Some(Name::Modal) && !s.may_hold("modes") {
         s.fault("modes", "a whole number from 1 to 400", "fidelity = \"modal\" needs it");
     }
     // Fewer than 16 steps do not resolve the changing number of pairs in a mesh cycle.

@@ -1,6 +1,7 @@
 //! The `[fe_contact]` table.
 
-use crate::reader::{Bound, Section};
+use crate::bound::Bound;
+use crate::reader::Section;
 use crate::scene::{ElementFamily, FeContactInput, PerMesh, PlaneState};
 
 pub(crate) fn fe_contact(s: Section<'_, '_>) -> FeContactInput {

@@ -1,7 +1,8 @@
 //! The `[lumped]` table: given values, completed from the geometry.
 
+use crate::bound::Bound;
 use crate::geometry::Geometry;
-use crate::reader::{Bound, Section};
+use crate::reader::{Document, Section};
 use crate::scene::*;
 
 fn per_body(s: Option<Section<'_, '_>>, why: &str, scale: f64) -> PerBody {
@@ -22,14 +23,16 @@ fn per_body(s: Option<Section<'_, '_>>, why: &str, scale: f64) -> PerBody {
 /// The entry of one body.
 type Entry = fn(&mut PerBody) -> &mut Option<f64>;
 
-/// Reads the table. Pressure angles and radii that are not given are taken from the geometry; with
-/// `must_give_angles`, for a scene without geometry, the angles must be given.
+/// Reads the table. Pressure angles and radii that are not given are taken from the geometry; in a scene without
+/// geometry the angles must be given.
 pub(crate) fn lumped(
     s: Section<'_, '_>,
+    document: &Document<'_>,
     geometry: Option<&Geometry>,
-    supports: Option<&Supports>,
-    must_give_angles: bool,
+    supports: &Supports,
 ) -> Option<LumpedInput> {
+    // A geometry at fault would give angles and radii once it is mended.
+    let has_geometry = document.may_hold("geometry");
     let mass = per_body(s.section("mass_kg"), "mass", 1.0);
     let inertia = per_body(s.section("inertia_kg_m2"), "polar moment of inertia I", 1.0);
     let over_r2 = per_body(s.section("inertia_over_r2_kg"), "I/r²", 1.0);
@@ -53,7 +56,7 @@ pub(crate) fn lumped(
         let (sun_planet, ring_planet) = (sun_planet?.to_radians(), ring_planet?.to_radians());
         Some(PerMesh { sun_planet, ring_planet })
     });
-    if !s.has("pressure_angle_deg") && must_give_angles {
+    if !s.has("pressure_angle_deg") && !has_geometry {
         let why = "without [geometry] the operating pressure angles must be given";
         s.fault("pressure_angle_deg", "{ sun_planet = …, ring_planet = … }", why);
     }
@@ -73,40 +76,50 @@ pub(crate) fn lumped(
         planet: given_radius.planet.or(geometry.map(|g| base(&g.planet))),
     };
     let mut inertia_over_r2 = over_r2;
-    if let Some(supports) = supports {
-        let free = Freedom::Free;
-        let bodies: [(&str, Freedom, Entry); 4] = [
-            ("carrier", supports.carrier.motion, |p| &mut p.carrier),
-            ("ring", supports.ring.motion, |p| &mut p.ring),
-            ("sun", supports.sun.motion, |p| &mut p.sun),
-            ("planet", free, |p| &mut p.planet),
-        ];
-        let (mut mass, mut inertia, mut over_r2, mut radius) = (mass, inertia, over_r2, radius);
-        for (name, motion, of) in bodies {
-            if motion != Freedom::Held && of(&mut mass).is_none() {
-                let why = format!("the {name} can move");
-                fault_in(&s, "mass_kg", name, "a mass above 0", &why);
-            }
-            match (*of(&mut inertia), *of(&mut over_r2), *of(&mut radius)) {
-                (Some(_), Some(_), _) => {
-                    let allowed = "one of inertia_kg_m2 and inertia_over_r2_kg";
-                    fault_in(&s, "inertia_over_r2_kg", name, allowed, "both say the same");
-                }
-                (None, None, _) if motion == free => {
-                    let allowed = "inertia_kg_m2, or inertia_over_r2_kg";
-                    let why = format!("the {name} can rotate");
-                    fault_in(&s, "inertia_kg_m2", name, allowed, &why);
-                }
-                (Some(_), None, None) if motion == free => {
-                    let why = format!("I/r² of the {name} needs r, and no [geometry] gives it");
-                    fault_in(&s, "radius_mm", name, "a radius above 0", &why);
-                }
-                (Some(i), None, Some(r)) => *of(&mut inertia_over_r2) = Some(i / (r * r)),
-                _ => {}
-            }
+    let free = Freedom::Free;
+    let bodies: [(&str, Freedom, Entry); 4] = [
+        ("carrier", supports.carrier.motion, |p| &mut p.carrier),
+        ("ring", supports.ring.motion, |p| &mut p.ring),
+        ("sun", supports.sun.motion, |p| &mut p.sun),
+        ("planet", free, |p| &mut p.planet),
+    ];
+    let (mut own_mass, mut inertia, mut over_r2, mut own_radius) = (mass, inertia, over_r2, radius);
+    for (name, motion, of) in bodies {
+        if name != "planet" && document.is_doubtful(&format!("{name}.motion")) {
+            continue; // Whether it can move is not known.
         }
+        let is_doubtful = |table: &str| s.is_doubtful(&format!("{table}.{name}"));
+        if motion != Freedom::Held && of(&mut own_mass).is_none() && !is_doubtful("mass_kg") {
+            let why = format!("the {name} can move");
+            fault_in(&s, "mass_kg", name, "a mass above 0", &why);
+        }
+        if is_doubtful("inertia_kg_m2") || is_doubtful("inertia_over_r2_kg") {
+            continue;
+        }
+        match (*of(&mut inertia), *of(&mut over_r2), *of(&mut own_radius)) {
+            (Some(_), Some(_), _) => {
+                let allowed = "one of inertia_kg_m2 and inertia_over_r2_kg";
+                fault_in(&s, "inertia_over_r2_kg", name, allowed, "both say the same");
+            }
+            (None, None, _) if motion == free => {
+                let allowed = "inertia_kg_m2, or inertia_over_r2_kg";
+                let why = format!("the {name} can rotate");
+                fault_in(&s, "inertia_kg_m2", name, allowed, &why);
+            }
+            (Some(_), None, None)
+                if motion == free && !has_geometry && !is_doubtful("radius_mm") =>
+            {
+                let why = format!("I/r² of the {name} needs r, and no [geometry] gives it");
+                fault_in(&s, "radius_mm", name, "a radius above 0", &why);
+            }
+            (Some(i), None, Some(r)) => *of(&mut inertia_over_r2) = Some(i / (r * r)),
+            _ => {}
+        }
+    }
+    if !has_geometry {
         torsional_needs_radius(&s, supports, &radius);
-        if supports.planet_added.inertia_kg_m2 > 0.0 && radius.planet.is_none() {
+        let is_known = !s.is_doubtful("radius_mm.planet");
+        if supports.planet_added.inertia_kg_m2 > 0.0 && radius.planet.is_none() && is_known {
             let why = "added_inertia_kg_m2 of the planet needs r";
             fault_in(&s, "radius_mm", "planet", "a radius above 0", why);
         }
@@ -136,6 +149,7 @@ fn torsional_needs_radius(s: &Section<'_, '_>, supports: &Supports, radius: &Per
     for (name, support, radius) in members {
         if let (Torsional::PerAngle(k), None) = (support.torsional, radius)
             && k > 0.0
+            && !s.is_doubtful(&format!("radius_mm.{name}"))
         {
             let why = format!("torsional_nm_per_rad of the {name} needs r");
             fault_in(s, "radius_mm", name, "a radius above 0", &why);

@@ -256,12 +256,17 @@ pub struct GearInput {
     pub tip_relief: Option<TipRelief>,
 }
 
-/// Material taken off the flank near the tip, measured along the line of action.
+/// Material taken off the flank near the tip; scene key `geometry.<gear>.tip_relief`.
+///
+/// The relief at a point is measured normal to the unrelieved flank, that is along the line of
+/// action when the point is in contact. With s the roll length of the point, s₀ that at the start
+/// and s_a that at the tip circle, it is amount · (s − s₀)/(s_a − s₀) with the shape `Linear`,
+/// amount · ((s − s₀)/(s_a − s₀))² with `Parabolic`, and 0 between the root and the start.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TipRelief {
-    /// Radius where the relief starts, m.
+    /// Radius where the relief starts, m; key `start_diameter_mm`.
     pub start_radius: f64,
-    /// Amount at the tip circle, m.
+    /// Amount at the tip circle, m; key `amount_um`.
     pub amount: f64,
     /// Growth from start to tip.
     pub shape: ReliefShape,

@@ -225,6 +225,136 @@ fn degrees_that_can_be_assembled_become_exact_steps() {
     assert_eq!(scene.planets.psi_rad[2], 63.0 * std::f64::consts::TAU / 126.0);
 }
 
+/// Keys of all faults, in the order of the alphabet.
+fn sorted_keys(text: &str) -> Vec<String> {
+    let mut keys = faulty_keys(text);
+    keys.sort();
+    keys
+}
+
+#[test]
+fn faults_of_every_stage_are_listed_in_one_run_and_nothing_that_follows_from_them() {
+    let text = changed(&[
+        ("count = 4", "count = 4\nnumber = 4"), // a key that is none
+        ("position_steps = [0, -31, 63, 32]", "position_steps = [0, 63, 63, 32]"), // whole set
+        ("face_width_mm = 25.4", ""),           // absent
+        ("tip_diameter_mm = 84.07", "tip_diameter_mm = 70.0"), // geometry of the sun
+        ("tip_diameter_mm = 271.8", "tip_diameter_mm = 269.0"), // ring mesh, by form circle
+        ("outer_diameter_mm = 233.6", "outer_diameter_mm = 180.0"), // carrier and centre distance
+        ("poisson_ratio = 0.3", "poisson_ratio = 0.7"), // value
+        ("motion = \"held\"", "motion = \"hold\""), // word
+        ("bearing_n_per_m = 87.6e6            # between", "# between"), // absent
+        ("mesh_n_per_m = { sun_planet = 350e6, ring_planet = 350e6 }", ""), // absent table
+        ("mass_kg = { sun = 0.40, ", "mass_kg = { "), // needed by a free sun
+        ("speed_rpm = 1600", "speed_rpm = "),   // syntax
+        ("\n[fe_contact]", "\n[fe_contact]\nflexibility_factor = { sun_planet = 2.0 }"),
+        ("fidelity = \"quasi_static\"", "fidelity = \"full\""), // two tables together
+    ]);
+    let expected = [
+        "fe_contact.flexibility_factor.sun_planet",
+        "geometry.carrier.outer_diameter_mm",
+        "geometry.face_width_mm",
+        "geometry.ring.tip_diameter_mm",
+        "geometry.ring.tip_diameter_mm",
+        "geometry.sun.tip_diameter_mm",
+        "geometry.sun.tip_diameter_mm",
+        "lumped.mass_kg.sun",
+        "lumped.mesh_n_per_m",
+        "material.poisson_ratio",
+        "planet.bearing_n_per_m",
+        "planets.number",
+        "planets.position_steps",
+        "ring.motion",
+        "speed_rpm",
+    ];
+    // The sun's tip lies below its root and its base circle; the ring's touches the planet beyond its form circle
+    // and collides with its tips.
+    assert_eq!(sorted_keys(&text), expected);
+}
+
+#[test]
+fn nothing_is_reported_that_only_follows_from_another_fault() {
+    let cases: [(&[(&str, &str)], &[&str]); 12] = [
+        // Positions, base radii, meshes and angles depend on the teeth.
+        (&[("sun = 27", "sun = 27.5")], &["teeth.sun"]),
+        (&[("planet = 35", "")], &["teeth.planet"]),
+        (&[("\n[teeth]", "\n[teethe]")], &["teeth", "teethe"]),
+        // The kind decides what must be there.
+        (&[("\"planetary\"  ", "\"planet\"  ")], &["kind"]),
+        // Without circles of the sun the planet's thickness is not known.
+        (&[("root_diameter_mm = 70.55", "")], &["geometry.sun.root_diameter_mm"]),
+        (
+            &[("center_distance_mm = 88.9", "center_distance_mm = -1")],
+            &["geometry.center_distance_mm"],
+        ),
+        (&[("planet_base_diameter_mm = 91.26", "")], &["geometry.base_pitch_mm"]),
+        (&[("planet_share = 0.5", "planet_share = 5")], &["geometry.thickness.planet_share"]),
+        (&[("fixed = \"ring\"", "fixed = \"moon\"")], &["operation.fixed"]),
+        (
+            &[("fidelity = \"quasi_static\"", "fidelity = \"model\"\nmodes = 4")],
+            &["dynamics.fidelity"],
+        ),
+        (&[("\n[lumped]", "\nlumped_mass = 1\n[lumped]")], &["planet.lumped_mass"]),
+        (&[("motion = \"free\"", "motion = \"fre\"\ntorsional_n_per_m = 1")], &["sun.motion"]),
+    ];
+    for (changes, keys) in cases {
+        assert_eq!(sorted_keys(&changed(changes)), keys, "{changes:?}");
+    }
+}
+
+#[test]
+fn what_a_broken_line_was_to_say_is_not_missed() {
+    let nu = ("poisson_ratio = 0.3", "poisson_ratio = 0.7");
+    let cases: [(&[(&str, &str)], &[&str]); 6] = [
+        (&[nu, ("speed_rpm = 1600", "speed_rpm = ")], &["material.poisson_ratio", "speed_rpm"]),
+        (&[nu, ("sun = 27", "sun = 27 28")], &["material.poisson_ratio", "sun"]),
+        (&[nu, ("\n[operation]", "\n[operation")], &["material.poisson_ratio", "operation"]),
+        // After a key without a value nothing is read.
+        (&[nu, ("count = 4", "count 4")], &["count 4"]),
+        // An unfinished list may hold anything that follows.
+        (
+            &[("position_steps = [0, -31, 63, 32]", "position_steps = [0, -31,"), nu],
+            &["position_steps"],
+        ),
+        (&[("count = 4", "count = 4\ncount = 4"), nu], &["count", "material.poisson_ratio"]),
+    ];
+    for (changes, keys) in cases {
+        let text = changed(changes);
+        let mut found = sorted_keys(&text);
+        found.dedup();
+        assert_eq!(found, keys, "{}", Scene::from_toml(&text).unwrap_err());
+    }
+}
+
+#[test]
+fn control_characters_reach_no_message_and_no_title() {
+    let title = "title = \"A planetary set\"";
+    for bad in [
+        "title = \"a\\u001b[2Jb\"",
+        "title = \"a\\nb\"",
+        "title = \"\"\"\na\nb\"\"\"",
+        "title = \"a\\u009b2J\"",
+    ] {
+        assert_fault(&[(title, bad)], "title", "control character U+");
+    }
+    let source = "source = \"where the numbers come from\"";
+    assert_fault(
+        &[(source, "source = \"\\u001b]0;x\\u0007\"")],
+        "source",
+        "control character U+001B",
+    );
+    // Raw ones, and ones in names of keys, are replaced where faults show the file.
+    for bad in
+        ["title = \"a\u{1b}[2J\"", "\"t\\u001b[2J\" = 1", "\u{1b}[31m = 1", "x = \"\u{9b}31m\""]
+    {
+        let error = Scene::from_toml(&changed(&[(title, bad)])).unwrap_err();
+        let gearset::SceneError::Invalid { text, faults } = &error else { panic!("{error}") };
+        let shown: String = faults.iter().map(|f| f.to_string() + &text[f.span.clone()]).collect();
+        let is_bad = |c: char| c.is_control() && c != '\n' && c != '\t';
+        assert!(!shown.contains(is_bad) && !text.contains(is_bad), "{error}");
+    }
+}
+
 /// One random edit of a scene's text.
 fn mutate(text: &str, kind: u8, at: usize, value: &str) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();

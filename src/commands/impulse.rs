@@ -9,7 +9,7 @@ use experiments::modal::{
 };
 use fe_contact::FeError;
 use fe_contact::statics::{Bodies, Races};
-use gearset::{Fidelity, LoadCase, Scene, SceneKind};
+use gearset::{Fidelity, LoadCase, Scene, SceneKind, Verb};
 #[cfg(feature = "charts")]
 use validation::ValidationError;
 
@@ -19,7 +19,8 @@ use crate::output;
 
 use super::impulse_output::ImpulseOutput;
 use super::statics::{operating_torque, refused};
-use super::{fe_refused, impulse_text, read_scene, unfit};
+use super::working::Working;
+use super::{fe_refused, impulse_text, needs, read_scene, unfit};
 
 /// Parts of the torque for which `--band` linearises.
 const BAND_TORQUES: [f64; 3] = [0.5, 1.0, 1.5];
@@ -45,9 +46,16 @@ pub(super) struct Found {
     pub(super) band: Option<FrequencyBand>,
 }
 
-pub(super) fn run(arguments: &Impulse, out: &mut dyn Write) -> Result<(), CommandError> {
+pub(super) fn run(
+    arguments: &Impulse,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
+) -> Result<(), CommandError> {
     let scene = read_scene(&arguments.scene)?;
     let preload = preload(arguments, &scene)?;
+    let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
+    needs::require(&arguments.scene, &scene, Verb::Impulse, is_given)?;
+    needs::warn(&scene, err)?;
     let found = find(arguments, scene, preload)?;
     #[cfg(feature = "charts")]
     if let Some(folder) = &arguments.figures {
@@ -144,7 +152,9 @@ fn find(arguments: &Impulse, scene: Scene, preload: Preload) -> Result<Found, Co
         }
         _ => unfit(path, e.to_string()),
     };
+    let working = Working::new("meshing and factorising the bodies");
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
+    working.now("linearising the set");
     let is_full = scene.dynamics.fidelity == Fidelity::Full;
     let mut linear_scene = scene.clone();
     if is_full {
@@ -173,7 +183,11 @@ fn find(arguments: &Impulse, scene: Scene, preload: Preload) -> Result<Found, Co
         .partition(|(mode, _)| is_inside(mode));
     let outside = outside.into_iter().map(|(mode, _)| mode).collect();
     let linear = (!is_full).then_some(inside);
+    working.now("marching the free decays");
     let test = impulse_test(&scene, &bodies, &settings).map_err(failed)?;
+    if arguments.band {
+        working.now("linearising over the mesh cycle");
+    }
     let band = arguments.band.then(|| {
         let preload: &Preload = &settings.preload;
         let (factors, count) = (&BAND_TORQUES, BAND_POSITIONS);

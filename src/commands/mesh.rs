@@ -6,7 +6,7 @@ use fe_contact::body::{CarrierBody, GearBody};
 use fe_contact::export::{Drawn, vtu};
 use fe_contact::fe_mesh::Side;
 use fe_contact::statics::Bodies;
-use gearset::{LumpedInput, Scene, SceneKind};
+use gearset::{LumpedInput, Scene, SceneKind, Verb};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -14,7 +14,8 @@ use crate::arguments::{Format, MeshVerb};
 use crate::error::CommandError;
 use crate::output;
 
-use super::{fe_refused, read_scene, save};
+use super::working::Working;
+use super::{fe_refused, needs, read_scene, save};
 
 /// `mesh --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -61,11 +62,19 @@ struct TeethOutput {
     neighbour_share: f64,
 }
 
-pub(crate) fn run(arguments: &MeshVerb, out: &mut dyn Write) -> Result<(), CommandError> {
+pub(crate) fn run(
+    arguments: &MeshVerb,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
+) -> Result<(), CommandError> {
     let path = &arguments.scene;
     let scene = read_scene(path)?;
+    needs::require(path, &scene, Verb::Mesh, |_| false)?;
+    needs::warn(&scene, err)?;
+    let working = Working::new("meshing and factorising the bodies");
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let carrier = carrier(&scene, &bodies).transpose().map_err(fe_refused(path))?;
+    drop(working);
     #[cfg(feature = "charts")]
     if let Some(file) = &arguments.svg {
         save(file, &crate::figures::meshes(&scene, &bodies, carrier.as_ref()).svg())?;

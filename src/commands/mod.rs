@@ -6,9 +6,12 @@ mod impulse_output;
 mod impulse_text;
 mod mesh;
 mod modes;
+mod needs;
 mod report;
 mod rules;
 mod scene;
+mod scene_summary;
+mod scene_text;
 mod schema;
 mod static_approach;
 mod static_pair;
@@ -25,6 +28,7 @@ mod sweep_store;
 mod validate;
 mod verdict_table;
 mod verdict_text;
+mod working;
 
 pub use schema::schemas;
 
@@ -74,12 +78,12 @@ fn dispatch(
 ) -> Result<bool, CommandError> {
     match arguments.verb {
         Verb::Validate(arguments) => validate::run(&arguments, out, err),
-        Verb::Modes(arguments) => modes::run(&arguments, out).map(|()| true),
+        Verb::Modes(arguments) => modes::run(&arguments, out, err).map(|()| true),
         Verb::Rules(arguments) => rules::run(&arguments, out).map(|()| true),
-        Verb::Static(arguments) => statics::run(&arguments, out).map(|()| true),
-        Verb::Impulse(arguments) => impulse::run(&arguments, out).map(|()| true),
+        Verb::Static(arguments) => statics::run(&arguments, out, err).map(|()| true),
+        Verb::Impulse(arguments) => impulse::run(&arguments, out, err).map(|()| true),
         Verb::Sweep(arguments) => sweep::run(&arguments, out, err).map(|()| true),
-        Verb::Mesh(arguments) => mesh::run(&arguments, out).map(|()| true),
+        Verb::Mesh(arguments) => mesh::run(&arguments, out, err).map(|()| true),
         Verb::Scene(verb) => scene::run(&verb, out).map(|()| true),
         Verb::Compare(arguments) => compare::run(&arguments, out),
     }

@@ -16,7 +16,7 @@ use crate::arguments::{Format, Modes};
 use crate::error::CommandError;
 use crate::output::{self, share};
 
-use super::{read_scene, unfit};
+use super::{needs, read_scene, unfit};
 
 /// `modes --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -67,8 +67,13 @@ struct CampbellEntry {
     is_unstable: bool,
 }
 
-pub(crate) fn run(arguments: &Modes, out: &mut dyn Write) -> Result<(), CommandError> {
+pub(crate) fn run(
+    arguments: &Modes,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
+) -> Result<(), CommandError> {
     let scene = read_scene(&arguments.scene)?;
+    needs::warn(&scene, err)?;
     if let Some(bad) = arguments.carrier_speeds_rpm.iter().find(|s| !s.is_finite()) {
         let reason = format!("{bad} is not a finite speed in rpm");
         return Err(CommandError::Argument { argument: "--carrier-speeds-rpm", reason });

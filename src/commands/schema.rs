@@ -1,4 +1,4 @@
-//! JSON schemas of every `--format json`.
+//! JSON schemas of every `--format json` and of scene files.
 
 use schemars::{JsonSchema, Schema, schema_for};
 use validation::{Comparison, Verdict};
@@ -7,19 +7,22 @@ use super::impulse_output::ImpulseOutput;
 use super::mesh::MeshOutput;
 use super::modes::ModesOutput;
 use super::rules::RulesOutput;
-use super::scene::SceneSummary;
+use super::scene_summary::SceneSummary;
 use super::static_approach::ApproachOutput;
 use super::static_pair::PairOutput;
 use super::static_set::SetOutput;
 use super::sweep_output::SweepOutput;
 use super::validate::ControlsOutput;
 
-/// `(file name, schema)` of each verb; the files in `schemas/` are regenerated with the snapshots.
+/// `(file name, schema)` of each verb's output, and of a scene file; the files in `schemas/` are regenerated with the snapshots.
 pub fn schemas() -> Vec<(&'static str, Schema)> {
     fn of<T: JsonSchema>() -> Schema {
         schema_for!(T)
     }
+    // The schema of a scene is always an object.
+    let scene = Schema::try_from(gearset::scene_schema()).unwrap_or_default();
     vec![
+        ("scene", scene),
         ("validate", of::<Verdict>()),
         ("validate_controls", of::<ControlsOutput>()),
         ("modes", of::<ModesOutput>()),

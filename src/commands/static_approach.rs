@@ -13,6 +13,7 @@ use crate::arguments::{Static, TableFormat};
 use crate::error::CommandError;
 use crate::output;
 
+use super::working::Working;
 use super::{fe_refused, save, statics, unfit};
 
 /// `static --approach-um --format json`.
@@ -55,6 +56,7 @@ pub(super) fn run(
     }
     let phase = phase.rem_euclid(1.0);
     let start = Instant::now();
+    let _working = Working::new("meshing the bodies and solving the positions");
     let bodies = Bodies::new(scene).map_err(fe_refused(path))?;
     let before = Instant::now();
     let solver = statics::solver(arguments.solver);

@@ -13,6 +13,7 @@ use crate::error::CommandError;
 use crate::figures;
 use crate::output;
 
+use super::working::Working;
 use super::{fe_refused, statics, unfit};
 
 /// `static --format json` of a gear pair. δ = r_b · elastic rotation of the driving gear, the driven
@@ -70,6 +71,7 @@ pub(super) fn run(
 ) -> Result<(), CommandError> {
     let path = &arguments.scene;
     let kind = scene.pair.ok_or_else(|| unfit(path, "`mesh` is absent"))?;
+    let _working = Working::new("meshing the bodies and solving the positions");
     let bodies = Bodies::new(scene).map_err(fe_refused(path))?;
     let solver = statics::solver(arguments.solver);
     let positions = arguments.position_count();

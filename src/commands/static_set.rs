@@ -14,6 +14,7 @@ use crate::figures;
 use crate::output;
 
 use super::static_pair::PairLoad;
+use super::working::Working;
 use super::{fe_refused, statics, unfit};
 
 /// `static --format json` of a whole set. Displacements in the carrier frame, counter-clockwise.
@@ -114,6 +115,7 @@ pub(super) fn run(
     out: &mut dyn Write,
 ) -> Result<(), CommandError> {
     let path = &arguments.scene;
+    let _working = Working::new("meshing the bodies and solving the positions");
     let bodies = Bodies::new(scene).map_err(fe_refused(path))?;
     let solver = statics::solver(arguments.solver);
     let mut cycles = Vec::new();

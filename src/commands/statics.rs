@@ -6,14 +6,18 @@ use std::path::Path;
 #[cfg(feature = "interior_point")]
 use fe_contact::complementarity::InteriorPoint;
 use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, Lemke};
-use gearset::{LoadCase, Scene, SceneKind};
+use gearset::{LoadCase, Scene, SceneKind, Verb};
 
 use crate::arguments::{ContactSolver, Static};
 use crate::error::CommandError;
 
-use super::{read_scene, static_approach, static_pair, static_set, unfit};
+use super::{needs, read_scene, static_approach, static_pair, static_set, unfit};
 
-pub(crate) fn run(arguments: &Static, out: &mut dyn Write) -> Result<(), CommandError> {
+pub(crate) fn run(
+    arguments: &Static,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
+) -> Result<(), CommandError> {
     let scene = read_scene(&arguments.scene)?;
     if scene.geometry.is_none() {
         let reason = "[geometry] is absent: teeth are needed to touch";
@@ -22,6 +26,8 @@ pub(crate) fn run(arguments: &Static, out: &mut dyn Write) -> Result<(), Command
     if let Some(option) = arguments.without_approach() {
         return Err(refused(option, "has no use without --approach-um, which turns a gear pair"));
     }
+    let path = &arguments.scene;
+    needs::warn(&scene, err)?;
     match scene.kind {
         SceneKind::GearPair if arguments.approach_um.is_some() => {
             static_approach::run(arguments, &scene, out)
@@ -35,6 +41,10 @@ pub(crate) fn run(arguments: &Static, out: &mut dyn Write) -> Result<(), Command
         }
         SceneKind::Planetary => {
             let torques = set_torques(arguments, &scene)?;
+            let is_given = |argument: &str| {
+                argument == "--sun-torque-nm" && !arguments.sun_torque_nm.is_empty()
+            };
+            needs::require(path, &scene, Verb::Static, is_given)?;
             static_set::run(arguments, &scene, &torques, out)
         }
     }

@@ -9,7 +9,7 @@ use experiments::sweep::{
     SteadySettings, Sweep, SweepModel, even_speeds, fidelity_name, run as run_plan,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, LoadCase, Scene, SceneKind};
+use gearset::{Fidelity, LoadCase, Scene, SceneKind, Verb};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::arguments::{Model, Sweep as SweepArguments, TableFormat};
@@ -21,7 +21,8 @@ use super::sweep_claim::{Claim, PEAKS, PLAN};
 use super::sweep_manifest::Manifest;
 use super::sweep_output::{SweepOutput, text, write_csv, write_failed};
 use super::sweep_store::{Folder, write_whole};
-use super::{fe_refused, read_scene, unfit};
+use super::working::Working;
+use super::{fe_refused, needs, read_scene, unfit};
 
 /// Longest scene file that is kept beside its results, bytes: no longer one is read as a scene.
 const MOST_BYTES: u64 = 1_000_000;
@@ -44,6 +45,8 @@ pub(super) fn run(
     let task = Task::new(arguments, &scene)?;
     // Bodies and tables take minutes: a folder that cannot be used is refused before.
     let _claim = task.claim()?;
+    needs::warn(&scene, err)?;
+    let working = Working::new("meshing the bodies and laying out tables");
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let model: Box<dyn SweepModel> = match (arguments.model, scene.dynamics.fidelity) {
         (Model::FeContact, Fidelity::MeshLaw) => {
@@ -55,6 +58,7 @@ pub(super) fn run(
         (Model::Lumped, _) => Box::new(MeshLawModel::new(&scene, &bodies, task.case)?.lumped()),
     };
     let model = model.as_ref();
+    drop(working);
     let mut sweep = task.march(model, &task.plan, PLAN)?;
     if arguments.refine > 0 {
         let steady = task.plan.steady.clone();
@@ -150,6 +154,13 @@ impl<'a> Task<'a> {
         let missing =
             || unfit(path, "[operation] is absent: it says which member's speed is swept");
         let case = LoadCase::of_scene(scene).map_err(|_| missing())?.with_sun_torque(torque_nm);
+        // The lumped model takes its mesh forces from quasi-static bodies, whatever the scene's fidelity.
+        let verb = Verb::Sweep(match arguments.model {
+            Model::Lumped => Fidelity::QuasiStatic,
+            Model::FeContact => scene.dynamics.fidelity,
+        });
+        let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
+        needs::require(path, scene, verb, is_given)?;
         let [from, to, step] = arguments.speeds_rpm;
         let refuse = |argument| move |e: PlanError| refused(argument, e.to_string());
         let speeds = even_speeds(from, to, step).map_err(refuse("--speeds-rpm"))?;

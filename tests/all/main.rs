@@ -4,5 +4,7 @@
 
 mod command;
 mod mutated_scenes;
+mod scene_check;
+mod scene_schema;
 mod snapshots;
 mod sweep_command;

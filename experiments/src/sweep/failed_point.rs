@@ -47,7 +47,9 @@ impl FailedPoint {
             let (size, why) = last;
             let times = 1 << size;
             reason.push_str(&match size + 1 == SIZES {
-                true => format!("; it does so on contact tables made for up to {times} times the load, too"),
+                true => format!(
+                    "; it does so on contact tables made for up to {times} times the load, too"
+                ),
                 false => {
                     format!("; contact tables made for {times} times the load fail too: {why}")
                 }

@@ -11,6 +11,11 @@ use crate::material::Elastic;
 /// Neighbouring teeth on either side whose response to a loaded tooth is kept.
 const REACH: i64 = 4;
 
+/// Teeth whose response at all their nodes is kept, of a gear of so many teeth.
+pub(crate) fn kept_teeth(teeth: u32) -> u32 {
+    2 * (REACH as u32).min(teeth.saturating_sub(1) / 2) + 1
+}
+
 /// Unit loads for which a body is solved at a time.
 const AT_ONCE: usize = 16;
 

@@ -239,6 +239,98 @@ impl<'m> PairFrame<'m> {
     }
 }
 
+impl PairFrame<'_> {
+    /// Whether either flank has tip relief.
+    fn is_relieved(&self) -> bool {
+        let has = |flank: &Flank<'_>| flank.gear.tip_relief.is_some_and(|r| r.amount > 0.0);
+        has(&self.driver) || has(&self.driven)
+    }
+
+    /// Tangential coordinate of the least gap between the unloaded flanks, m.
+    ///
+    /// Without tip relief it is 0, the reference point. With relief the gap about the reference
+    /// point is
+    ///
+    /// ```text
+    /// g(x) = g₀ + x²/(2R) + relief(x),   least where x/R + relief′(x) = 0
+    /// ```
+    ///
+    /// that is x = −R g′ where the relief has the slope g′, and the start of relief itself where the
+    /// slope of g changes its sign there. g is convex, so that its slope changes sign once between the ends
+    /// of the flanks.
+    pub fn least_gap_at(&self) -> f64 {
+        let [low, high] = self.extent();
+        let half = 0.5 * SLOPE_STEP;
+        let (low, high) = (low + half, high - half);
+        if !self.is_relieved() || high <= low {
+            return 0.0;
+        }
+        let rises = |x: f64| self.gap_at(x + half) > self.gap_at(x - half);
+        let start = 0.0f64.clamp(low, high);
+        match rises(start) {
+            true => outwards(start, low, |x| !rises(x)).unwrap_or(low),
+            false => outwards(start, high, rises).unwrap_or(high),
+        }
+    }
+
+    /// Least gap between the unloaded flanks along the normal, tip relief included, m.
+    pub(crate) fn least_gap(&self) -> f64 {
+        if self.is_relieved() { self.gap_at(self.least_gap_at()) } else { self.gap }
+    }
+
+    /// Ends of the grid of contact cells (tangential coordinates, m), and whether the grid ends there
+    /// because a flank does.
+    ///
+    /// Without tip relief the grid is `reach` (m) long to either side of the reference point, where
+    /// the gap has grown by reach²/(2R). With relief it holds all points at which the gap is at most
+    /// that much larger than the least gap. Since tip relief makes the gap more curved, never less,
+    /// a load has a shorter patch on relieved flanks than on unrelieved ones, and this grid holds it on
+    /// either side of the start of relief.
+    pub(crate) fn grid(&self, reach: f64) -> ([f64; 2], [bool; 2]) {
+        let [low, high] = self.extent();
+        if !self.is_relieved() {
+            let ends_at_tip = [low > -reach, high < reach];
+            return ([low.max(-reach), high.min(reach)], ends_at_tip);
+        }
+        let centre = self.least_gap_at();
+        // g(x) − g_least = reach²/(2R)
+        let most = self.gap_at(centre) + 0.5 * reach * reach / self.radius();
+        let is_beyond = |x: f64| self.gap_at(x) > most;
+        let ends = [low, high].map(|end| (end, outwards(centre, end, is_beyond)));
+        (ends.map(|(end, grown)| grown.unwrap_or(end)), ends.map(|(_, grown)| grown.is_none()))
+    }
+}
+
+/// Distance over which the slope of a gap is taken, m: a hundredth of the width of a contact cell,
+/// over which the rounding of two gaps (1e-17 m each) changes a slope by less than 1e-9.
+const SLOPE_STEP: f64 = 1e-7;
+
+/// First step of a search along a flank, m: a tenth of the width of a contact cell.
+const FIRST_STEP: f64 = 1e-6;
+
+/// Place at which a statement begins to hold on the way from `start` to `end`; `None` if it holds
+/// nowhere on the way. The steps grow twofold, so that the flank's far end, which may lie on the base
+/// circle where an involute has no curvature, is looked at last.
+fn outwards(start: f64, end: f64, holds: impl Fn(f64) -> bool) -> Option<f64> {
+    let (length, sense) = ((end - start).abs(), (end - start).signum());
+    let (mut near, mut far) = (0.0, FIRST_STEP.min(length));
+    while !holds(start + sense * far) {
+        if far >= length {
+            return None;
+        }
+        (near, far) = (far, (2.0 * far).min(length));
+    }
+    // Halved until nothing but rounding is left.
+    for _ in 0..50 {
+        let middle = 0.5 * (near + far);
+        match holds(start + sense * middle) {
+            true => far = middle,
+            false => near = middle,
+        }
+    }
+    Some(start + sense * 0.5 * (near + far))
+}
+
 /// Outward normal of a flank's material where its base tangent leaves the base circle at `angle`.
 fn outward(flank: &Flank<'_>, angle: f64) -> [f64; 2] {
     // The base tangent points out of the lobe; the lobe of a ring is its tooth space.
@@ -262,14 +354,13 @@ fn foot(flank: &Flank<'_>, point: [f64; 2]) -> Option<(f64, f64)> {
     Some((y.atan2(x) - flank.facing.sign() * alpha, gap))
 }
 
-/// Pairs that may touch: all whose gap at the reference point is at most `window` (m) at this phase
-/// (cycles).
+/// Pairs that may touch: all whose least gap is at most `window` (m) at this phase (cycles).
 pub fn candidates(mesh: &Mesh, phase: f64, window: f64) -> Vec<PairFrame<'_>> {
     // A pair more than two base pitches off the path is out of reach of any deflection.
     let last = mesh.contact_ratio.ceil() as i64 + 2;
     (-2..=last)
         .filter_map(|k| PairFrame::new(mesh, phase, k))
-        .filter(|pair| pair.gap >= -1e-9 && pair.gap <= window)
+        .filter(|pair| pair.gap >= -1e-9 && pair.least_gap() <= window)
         .filter(|pair| {
             let [low, high] = pair.extent();
             high > low

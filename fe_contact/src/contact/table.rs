@@ -19,7 +19,7 @@ pub struct CellSettings {
     pub matching: Matching,
     /// Force of the whole mesh for which the grids are sized, N.
     pub force: f64,
-    /// Pairs whose corner gap is below this take part, m.
+    /// Pairs whose least gap exceeds that of the nearest pair by no more than this take part, m.
     pub window: f64,
     /// Factors on the FE part of the meshes' compliance; the half-plane part is the flanks' own.
     pub flexibility_factor: PerMesh,
@@ -52,7 +52,8 @@ impl Matching {
     }
 }
 
-/// Half the grid over the half-width that one pair alone would have under the whole force.
+/// Half the grid over the half-width that one pair alone, without tip relief, would have under the
+/// whole force. [`PairFrame::grid`] says what becomes of the grid with tip relief.
 const GRID_MARGIN: f64 = 1.5;
 
 /// Cells of one pair.
@@ -68,6 +69,11 @@ pub struct PairCells {
     pub axes: [f64; 2],
     /// First cell in the table.
     pub first: usize,
+    /// Tangential coordinate of the least gap, m: 0 without tip relief.
+    pub centre: f64,
+    /// Least gap less the gap of the flanks without tip relief at the reference point, m: 0 without
+    /// tip relief.
+    pub relief: f64,
     /// Tangential coordinates of the cells' middles, m.
     pub x: Vec<f64>,
     /// Width of one cell, m.
@@ -121,26 +127,39 @@ impl MeshTable {
         let factor = settings.flexibility_factor.of(mesh.kind);
         // The window is made for a mesh six times softer than usual; the factor may use up half.
         let window = settings.window * (factor / 3.0).max(1.0);
+        // The mesh gives way only once its nearest pair touches. Without tip relief that pair is on the
+        // path and has no gap.
+        let all: Vec<f64> =
+            candidates(mesh, phase, f64::INFINITY).iter().map(PairFrame::least_gap).collect();
+        let nearest = all.iter().fold(f64::INFINITY, |a, gap| a.min(*gap));
+        let window = if nearest.is_finite() { window + nearest.max(0.0) } else { window };
         let frames = candidates(mesh, phase, window);
-        let next_gap = candidates(mesh, phase, f64::INFINITY)
-            .iter()
-            .map(|pair| pair.gap)
-            .filter(|gap| *gap > window)
-            .fold(f64::INFINITY, f64::min);
+        let next_gap = all.into_iter().filter(|gap| *gap > window).fold(f64::INFINITY, f64::min);
         let (mut pairs, mut gaps) = (Vec::new(), Vec::new());
         for frame in &frames {
             let hertz = Hertz::new(settings.force / face_width, frame.radius(), &driver.material);
             let reach = GRID_MARGIN * hertz.half_width;
-            let [low, high] = frame.extent();
-            let ends_at_tip = [low > -reach, high < reach];
-            let (low, high) = (low.max(-reach), high.min(reach));
+            let ([low, high], ends_at_tip) = frame.grid(reach);
+            let centre = frame.least_gap_at();
+            let relief = frame.least_gap() - frame.rigid_gap();
             let width = (high - low) / settings.cells as f64;
             let x: Vec<f64> = (0..settings.cells).map(|i| low + (i as f64 + 0.5) * width).collect();
             let first = gaps.len();
             gaps.extend(x.iter().map(|x| frame.gap_at(*x)));
             let (index, location, row) = (frame.index, frame.location, frame.approach_row());
             let axes = [MeshMember::Driver, MeshMember::Driven].map(|m| frame.tooth(m).axis);
-            pairs.push(PairCells { index, location, row, axes, first, x, width, ends_at_tip });
+            pairs.push(PairCells {
+                index,
+                location,
+                row,
+                axes,
+                first,
+                centre,
+                relief,
+                x,
+                width,
+                ends_at_tip,
+            });
         }
         let n = gaps.len();
         let mut compliance = DMatrix::zeros(n, n);

@@ -72,10 +72,24 @@ impl FeGearMesh {
         family: ElementFamily,
         flank_elements: usize,
     ) -> Result<Self, FeError> {
+        let (outline, sector) = Self::one_tooth(name, gear, family, flank_elements)?;
+        Ok(Self::assemble(name, outline, family, vec![sector], vec![0; gear.teeth as usize]))
+    }
+
+    /// The mesh of one tooth with its share of the rim, and its outline.
+    ///
+    /// # Errors
+    /// See [`FeGearMesh::new`].
+    pub fn one_tooth(
+        name: &'static str,
+        gear: &Gear,
+        family: ElementFamily,
+        flank_elements: usize,
+    ) -> Result<(Outline, Sector), FeError> {
         let (outline, body_radius) = prepare(name, gear)?;
         let even = Refinement::even(&outline, body_radius, flank_elements);
         let sector = Sector::new(&outline, body_radius, &even, family);
-        Ok(Self::assemble(name, outline, family, vec![sector], vec![0; gear.teeth as usize]))
+        Ok((outline, sector))
     }
 
     /// Mesh with some teeth refined differently from the others, all with the same rim rows; tooth

@@ -5,7 +5,7 @@ use gearset::{FeContactInput, Gear, Geometry, Mesh, MeshKind, MeshMember, Scene}
 use crate::body::GearBody;
 use crate::contact::{CellSettings, Matching};
 use crate::error::FeError;
-use crate::fe_mesh::FeGearMesh;
+use crate::fe_mesh::{FeGearMesh, Outline};
 use crate::material::Elastic;
 
 /// Settings of a run, derived from the scene.
@@ -35,14 +35,13 @@ const WITHIN_TIP: f64 = 0.9;
 
 /// Matching depth and number of points; refuses a depth outside the range in which results do not
 /// depend on it.
-fn matching<'b>(
+pub(super) fn matching<'o>(
     input: &FeContactInput,
     base_pitch: f64,
-    bodies: impl Iterator<Item = &'b GearBody>,
+    outlines: impl Iterator<Item = &'o Outline>,
 ) -> Result<Matching, FeError> {
     let (mut element, mut thickness, mut at_tip) = (0.0f64, f64::INFINITY, f64::INFINITY);
-    for body in bodies {
-        let outline = &body.mesh.outline;
+    for outline in outlines {
         let length = outline.flank_length();
         element = element.max(length / f64::from(input.flank_elements));
         thickness = thickness.min(2.0 * outline.flank_point(0.5 * length)[1]);
@@ -54,6 +53,19 @@ fn matching<'b>(
     let deepest = (DEEPEST_IN_THICKNESSES * thickness).min(WITHIN_TIP * at_tip);
     let (low, high) = (DEPTH_IN_ELEMENTS[1] * element, deepest / points.max(1) as f64);
     let depth = input.matching_depth.unwrap_or(default.min(high));
+    if low > high && input.matching_depth.is_none() {
+        return Err(FeError::Unfit {
+            key: "fe_contact.flank_elements".into(),
+            value: input.flank_elements.to_string(),
+            allowed: "more elements along the flank".into(),
+            why: format!(
+                "elements of this size resolve the load below {:.4} mm only, where a tooth this thin is no half-plane \
+                 any more (above {:.4} mm): no matching depth suits both",
+                low * 1e3,
+                high * 1e3
+            ),
+        });
+    }
     if depth < low || depth > high {
         return Err(FeError::Unfit {
             key: "fe_contact.matching_depth_mm".into(),
@@ -88,31 +100,25 @@ impl Bodies {
     /// Meshes and factorises the gears a scene needs: all of a set, two of a pair.
     ///
     /// # Errors
-    /// If the scene has no tooth geometry, or a gear cannot be meshed or factorised.
+    /// If the scene has no tooth geometry, a gear cannot be meshed or factorised, or the bodies would
+    /// need more than [`super::MOST_BYTES`] of memory.
     pub fn new(scene: &Scene) -> Result<Self, FeError> {
-        let missing = FeError::Missing {
-            key: "geometry".into(),
-            why: "teeth are needed to mesh and to touch",
-        };
-        let geometry = Geometry::from_scene(scene).ok().ok_or(missing)?;
+        super::estimate::within_memory(scene)?;
+        let geometry = geometry(scene)?;
         let input = scene.fe_contact;
-        fit(&input)?;
         let material = Elastic::new(&scene.material, input.plane);
         let make = |name: &'static str, gear: &Gear| -> Result<GearBody, FeError> {
             let mesh = FeGearMesh::new(name, gear, input.element, input.flank_elements as usize)?;
             GearBody::new(mesh, material, geometry.face_width)
         };
-        let wanted = |kind: MeshKind| scene.pair.is_none_or(|pair| pair == kind);
-        let (sun_gear, ring_gear) = (
-            geometry.sun.as_ref().filter(|_| wanted(MeshKind::SunPlanet)),
-            geometry.ring.as_ref().filter(|_| wanted(MeshKind::RingPlanet)),
-        );
+        let [ring_gear, sun_gear] = wanted(scene, &geometry);
         // One after the other, so that only one factor is in memory at a time.
         let ring = ring_gear.map(|g| make("ring", g)).transpose()?;
         let sun = sun_gear.map(|g| make("sun", g)).transpose()?;
         let planet = make("planet", &geometry.planet)?;
         let all = [sun.as_ref(), Some(&planet), ring.as_ref()];
-        let matching = matching(&input, geometry.base_pitch, all.into_iter().flatten())?;
+        let outlines = all.into_iter().flatten().map(|body| &body.mesh.outline);
+        let matching = matching(&input, geometry.base_pitch, outlines)?;
         let settings = FeSettings { input, matching };
         Ok(Self { geometry, settings, material, sun, planet, ring })
     }
@@ -162,12 +168,28 @@ impl Bodies {
     }
 }
 
+/// Tooth geometry of a scene.
+pub(super) fn geometry(scene: &Scene) -> Result<Geometry, FeError> {
+    let why = "teeth are needed to mesh and to touch";
+    let missing = FeError::Missing { key: "geometry".into(), why };
+    Geometry::from_scene(scene).ok().ok_or(missing)
+}
+
+/// Ring and sun, if the scene needs them: both of a set, one of a pair.
+pub(super) fn wanted<'g>(scene: &Scene, geometry: &'g Geometry) -> [Option<&'g Gear>; 2] {
+    let is_wanted = |kind: MeshKind| scene.pair.is_none_or(|pair| pair == kind);
+    [
+        geometry.ring.as_ref().filter(|_| is_wanted(MeshKind::RingPlanet)),
+        geometry.sun.as_ref().filter(|_| is_wanted(MeshKind::SunPlanet)),
+    ]
+}
+
 /// Key of the factors on the FE part of the meshes' flexibility.
 pub(crate) const FLEXIBILITY_FACTOR: &str = "fe_contact.flexibility_factor";
 
 /// Refuses factors that are not positive and finite: scenes can be built in memory, without the
 /// checks of the parser.
-fn fit(input: &FeContactInput) -> Result<(), FeError> {
+pub(super) fn fit(input: &FeContactInput) -> Result<(), FeError> {
     for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
         let factor = input.flexibility_factor.of(kind);
         if !(factor > 0.0 && factor.is_finite()) {

@@ -4,6 +4,7 @@ mod approach;
 mod bodies;
 mod cycle;
 mod equilibrium;
+mod estimate;
 mod exact;
 mod imperfection;
 mod kinematic_rest;
@@ -25,6 +26,7 @@ mod teeth;
 pub use approach::{MeshAtApproach, PairAtApproach, at_approach};
 pub use bodies::{Bodies, FeSettings};
 pub(crate) use bodies::{FLEXIBILITY_FACTOR, missing_mesh};
+pub use estimate::{BodyEstimate, FeEstimate, MOST_BYTES, estimate, within_memory};
 pub use imperfection::{Imperfections, PitchError};
 pub(crate) use mesh_rows::{invariants, turned};
 pub use pair::{

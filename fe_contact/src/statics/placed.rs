@@ -110,12 +110,12 @@ impl PlacedMesh<'_> {
         }
     }
 
-    /// Cells likely in contact: the middle of each pair's grid.
+    /// Cells likely in contact: those near the least gap of each pair.
     pub(crate) fn guess(&self) -> Vec<bool> {
         let mut active = Vec::with_capacity(self.table.gaps.len());
         for pair in &self.table.pairs {
             let reach = 0.5 * pair.width * pair.x.len() as f64;
-            active.extend(pair.x.iter().map(|x| x.abs() < 0.5 * reach));
+            active.extend(pair.x.iter().map(|x| (x - pair.centre).abs() < 0.5 * reach));
         }
         active
     }

@@ -149,7 +149,7 @@ fn elastic(
     let mut approaches = vec![-1.0; table.pairs.len()];
     let none = vec![0.0; table.pairs.len()];
     for (_, j) in &pairs {
-        approaches[*j] = gap(*j) + STRIDE;
+        approaches[*j] = gap(*j) + table.pairs[*j].relief + STRIDE;
     }
     let mut warm: Option<Vec<bool>> = None;
     let mut residual = f64::INFINITY;

@@ -31,8 +31,8 @@ const SPREAD_IN_DEPTHS: f64 = 1.5;
 /// wider one at loads far above the design load.
 const SPREAD_IN_GRIDS: f64 = 5.0 / 3.0;
 
-/// Both ends of a pair of a mesh at a phase (cycles), driver first, with a load as wide as the grid
-/// of `cells` requires; `None` where the pair's flanks cannot touch.
+/// Both ends of a pair of a mesh at a phase (cycles), driver first, with a load about the least gap as
+/// wide as the grid of `cells` requires; `None` where the pair's flanks cannot touch.
 pub(crate) fn pair_ends(
     bodies: &Bodies,
     mesh: &Mesh,
@@ -50,7 +50,7 @@ pub(crate) fn pair_ends(
         // it.
         let sign = if member == MeshMember::Driver { 1.0 } else { -1.0 };
         let normal = crate::fe_mesh::rotated(frame.normal, -tooth.axis);
-        let (_, roll_length) = frame.flank_point(member, 0.0);
+        let (_, roll_length) = frame.flank_point(member, cells.centre);
         let at = gear.mesh.outline.flank_parameter(roll_length);
         PairEnd {
             axis: tooth.axis,

@@ -194,9 +194,11 @@ fn tables_grow_at_a_speed_up_to_their_limit_and_then_the_speed_fails() {
     assert_eq!(sizes, [0, 2, 0]);
     let [failed] = &sweep.failed[..] else { panic!("{:?}", sweep.failed) };
     assert_eq!(failed.case.speed_rpm, 300.0);
-    for words in
-        ["pair 3", "it does so on contact tables made for up to 16 times the load", "a smaller torque"]
-    {
+    for words in [
+        "pair 3",
+        "it does so on contact tables made for up to 16 times the load",
+        "a smaller torque",
+    ] {
         assert!(failed.reason.contains(words), "{}", failed.reason);
     }
 }

@@ -1,0 +1,34 @@
+//! Faults of the operating point that show only beside the stiffnesses.
+
+use crate::estimates;
+use crate::geometry::Geometry;
+use crate::reader::Document;
+use crate::scene::Scene;
+
+/// Largest deflection, in modules, with which a scene is accepted: beyond one module teeth leave their spaces, and
+/// displacements that are linear in the load describe no gear set.
+const MOST_MODULES: f64 = 1.0;
+
+/// Refuses a torque under which the set gives way by more than a module.
+pub(crate) fn deflection(document: &Document<'_>, scene: &Scene) {
+    // Values at fault are replaced by defaults, from which nothing follows.
+    let tables =
+        ["teeth", "planets", "geometry", "material", "operation", "planet", "ring", "carrier"];
+    if tables.iter().any(|table| document.is_doubtful(table)) {
+        return;
+    }
+    let Ok(geometry) = Geometry::from_scene(scene) else { return };
+    let Some(length) = estimates::deflection(scene, &geometry) else { return };
+    let Some(module) = estimates::module(&geometry) else { return };
+    if length > MOST_MODULES * module {
+        let torque = scene.operation.map_or(0.0, |operation| operation.torque_nm.abs());
+        let allowed =
+            format!("a magnitude below {:.3e} N·m, or stiffer bearings", torque * module / length);
+        let why = format!(
+            "by estimate (meshes of E b/13, planet bearing and torsional supports in series) the teeth give way by {:.3e} mm, more than the module {:.3} mm: displacements are no longer linear in the load; look at the units of `operation.torque_nm`, `planet.bearing_n_per_m` and `material.young_modulus_pa`",
+            1e3 * length,
+            1e3 * module
+        );
+        document.fault("operation.torque_nm", allowed, why);
+    }
+}

@@ -1,0 +1,203 @@
+//! What each verb of the command needs of a scene.
+
+use crate::mesh_kind::MeshKind;
+use crate::scene::{Fidelity, Freedom, GearInput, Scene, SceneKind};
+
+/// A verb of the command that reads a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verb {
+    /// `modes`.
+    Modes,
+    /// `rules`.
+    Rules,
+    /// `mesh`.
+    Mesh,
+    /// `static`.
+    Static,
+    /// `impulse`.
+    Impulse,
+    /// `sweep` of the scene at this fidelity.
+    Sweep(Fidelity),
+    /// `compare`.
+    Compare,
+}
+
+impl Verb {
+    /// Every verb, `sweep` at each fidelity.
+    pub const ALL: [Self; 10] = [
+        Self::Modes,
+        Self::Rules,
+        Self::Mesh,
+        Self::Static,
+        Self::Impulse,
+        Self::Sweep(Fidelity::MeshLaw),
+        Self::Sweep(Fidelity::QuasiStatic),
+        Self::Sweep(Fidelity::Modal(1)),
+        Self::Sweep(Fidelity::Full),
+        Self::Compare,
+    ];
+
+    /// Its name; of `sweep` with the fidelity.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Modes => "modes",
+            Self::Rules => "rules",
+            Self::Mesh => "mesh",
+            Self::Static => "static",
+            Self::Impulse => "impulse",
+            Self::Sweep(Fidelity::MeshLaw) => "sweep (mesh_law)",
+            Self::Sweep(Fidelity::QuasiStatic) => "sweep (quasi_static)",
+            Self::Sweep(Fidelity::Modal(_)) => "sweep (modal)",
+            Self::Sweep(Fidelity::Full) => "sweep (full)",
+            Self::Compare => "compare",
+        }
+    }
+}
+
+/// A key that a verb needs and that is absent or unfit for it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Lack {
+    /// Full dotted path of the key, or name of the table.
+    pub key: String,
+    /// What it is needed for, and what is allowed.
+    pub why: String,
+    /// Argument of the command that stands in for the key.
+    pub argument: Option<&'static str>,
+}
+
+fn lack(key: impl Into<String>, why: impl Into<String>) -> Lack {
+    Lack { key: key.into(), why: why.into(), argument: None }
+}
+
+impl Scene {
+    /// What the scene lacks for a verb, empty if the verb can run.
+    pub fn lacks(&self, verb: Verb) -> Vec<Lack> {
+        let mut lacks = Vec::new();
+        if self.kind == SceneKind::GearPair && !matches!(verb, Verb::Mesh | Verb::Static) {
+            lacks.push(lack("kind", "one mesh alone is \"gear_pair\": \"planetary\" is needed"));
+            return lacks;
+        }
+        match verb {
+            Verb::Modes | Verb::Compare => {
+                if self.lumped.is_none() {
+                    lacks.push(lack(
+                        "lumped",
+                        "masses, inertias and mesh stiffnesses of the lumped model",
+                    ));
+                }
+            }
+            Verb::Rules => {
+                if self.teeth.and_then(|t| t.sun_ring()).is_none() {
+                    lacks.push(lack("teeth", "mesh phases follow from the numbers of teeth"));
+                }
+            }
+            Verb::Mesh => self.lacks_bodies(&mut lacks),
+            Verb::Static => {
+                self.lacks_bodies(&mut lacks);
+                match self.kind {
+                    SceneKind::GearPair => {
+                        let why = "one mesh alone is loaded by a normal force, which no key gives";
+                        let argument = Some("--normal-force-n");
+                        lacks.push(Lack { argument, ..lack("operation", why) });
+                    }
+                    SceneKind::Planetary => {
+                        self.lacks_torque(&mut lacks);
+                        self.lacks_torque_path(&mut lacks);
+                    }
+                }
+            }
+            Verb::Impulse => {
+                self.lacks_bodies(&mut lacks);
+                self.lacks_torque(&mut lacks);
+                self.lacks_torque_path(&mut lacks);
+                self.lacks_carrier_mass(&mut lacks);
+                if self.dynamics.fidelity == Fidelity::MeshLaw {
+                    let why = "\"mesh_law\" solves no contact: \"quasi_static\", \"modal\" or \"full\" is needed";
+                    lacks.push(lack("dynamics.fidelity", why));
+                }
+            }
+            Verb::Sweep(fidelity) => {
+                self.lacks_bodies(&mut lacks);
+                if self.operation.is_none() {
+                    lacks.push(lack("operation", "it says which member's speed is swept"));
+                }
+                self.lacks_torque(&mut lacks);
+                self.lacks_torque_path(&mut lacks);
+                self.lacks_carrier_mass(&mut lacks);
+                self.lacks_one_flexibility(fidelity, &mut lacks);
+            }
+        }
+        lacks
+    }
+
+    /// Teeth, races and fillets of the gears that are meshed.
+    fn lacks_bodies(&self, lacks: &mut Vec<Lack>) {
+        let Some(geometry) = &self.geometry else {
+            lacks.push(lack("geometry", "teeth are needed to mesh and to touch"));
+            return;
+        };
+        let is_meshed = |kind: MeshKind| self.pair.is_none_or(|pair| pair == kind);
+        let gears: [(&str, Option<&GearInput>, &str); 3] = [
+            ("sun", geometry.sun.as_ref().filter(|_| is_meshed(MeshKind::SunPlanet)), "bore"),
+            ("planet", Some(&geometry.planet), "bore"),
+            ("ring", geometry.ring.as_ref().filter(|_| is_meshed(MeshKind::RingPlanet)), "rim"),
+        ];
+        for (name, gear, body) in gears {
+            let Some(gear) = gear else { continue };
+            if gear.body_radius.is_none() {
+                let key = format!("geometry.{name}.{body}_diameter_mm");
+                lacks.push(lack(key, "it is the rigid race of the finite-element body"));
+            }
+            if gear.fillet_radius <= 0.0 {
+                let key = format!("geometry.{name}.fillet_radius_mm");
+                lacks.push(lack(key, "above 0: stresses at a sharp root have no limit"));
+            }
+        }
+    }
+
+    fn lacks_torque(&self, lacks: &mut Vec<Lack>) {
+        if self.operation.is_none_or(|operation| operation.torque_nm == 0.0) {
+            let argument = Some("--torque-nm");
+            lacks.push(Lack {
+                argument,
+                ..lack("operation.torque_nm", "a torque other than 0 loads the teeth")
+            });
+        }
+    }
+
+    fn lacks_torque_path(&self, lacks: &mut Vec<Lack>) {
+        if let Err(e) = self.torque_path() {
+            lacks.push(lack(
+                e.key,
+                format!("it is \"{}\": allowed is {}, because {}", e.value, e.allowed, e.why),
+            ));
+        }
+    }
+
+    /// The carrier's mass, from its shape or from the lumped parameters.
+    fn lacks_carrier_mass(&self, lacks: &mut Vec<Lack>) {
+        let has_shape = self.geometry.as_ref().is_some_and(|g| g.carrier.is_some());
+        let has_mass = self.lumped.as_ref().is_some_and(|l| l.mass.carrier.is_some());
+        if !has_shape && !has_mass && self.supports.carrier.motion != Freedom::Held {
+            let why = "the carrier can move and has no mass: give its shape, or `lumped.mass_kg.carrier`, or \
+                       `carrier.motion` = \"held\"";
+            lacks.push(lack("geometry.carrier", why));
+        }
+    }
+
+    /// Factors of 1 where elastic states of a body act in several meshes at once.
+    fn lacks_one_flexibility(&self, fidelity: Fidelity, lacks: &mut Vec<Lack>) {
+        if fidelity == Fidelity::QuasiStatic {
+            return;
+        }
+        for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
+            if self.fe_contact.flexibility_factor.of(kind) != 1.0 {
+                let key = format!("fe_contact.flexibility_factor.{}", kind.name());
+                lacks.push(lack(
+                    key,
+                    "1: a planet that vibrates within itself cannot be softer for one mesh alone",
+                ));
+            }
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! What each verb needs of a scene, and what it lacks.
+
+use gearset::{Fidelity, Scene, SceneKind, Verb, template};
+
+fn keys(changes: &[(&str, &str)], kind: SceneKind, verb: Verb) -> Vec<String> {
+    let mut text = template(kind).to_owned();
+    for (from, to) in changes {
+        assert!(text.contains(from), "{from}");
+        text = text.replacen(from, to, 1);
+    }
+    let scene = Scene::from_toml(&text).unwrap();
+    scene.lacks(verb).into_iter().map(|lack| lack.key).collect()
+}
+
+#[test]
+fn the_template_lacks_nothing() {
+    for verb in Verb::ALL {
+        assert!(keys(&[], SceneKind::Planetary, verb).is_empty(), "{}", verb.name());
+    }
+}
+
+#[test]
+fn one_mesh_alone_is_meshed_and_loaded_by_a_force() {
+    for verb in Verb::ALL {
+        let expected: &[&str] = match verb {
+            Verb::Mesh => &[],
+            Verb::Static => &["operation"],
+            _ => &["kind"],
+        };
+        assert_eq!(keys(&[], SceneKind::GearPair, verb), expected, "{}", verb.name());
+    }
+}
+
+#[test]
+fn a_rigid_carrier_needs_a_mass_from_somewhere() {
+    let text = template(SceneKind::Planetary);
+    let (head, tail) = text.split_once("[geometry.carrier]").unwrap();
+    let no_shape =
+        format!("{head}[geometry.thickness]{}", tail.split_once("[geometry.thickness]").unwrap().1);
+    let (head, tail) = no_shape.split_once("[lumped]").unwrap();
+    let bare = format!("{head}[damping]{}", tail.split_once("[damping]").unwrap().1);
+    let lacks = |text: &str, verb| -> Vec<String> {
+        Scene::from_toml(text).unwrap().lacks(verb).into_iter().map(|l| l.key).collect()
+    };
+    for fidelity in [Fidelity::MeshLaw, Fidelity::QuasiStatic, Fidelity::Modal(1), Fidelity::Full] {
+        assert_eq!(lacks(&bare, Verb::Sweep(fidelity)), ["geometry.carrier"]);
+        assert!(lacks(&no_shape, Verb::Sweep(fidelity)).is_empty());
+    }
+    assert_eq!(lacks(&bare, Verb::Impulse), ["geometry.carrier"]);
+    assert!(lacks(&bare, Verb::Static).is_empty());
+    assert_eq!(lacks(&bare, Verb::Modes), ["lumped"]);
+    let held =
+        bare.replace("motion = \"rotation_held\"\nbearing_n_per_m = 87.6e6", "motion = \"held\"");
+    assert!(lacks(&held, Verb::Impulse).is_empty());
+}
+
+#[test]
+fn torques_need_a_path_and_modes_do_not() {
+    let held = [("motion = \"free\"", "motion = \"rotation_held\"")];
+    for verb in Verb::ALL {
+        let expected: &[&str] = match verb {
+            Verb::Static | Verb::Impulse | Verb::Sweep(_) => &["sun.motion"],
+            _ => &[],
+        };
+        assert_eq!(keys(&held, SceneKind::Planetary, verb), expected, "{}", verb.name());
+    }
+}

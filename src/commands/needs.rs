@@ -1,0 +1,34 @@
+//! What a verb asks of a scene before it starts any work.
+
+use std::io::Write;
+use std::path::Path;
+
+use gearset::{Scene, Verb};
+
+use crate::error::CommandError;
+
+use super::unfit;
+
+/// Refuses a scene that lacks what the verb needs; `is_given` says whether an argument stands in for a key.
+pub(super) fn require(
+    path: &Path,
+    scene: &Scene,
+    verb: Verb,
+    is_given: impl Fn(&str) -> bool,
+) -> Result<(), CommandError> {
+    let lacks = scene.lacks(verb);
+    let mut open = lacks.iter().filter(|lack| !lack.argument.is_some_and(&is_given)).peekable();
+    if open.peek().is_none() {
+        return Ok(());
+    }
+    let each: Vec<_> = open.map(|lack| format!("`{}`: {}", lack.key, lack.why)).collect();
+    Err(unfit(path, format!("{} cannot run: {}", verb.name(), each.join("; "))))
+}
+
+/// Writes a scene's warnings, one a line.
+///
+/// # Errors
+/// If they cannot be written.
+pub(super) fn warn(scene: &Scene, err: &mut dyn Write) -> std::io::Result<()> {
+    gearset::warnings(scene).iter().try_for_each(|warning| writeln!(err, "warning: {warning}"))
+}
