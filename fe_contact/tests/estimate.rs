@@ -89,3 +89,13 @@ fn peak_memory_is_as_estimated() {
     assert!(share > 0.7 && share < 1.3, "{share}");
     drop(bodies);
 }
+
+/// A rim of a kilometre would be laid out row by row before anything counted its elements.
+#[test]
+fn a_rim_without_bounds_is_refused_by_its_key() {
+    let mut wide = scene("oh58_4p", 8);
+    wide.geometry.as_mut().unwrap().ring.as_mut().unwrap().body_radius = Some(1e6);
+    let found = estimate(&wide).unwrap_err();
+    assert!(found.to_string().contains("geometry.ring.rim_diameter_mm"), "{found}");
+    assert_eq!(found, Bodies::new(&wide).unwrap_err());
+}

@@ -513,7 +513,8 @@ fn a_free_sun_vibrates_in_a_plane_that_stands_still_in_space() {
         let factors = s.map(|s| (1.0 + s * 0.5 * step) / (1.0 - s * 0.5 * step));
         let (mut worst, mut size) = (0.0f64, 0.0f64);
         for found in &path[2..] {
-            (terms[0] *= factors[0], terms[1] *= factors[1]);
+            terms[0] *= factors[0];
+            terms[1] *= factors[1];
             worst = worst.max((found - terms[0] - terms[1]).norm());
             size = size.max(found.norm());
         }

@@ -145,7 +145,7 @@ pub(crate) const KEYS: &[SceneKey] = &[
     SceneKey { path: "operation.fixed", kind: Choice(&["sun", "ring", "carrier"]), unit: "–", presence: Default("ring"), meaning: "member that stands still", needed_by: NONE },
     SceneKey { path: "operation.input", kind: Choice(&["sun", "ring", "carrier"]), unit: "–", presence: Default("sun"), meaning: "member whose speed and torque are given; another than fixed", needed_by: NONE },
     SceneKey { path: "operation.speed_rpm", kind: Number(Bound::Finite), unit: "rpm", presence: Required, meaning: "speed of the input member, counter-clockwise positive", needed_by: SWEEP },
-    SceneKey { path: "operation.torque_nm", kind: Number(Bound::Finite), unit: "N·m", presence: Required, meaning: "external torque on the input member, counter-clockwise positive; 0 needs the argument --torque-nm", needed_by: LOAD },
+    SceneKey { path: "operation.torque_nm", kind: Number(Bound::Finite), unit: "N·m", presence: Required, meaning: "external torque on the input member, counter-clockwise positive; 0 needs the argument --sun-torque-nm", needed_by: LOAD },
     SceneKey { path: "fe_contact", kind: Table, unit: "–", presence: Optional("its defaults"), meaning: "choices of the FE/contact model", needed_by: NONE },
     SceneKey { path: "fe_contact.plane", kind: Choice(&["strain", "stress"]), unit: "–", presence: Default("strain"), meaning: "plane strain or plane stress", needed_by: NONE },
     SceneKey { path: "fe_contact.element", kind: Choice(&["linear", "incompatible", "quadratic"]), unit: "–", presence: Default("quadratic"), meaning: "quadrilaterals behind the flanks: bilinear (too stiff in bending), with incompatible bending modes, or of eight nodes", needed_by: NONE },

@@ -157,7 +157,7 @@ impl Scene {
 
     fn lacks_torque(&self, lacks: &mut Vec<Lack>) {
         if self.operation.is_none_or(|operation| operation.torque_nm == 0.0) {
-            let argument = Some("--torque-nm");
+            let argument = Some("--sun-torque-nm");
             lacks.push(Lack {
                 argument,
                 ..lack("operation.torque_nm", "a torque other than 0 loads the teeth")

@@ -85,8 +85,8 @@ fn floor(text: &str, at: usize) -> usize {
 
 /// Path of the table in which the line that starts at byte `start` stands.
 fn table_of(text: &str, start: usize) -> String {
-    let headers = text[..start].lines().map(str::trim).filter(|line| line.starts_with('['));
-    headers.last().map_or(String::new(), |header| {
+    let mut headers = text[..start].lines().map(str::trim).filter(|line| line.starts_with('['));
+    headers.next_back().map_or(String::new(), |header| {
         let header = header.split('#').next().unwrap_or("").trim();
         header.trim_matches(['[', ']', ' ']).to_owned()
     })

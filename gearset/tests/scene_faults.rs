@@ -30,6 +30,9 @@ fn assert_fault(changes: &[(&str, &str)], key: &str, words: &str) {
     assert!(found.span.end <= text.len() && found.span.start <= found.span.end);
 }
 
+/// Texts put in place of others, and the keys at fault then.
+type Faults<'t> = (&'t [(&'t str, &'t str)], &'t [&'t str]);
+
 #[test]
 fn all_faults_are_reported_at_once() {
     let text = changed(&[
@@ -274,7 +277,7 @@ fn faults_of_every_stage_are_listed_in_one_run_and_nothing_that_follows_from_the
 
 #[test]
 fn nothing_is_reported_that_only_follows_from_another_fault() {
-    let cases: [(&[(&str, &str)], &[&str]); 12] = [
+    let cases: [Faults; 12] = [
         // Positions, base radii, meshes and angles depend on the teeth.
         (&[("sun = 27", "sun = 27.5")], &["teeth.sun"]),
         (&[("planet = 35", "")], &["teeth.planet"]),
@@ -305,7 +308,7 @@ fn nothing_is_reported_that_only_follows_from_another_fault() {
 #[test]
 fn what_a_broken_line_was_to_say_is_not_missed() {
     let nu = ("poisson_ratio = 0.3", "poisson_ratio = 0.7");
-    let cases: [(&[(&str, &str)], &[&str]); 6] = [
+    let cases: [Faults; 6] = [
         (&[nu, ("speed_rpm = 1600", "speed_rpm = ")], &["material.poisson_ratio", "speed_rpm"]),
         (&[nu, ("sun = 27", "sun = 27 28")], &["material.poisson_ratio", "sun"]),
         (&[nu, ("\n[operation]", "\n[operation")], &["material.poisson_ratio", "operation"]),

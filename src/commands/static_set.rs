@@ -326,11 +326,16 @@ fn text(
                 cycle.torque_nm.to_string(),
                 format!("{:.4}", r * 1e6),
                 format!("{:.4}", t * 1e6),
-                format!("{:.3}", r / r0),
-                format!("{:.3}", t / t0),
+                over_first(r, r0),
+                over_first(t, t0),
             ]);
         }
         writeln!(out, "{table}")?;
     }
     Ok(())
+}
+
+/// A value over that at the first torque; a cycle of one position and a sun that stays put have none.
+fn over_first(value: f64, first: f64) -> String {
+    if first > 0.0 { format!("{:.3}", value / first) } else { "–".into() }
 }

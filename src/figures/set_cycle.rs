@@ -18,7 +18,8 @@ pub fn of_set_cycles(title: &str, cycles: &[SetCycle], sun_base_radius: f64) -> 
         Figure::new("load_sharing", load_sharing(cycle, &about)),
         Figure::new("mesh_stiffness", mesh_stiffness(cycle, &about)),
     ];
-    if cycles.len() > 1 {
+    let (rotation, translation) = cycles[0].sun_rms();
+    if cycles.len() > 1 && rotation > 0.0 && translation > 0.0 {
         figures.push(Figure::new("rms_against_torque", rms_against_torque(title, cycles)));
     }
     figures

@@ -63,11 +63,6 @@ fn every_verb(folder: &Path) -> Vec<(&'static str, bool, Vec<String>)> {
     let own = csv_of_own_modes().to_str().unwrap().to_owned();
     let (set, pair) = (scene("oh58_4p.toml"), scene("oh58_sun_planet_pair.toml"));
     let plain = coarse(folder, "oh58_4p.toml", &[]);
-    let full = coarse(
-        folder,
-        "oh58_3p.toml",
-        &[("[fe_contact]", "[dynamics]\nfidelity = \"full\"\n[fe_contact]")],
-    );
     let words = |line: &str| line.split(' ').map(str::to_owned).collect::<Vec<_>>();
     vec![
         ("validate", false, words("validate --only table1.")),
@@ -83,7 +78,6 @@ fn every_verb(folder: &Path) -> Vec<(&'static str, bool, Vec<String>)> {
         ("static_approach", true, words(&format!("static {pair} --approach-um 20 --phase 0.7"))),
         ("impulse", true, words(&format!("impulse {plain} --duration-ms 10"))),
         ("impulse", false, words(&format!("impulse {plain} --duration-ms 10 --band"))),
-        ("impulse", true, words(&format!("impulse {full} --duration-ms 10 --band-hz 400:1500"))),
         ("modes", false, words(&format!("modes {set}"))),
         ("modes", false, words(&format!("modes {set} --carrier-speeds-rpm 0,535.7"))),
         ("modes", false, words(&format!("modes {}", scene("lin_parker_1999_3p.toml")))),
@@ -427,7 +421,7 @@ fn impulse_refuses_what_makes_no_sense_with_one_message() {
         (&["impulse", &set, "--step-us", "0"], "step above 0"),
         (&["impulse", &set, "--step-us", "-5"], "step above 0"),
         (&["impulse", &set, "--step-us", "60"], "has 8 steps"),
-        (&["impulse", &set, "--duration-ms", "5"], "at least 9.05 ms"),
+        (&["impulse", &set, "--duration-ms", "5"], "at least 9.12 ms"),
         (&["impulse", &set, "--duration-ms", "nan"], "--duration-ms"),
         (&["impulse", &set, "--duration-ms", "1e9"], "100000 steps"),
         (&["impulse", &set, "--position", "2"], "from 0 to 1"),
@@ -484,11 +478,18 @@ fn impulse_as_text_csv_and_pictures() {
     }
     let csv = with(&["--format", "csv"]);
     let rows: Vec<Vec<&str>> = csv.lines().skip(1).map(|l| l.split(',').collect()).collect();
-    assert_eq!(rows.len(), 8);
-    for row in rows {
+    let (inside, outside): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row[10] == "true");
+    assert_eq!((inside.len(), outside.len()), (8, 6));
+    for row in inside {
         let apart: f64 = row[8].parse().unwrap();
-        assert!(row.len() == 10 && apart.abs() < 0.1, "{row:?}");
+        assert!(row.len() == 11 && apart.abs() < 0.1, "{row:?}");
     }
+    // Modes outside the band are linearised alone.
+    for row in outside {
+        let frequency: f64 = row[6].parse().unwrap();
+        assert!(row.len() == 11 && frequency > 3000.0 && row[1].is_empty(), "{row:?}");
+    }
+    assert!(text.contains("outside this band"), "{text}");
 }
 
 /// Fidelity `full`: as many modes are identified, and the columns of the linearised set are empty.

@@ -124,7 +124,8 @@ fn mutated_through_cheap_verbs(count: usize, seed: u64) {
         std::fs::write(&path, &text).unwrap();
         let run = |words: &[&str]| {
             let (mut out, mut err) = (Vec::new(), Vec::new());
-            let all = ["epicyclic"].iter().chain(words).chain(&[name, "--format", "json"]);
+            let (first, last) = (["epicyclic"], [name, "--format", "json"]);
+            let all = first.iter().chain(words).chain(&last);
             let code = epicyclic::run(all, &mut out, &mut err);
             (code, out, String::from_utf8(err).unwrap())
         };

@@ -285,8 +285,25 @@ fn prepare(name: &'static str, gear: &Gear) -> Result<(Outline, f64), FeError> {
             why: "stresses at a sharp root have no limit; give the root a fillet".into(),
         });
     }
+    // Rows of rim elements are as many as this, and would be laid out before anything counts them.
+    let pitch = gear.root_radius * gear.pitch_angle();
+    let most = MOST_PITCHES.max(f64::from(gear.teeth)) * pitch;
+    if (gear.root_radius - body_radius).abs() > most {
+        return Err(FeError::Unfit {
+            key: format!("{key}_diameter_mm"),
+            value: format!("{}", 2e3 * body_radius),
+            allowed: format!("within {:.4} of the root circle", 2e3 * most),
+            why: format!(
+                "a rim thicker than {:.0} tooth pitches has no influence on the teeth that the mesh could show",
+                most / pitch
+            ),
+        });
+    }
     Ok((Outline::new(gear), body_radius))
 }
+
+/// Thickest rim that is meshed, in tooth pitches at the root circle, or as many as there are teeth: a solid gear.
+const MOST_PITCHES: f64 = 100.0;
 
 /// (x, y) turned by an angle.
 pub fn rotated([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
