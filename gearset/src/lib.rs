@@ -54,6 +54,7 @@ pub use mesh_kind::{MeshKind, MeshMember};
 pub use mesh_law::{CurveKey, FlankSide, MeshLaw, MeshLawError, MeshLawPlan, MeshStart};
 pub use needs::{Lack, Verb};
 pub use pair_springs::PairSprings;
+pub use parse::MOST_SCENE_BYTES;
 pub use phasing::{GearAngles, MeshPhases, Phasing};
 pub use rules::*;
 pub use scene::*;

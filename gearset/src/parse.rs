@@ -20,7 +20,7 @@ use crate::scene::*;
 use crate::text_file::read_text;
 
 /// Longest scene file that is read, bytes; the longest of this project has some 4 kB.
-const MOST_BYTES: u64 = 1_000_000;
+pub const MOST_SCENE_BYTES: u64 = 1_000_000;
 
 /// Most planets a scene may have; a circle of more would not fit any real set.
 pub(crate) const MOST_PLANETS: i64 = 64;
@@ -33,7 +33,7 @@ impl Scene {
     /// fault found otherwise.
     pub fn from_file(path: &Path) -> Result<Self, SceneError> {
         let unreadable = |cause| SceneError::Unreadable { path: path.to_owned(), cause };
-        Self::from_toml(&read_text(path, MOST_BYTES).map_err(unreadable)?)
+        Self::from_toml(&read_text(path, MOST_SCENE_BYTES).map_err(unreadable)?)
     }
 
     /// Reads and validates scene text.

@@ -56,12 +56,13 @@ pub(super) fn run(
     }
     let phase = phase.rem_euclid(1.0);
     let start = Instant::now();
-    let _working = Working::new("meshing the bodies and solving the positions");
+    let working = Working::new("meshing the bodies and solving the positions");
     let bodies = Bodies::new(scene).map_err(fe_refused(path))?;
     let before = Instant::now();
     let solver = statics::solver(arguments.solver);
     let own = at_approach(&bodies, kind, phase, approach_um * 1e-6, solver);
     let own = own.map_err(fe_refused(path))?;
+    drop(working);
     let (seconds, solve_seconds) = (start.elapsed().as_secs_f64(), before.elapsed().as_secs_f64());
     if let Some(file) = &arguments.export_inp {
         let settings = DeckSettings {

@@ -71,11 +71,12 @@ pub(super) fn run(
 ) -> Result<(), CommandError> {
     let path = &arguments.scene;
     let kind = scene.pair.ok_or_else(|| unfit(path, "`mesh` is absent"))?;
-    let _working = Working::new("meshing the bodies and solving the positions");
+    let working = Working::new("meshing the bodies and solving the positions");
     let bodies = Bodies::new(scene).map_err(fe_refused(path))?;
     let solver = statics::solver(arguments.solver);
     let positions = arguments.position_count();
     let cycle = pair_cycle(&bodies, kind, force, positions, solver).map_err(fe_refused(path))?;
+    drop(working);
     #[cfg(feature = "charts")]
     if let Some(folder) = &arguments.figures {
         figures::save(&figures::of_pair_cycle(&scene.title, &cycle), folder)?;

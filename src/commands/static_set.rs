@@ -115,7 +115,7 @@ pub(super) fn run(
     out: &mut dyn Write,
 ) -> Result<(), CommandError> {
     let path = &arguments.scene;
-    let _working = Working::new("meshing the bodies and solving the positions");
+    let working = Working::new("meshing the bodies and solving the positions");
     let bodies = Bodies::new(scene).map_err(fe_refused(path))?;
     let solver = statics::solver(arguments.solver);
     let mut cycles = Vec::new();
@@ -126,6 +126,7 @@ pub(super) fn run(
         let positions = arguments.position_count();
         cycles.push(set.cycle(load.sun_load_nm(), positions, solver).map_err(fe_refused(path))?);
     }
+    drop(working);
     let radius = bodies.geometry.sun.as_ref().map(|sun| sun.base_radius);
     let radius = radius.ok_or_else(|| unfit(path, "`geometry.sun` is absent"))?;
     #[cfg(feature = "charts")]

@@ -9,7 +9,7 @@ use experiments::sweep::{
     SteadySettings, Sweep, SweepModel, even_speeds, fidelity_name, run as run_plan,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, LoadCase, Scene, SceneKind, Verb};
+use gearset::{Fidelity, LoadCase, MOST_SCENE_BYTES, Scene, SceneKind, Verb};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::arguments::{Model, Sweep as SweepArguments, TableFormat};
@@ -23,9 +23,6 @@ use super::sweep_output::{SweepOutput, text, write_csv, write_failed};
 use super::sweep_store::{Folder, write_whole};
 use super::working::Working;
 use super::{fe_refused, needs, read_scene, unfit};
-
-/// Longest scene file that is kept beside its results, bytes: no longer one is read as a scene.
-const MOST_BYTES: u64 = 1_000_000;
 
 /// Half-width of the refinement about a peak, as a share of its speed.
 const SPAN: f64 = 0.04;
@@ -178,7 +175,7 @@ impl<'a> Task<'a> {
         };
         let plan = Plan::new(&speeds, directions, steady).map_err(refuse("--speeds-rpm"))?;
         let failed = |source| CommandError::File { what: "cannot read", path: path.into(), source };
-        let text = gearset::read_text(path, MOST_BYTES).map_err(failed)?;
+        let text = gearset::read_text(path, MOST_SCENE_BYTES).map_err(failed)?;
         let fidelity = match arguments.model {
             Model::FeContact => fidelity_name(scene.dynamics.fidelity),
             Model::Lumped => LUMPED.into(),

@@ -6,11 +6,13 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use experiments::sweep::Plan;
+use gearset::read_text;
 
 use crate::error::CommandError;
 
 use super::statics::refused;
 use super::sweep_manifest::Manifest;
+use super::sweep_store::MOST_BYTES;
 
 /// Manifest of the speeds asked for.
 pub(super) const PLAN: &str = "plan.json";
@@ -120,7 +122,7 @@ fn inspect(folder: &Path, wanted: &Manifest, refine: u32) -> Result<(), CommandE
         Err(e) => return Err(unread(folder)(e)),
     }
     let path = folder.join(PLAN);
-    match fs::read_to_string(&path) {
+    match read_text(&path, MOST_BYTES) {
         Ok(text) => {
             if let Some(reason) = wanted.difference(&text) {
                 return Err(other_results(path, &reason));
@@ -157,7 +159,7 @@ fn refuse_foreign(folder: &Path) -> Result<(), CommandError> {
 
 /// Refuses speeds about peaks that an earlier run laid out for another number of them.
 fn check_refinement(path: &Path, refine: u32) -> Result<(), CommandError> {
-    let Ok(text) = fs::read_to_string(path) else { return Ok(()) };
+    let Ok(text) = read_text(path, MOST_BYTES) else { return Ok(()) };
     let plan = serde_json::from_str::<serde_json::Value>(&text).ok();
     let plan =
         plan.and_then(|mut v| serde_json::from_value::<Plan>(v.get_mut("plan")?.take()).ok());

@@ -5,11 +5,16 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use experiments::sweep::{Chain, Kept, PointStore, StoreError};
+use gearset::read_text;
 
 use crate::error::CommandError;
 
 use super::sweep_claim::{POINTS, other_results};
 use super::sweep_manifest::Manifest;
+
+/// Longest manifest or point that is read, bytes: some million numbers, as the state of full bodies has, fit several
+/// times.
+pub(super) const MOST_BYTES: u64 = 200_000_000;
 
 /// Before the checksum in the file of a point.
 const HEAD: &str = "{\"checksum\":\"";
@@ -34,7 +39,7 @@ impl Folder {
     pub(super) fn open(folder: &Path, name: &str, wanted: &Manifest) -> Result<Self, CommandError> {
         let path = folder.join(name);
         let own = serde_json::to_string_pretty(wanted)?;
-        match fs::read_to_string(&path) {
+        match read_text(&path, MOST_BYTES) {
             Ok(text) => {
                 if let Some(reason) = wanted.difference(&text) {
                     return Err(other_results(path, &reason));
@@ -116,7 +121,7 @@ impl PointStore for Folder {
                 path.display()
             ),
         };
-        match fs::read_to_string(&path) {
+        match read_text(&path, MOST_BYTES) {
             Ok(text) => {
                 let json = self.checked(chain, index, &text).map_err(failed)?;
                 serde_json::from_str(json).map(Some).map_err(|e| failed(e.to_string()))

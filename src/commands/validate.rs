@@ -98,8 +98,7 @@ pub(crate) struct ControlsOutput {
 #[derive(Serialize, JsonSchema)]
 struct SuiteControls {
     suite: String,
-    /// natural_modes, mesh_cycle or steady_states of any model, or own_numerics.
-    asks: String,
+    asks: Asks,
     about: String,
     controls: Vec<ControlOutput>,
 }
@@ -116,24 +115,10 @@ struct ControlOutput {
 fn suites(arguments: &Validate, out: &mut dyn Write) -> Result<(), CommandError> {
     let registry = Registry::load().map_err(ValidationError::from)?;
     let own = registry.suite.into_iter().filter(|s| s.name.starts_with(&arguments.only));
-    let (kind, words) = (
-        |asks: Asks| match asks {
-            Asks::NaturalModes => "natural_modes",
-            Asks::MeshCycle => "mesh_cycle",
-            Asks::SteadyStates => "steady_states",
-            Asks::OwnNumerics => "own_numerics",
-        },
-        |asks: &str| match asks {
-            "natural_modes" => "natural modes of any model",
-            "mesh_cycle" => "mesh cycles at rest of any model",
-            "steady_states" => "steady states of any model",
-            _ => "our own models",
-        },
-    );
     let suites: Vec<SuiteControls> = own
         .map(|suite| SuiteControls {
             suite: suite.name,
-            asks: kind(suite.asks).to_owned(),
+            asks: suite.asks,
             about: suite.about,
             controls: suite
                 .control
@@ -146,7 +131,12 @@ fn suites(arguments: &Validate, out: &mut dyn Write) -> Result<(), CommandError>
         return output::json(out, &ControlsOutput { suites });
     }
     for suite in &suites {
-        let asks = words(&suite.asks);
+        let asks = match suite.asks {
+            Asks::NaturalModes => "natural modes of any model",
+            Asks::MeshCycle => "mesh cycles at rest of any model",
+            Asks::SteadyStates => "steady states of any model",
+            Asks::OwnNumerics => "our own models",
+        };
         writeln!(out, "{} ({asks}): {}", suite.suite, suite.about)?;
         for control in &suite.controls {
             writeln!(out, "  {}", control.id)?;

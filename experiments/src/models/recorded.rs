@@ -14,10 +14,9 @@
 //! `share`, `contact_loss`, `lowest_force`, `backside_contact`) may be there. `sun_torque_nm` is the torque on the
 //! sun. Units are Hz, N m, rpm, m, rad, N.
 
-use std::fs::File;
 use std::path::{Path, PathBuf};
 
-use gearset::{LoadCase, Scene};
+use gearset::{LoadCase, Scene, read_text};
 use lumped::ModeType;
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +27,9 @@ use crate::sweep::{Coordinate, Line, Part, SteadyState};
 
 /// Torques are the same if they differ by less than this part.
 const SAME_TORQUE: f64 = 1e-6;
+
+/// Longest table that is read, bytes: some million rows.
+const MOST_BYTES: u64 = 500_000_000;
 
 /// A frequency occurs at most so often, and a set has at most so many planets: more is a slip of the pen, and
 /// would be asked for as memory.
@@ -152,8 +154,8 @@ fn rows<T: serde::de::DeserializeOwned>(
         return Ok(None);
     }
     let failed = |source| RecordedError::Table { path: path.clone(), source };
-    let file = File::open(&path).map_err(|e| failed(e.into()))?;
-    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(file);
+    let text = read_text(&path, MOST_BYTES).map_err(|e| failed(e.into()))?;
+    let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
     let list = reader.deserialize().collect::<Result<Vec<T>, csv::Error>>().map_err(failed)?;
     Ok(Some((path, list)))
 }

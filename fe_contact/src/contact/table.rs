@@ -129,12 +129,14 @@ impl MeshTable {
         let window = settings.window * (factor / 3.0).max(1.0);
         // The mesh gives way only once its nearest pair touches. Without tip relief that pair is on the
         // path and has no gap.
-        let all: Vec<f64> =
-            candidates(mesh, phase, f64::INFINITY).iter().map(PairFrame::least_gap).collect();
-        let nearest = all.iter().fold(f64::INFINITY, |a, gap| a.min(*gap));
+        let all = candidates(mesh, phase, f64::INFINITY);
+        let least: Vec<f64> = all.iter().map(PairFrame::least_gap).collect();
+        let nearest = least.iter().fold(f64::INFINITY, |a, gap| a.min(*gap));
         let window = if nearest.is_finite() { window + nearest.max(0.0) } else { window };
-        let frames = candidates(mesh, phase, window);
-        let next_gap = all.into_iter().filter(|gap| *gap > window).fold(f64::INFINITY, f64::min);
+        let next_gap =
+            least.iter().filter(|gap| **gap > window).fold(f64::INFINITY, |a, g| a.min(*g));
+        let within = all.into_iter().zip(&least).filter(|(_, gap)| **gap <= window);
+        let frames: Vec<PairFrame<'_>> = within.map(|(frame, _)| frame).collect();
         let (mut pairs, mut gaps) = (Vec::new(), Vec::new());
         for frame in &frames {
             let hertz = Hertz::new(settings.force / face_width, frame.radius(), &driver.material);
