@@ -56,6 +56,8 @@ pub(super) fn run(
     let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
     needs::require(&arguments.scene, &scene, Verb::Impulse, is_given)?;
     needs::warn(&scene, err)?;
+    #[cfg(feature = "charts")]
+    needs::warn_of_title(&scene, arguments.figures.as_deref(), err)?;
     let found = find(arguments, scene, preload)?;
     #[cfg(feature = "charts")]
     if let Some(folder) = &arguments.figures {

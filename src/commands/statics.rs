@@ -28,6 +28,8 @@ pub(crate) fn run(
     }
     let path = &arguments.scene;
     needs::warn(&scene, err)?;
+    #[cfg(feature = "charts")]
+    needs::warn_of_title(&scene, arguments.figures.as_deref(), err)?;
     match scene.kind {
         SceneKind::GearPair if arguments.approach_um.is_some() => {
             static_approach::run(arguments, &scene, out)

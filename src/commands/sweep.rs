@@ -43,6 +43,8 @@ pub(super) fn run(
     // Bodies and tables take minutes: a folder that cannot be used is refused before.
     let _claim = task.claim()?;
     needs::warn(&scene, err)?;
+    #[cfg(feature = "charts")]
+    needs::warn_of_title(&scene, arguments.figures.as_deref(), err)?;
     let working = Working::new("meshing the bodies and laying out tables");
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let model: Box<dyn SweepModel> = match (arguments.model, scene.dynamics.fidelity) {

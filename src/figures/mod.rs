@@ -48,6 +48,11 @@ impl Figure {
     }
 }
 
+/// The characters of a text that PNG files show as `?`, because their font lacks them; each once.
+pub fn lacking(text: &str) -> Vec<char> {
+    drawing::missing(text)
+}
+
 /// Writes figures into a folder, which is made if need be.
 ///
 /// # Errors

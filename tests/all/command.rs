@@ -537,3 +537,27 @@ fn figures_and_meshes_are_written_where_asked() {
     }
     assert!(std::fs::read_to_string(at("mesh.svg")).unwrap().contains("</svg>"));
 }
+
+/// PNG files have a font of their own. What it lacks is warned of, and kept in the SVG.
+#[test]
+fn a_title_that_a_png_cannot_show_is_warned_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(scene("oh58_sun_planet_pair.toml")).unwrap();
+    let old = "title = \"Army OH-58 main rotor reduction, one sun-planet mesh\"";
+    let path = folder.path().join("pair.toml");
+    let figures = folder.path().join("figures").display().to_string();
+    let drawn = |title: &str, more: &[&str]| {
+        let coarse = "\n[fe_contact]\nflank_elements = 8\n";
+        std::fs::write(&path, text.replace(old, &format!("title = \"{title}\"")) + coarse).unwrap();
+        let name = path.to_str().unwrap();
+        let own = ["static", name, "--normal-force-n", "3000", "--positions", "2"];
+        run(&[&own, more].concat())
+    };
+    let (code, _, err) = drawn("行星 γ", &["--figures", &figures]);
+    assert_eq!(code, 0, "{err}");
+    assert!(err.contains("`title`") && err.contains("(行 星)") && !err.contains("γ"), "{err}");
+    let svg = std::fs::read_to_string(format!("{figures}/load_sharing.svg")).unwrap();
+    assert!(svg.contains("行星 γ"));
+    assert!(!drawn("Pair, γ, é", &["--figures", &figures]).2.contains("`title`"));
+    assert!(!drawn("行星", &[]).2.contains("`title`"));
+}

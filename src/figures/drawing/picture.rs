@@ -6,6 +6,8 @@ use kuva::backend::png::PngBackend;
 use kuva::backend::svg::SvgBackend;
 use kuva::render::render::Scene;
 
+use super::glyphs::with_stand_ins;
+
 /// Pixels of the PNG per pixel of the SVG.
 const SCALE: f32 = 2.0;
 
@@ -32,14 +34,14 @@ impl Picture {
     }
 
     /// Writes `NAME.svg` and `NAME.png`, the latter with twice the resolution, into a folder, which is
-    /// created if necessary.
+    /// created if necessary. In the PNG `?` stands for characters that its font lacks.
     ///
     /// # Errors
     /// If a file cannot be written, or the PNG cannot be drawn.
     pub fn save(&self, folder: &Path, name: &str) -> Result<(), FigureError> {
         write(&folder.join(format!("{name}.svg")), self.svg().as_bytes())?;
         let path = folder.join(format!("{name}.png"));
-        let png = PngBackend::new().with_scale(SCALE).render_scene(&self.0);
+        let png = PngBackend::new().with_scale(SCALE).render_scene(&with_stand_ins(&self.0));
         let failed = |why: String| FigureError {
             what: "cannot draw",
             path: path.clone(),
