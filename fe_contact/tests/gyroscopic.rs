@@ -13,6 +13,9 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 type C = nalgebra::Complex<f64>;
 
+/// Masses of bodies (kg), their z and v at the start (m, m/s), and z at the end of each step.
+type Vibration = (Vec<f64>, Vec<C>, Vec<C>, Vec<Vec<C>>);
+
 fn scene(name: &str) -> Scene {
     let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
     let mut scene = Scene::from_file(path.as_ref()).unwrap();
@@ -132,7 +135,7 @@ fn free_bodies_vibrate_in_planes_that_stand_still_in_space() {
     // Bodies of the closed form: sun, carrier, planets.
     let numbers: Vec<usize> =
         [SUN, CARRIER].into_iter().chain(PLANETS..PLANETS + planets).collect();
-    let run = |gyroscopic: bool| -> (Vec<f64>, Vec<C>, Vec<C>, Vec<Vec<C>>) {
+    let run = |gyroscopic: bool| -> Vibration {
         let mut scene = scene.clone();
         scene.dynamics.gyroscopic = gyroscopic;
         let mut set = unloaded(&scene, &bodies);
@@ -186,7 +189,7 @@ fn free_bodies_vibrate_in_planes_that_stand_still_in_space() {
     let carrier = TAU * FREQUENCY / 99.0;
     // The planes turn by more than a radian.
     assert!(COUNT as f64 * STEP * carrier > 1.0);
-    let apart = |(mass, z, v, path): &(Vec<f64>, Vec<C>, Vec<C>, Vec<Vec<C>>), speed: f64| {
+    let apart = |(mass, z, v, path): &Vibration, speed: f64| {
         let expected = FreeBodies::new(mass.clone(), &stiffness).path(z, v, speed, path.len());
         let of = |body: usize| {
             let size = path.iter().map(|z| z[body].norm()).fold(0.0f64, f64::max);
