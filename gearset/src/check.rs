@@ -1,8 +1,9 @@
 //! Faults of choices and positions that show only when several keys are seen together.
 
 use crate::assembly;
+use crate::choices::{DynamicsInput, FeContactInput, Fidelity};
 use crate::reader::Document;
-use crate::scene::{DynamicsInput, FeContactInput, Fidelity, PlanetPositions};
+use crate::scene::PlanetPositions;
 
 /// Refuses flexibility factors at every fidelity but `quasi_static`: elastic states of a body act in several
 /// meshes at once and cannot be scaled for one mesh.

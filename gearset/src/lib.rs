@@ -6,6 +6,7 @@ mod bound;
 mod check;
 mod check_geometry;
 mod check_load;
+mod choices;
 mod displaced;
 mod estimates;
 mod fault;
@@ -41,6 +42,7 @@ mod unread;
 mod warnings;
 
 pub use bound::Bound;
+pub use choices::*;
 pub use displaced::{DisplacedMesh, Displacements, MeshGradients, MeshHessians, PairLocation};
 pub use fault::{Fault, SceneError};
 pub use gear::{Facing, Flank, Gear, ToothSide};

@@ -1,7 +1,8 @@
 //! What each verb of the command needs of a scene.
 
+use crate::choices::Fidelity;
 use crate::mesh_kind::MeshKind;
-use crate::scene::{Fidelity, Freedom, GearInput, Scene, SceneKind};
+use crate::scene::{Freedom, GearInput, Scene, SceneKind};
 
 /// A verb of the command that reads a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

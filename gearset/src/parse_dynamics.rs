@@ -1,7 +1,7 @@
 //! The `[dynamics]` table.
 
+use crate::choices::{DynamicsInput, Fidelity, MeshKinematics};
 use crate::reader::Section;
-use crate::scene::{DynamicsInput, Fidelity, MeshKinematics};
 
 /// Fidelities by name; the number of modes has a key of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,8 +1,9 @@
 //! The `[fe_contact]` table.
 
 use crate::bound::Bound;
+use crate::choices::{ElementFamily, FeContactInput, PlaneState};
 use crate::reader::Section;
-use crate::scene::{ElementFamily, FeContactInput, PerMesh, PlaneState};
+use crate::scene::PerMesh;
 
 pub(crate) fn fe_contact(s: Section<'_, '_>) -> FeContactInput {
     let default = FeContactInput::default();

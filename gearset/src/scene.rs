@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::choices::{DynamicsInput, FeContactInput};
 use crate::mesh_kind::MeshKind;
 
 /// What the scene describes.
@@ -48,112 +49,6 @@ pub struct Scene {
     pub fe_contact: FeContactInput,
     /// Choices for simulation in time.
     pub dynamics: DynamicsInput,
-}
-
-/// Level of detail of the bodies behind the teeth when the set vibrates.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Fidelity {
-    /// As `QuasiStatic`, but each mesh force is read from a table over deflection and phase.
-    MeshLaw,
-    /// Rigid inertia, FE flexibility without inertia of its own.
-    QuasiStatic,
-    /// As `QuasiStatic`, and this number of modes of each body with its race held.
-    Modal(u32),
-    /// Every FE degree of freedom, with its inertia.
-    Full,
-}
-
-/// Choices for simulation in time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct DynamicsInput {
-    /// Level of detail of the bodies.
-    pub fidelity: Fidelity,
-    /// Time steps in a mesh cycle.
-    pub steps_per_cycle: u32,
-    /// Whether the carrier frame's gyroscopic and centripetal terms act.
-    pub gyroscopic: bool,
-    /// How approaches of tooth pairs follow from displacements of the gears in a sweep.
-    pub kinematics: MeshKinematics,
-}
-
-/// How approaches of tooth pairs follow from displacements of the gears.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum MeshKinematics {
-    /// Exact in the mean configuration under load; linear (at tip corners quadratic) in the displacements
-    /// from it.
-    AboutMean,
-    /// Exact at every time step; slow.
-    Exact,
-}
-
-impl Default for DynamicsInput {
-    fn default() -> Self {
-        let kinematics = MeshKinematics::AboutMean;
-        Self {
-            fidelity: Fidelity::QuasiStatic,
-            steps_per_cycle: 140,
-            gyroscopic: false,
-            kinematics,
-        }
-    }
-}
-
-/// State of a two-dimensional continuum.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum PlaneState {
-    /// No strain along the face width.
-    Strain,
-    /// No stress along the face width.
-    Stress,
-}
-
-/// Displacement field of the quadrilaterals behind the Hermite flanks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ElementFamily {
-    /// Four nodes, bilinear, as in Parker, Agashe & Vijayakar (2000); too stiff in bending.
-    Linear,
-    /// Four nodes and incompatible bending modes.
-    Incompatible,
-    /// Eight nodes.
-    Quadratic,
-}
-
-/// Choices of the FE/contact model; a value of `None` is derived from the geometry.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct FeContactInput {
-    /// Plane strain or plane stress.
-    pub plane: PlaneState,
-    /// Element family behind the flanks.
-    pub element: ElementFamily,
-    /// Elements along one flank; the rest of the mesh follows their size.
-    pub flank_elements: u32,
-    /// Contact cells of one tooth pair.
-    pub contact_cells: u32,
-    /// Depth below the flank at which half-plane and FE are matched, m.
-    pub matching_depth: Option<f64>,
-    /// Matching points below each cell: 1 as in eq. (1) of Parker, Agashe & Vijayakar (2000), 2 to
-    /// extrapolate to the surface.
-    pub matching_points: u32,
-    /// Factors on the FE part of each mesh's flexibility; the half-plane part is unchanged.
-    pub flexibility_factor: PerMesh,
-}
-
-impl Default for FeContactInput {
-    fn default() -> Self {
-        Self {
-            plane: PlaneState::Strain,
-            element: ElementFamily::Quadratic,
-            flank_elements: 14,
-            contact_cells: 40,
-            matching_depth: None,
-            matching_points: 2,
-            flexibility_factor: PerMesh { sun_planet: 1.0, ring_planet: 1.0 },
-        }
-    }
 }
 
 /// Where the planets stand on the carrier.

@@ -3,6 +3,7 @@
 //! `cargo test --release --test all snapshots` runs the tests of one module.
 
 mod command;
+mod impulse_command;
 mod mutated_scenes;
 mod scene_check;
 mod scene_schema;
