@@ -1,12 +1,15 @@
 //! Numerical methods without gears: eigenproblems of vibrating systems and their subspaces, time integration,
-//! spectra of records, identification of modes from records, and discretisation errors from three grids.
+//! periodic motions by harmonic balance, branches of solutions, spectra of records, identification of modes from
+//! records, and discretisation errors from three grids.
 
+pub mod continuation;
 mod coupled;
 mod error;
 mod extrapolate;
 mod factored;
 mod grid_convergence;
 mod gyroscopic;
+pub mod harmonic_balance;
 pub mod identify;
 mod lowest_modes;
 mod matrix;

@@ -1,0 +1,32 @@
+//! Branches of solutions of F(y, λ) = 0 by pseudo-arclength continuation.
+//!
+//! In scaled variables u = (y/s, λ/s_λ) a point is predicted along the unit tangent t of the last one and corrected
+//! by Newton's method in the hyperplane across it (Keller, in: *Applications of Bifurcation Theory*, 1977, 359–384):
+//!
+//! ```text
+//! u* = u + h t,   F(u) = 0,   tᵀ(u − u*) = 0;   next tangent: [∂F/∂u; tᵀ] t' = (0, 1)
+//! ```
+//!
+//! so that folds, where λ turns back, are points like any other. The step h follows the iterations needed and the
+//! turn between tangents. A fold is where the λ-component of the tangent changes sign, any other bifurcation where a
+//! test function of the family does; both are located along the arc by a bracketed secant iteration.
+//!
+//! **What is missed.** Two sign changes of one function within a step cancel. At a branch point the tangent is not
+//! unique: the branch is followed straight across, and others are reached from a perturbed start or by
+//! [`deflated_solution`].
+
+mod branch;
+mod deflation;
+mod error;
+mod family;
+mod locate;
+mod options;
+mod space;
+mod trace;
+
+pub use branch::{Branch, BranchPoint, End, PointKind};
+pub use deflation::{Deflation, deflated_solution};
+pub use error::ContinuationError;
+pub use family::{Evaluation, Family, Judgement};
+pub use options::{ContinuationOptions, Scales};
+pub use trace::{Direction, trace, trace_both};

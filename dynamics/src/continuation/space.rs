@@ -1,0 +1,197 @@
+//! Scaled variables of a family: its tangents and corrections.
+
+use faer::Mat;
+use faer::prelude::Solve;
+
+use super::error::ContinuationError;
+use super::family::{Evaluation, Family};
+use super::options::Scales;
+
+/// A family in scaled variables u = (y/s, λ/s_λ).
+pub(super) struct Space<'a, F> {
+    pub(super) family: &'a mut F,
+    scales: &'a Scales,
+}
+
+/// A corrected point, its tangent and the iterations spent.
+#[derive(Clone)]
+pub(super) struct Corrected {
+    pub(super) u: Vec<f64>,
+    pub(super) tangent: Vec<f64>,
+    pub(super) iterations: usize,
+}
+
+impl Corrected {
+    /// Turns the tangent round.
+    pub(super) fn turn_back(&mut self) {
+        self.tangent.iter_mut().for_each(|t| *t = -*t);
+    }
+}
+
+/// When Newton's method ends.
+#[derive(Clone, Copy)]
+pub(super) struct Stop {
+    pub(super) correction: f64,
+    pub(super) most_iterations: usize,
+}
+
+impl<'a, F: Family> Space<'a, F> {
+    pub(super) fn new(
+        family: &'a mut F,
+        scales: &'a Scales,
+    ) -> Result<Self, ContinuationError<F::Error>> {
+        let wanted = family.dimension();
+        let got = scales.unknowns.len();
+        if got != wanted {
+            return Err(ContinuationError::Size { what: "the list of scales", got, wanted });
+        }
+        let all = scales.unknowns.iter().chain([&scales.parameter]);
+        if let Some(value) = all.copied().find(|s| !(*s > 0.0 && s.is_finite())) {
+            let (what, allowed) = ("a scale", "it must be positive and finite");
+            return Err(ContinuationError::Option { what, value, allowed });
+        }
+        Ok(Self { family, scales })
+    }
+
+    pub(super) fn scaled(&self, y: &[f64], lambda: f64) -> Vec<f64> {
+        let own = y.iter().zip(&self.scales.unknowns).map(|(y, s)| y / s);
+        own.chain([lambda / self.scales.parameter]).collect()
+    }
+
+    pub(super) fn plain(&self, u: &[f64]) -> (Vec<f64>, f64) {
+        let n = self.scales.unknowns.len();
+        let y = u[..n].iter().zip(&self.scales.unknowns).map(|(u, s)| u * s).collect();
+        (y, self.lambda(u))
+    }
+
+    pub(super) fn lambda(&self, u: &[f64]) -> f64 {
+        u[self.scales.unknowns.len()] * self.scales.parameter
+    }
+
+    pub(super) fn parameter_scale(&self) -> f64 {
+        self.scales.parameter
+    }
+
+    fn evaluate(&mut self, u: &[f64]) -> Result<Evaluation, ContinuationError<F::Error>> {
+        let (y, lambda) = self.plain(u);
+        let found = self.family.evaluate(&y, lambda);
+        let found = found.map_err(|cause| ContinuationError::Family { lambda, cause })?;
+        let wanted = y.len();
+        for (what, got) in [
+            ("the residual", found.residual.len()),
+            ("the Jacobian", found.jacobian.nrows()),
+            ("the Jacobian", found.jacobian.ncols()),
+            ("the derivative by the parameter", found.derivative.len()),
+        ] {
+            if got != wanted {
+                return Err(ContinuationError::Size { what, got, wanted });
+            }
+        }
+        Ok(found)
+    }
+
+    /// Solves [∂F/∂u; borderᵀ] x = right for both right sides; rows of F are scaled to a largest entry of one.
+    fn bordered(
+        &self,
+        found: &Evaluation,
+        border: &[f64],
+        right: [&dyn Fn(usize) -> f64; 2],
+    ) -> [Vec<f64>; 2] {
+        let n = self.scales.unknowns.len();
+        let entry = |i: usize, j: usize| match j < n {
+            true => found.jacobian[(i, j)] * self.scales.unknowns[j],
+            false => found.derivative[i] * self.scales.parameter,
+        };
+        let row = |i: usize| (0..=n).map(|j| entry(i, j).abs()).fold(0.0, f64::max);
+        let rows: Vec<f64> =
+            (0..n).map(row).map(|r| if r > 0.0 { r.recip() } else { 1.0 }).collect();
+        let matrix = Mat::from_fn(n + 1, n + 1, |i, j| match i < n {
+            true => rows[i] * entry(i, j),
+            false => border[j],
+        });
+        let sides = Mat::from_fn(n + 1, 2, |i, k| right[k](i) * if i < n { rows[i] } else { 1.0 });
+        let solved = matrix.partial_piv_lu().solve(sides);
+        [0, 1].map(|k| (0..=n).map(|i| solved[(i, k)]).collect())
+    }
+
+    /// Unit tangent at u with a positive component along `border`.
+    pub(super) fn tangent(
+        &mut self,
+        u: &[f64],
+        border: &[f64],
+    ) -> Result<Vec<f64>, ContinuationError<F::Error>> {
+        let found = self.evaluate(u)?;
+        let n = border.len() - 1;
+        let unit = |i: usize| if i == n { 1.0 } else { 0.0 };
+        let [t, _] = self.bordered(&found, border, [&unit, &unit]);
+        self.unit(u, t)
+    }
+
+    fn unit(&self, u: &[f64], t: Vec<f64>) -> Result<Vec<f64>, ContinuationError<F::Error>> {
+        let length = norm(&t);
+        if length > 0.0 && length.is_finite() {
+            Ok(t.iter().map(|t| t / length).collect())
+        } else {
+            Err(ContinuationError::NoTangent { lambda: self.lambda(u) })
+        }
+    }
+
+    /// Newton's method from u in the hyperplane across `border`; the tangent is that of the last matrix but one
+    /// correction, which at the tolerance of the correction is that of the solution.
+    pub(super) fn correct(
+        &mut self,
+        start: &[f64],
+        border: &[f64],
+        stop: Stop,
+    ) -> Result<Corrected, ContinuationError<F::Error>> {
+        let n = border.len() - 1;
+        let mut u = start.to_vec();
+        let mut last = f64::NAN;
+        for iterations in 1..=stop.most_iterations {
+            let found = self.evaluate(&u)?;
+            // Both F and the distance from the hyperplane, which stays zero.
+            let residual = |i: usize| if i < n { -found.residual[i] } else { 0.0 };
+            let unit = |i: usize| if i == n { 1.0 } else { 0.0 };
+            let [change, t] = self.bordered(&found, border, [&residual, &unit]);
+            let length = norm(&change);
+            if !length.is_finite() {
+                break;
+            }
+            u.iter_mut().zip(&change).for_each(|(u, d)| *u += d);
+            last = change.iter().map(|d| d.abs()).fold(0.0, f64::max);
+            if last <= stop.correction {
+                let tangent = self.unit(&u, t)?;
+                return Ok(Corrected { u, tangent, iterations });
+            }
+        }
+        let (lambda, iterations) = (self.lambda(&u), stop.most_iterations);
+        Err(ContinuationError::NotConverged { lambda, iterations, correction: last })
+    }
+
+    /// Newton's correction of u in the hyperplane across `border`.
+    pub(super) fn newton_correction(
+        &mut self,
+        u: &[f64],
+        border: &[f64],
+    ) -> Result<Vec<f64>, ContinuationError<F::Error>> {
+        let found = self.evaluate(u)?;
+        let n = border.len() - 1;
+        let residual = |i: usize| if i < n { -found.residual[i] } else { 0.0 };
+        let [change, _] = self.bordered(&found, border, [&residual, &residual]);
+        Ok(change)
+    }
+
+    /// The border that keeps λ where it is.
+    pub(super) fn fixed_parameter(&self) -> Vec<f64> {
+        let n = self.scales.unknowns.len();
+        (0..=n).map(|i| if i == n { 1.0 } else { 0.0 }).collect()
+    }
+}
+
+pub(super) fn norm(x: &[f64]) -> f64 {
+    dot(x, x).sqrt()
+}
+
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

@@ -1,0 +1,271 @@
+//! Branches, step by step.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::branch::{Branch, BranchPoint, End, PointKind};
+use super::error::ContinuationError;
+use super::family::Family;
+use super::locate::{Judged, crossed, locate};
+use super::options::{ContinuationOptions, Scales};
+use super::space::{Corrected, Space, Stop, dot, norm};
+
+/// Which way a branch is followed from its first point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    /// λ grows at first.
+    Up,
+    /// λ falls at first.
+    Down,
+}
+
+/// Most factor by which a step grows from one point to the next.
+const GROWTH: f64 = 1.6;
+
+/// A turn that shrinks to no less than this share when the step is halved is a kink of the branch, as equations with
+/// kinks have them: no shorter step would avoid it.
+const KINK: f64 = 0.75;
+
+/// Follows a branch from a solution near `start` at λ = `lambda`.
+///
+/// # Errors
+/// If sizes or options are out of range, or there is no solution near the start. Whatever happens later ends the
+/// branch and stands in [`Branch::ends`].
+pub fn trace<F: Family>(
+    family: &mut F,
+    start: &[f64],
+    lambda: f64,
+    direction: Direction,
+    scales: &Scales,
+    options: &ContinuationOptions,
+) -> Result<Branch<F::Error>, ContinuationError<F::Error>> {
+    let mut space = Space::new(family, scales)?;
+    let mut first = begin(&mut space, start, lambda, options)?;
+    if direction == Direction::Down {
+        first.turn_back();
+    }
+    let (points, end) = follow(&mut space, first, options)?;
+    Ok(Branch { points, ends: [End::Start, end] })
+}
+
+/// Follows a branch both ways from a solution near `start`. Points are in order from the end reached downwards to that
+/// reached upwards, with tangents and arc lengths (negative below the start) in that sense.
+///
+/// # Errors
+/// As [`trace`].
+pub fn trace_both<F: Family>(
+    family: &mut F,
+    start: &[f64],
+    lambda: f64,
+    scales: &Scales,
+    options: &ContinuationOptions,
+) -> Result<Branch<F::Error>, ContinuationError<F::Error>> {
+    let mut space = Space::new(family, scales)?;
+    let first = begin(&mut space, start, lambda, options)?;
+    let mut back = first.clone();
+    back.turn_back();
+    let (mut points, down) = follow(&mut space, back, options)?;
+    points.reverse();
+    for point in &mut points {
+        point.arc = -point.arc;
+        point.tangent.iter_mut().for_each(|t| *t = -*t);
+    }
+    if matches!(down, End::Closed) {
+        return Ok(Branch { points, ends: [End::Closed, End::Closed] });
+    }
+    let (further, up) = follow(&mut space, first, options)?;
+    points.extend(further.into_iter().skip(1));
+    Ok(Branch { points, ends: [down, up] })
+}
+
+/// First point of a branch, its tangent towards greater λ.
+fn begin<F: Family>(
+    space: &mut Space<'_, F>,
+    start: &[f64],
+    lambda: f64,
+    options: &ContinuationOptions,
+) -> Result<Corrected, ContinuationError<F::Error>> {
+    options.check()?;
+    let [low, high] = options.bounds;
+    if !(low <= lambda && lambda <= high) {
+        let (what, allowed) = ("the first parameter", "it must be within the bounds");
+        return Err(ContinuationError::Option { what, value: lambda, allowed });
+    }
+    let (got, wanted) = (start.len(), space.family.dimension());
+    if got != wanted {
+        return Err(ContinuationError::Size { what: "the start", got, wanted });
+    }
+    let (stop, u) = (stop(options), space.scaled(start, lambda));
+    let fixed = space.fixed_parameter();
+    let (mut at, border) = match space.correct(&u, &fixed, stop) {
+        Ok(at) => (at, fixed),
+        Err(error) => {
+            // At a fold λ cannot be kept: it may move with all unknowns.
+            let even = vec![(u.len() as f64).sqrt().recip(); u.len()];
+            let at = space.correct(&u, &even, stop).map_err(|_| error)?;
+            (at, even)
+        }
+    };
+    at.tangent = space.tangent(&at.u, &border)?;
+    if at.tangent.last().is_some_and(|t| *t < 0.0) {
+        at.turn_back();
+    }
+    Ok(at)
+}
+
+fn stop(options: &ContinuationOptions) -> Stop {
+    Stop { correction: options.correction, most_iterations: options.most_iterations }
+}
+
+/// Points along a branch from its first one, and why they end.
+#[allow(clippy::type_complexity)]
+fn follow<F: Family>(
+    space: &mut Space<'_, F>,
+    first: Corrected,
+    options: &ContinuationOptions,
+) -> Result<(Vec<BranchPoint>, End<F::Error>), ContinuationError<F::Error>> {
+    let stop = stop(options);
+    let mut last = judge(space, first)?;
+    let mut points = vec![point(space, &last, PointKind::Regular, 0.0)];
+    let first = last.at.u.clone();
+    let mut arc = 0.0;
+    let mut h = options.first_step.clamp(options.steps[0], options.steps[1]);
+    let mut was_away = false;
+    // Turn of the last step refused, and that allowed.
+    let (mut refused, mut most_turn) = (f64::INFINITY, options.most_turn);
+    let end = loop {
+        if points.len() >= options.most_points {
+            break End::MostPoints;
+        }
+        let (next, is_last) = match advance(space, &last, (h, most_turn), options, stop) {
+            Ok(Step::To(next)) => (next, false),
+            Ok(Step::Bound(Some(next))) => (next, true),
+            Ok(Step::Bound(None)) => break End::Bound,
+            Ok(Step::TooLong(turn)) if turn > KINK * refused && turn < FRAC_PI_2 => {
+                most_turn = FRAC_PI_2;
+                continue;
+            }
+            Ok(Step::TooLong(turn)) if h > options.steps[0] => {
+                (refused, h) = (turn, (0.5 * h).max(options.steps[0]));
+                continue;
+            }
+            Err(_) if h > options.steps[0] => {
+                (refused, h) = (f64::INFINITY, (0.5 * h).max(options.steps[0]));
+                continue;
+            }
+            Ok(Step::TooLong(_)) => {
+                let lambda = space.lambda(&last.at.u);
+                break End::Stuck(ContinuationError::NoTangent { lambda });
+            }
+            Err(error) => break End::Stuck(error),
+        };
+        (refused, most_turn) = (f64::INFINITY, options.most_turn);
+        let turn = dot(&next.at.tangent, &last.at.tangent).clamp(-1.0, 1.0).acos();
+        let whole = distance(&next.at.u, &last.at.u);
+        let mut between = Vec::new();
+        for kind in crossed(&last, &next) {
+            // A located point that fails leaves its neighbours, whose signs still tell of it.
+            if let Ok((found, along)) = locate(space, (&last, &next), kind, options.location, stop)
+            {
+                between.push((along, point(space, &found, kind, arc + along.abs().min(whole))));
+            }
+        }
+        between.sort_by(|a, b| a.0.total_cmp(&b.0));
+        points.extend(between.into_iter().map(|(_, p)| p));
+        arc += whole;
+        let iterations = next.at.iterations;
+        points.push(point(space, &next, PointKind::Regular, arc));
+        let near = distance(&next.at.u, &first);
+        let crossed_first = dot(&minus(&first, &last.at.u), &minus(&next.at.u, &first)) > 0.0;
+        last = next;
+        if is_last {
+            break End::Bound;
+        }
+        was_away |= near > 4.0 * options.steps[1].min(whole.max(options.first_step));
+        if was_away && near <= whole && crossed_first {
+            break End::Closed;
+        }
+        // Longer where Newton's method is quick and the branch straight.
+        let by_iterations = options.wanted_iterations as f64 / iterations as f64;
+        let by_turn = 0.5 * options.most_turn / turn.max(1e-12);
+        h = (h * by_iterations.min(by_turn).clamp(0.5, GROWTH))
+            .clamp(options.steps[0], options.steps[1]);
+    };
+    Ok((points, end))
+}
+
+/// One step.
+enum Step {
+    /// To a point further along.
+    To(Judged),
+    /// To the bound of the parameter; without a point if the last one is there.
+    Bound(Option<Judged>),
+    /// The branch turns too far for this step: by this angle, rad.
+    TooLong(f64),
+}
+
+fn advance<F: Family>(
+    space: &mut Space<'_, F>,
+    last: &Judged,
+    (h, most_turn): (f64, f64),
+    options: &ContinuationOptions,
+    stop: Stop,
+) -> Result<Step, ContinuationError<F::Error>> {
+    let (u, t) = (&last.at.u, &last.at.tangent);
+    let predicted: Vec<f64> = u.iter().zip(t).map(|(u, t)| u + h * t).collect();
+    let mut next = space.correct(&predicted, t, stop)?;
+    // Infinite where the correction led far away.
+    let turn = |next: &Corrected| match distance(&next.u, u) <= 2.0 * h {
+        true => dot(&next.tangent, t).clamp(-1.0, 1.0).acos(),
+        false => f64::INFINITY,
+    };
+    if turn(&next) > most_turn {
+        return Ok(Step::TooLong(turn(&next)));
+    }
+    let [low, high] = options.bounds;
+    let lambda = space.lambda(&next.u);
+    if low <= lambda && lambda <= high {
+        return Ok(Step::To(judge(space, next)?));
+    }
+    // The point at the bound, from the chord to the one beyond it.
+    let bound = if lambda < low { low } else { high };
+    let part = (bound - space.lambda(u)) / (lambda - space.lambda(u));
+    if part <= 0.0 {
+        return Ok(Step::Bound(None));
+    }
+    let mut start: Vec<f64> = u.iter().zip(&next.u).map(|(a, b)| a + part * (b - a)).collect();
+    if let Some(own) = start.last_mut() {
+        *own = bound / space.parameter_scale();
+    }
+    let iterations = next.iterations;
+    next = space.correct(&start, &space.fixed_parameter(), stop)?;
+    next.tangent = space.tangent(&next.u, t)?;
+    next.iterations += iterations;
+    if turn(&next) > most_turn {
+        return Ok(Step::TooLong(turn(&next)));
+    }
+    Ok(Step::Bound(Some(judge(space, next)?)))
+}
+
+fn judge<F: Family>(
+    space: &mut Space<'_, F>,
+    at: Corrected,
+) -> Result<Judged, ContinuationError<F::Error>> {
+    let (y, lambda) = space.plain(&at.u);
+    let judgement = space.family.judge(&y, lambda);
+    let judgement = judgement.map_err(|cause| ContinuationError::Family { lambda, cause })?;
+    Ok(Judged { at, judgement })
+}
+
+fn point<F: Family>(space: &Space<'_, F>, of: &Judged, kind: PointKind, arc: f64) -> BranchPoint {
+    let (y, lambda) = space.plain(&of.at.u);
+    let (tangent, iterations) = (of.at.tangent.clone(), of.at.iterations);
+    BranchPoint { y, lambda, tangent, arc, kind, judgement: of.judgement.clone(), iterations }
+}
+
+fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+fn distance(a: &[f64], b: &[f64]) -> f64 {
+    norm(&minus(a, b))
+}
