@@ -10,7 +10,7 @@ use dynamics::continuation::{
     Evaluation, Family, Judgement, PointKind, Scales, deflated_solution, trace, trace_both,
 };
 use dynamics::harmonic_balance::{
-    BalanceError, BalanceOptions, FrequencyResponse, HarmonicBalance,
+    BalanceError, BalanceOptions, FrequencyResponse, HarmonicBalance, LoadResponse,
 };
 use nalgebra::{DMatrix, DVector};
 use oscillators::{Law, Oscillator, duffing, duffing_fold};
@@ -398,6 +398,43 @@ fn deflation_finds_the_second_stable_motion() {
         motions.iter().map(|m| m.1).collect::<Vec<_>>(),
         [Some(true), Some(false), Some(true)]
     );
+}
+
+/// A spring pressed together by a growing load until contact is never lost: beyond, the motion about the mean is that
+/// of the linear spring, whatever the load.
+#[test]
+fn a_branch_over_load_ends_in_the_linear_motion() {
+    let own = Oscillator {
+        mass: 1.0,
+        damping: 0.2,
+        stiffness: 0.01,
+        lag: 0.0,
+        law: Law::OneSided { stiffness: 1.0, part: 0.0, steps: 512 },
+        steady: 0.0,
+        harmonic: 0.5e-3,
+    };
+    let (problem, omega) = (own.balance(512), 1.3);
+    let mut family = LoadResponse::new(&problem, omega, 20, &[1e-3]).unwrap();
+    let balance = BalanceOptions {
+        first_harmonics: 20,
+        most_harmonics: 20,
+        tail: 2.0,
+        ..BalanceOptions::default()
+    };
+    let pressed = Oscillator { steady: 0.3e-3, ..own }.balance(512);
+    let start = pressed.solve(omega, None, &balance).unwrap().unknowns;
+    let options = ContinuationOptions::within([0.3, 4.0]);
+    let scales = Scales::uniform(family.dimension(), 1e-3, 1.0);
+    let branch = trace(&mut family, &start, 0.3, Direction::Up, &scales, &options).unwrap();
+    assert_eq!(branch.ends[1], End::Bound);
+    // X = f₁ / (k − ω² + iωc), mean λ f / k, with k of both springs.
+    let linear = 0.5e-3 / (1.01 - omega * omega).hypot(0.2 * omega);
+    let amplitude = |p: &BranchPoint| p.y[1].hypot(p.y[2]);
+    for p in branch.points.iter().filter(|p| p.lambda * 1e-3 / 1.01 > 1.01 * linear) {
+        assert!((amplitude(p) / linear - 1.0).abs() < 1e-10, "{}", p.lambda);
+        assert!((p.y[0] / (p.lambda * 1e-3 / 1.01) - 1.0).abs() < 1e-10);
+    }
+    assert!((amplitude(&branch.points[0]) / linear - 1.0).abs() > 0.05);
 }
 
 /// A mass between two springs with a gap of ±b. Freely it crosses the gap at constant speed u and turns in half a sine:

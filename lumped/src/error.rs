@@ -69,6 +69,9 @@ pub enum LumpedError {
     /// The steps in time failed.
     #[error(transparent)]
     Coupled(#[from] dynamics::CoupledError),
+    /// Harmonic balance failed.
+    #[error(transparent)]
+    Balance(#[from] dynamics::harmonic_balance::BalanceError),
     /// The eigenproblem failed.
     #[error(transparent)]
     Eigen(#[from] dynamics::EigenError),

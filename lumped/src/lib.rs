@@ -5,6 +5,7 @@
 //! Source of the equations: Lin & Parker (1999), J. Vib. Acoust. 121, 316–321. Coordinates and
 //! signs are defined in [`springs`](Spring) and checked in the tests against matrices derived by hand.
 
+mod balanced;
 mod coordinates;
 mod energy;
 mod error;
@@ -16,6 +17,7 @@ mod sensitivity;
 mod springs;
 mod time_varying;
 
+pub use balanced::BalancedSet;
 pub use coordinates::{Axis, Body, Coordinates};
 pub use energy::{EnergyShare, kinetic_energy, strain_energy};
 pub use error::LumpedError;
@@ -25,4 +27,4 @@ pub use model::LumpedModel;
 pub use modes::{ModeGroup, NaturalModes, Participation};
 pub use sensitivity::{Parameter, Sensitivity, sensitivities};
 pub use springs::{Spring, SpringId};
-pub use time_varying::TimeVarying;
+pub use time_varying::{MeshLawCouplings, TimeVarying};

@@ -23,9 +23,9 @@ use crate::error::LumpedError;
 use crate::model::LumpedModel;
 use crate::springs::{Rows, SpringId};
 
-/// Front flanks of all meshes, then backside flanks, as couplings.
+/// The forces of a mesh law as couplings: front flanks of all meshes, then backside flanks if the law has them.
 #[derive(Debug, Clone)]
-struct MeshLawCouplings(MeshLaw);
+pub struct MeshLawCouplings(pub(crate) MeshLaw);
 
 impl CouplingForce for MeshLawCouplings {
     #[inline]
@@ -49,19 +49,26 @@ pub struct TimeVarying {
     planets: usize,
 }
 
-impl TimeVarying {
-    /// A set at rest without load at step 0 of a mesh cycle, for torques on the sun of the given sense, with
-    /// as many steps per cycle as the law has.
-    ///
+/// What a set consists of, in the coordinates of counter-clockwise torque on the sun.
+pub(crate) struct Parts {
+    pub(crate) coordinates: Coordinates,
+    /// Masses, supports and bearings, without meshes.
+    pub(crate) linear: LinearPart,
+    pub(crate) front: Vec<Coupling>,
+    pub(crate) backside: Vec<Coupling>,
+    /// Forces on the coordinates by step of the cycle, N.
+    pub(crate) side_loads: Vec<Vec<f64>>,
+    /// r in u = r θ of carrier, ring, sun and planet, m.
+    pub(crate) radii: [f64; 4],
+    sign: f64,
+    planets: usize,
+}
+
+impl Parts {
     /// # Errors
-    /// If the scene lacks lumped parameters or radii, the law has another number of meshes, or frequency or
-    /// damping is out of range.
-    pub fn new(
-        scene: &Scene,
-        sense: Facing,
-        law: MeshLaw,
-        mesh_frequency_hz: f64,
-    ) -> Result<Self, LumpedError> {
+    /// If the scene lacks lumped parameters or radii, the law has another number of meshes, or damping is out of
+    /// range.
+    pub(crate) fn new(scene: &Scene, sense: Facing, law: &MeshLaw) -> Result<Self, LumpedError> {
         let sign = sense.sign();
         let mut seen = scene.clone();
         for psi in &mut seen.planets.psi_rad {
@@ -72,9 +79,6 @@ impl TimeVarying {
         let planets = model.psi.len();
         if law.meshes() != 2 * planets {
             return Err(LumpedError::Law { got: law.meshes(), wanted: 2 * planets });
-        }
-        if !(mesh_frequency_hz > 0.0 && mesh_frequency_hz.is_finite()) {
-            return Err(LumpedError::Frequency(mesh_frequency_hz));
         }
         let d = &scene.damping;
         for (key, value) in [
@@ -115,18 +119,42 @@ impl TimeVarying {
             let own = if i == j { d.mass_proportional_per_s * model.mass[i] } else { 0.0 };
             own + d.bearing_s * stiffness[(i, j)]
         });
-        let [front, backside] = couplings(&model, lumped, d.stiffness_proportional_s, &law);
+        let [front, backside] = couplings(&model, lumped, d.stiffness_proportional_s, law);
+        let linear = LinearPart { mass: model.mass.clone(), damping, stiffness };
+        let side_loads = side_loads(&model, law);
+        let coordinates = model.coordinates;
+        Ok(Self { coordinates, linear, front, backside, side_loads, radii, sign, planets })
+    }
+}
+
+impl TimeVarying {
+    /// A set at rest without load at step 0 of a mesh cycle, for torques on the sun of the given sense, with
+    /// as many steps per cycle as the law has.
+    ///
+    /// # Errors
+    /// If the scene lacks lumped parameters or radii, the law has another number of meshes, or frequency or
+    /// damping is out of range.
+    pub fn new(
+        scene: &Scene,
+        sense: Facing,
+        law: MeshLaw,
+        mesh_frequency_hz: f64,
+    ) -> Result<Self, LumpedError> {
+        if !(mesh_frequency_hz > 0.0 && mesh_frequency_hz.is_finite()) {
+            return Err(LumpedError::Frequency(mesh_frequency_hz));
+        }
+        let parts = Parts::new(scene, sense, &law)?;
         let steps = law.steps();
         let rule = AverageAcceleration::new(1.0 / (mesh_frequency_hz * steps as f64))
             .map_err(|_| LumpedError::Frequency(mesh_frequency_hz))?;
-        let part = LinearPart { mass: model.mass.clone(), damping, stiffness };
-        let side_loads = side_loads(&model, &law);
+        let Parts { coordinates, linear, front, backside, side_loads, radii, sign, planets } =
+            parts;
         let mut system =
-            Coupled::new(&part, &front, &backside, MeshLawCouplings(law), rule, steps)?;
+            Coupled::new(&linear, &front, &backside, MeshLawCouplings(law), rule, steps)?;
         for (step, load) in side_loads.iter().enumerate() {
             system.add_in_cycle(step, load)?;
         }
-        Ok(Self { coordinates: model.coordinates, system, radii, sign, planets })
+        Ok(Self { coordinates, system, radii, sign, planets })
     }
 
     /// Puts the set to rest under a torque on the sun (N m, magnitude) at its current step.

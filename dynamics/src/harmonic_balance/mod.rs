@@ -45,4 +45,4 @@ pub use fourier::FourierSeries;
 pub use motion::BalancedMotion;
 pub use options::BalanceOptions;
 pub use problem::HarmonicBalance;
-pub use response::FrequencyResponse;
+pub use response::{FrequencyResponse, LoadResponse};

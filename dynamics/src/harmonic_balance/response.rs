@@ -1,5 +1,7 @@
 //! Balanced motions as a family over frequency.
 
+use nalgebra::DVector;
+
 use super::equations::BalanceEquations;
 use super::error::BalanceError;
 use super::problem::HarmonicBalance;
@@ -44,6 +46,57 @@ impl<L: CouplingForce> Family for FrequencyResponse<'_, L> {
 
     fn evaluate(&mut self, y: &[f64], lambda: f64) -> Result<Evaluation, BalanceError> {
         self.equations(lambda)?.evaluate(y)
+    }
+}
+
+/// Periodic motions at one frequency as a family over a steady load: λ times the forces given is added to those of the
+/// problem.
+#[derive(Debug)]
+pub struct LoadResponse<'a, L> {
+    equations: BalanceEquations<'a, L>,
+    force: Vec<f64>,
+}
+
+impl<'a, L: CouplingForce> LoadResponse<'a, L> {
+    /// With H harmonics at a fundamental frequency (rad/s), over a force on each coordinate (N for λ = 1).
+    ///
+    /// # Errors
+    /// As [`HarmonicBalance::equations`], or if there is not one force for each coordinate.
+    pub fn new(
+        problem: &'a HarmonicBalance<L>,
+        frequency: f64,
+        harmonics: usize,
+        force: &[f64],
+    ) -> Result<Self, BalanceError> {
+        let (what, got, wanted) = ("the steady force", force.len(), problem.count());
+        if got != wanted {
+            return Err(BalanceError::Size { what, got, wanted });
+        }
+        Ok(Self { equations: problem.equations(frequency, harmonics)?, force: force.to_vec() })
+    }
+
+    /// The equations without the load; the motion they give for unknowns y is that of any load.
+    pub fn equations(&self) -> &BalanceEquations<'a, L> {
+        &self.equations
+    }
+}
+
+impl<L: CouplingForce> Family for LoadResponse<'_, L> {
+    type Error = BalanceError;
+
+    fn dimension(&self) -> usize {
+        self.equations.dimension()
+    }
+
+    fn evaluate(&mut self, y: &[f64], lambda: f64) -> Result<Evaluation, BalanceError> {
+        let mut found = self.equations.evaluate(y)?;
+        // Only the balance of mean forces contains the load.
+        found.derivative = DVector::zeros(y.len());
+        for (i, force) in self.force.iter().enumerate() {
+            found.residual[i] -= lambda * force;
+            found.derivative[i] = -force;
+        }
+        Ok(found)
     }
 }
 
