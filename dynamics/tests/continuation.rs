@@ -7,7 +7,8 @@ use std::f64::consts::{PI, TAU};
 
 use dynamics::continuation::{
     Branch, BranchPoint, ContinuationError, ContinuationOptions, Deflation, Direction, End,
-    Evaluation, Family, Judgement, PointKind, Scales, deflated_solution, trace, trace_both,
+    Evaluation, Family, JudgedBy, Judgement, PointKind, Scales, deflated_solution, trace,
+    trace_both,
 };
 use dynamics::harmonic_balance::{
     BalanceError, BalanceOptions, FrequencyResponse, HarmonicBalance, LoadResponse,
@@ -323,7 +324,7 @@ fn folds_peaks_and_stability_of_duffing_by_two_routes() {
     let first = &branch.points[0];
     let series = family.equations(first.lambda).unwrap().series(&first.y).unwrap();
     let x = &series[0][0];
-    let start = [x.value(0.0), first.lambda * x.slope(0.0)];
+    let start = [x.value(0.0), first.lambda * x.derivative(1, 0.0)];
     let scales = Scales { unknowns: vec![1e-3, 1e-3], parameter: 1.0 };
     let shot = trace(&mut shooting, &start, 0.6, Direction::Up, &scales, &options).unwrap();
     assert_eq!(shot.ends[1], End::Bound);
@@ -348,6 +349,25 @@ fn folds_peaks_and_stability_of_duffing_by_two_routes() {
             PointKind::Bifurcation(_) => {}
         }
     }
+    // The same stability along the balanced branch, judged by the multipliers of its motions.
+    let mut judged = JudgedBy {
+        family: FrequencyResponse::new(&problem, 15).unwrap(),
+        judge: |family: &mut FrequencyResponse<'_, Law>, y: &[f64], omega: f64| {
+            let series = family.equations(omega)?.series(y)?;
+            let x = &series[0][0];
+            let state = [x.value(0.0), omega * x.derivative(1, 0.0)];
+            let Ok(judgement) = shooting.judge(&state, omega);
+            Ok(judgement)
+        },
+    };
+    let scales = Scales::uniform(judged.dimension(), 1e-3, 1.0);
+    let again = trace(&mut judged, &first.y, 0.6, Direction::Up, &scales, &options).unwrap();
+    let ones: Vec<f64> = again.bifurcations().map(|p| p.lambda).collect();
+    assert_eq!(ones.len(), 2);
+    for (a, b) in ones.iter().zip(&theirs) {
+        assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
+    }
+    assert!(again.points.iter().any(|p| p.judgement.is_stable == Some(false)));
     let amplitude = |p: &BranchPoint| {
         let series = family.equations(p.lambda).unwrap().series(&p.y).unwrap();
         series[0][0].extremes(256)[1]
@@ -388,7 +408,7 @@ fn deflation_finds_the_second_stable_motion() {
         .map(|y| {
             let series = family.equations(omega).unwrap().series(y).unwrap();
             let x = &series[0][0];
-            let state = [x.value(0.0), omega * x.slope(0.0)];
+            let state = [x.value(0.0), omega * x.derivative(1, 0.0)];
             (x.extremes(256)[1], shooting.judge(&state, omega).unwrap().is_stable)
         })
         .collect();

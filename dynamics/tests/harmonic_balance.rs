@@ -44,6 +44,11 @@ fn a_linear_oscillator_is_the_closed_form() {
             (found.forces[0].lines[1] - exact * spring).norm() < 1e-12 * (exact * spring).norm()
         );
         assert!(x[2..].iter().all(|x| x.norm() < 1e-14 * exact.norm()));
+        // The balance of forces at any phase.
+        let motion = found.motion(0.9);
+        let [x, v, a] = [motion.x[0], motion.v[0], motion.a[0]];
+        let held = 0.7 * a + 90.0 * v + 1e7 * x + 3e7 * (x + own.lag * v);
+        assert!((held - 500.0 - 200.0 * 0.9f64.cos()).abs() < 1e-9);
         assert!(found.residual < 1e-11 && found.iterations <= 3, "{found:?}");
     }
 }
@@ -85,7 +90,7 @@ fn duffing_is_that_of_marching_extrapolated_in_the_step() {
         let own = duffing(zeta, force);
         let found = own.balance(256).solve(omega, None, &BalanceOptions::default()).unwrap();
         let x = &found.coordinates[0];
-        let start = [x.value(0.0), omega * x.slope(0.0)];
+        let start = [x.value(0.0), omega * x.derivative(1, 0.0)];
         let marched = own.extrapolated(omega, 1024, 120, start);
         let difference = off(x, &marched);
         println!(
@@ -124,7 +129,7 @@ fn clearance_is_that_of_marching_extrapolated_in_the_step() {
         let start = [2e-3];
         let found = own.balance(1024).solve(omega, Some(&start), &options).unwrap();
         let x = &found.coordinates[0];
-        let start = [x.value(0.0), omega * x.slope(0.0)];
+        let start = [x.value(0.0), omega * x.derivative(1, 0.0)];
         let marched = own.extrapolated(omega, 2048, 150, start);
         let difference = off(x, &marched);
         println!("{name}: H {} iterations {} {difference:e}", found.harmonics, found.iterations);
@@ -273,7 +278,7 @@ fn a_forgotten_lag_shows() {
         found.coordinates[0].clone()
     };
     let with = solve(&own);
-    let start = [with.value(0.0), 1.2 * with.slope(0.0)];
+    let start = [with.value(0.0), 1.2 * with.derivative(1, 0.0)];
     let marched = own.extrapolated(1.2, 1024, 200, start);
     assert!(off(&with, &marched) < 1e-5, "{:e}", off(&with, &marched));
     let without = solve(&Oscillator { lag: 0.0, ..own });

@@ -49,4 +49,12 @@ pub enum ContinuationError<E: std::error::Error> {
         /// Parameter.
         lambda: f64,
     },
+    /// The branch turns more than allowed within the least step.
+    #[error("after λ = {lambda} the branch turns by {turn} rad within the least step")]
+    Turn {
+        /// Parameter at the last point.
+        lambda: f64,
+        /// Angle between the tangents, scaled; infinite if the correction led away from the branch.
+        turn: f64,
+    },
 }

@@ -152,9 +152,9 @@ fn follow<F: Family>(
                 (refused, h) = (f64::INFINITY, (0.5 * h).max(options.steps[0]));
                 continue;
             }
-            Ok(Step::TooLong(_)) => {
+            Ok(Step::TooLong(turn)) => {
                 let lambda = space.lambda(&last.at.u);
-                break End::Stuck(ContinuationError::NoTangent { lambda });
+                break End::Stuck(ContinuationError::Turn { lambda, turn });
             }
             Err(error) => break End::Stuck(error),
         };

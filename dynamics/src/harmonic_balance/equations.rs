@@ -9,6 +9,9 @@ use super::fourier::FourierSeries;
 use super::problem::HarmonicBalance;
 use crate::coupled::CouplingForce;
 
+/// Condition number from which a dynamic stiffness counts as singular.
+const SINGULAR: f64 = 1e14;
+
 /// The equations of harmonic balance at one frequency with a fixed number of harmonics H.
 ///
 /// Unknowns y, all in m: the means of the n coordinates, then by harmonic l = 1 … H and coupling m the
@@ -99,11 +102,15 @@ impl<'a, L: CouplingForce> BalanceEquations<'a, L> {
             c64::new(linear.stiffness[(i, j)] - omega * omega * mass, omega * damping)
         });
         let inverse = stiffness.partial_piv_lu().solve(Mat::<c64>::identity(n, n));
-        let is_finite = (0..n).all(|j| {
-            (0..n).all(|i| inverse[(i, j)].re.is_finite() && inverse[(i, j)].im.is_finite())
-        });
+        let mut each = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
+        let is_finite = each.all(|at| inverse[at].norm().is_finite());
+        let condition = stiffness.norm_max() * inverse.norm_max();
         let frequency = self.frequency;
-        if is_finite { Ok(inverse) } else { Err(BalanceError::Singular { harmonic: l, frequency }) }
+        if is_finite && condition < SINGULAR {
+            Ok(inverse)
+        } else {
+            Err(BalanceError::Singular { harmonic: l, frequency })
+        }
     }
 
     /// Fundamental frequency, rad/s.

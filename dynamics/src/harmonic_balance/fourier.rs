@@ -31,15 +31,15 @@ impl FourierSeries {
 
     /// Value at phase θ, rad.
     pub fn value(&self, theta: f64) -> f64 {
-        let of = |(l, x): (usize, &c64)| (*x * c64::from_polar(1.0, l as f64 * theta)).re;
-        self.lines.iter().enumerate().map(of).sum()
+        self.derivative(0, theta)
     }
 
-    /// Derivative by phase at θ, per rad.
-    pub fn slope(&self, theta: f64) -> f64 {
+    /// Derivative of an order by phase at θ, per radⁿ.
+    pub fn derivative(&self, order: u32, theta: f64) -> f64 {
+        // Re Σ (i l)ⁿ X_l exp(i l θ)
         let of = |(l, x): (usize, &c64)| {
             let l = l as f64;
-            (c64::new(0.0, l) * *x * c64::from_polar(1.0, l * theta)).re
+            (c64::new(0.0, l).powu(order) * *x * c64::from_polar(1.0, l * theta)).re
         };
         self.lines.iter().enumerate().map(of).sum()
     }
@@ -199,6 +199,7 @@ mod tests {
         let [least, greatest] = series.extremes(500);
         assert!((least + 1.0).abs() < 1e-8 && (greatest - 3.0).abs() < 1e-8);
         assert!((series.rms() - 2f64.sqrt()).abs() < 1e-14 && series.mean() == 1.0);
-        assert!((series.slope(0.3) + 2.0 * 0.7f64.sin()).abs() < 1e-14);
+        assert!((series.derivative(2, 0.3) + 2.0 * 0.7f64.cos()).abs() < 1e-14);
+        assert!((series.derivative(1, 0.3) + 2.0 * 0.7f64.sin()).abs() < 1e-14);
     }
 }

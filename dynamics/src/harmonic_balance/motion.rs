@@ -1,6 +1,7 @@
 //! A periodic motion found by harmonic balance.
 
 use super::fourier::FourierSeries;
+use crate::newmark::Motion;
 
 /// A periodic motion of a system with couplings.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,6 +27,19 @@ pub struct BalancedMotion {
     pub residual: f64,
     /// Amplitude of the highest quarter of the harmonics (at least two) over the largest amplitude.
     pub tail: f64,
+}
+
+impl BalancedMotion {
+    /// Displacements, velocities and accelerations of the coordinates at phase θ, rad: at 2π s/S what
+    /// [`Coupled::set_motion`](crate::Coupled::set_motion) takes at step s.
+    pub fn motion(&self, theta: f64) -> Motion {
+        // d/dt = ω d/dθ
+        let all = |order: u32| {
+            let rate = self.frequency.powf(f64::from(order));
+            self.coordinates.iter().map(|x| rate * x.derivative(order, theta)).collect()
+        };
+        Motion { x: all(0), v: all(1), a: all(2) }
+    }
 }
 
 /// Amplitude of the highest quarter of the lines over the largest amplitude, mean left out; over all series.
