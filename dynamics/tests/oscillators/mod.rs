@@ -2,6 +2,8 @@
 //! library's.
 #![allow(dead_code)]
 
+pub mod shooting;
+
 use std::f64::consts::TAU;
 
 use dynamics::harmonic_balance::HarmonicBalance;
