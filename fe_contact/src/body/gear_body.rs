@@ -1,23 +1,12 @@
 //! One gear on a rigid race: its static flexibility between flank points.
 
-use faer::Mat;
 use nalgebra::DMatrix;
 
-use super::matrices::{BodyMatrices, number_unknowns};
+use super::responses::{LoadNodes, Responses};
+use super::{sector_ring, whole_gear};
 use crate::error::FeError;
 use crate::fe_mesh::{FeGearMesh, Side};
 use crate::material::Elastic;
-
-/// Neighbouring teeth on either side whose response to a loaded tooth is kept.
-const REACH: i64 = 4;
-
-/// Teeth whose response at all their nodes is kept, of a gear of so many teeth.
-pub(crate) fn kept_teeth(teeth: u32) -> u32 {
-    2 * (REACH as u32).min(teeth.saturating_sub(1) / 2) + 1
-}
-
-/// Unit loads for which a body is solved at a time.
-const AT_ONCE: usize = 16;
 
 /// A point of a flank. A load at the point acts on the flank's functions work-equivalently, in
 /// proportion to their values there.
@@ -58,87 +47,46 @@ pub struct GearBody {
     pub inertia: f64,
     /// Degrees of freedom.
     pub unknowns: usize,
-    /// Nodes of tooth 0's flanks that take load, both sides, in the sector's numbering.
-    load_nodes: Vec<usize>,
-    /// Column pair of each sector node, `usize::MAX` if it takes no load.
-    column_of: Vec<usize>,
-    /// Displacements (2 rows per sector node, in the frame of the displaced tooth) under unit loads
-    /// on tooth 0 (2 columns per load node, in the frame of tooth 0), one matrix for each of the
-    /// teeth −REACH…REACH, m/N.
-    responses: Vec<DMatrix<f64>>,
-    /// The same at the load nodes only (2 rows each), for every tooth, counted from the loaded one;
-    /// for tooth 0 only where teeth are meshed differently, m/N.
-    around: Vec<DMatrix<f64>>,
+    loads: LoadNodes,
+    responses: Responses,
     boxes: Vec<[f64; 4]>,
 }
 
 impl GearBody {
-    /// Assembles and factorises the body and solves for loads on one tooth.
+    /// Solves for loads on one tooth: teeth meshed alike from one sector, else by the whole gear.
     ///
     /// # Errors
     /// If an element is distorted or the stiffness is not positive definite.
     pub fn new(mesh: FeGearMesh, material: Elastic, face_width: f64) -> Result<Self, FeError> {
+        match mesh.sectors.len() {
+            1 => Self::with(mesh, material, face_width, sector_ring::responses),
+            _ => Self::of_whole_gear(mesh, material, face_width),
+        }
+    }
+
+    /// The same body from the assembled and factorised stiffness of the whole gear, at many times the
+    /// cost: a second route to the same numbers.
+    ///
+    /// # Errors
+    /// As [`GearBody::new`].
+    pub fn of_whole_gear(
+        mesh: FeGearMesh,
+        material: Elastic,
+        face_width: f64,
+    ) -> Result<Self, FeError> {
+        Self::with(mesh, material, face_width, whole_gear::responses)
+    }
+
+    fn with(
+        mesh: FeGearMesh,
+        material: Elastic,
+        face_width: f64,
+        responses: fn(&FeGearMesh, &Elastic, f64, &LoadNodes) -> Result<Responses, FeError>,
+    ) -> Result<Self, FeError> {
         let (mass, inertia) = mesh.mass_properties(&material, face_width)?;
-        let unknown_of = number_unknowns(&mesh);
-        let matrices = BodyMatrices::of_gear(&mesh, &material, face_width)?;
-        let factor = matrices.stiffness.factorise(mesh.name)?;
         let sector = mesh.sector(0);
-        let mut column_of = vec![usize::MAX; sector.points.len()];
-        let mut load_nodes = Vec::new();
-        for side in &sector.flanks {
-            for node in side.iter().flat_map(|stretch| stretch.nodes) {
-                if column_of[node] == usize::MAX {
-                    column_of[node] = 2 * load_nodes.len();
-                    load_nodes.push(node);
-                }
-            }
-        }
-        let columns = 2 * load_nodes.len();
-        let teeth = mesh.outline.gear().teeth as i64;
-        let reach = REACH.min((teeth - 1) / 2);
-        // Displacements that are kept: a tooth, nodes of its sector, and their response in the
-        // tooth's frame.
-        let seen = |tooth: usize, locals: Vec<usize>| {
-            let response = DMatrix::zeros(2 * locals.len(), columns);
-            (tooth, locals, response)
-        };
-        let mut near: Vec<_> = (-reach..=reach)
-            .map(|offset| {
-                let tooth = offset.rem_euclid(teeth) as usize;
-                seen(tooth, (0..mesh.nodes[tooth].len()).collect())
-            })
-            .collect();
-        let alike = if mesh.sectors.len() > 1 { 1 } else { teeth as usize };
-        let mut ring: Vec<_> = (0..alike).map(|tooth| seen(tooth, load_nodes.clone())).collect();
-        // In blocks of loads: the displacements of the whole body under all loads at once would be
-        // the largest array in memory.
-        for first in (0..columns).step_by(AT_ONCE) {
-            let count = AT_ONCE.min(columns - first);
-            let mut right = Mat::zeros(factor.size, count);
-            for c in 0..count {
-                let (node, axis) = (load_nodes[(first + c) / 2], (first + c) % 2);
-                right[(unknown_of[mesh.nodes[0][node]] + axis, c)] = 1.0;
-            }
-            factor.solve(&mut right);
-            for (tooth, locals, response) in near.iter_mut().chain(&mut ring) {
-                let (sin, cos) = mesh.tooth_angle(*tooth).sin_cos();
-                for (row, local) in locals.iter().enumerate() {
-                    let unknown = unknown_of[mesh.nodes[*tooth][*local]];
-                    if unknown == usize::MAX {
-                        continue;
-                    }
-                    for c in 0..count {
-                        let (x, y) = (right[(unknown, c)], right[(unknown + 1, c)]);
-                        response[(2 * row, first + c)] = cos * x + sin * y;
-                        response[(2 * row + 1, first + c)] = -sin * x + cos * y;
-                    }
-                }
-            }
-        }
-        let kept = |list: Vec<(usize, Vec<usize>, DMatrix<f64>)>| {
-            list.into_iter().map(|(_, _, response)| response).collect::<Vec<_>>()
-        };
-        let (responses, around) = (kept(near), kept(ring));
+        let loads = LoadNodes::of(sector);
+        let responses = responses(&mesh, &material, face_width, &loads)?;
         let boxes = sector.elements.iter().map(|e| {
             let mut b = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
             // The corners bound the element except where its curved edges bulge; the margin covers
@@ -151,25 +99,13 @@ impl GearBody {
             [b[0] - margin, b[1] - margin, b[2] + margin, b[3] + margin]
         });
         let boxes = boxes.collect();
-        let unknowns = factor.size;
-        Ok(Self {
-            mesh,
-            material,
-            face_width,
-            mass,
-            inertia,
-            unknowns,
-            load_nodes,
-            column_of,
-            responses,
-            around,
-            boxes,
-        })
+        let unknowns = 2 * mesh.on_race.iter().filter(|held| !**held).count();
+        Ok(Self { mesh, material, face_width, mass, inertia, unknowns, loads, responses, boxes })
     }
 
     /// Number of load nodes on both flanks of a tooth.
     pub fn load_count(&self) -> usize {
-        self.load_nodes.len()
+        self.loads.list.len()
     }
 
     /// The flank's functions at arc length ℓ (m), which is clamped to the flank's ends.
@@ -180,7 +116,7 @@ impl GearBody {
         let half = 0.5 * (stretch.to - stretch.from);
         let t = ((l - stretch.from) / half - 1.0).clamp(-1.0, 1.0);
         FlankPoint {
-            columns: stretch.nodes.map(|n| self.column_of[n]),
+            columns: stretch.nodes.map(|n| self.loads.column_of[n]),
             weights: crate::fe_mesh::hermite(t, half),
         }
     }
@@ -236,8 +172,8 @@ impl GearBody {
         if offset != 0 && self.mesh.sectors.len() > 1 {
             return None;
         }
-        let reach = (self.responses.len() as i64 - 1) / 2;
-        self.responses.get(usize::try_from(offset + reach).ok()?)
+        let reach = (self.responses.near.len() as i64 - 1) / 2;
+        self.responses.near.get(usize::try_from(offset + reach).ok()?)
     }
 
     /// Normal displacement at `depth` (m) below mid-flank of the tooth `offset` on, under a unit
@@ -260,7 +196,7 @@ impl GearBody {
 
     /// Sector node on which the load of a column of the response acts.
     pub fn node_of(&self, column: usize) -> usize {
-        self.load_nodes[column / 2]
+        self.loads.list[column / 2]
     }
 
     /// A load spread like a half ellipse of half-width `w` (m) about arc length ℓ: functions of the
@@ -296,7 +232,9 @@ impl GearBody {
         (point, measured): (&[(usize, f64)], [f64; 2]),
     ) -> f64 {
         let teeth = self.mesh.nodes.len() as i64;
-        let Some(response) = self.around.get(offset.rem_euclid(teeth) as usize) else { return 0.0 };
+        let Some(response) = self.responses.around.get(offset.rem_euclid(teeth) as usize) else {
+            return 0.0;
+        };
         let mut sum = 0.0;
         for (column, w) in load {
             for (k, f) in force.iter().enumerate() {

@@ -1,0 +1,325 @@
+//! Response of a gear of equal teeth to loads on one tooth, from the stiffness of one sector.
+//!
+//! The sectors j = 0…Z−1 are numbered in the order in which each shares its last cut with the first
+//! cut of the next. All displacements of a sector are in the frame of its tooth. With v_j those of its first
+//! cut, its last cut has T v_{j+1}, where T turns by the angle between two teeth. The race is held.
+//!
+//! **One sector.** Its equations, i: the inner unknowns, c = (v_j, v_{j+1}): those of both cuts, T
+//! included in the columns and rows of the last cut,
+//!
+//! ```text
+//! [K_ii  K_ic] [u_i]   [f]                    u_i = K_ii⁻¹ f + E c,   E = −K_ii⁻¹ K_ic
+//! [K_ci  K_cc] [ c ] = [·]     ⇒              S c = Eᵀ f + …,         S = K_cc + K_ci E
+//! ```
+//!
+//! **The ring.** S in blocks of first (a) and next (b) cut, g = Eᵀ f of the loads on sector 0:
+//!
+//! ```text
+//! S_ba v_{j−1} + (S_aa + S_bb) v_j + S_ab v_{j+1} = g_a for j = 0, g_b for j = 1, else 0
+//! ```
+//!
+//! is circulant in blocks. With v̂_n = Σ_j v_j e^{−inθj}, θ = 2π/Z, each harmonic has its own equations,
+//!
+//! ```text
+//! (S_aa + S_bb + S_ab e^{inθ} + S_ba e^{−inθ}) v̂_n = g_a + g_b e^{−inθ}
+//! v_j = 1/Z Σ_n v̂_n e^{inθj}
+//! ```
+//!
+//! of the size of one cut. Their matrix is Hermitian, A + iB with A symmetric and B skew, and is solved
+//! in real numbers:
+//!
+//! ```text
+//! [A  −B] [Re v̂]   [Re]
+//! [B   A] [Im v̂] = [Im]
+//! ```
+//!
+//! Harmonics n and Z−n are conjugate, so that n ≤ Z/2 suffice. Nothing has the size of the whole gear.
+
+use std::f64::consts::TAU;
+
+use faer::linalg::solvers::Solve;
+use faer::{Mat, Side};
+use nalgebra::DMatrix;
+
+use super::assembly::Triplets;
+use super::responses::{LoadNodes, Responses};
+use crate::element::matrices;
+use crate::error::FeError;
+use crate::fe_mesh::{FeGearMesh, Sector};
+use crate::material::Elastic;
+
+/// Where the displacement of a node of the sector comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Place {
+    /// The race: none.
+    Race,
+    /// First of two inner unknowns.
+    Inner(usize),
+    /// First of two unknowns of the first cut.
+    First(usize),
+    /// The same of the last cut.
+    Last(usize),
+}
+
+/// Solves for loads on tooth 0 of a gear whose teeth are meshed alike.
+///
+/// # Errors
+/// If an element is distorted or the stiffness is not positive definite.
+pub(super) fn responses(
+    mesh: &FeGearMesh,
+    material: &Elastic,
+    face_width: f64,
+    loads: &LoadNodes,
+) -> Result<Responses, FeError> {
+    let sector = Condensed::new(mesh, material, face_width, loads)?;
+    let cuts = sector.ring(mesh.name)?;
+    let teeth = mesh.nodes.len();
+    // Sectors follow each other clockwise on external gears, where tooth numbers go down.
+    let place = |tooth: usize| match mesh.outline.radial_sign() > 0.0 {
+        true => (teeth - tooth) % teeth,
+        false => tooth,
+    };
+    let near = Responses::near_teeth(mesh).map(|tooth| {
+        let mut response = &sector.carried * cuts.of(place(tooth));
+        if tooth == 0 {
+            response += &sector.held;
+        }
+        response
+    });
+    // The same rows of the load nodes alone.
+    let rows: Vec<usize> = loads.list.iter().flat_map(|node| [2 * node, 2 * node + 1]).collect();
+    let (carried, held) = (sector.carried.select_rows(&rows), sector.held.select_rows(&rows));
+    let around = (0..teeth).map(|tooth| {
+        let mut response = &carried * cuts.of(place(tooth));
+        if tooth == 0 {
+            response += &held;
+        }
+        response
+    });
+    Ok(Responses { near: near.collect(), around: around.collect() })
+}
+
+/// A sector condensed onto its cuts.
+struct Condensed {
+    /// Displacements of all nodes of the sector (2 rows each) under unit displacements c of the cuts
+    /// (first, then next, 2m columns).
+    carried: DMatrix<f64>,
+    /// The same under unit loads with both cuts held, m/N.
+    held: DMatrix<f64>,
+    /// S, 2m×2m, N/m.
+    stiffness: DMatrix<f64>,
+    /// g = Eᵀ f, 2m×loads.
+    loads: DMatrix<f64>,
+    /// Unknowns m of a cut.
+    cut: usize,
+    /// Sectors Z.
+    sectors: usize,
+}
+
+impl Condensed {
+    fn new(
+        mesh: &FeGearMesh,
+        material: &Elastic,
+        face_width: f64,
+        loads: &LoadNodes,
+    ) -> Result<Self, FeError> {
+        let sector = mesh.sector(0);
+        let (places, inner, cut) = places(sector);
+        let outside = || FeError::Factorisation {
+            body: mesh.name,
+            cause: "a node that takes load lies on the border of its tooth's sector".into(),
+        };
+        // Tooth of the next sector less that of this one: T turns by that many pitches.
+        let next = -mesh.outline.radial_sign();
+        let (sin, cos) = (next * mesh.outline.gear().pitch_angle()).sin_cos();
+        let turn = [[cos, -sin], [sin, cos]];
+        let incompatible = mesh.family == gearset::ElementFamily::Incompatible;
+        let mut triplets = Triplets::default();
+        // K_ic and K_cc, with T.
+        let mut border = DMatrix::<f64>::zeros(inner, 2 * cut);
+        let mut stiffness = DMatrix::<f64>::zeros(2 * cut, 2 * cut);
+        for (i, e) in sector.elements.iter().enumerate() {
+            let nodes = &e.nodes[..e.shape.count()];
+            let points: Vec<_> = nodes.iter().map(|n| sector.points[*n]).collect();
+            let k = matrices(&e.shape, &points, material, face_width, incompatible)
+                .map_err(|cause| FeError::Distorted { body: mesh.name, element: i, cause })?
+                .stiffness;
+            for (a, p) in nodes.iter().map(|n| places[*n]).enumerate() {
+                for (b, q) in nodes.iter().map(|n| places[*n]).enumerate() {
+                    let mut block = [0, 1].map(|r| [0, 1].map(|c| k[(2 * a + r, 2 * b + c)]));
+                    if let Place::Last(_) = p {
+                        block = product(transposed(turn), block);
+                    }
+                    if let Place::Last(_) = q {
+                        block = product(block, turn);
+                    }
+                    let of_cut = |place: Place| match place {
+                        Place::First(at) => Some(at),
+                        Place::Last(at) => Some(cut + at),
+                        Place::Race | Place::Inner(_) => None,
+                    };
+                    for (r, row) in block.iter().enumerate() {
+                        for (c, value) in row.iter().enumerate() {
+                            match (p, q, of_cut(p), of_cut(q)) {
+                                (Place::Inner(p), Place::Inner(q), ..) => {
+                                    triplets.add(p + r, q + c, *value);
+                                }
+                                (Place::Inner(p), _, _, Some(q)) => {
+                                    border[(p + r, q + c)] += value;
+                                }
+                                (_, _, Some(p), Some(q)) => stiffness[(p + r, q + c)] += value,
+                                _ => {}
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        let factor = triplets.matrix(inner, mesh.name)?.factorise(mesh.name)?;
+        // K_ii⁻¹ (f, −K_ic)
+        let count = loads.columns();
+        let mut right = Mat::zeros(inner, count + 2 * cut);
+        let mut load_rows = Vec::with_capacity(count);
+        for node in &loads.list {
+            let Place::Inner(first) = places[*node] else { return Err(outside()) };
+            load_rows.extend([first, first + 1]);
+        }
+        for (column, row) in load_rows.iter().enumerate() {
+            right[(*row, column)] = 1.0;
+        }
+        for c in 0..2 * cut {
+            for (r, value) in border.column(c).iter().enumerate() {
+                right[(r, count + c)] = -value;
+            }
+        }
+        factor.solve(&mut right);
+        let e = DMatrix::from_fn(inner, 2 * cut, |r, c| right[(r, count + c)]);
+        // S = K_cc + K_ci E
+        stiffness += border.tr_mul(&e);
+        stiffness = 0.5 * (&stiffness + stiffness.transpose());
+        let reduced = e.select_rows(&load_rows).transpose();
+        let (mut carried, mut held) =
+            (DMatrix::zeros(2 * places.len(), 2 * cut), DMatrix::zeros(2 * places.len(), count));
+        for (node, place) in places.iter().enumerate() {
+            for r in 0..2 {
+                let row = 2 * node + r;
+                match *place {
+                    Place::Race => {}
+                    Place::First(at) => carried[(row, at + r)] = 1.0,
+                    Place::Last(at) => {
+                        (0..2).for_each(|c| carried[(row, cut + at + c)] = turn[r][c]);
+                    }
+                    Place::Inner(at) => {
+                        carried.row_mut(row).copy_from(&e.row(at + r));
+                        (0..count).for_each(|c| held[(row, c)] = right[(at + r, c)]);
+                    }
+                }
+            }
+        }
+        let sectors = mesh.nodes.len();
+        Ok(Self { carried, held, stiffness, loads: reduced, cut, sectors })
+    }
+
+    /// Displacements of all cuts under the loads on sector 0.
+    fn ring(&self, body: &'static str) -> Result<Cuts, FeError> {
+        let (m, z, count) = (self.cut, self.sectors, self.loads.ncols());
+        let block = |r: usize, c: usize| self.stiffness.view((r * m, c * m), (m, m));
+        let own = block(0, 0) + block(1, 1);
+        let even = block(0, 1) + block(1, 0);
+        let odd = block(0, 1) - block(1, 0);
+        let (here, next) = (self.loads.rows(0, m), self.loads.rows(m, m));
+        let angle = |k: usize| TAU * (k % z) as f64 / z as f64;
+        // Re v̂₀, then Re and Im of v̂_n, one column for each, and the weights of these columns in
+        // every v_j.
+        let mut spectrum = DMatrix::<f64>::zeros(m * count, z);
+        let mut weights = DMatrix::<f64>::zeros(z, z);
+        let mut column = 0;
+        for n in 0..=z / 2 {
+            let (sin, cos) = angle(n).sin_cos();
+            // A = S_aa + S_bb + (S_ab + S_ba) cos nθ,  B = (S_ab − S_ba) sin nθ
+            let (a, b) = (&own + cos * &even, sin * &odd);
+            // The first harmonic, and the last of an even number of sectors, are real.
+            let is_real = n == 0 || 2 * n == z;
+            let parts = if is_real { 1 } else { 2 };
+            let matrix = Mat::from_fn(parts * m, parts * m, |r, c| match (r / m, c / m) {
+                (0, 0) | (1, 1) => a[(r % m, c % m)],
+                (0, _) => -b[(r, c - m)],
+                _ => b[(r - m, c)],
+            });
+            // g_a + g_b e^{−inθ}
+            let mut right = Mat::from_fn(parts * m, count, |r, c| match r / m {
+                0 => here[(r, c)] + cos * next[(r, c)],
+                _ => -sin * next[(r - m, c)],
+            });
+            let factor = matrix.llt(Side::Lower).map_err(|e| FeError::Factorisation {
+                body,
+                cause: format!("harmonic {n} of the ring of teeth: {e:?}"),
+            })?;
+            factor.solve_in_place(right.as_mut());
+            let share = parts as f64 / z as f64;
+            for part in 0..parts {
+                for c in 0..count {
+                    for r in 0..m {
+                        spectrum[(c * m + r, column)] = right[(part * m + r, c)];
+                    }
+                }
+                for j in 0..z {
+                    let (sin, cos) = angle(n * j).sin_cos();
+                    weights[(column, j)] = share * if part == 0 { cos } else { -sin };
+                }
+                column += 1;
+            }
+        }
+        Ok(Cuts { list: spectrum * weights, cut: m, loads: count })
+    }
+}
+
+/// Displacements of the first cuts of all sectors under the loads.
+struct Cuts {
+    /// One column for each sector: m unknowns of each load in turn.
+    list: DMatrix<f64>,
+    cut: usize,
+    loads: usize,
+}
+
+impl Cuts {
+    /// c of a sector under every load, 2m×loads.
+    fn of(&self, sector: usize) -> DMatrix<f64> {
+        let (m, z) = (self.cut, self.list.ncols());
+        let both = [sector, (sector + 1) % z].map(|j| self.list.column(j));
+        DMatrix::from_fn(2 * m, self.loads, |r, c| both[r / m][c * m + r % m])
+    }
+}
+
+/// Place of each node of a sector; number of inner unknowns, and of those of one cut.
+fn places(sector: &Sector) -> (Vec<Place>, usize, usize) {
+    let mut places = vec![None; sector.points.len()];
+    for node in &sector.race {
+        places[*node] = Some(Place::Race);
+    }
+    let mut cut = 0;
+    for (first, last) in sector.first.iter().zip(&sector.last) {
+        if places[*first].is_none() {
+            places[*first] = Some(Place::First(cut));
+            places[*last] = Some(Place::Last(cut));
+            cut += 2;
+        }
+    }
+    let mut inner = 0;
+    let number = |place: Option<Place>| {
+        place.unwrap_or_else(|| {
+            inner += 2;
+            Place::Inner(inner - 2)
+        })
+    };
+    let places = places.into_iter().map(number).collect();
+    (places, inner, cut)
+}
+
+fn transposed(a: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    [[a[0][0], a[1][0]], [a[0][1], a[1][1]]]
+}
+
+fn product(a: [[f64; 2]; 2], b: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    [0, 1].map(|r| [0, 1].map(|c| a[r][0] * b[0][c] + a[r][1] * b[1][c]))
+}
