@@ -32,6 +32,21 @@ pub struct Deep {
     pub weights: [f64; crate::element::MOST],
 }
 
+/// Place of a point in an element of the sector.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct InElement {
+    element: usize,
+    xi: f64,
+    eta: f64,
+}
+
+impl InElement {
+    /// Largest of |ξ| and |η|: at most 1 inside.
+    fn outside(&self) -> f64 {
+        self.xi.abs().max(self.eta.abs())
+    }
+}
+
 /// Finite-element body of a gear whose race stands still.
 #[derive(Debug, Clone)]
 pub struct GearBody {
@@ -123,47 +138,76 @@ impl GearBody {
 
     /// The element functions at a point of the tooth frame; `None` outside the sector.
     pub fn locate(&self, point: [f64; 2]) -> Option<Deep> {
-        let sector = &self.mesh.sectors[0];
+        self.locate_near(point, None).map(|(deep, _)| deep)
+    }
+
+    /// The same with the point's place in its element. The element of a `place` found nearby is tried
+    /// first, from there; which element has the point does not depend on it, except on their common
+    /// edge, where both have the same displacement.
+    pub(crate) fn locate_near(
+        &self,
+        point: [f64; 2],
+        place: Option<InElement>,
+    ) -> Option<(Deep, InElement)> {
+        if let Some(near) = place {
+            let at = self.place_in(near, point);
+            if at.outside() <= 1.0 {
+                return Some((self.deep(at), at));
+            }
+        }
         let inside = |b: &[f64; 4]| {
             point[0] >= b[0] && point[1] >= b[1] && point[0] <= b[2] && point[1] <= b[3]
         };
-        let mut best: Option<(f64, Deep)> = None;
+        let mut best: Option<InElement> = None;
         for (element, _) in self.boxes.iter().enumerate().filter(|(_, b)| inside(b)) {
-            let e = &sector.elements[element];
-            let count = e.shape.count();
-            let (mut xi, mut eta) = (0.0, 0.0);
-            for _ in 0..12 {
-                let v = e.shape.at(xi, eta);
-                let (mut r, mut m) = ([-point[0], -point[1]], [[0.0; 2]; 2]);
-                for (i, node) in e.nodes[..count].iter().enumerate() {
-                    let p = sector.points[*node];
-                    for k in 0..2 {
-                        r[k] += v.n[i] * p[k];
-                        m[k][0] += v.dxi[i] * p[k];
-                        m[k][1] += v.deta[i] * p[k];
-                    }
-                }
-                let determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-                let step = [
-                    (m[1][1] * r[0] - m[0][1] * r[1]) / determinant,
-                    (m[0][0] * r[1] - m[1][0] * r[0]) / determinant,
-                ];
-                xi = (xi - step[0]).clamp(-2.0, 2.0);
-                eta = (eta - step[1]).clamp(-2.0, 2.0);
-                if step[0].abs() + step[1].abs() < 1e-13 {
-                    break;
-                }
+            let at = self.place_in(InElement { element, xi: 0.0, eta: 0.0 }, point);
+            if best.is_none_or(|least| at.outside() < least.outside()) {
+                best = Some(at);
             }
-            let outside = xi.abs().max(eta.abs());
-            if best.as_ref().is_none_or(|(least, _)| outside < *least) {
-                let v = e.shape.at(xi, eta);
-                best = Some((outside, Deep { element, count, nodes: e.nodes, weights: v.n }));
-            }
-            if outside <= 1.0 {
+            if at.outside() <= 1.0 {
                 break;
             }
         }
-        best.filter(|(outside, _)| *outside <= 1.0 + 1e-3).map(|(_, deep)| deep)
+        let at = best.filter(|at| at.outside() <= 1.0 + 1e-3)?;
+        Some((self.deep(at), at))
+    }
+
+    /// Newton's method for the place of a point in an element, from another place in it.
+    fn place_in(&self, from: InElement, point: [f64; 2]) -> InElement {
+        let sector = &self.mesh.sectors[0];
+        let InElement { element, mut xi, mut eta } = from;
+        let e = &sector.elements[element];
+        let count = e.shape.count();
+        for _ in 0..12 {
+            let v = e.shape.at(xi, eta);
+            let (mut r, mut m) = ([-point[0], -point[1]], [[0.0; 2]; 2]);
+            for (i, node) in e.nodes[..count].iter().enumerate() {
+                let p = sector.points[*node];
+                for k in 0..2 {
+                    r[k] += v.n[i] * p[k];
+                    m[k][0] += v.dxi[i] * p[k];
+                    m[k][1] += v.deta[i] * p[k];
+                }
+            }
+            let determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+            let step = [
+                (m[1][1] * r[0] - m[0][1] * r[1]) / determinant,
+                (m[0][0] * r[1] - m[1][0] * r[0]) / determinant,
+            ];
+            xi = (xi - step[0]).clamp(-2.0, 2.0);
+            eta = (eta - step[1]).clamp(-2.0, 2.0);
+            // Convergence is quadratic: the next step would be below 1e-14.
+            if step[0].abs() + step[1].abs() < 1e-8 {
+                break;
+            }
+        }
+        InElement { element, xi, eta }
+    }
+
+    fn deep(&self, at: InElement) -> Deep {
+        let e = &self.mesh.sectors[0].elements[at.element];
+        let weights = e.shape.at(at.xi, at.eta).n;
+        Deep { element: at.element, count: e.shape.count(), nodes: e.nodes, weights }
     }
 
     /// Response of a tooth `offset` teeth on from the loaded one; `None` beyond the kept ones, and

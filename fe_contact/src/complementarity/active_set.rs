@@ -3,7 +3,7 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use super::{ComplementarityError, ComplementaritySolver, Lemke, Problem, Solution};
-use super::{check, kkt_residual, largest, or_one, separations};
+use super::{check, check_sizes, kkt_residual, largest, or_one, separations};
 
 /// Violations below this, relative to the largest force or gap, are rounding.
 const FLOOR: f64 = 1e-13;
@@ -35,27 +35,40 @@ impl ComplementaritySolver for ActiveSet {
         warm: Option<&[bool]>,
     ) -> Result<Solution, ComplementarityError> {
         check(problem)?;
+        Ok(self.solve_with_factor(problem, warm)?.0)
+    }
+
+    fn solve_with_factor(
+        &self,
+        problem: &Problem<'_>,
+        warm: Option<&[bool]>,
+    ) -> Result<(Solution, Option<Cholesky<f64, Dyn>>), ComplementarityError> {
+        check_sizes(problem)?;
         let n = problem.gaps.len();
         if problem.gaps.iter().all(|g| *g >= 0.0) {
-            return Ok(Solution::zero(n));
+            return Ok((Solution::zero(n), None));
         }
         let start = match warm {
             Some(guess) if guess.len() == n => guess.to_vec(),
             _ => problem.gaps.iter().map(|g| *g < 0.0).collect(),
         };
         match pivot(problem, start) {
-            Ok(solution) => Ok(solution),
+            Ok((solution, factor)) => Ok((solution, Some(factor))),
             Err(factorisations) => {
                 let mut solution = Lemke.solve(problem, None)?;
                 solution.iterations += factorisations;
-                Ok(solution)
+                Ok((solution, None))
             }
         }
     }
 }
 
-/// Block principal pivoting from `active`; on failure the number of factorisations done.
-fn pivot(problem: &Problem<'_>, mut active: Vec<bool>) -> Result<Solution, usize> {
+/// Block principal pivoting from `active`, with the last block's factor; on failure the number of
+/// factorisations done.
+fn pivot(
+    problem: &Problem<'_>,
+    mut active: Vec<bool>,
+) -> Result<(Solution, Cholesky<f64, Dyn>), usize> {
     let n = problem.gaps.len();
     // Block exchanges end within about ten iterations, single exchanges within about n.
     let limit = 50 + 4 * n;
@@ -67,7 +80,7 @@ fn pivot(problem: &Problem<'_>, mut active: Vec<bool>) -> Result<Solution, usize
             let forces = block.refined(problem);
             let sound = kkt_residual(problem, &forces) <= SOUND;
             return if sound {
-                Ok(Solution { forces, active, iterations })
+                Ok((Solution { forces, active, iterations }, block.factor))
             } else {
                 Err(iterations)
             };
@@ -102,7 +115,13 @@ impl Block {
     fn new(problem: &Problem<'_>, active: &[bool]) -> Option<Self> {
         let index: Vec<usize> = (0..active.len()).filter(|i| active[*i]).collect();
         let m = index.len();
-        let matrix = DMatrix::from_fn(m, m, |i, j| problem.compliance[(index[i], index[j])]);
+        let mut entries = Vec::with_capacity(m * m);
+        for j in &index {
+            let column = problem.compliance.column(*j);
+            let column = column.as_slice();
+            entries.extend(index.iter().map(|i| column[*i]));
+        }
+        let matrix = DMatrix::from_vec(m, m, entries);
         let right = DVector::from_fn(m, |i, _| -problem.gaps[index[i]]);
         let factor = Cholesky::new(matrix.clone())?;
         // A pivot of the size of rounding errors may be positive although the block is singular.
@@ -122,9 +141,9 @@ impl Block {
         let gap_floor = FLOOR * or_one(largest(problem.gaps));
         // Where C has entries of both signs, terms of C p cancel, and the rounding error is that of
         // Σ |C| |p|.
-        let moved: Vec<f64> = forces.iter().map(|p| p.abs()).collect();
         let terms = |i: usize| -> f64 {
-            problem.compliance.column(i).iter().zip(&moved).map(|(c, p)| c.abs() * p).sum()
+            let column = problem.compliance.column(i);
+            column.iter().zip(&forces).map(|(c, p)| c.abs() * p.abs()).sum()
         };
         (0..active.len())
             .filter(|i| {

@@ -24,7 +24,7 @@ pub use active_set::ActiveSet;
 pub use interior_point::InteriorPoint;
 pub use lemke::Lemke;
 
-use nalgebra::DMatrix;
+use nalgebra::{Cholesky, DMatrix, Dyn};
 
 /// A solution with a larger [`kkt_residual`] is refused rather than returned.
 const RESIDUAL_LIMIT: f64 = 1e-6;
@@ -129,6 +129,20 @@ pub trait ComplementaritySolver {
         problem: &Problem<'_>,
         warm: Option<&[bool]>,
     ) -> Result<Solution, ComplementarityError>;
+
+    /// The same with the Cholesky factor of the compliance between the cells in contact, in ascending
+    /// order, if the method has it. Compliances of cells that never carry a force may go unread: it
+    /// is for compliances known to be finite.
+    ///
+    /// # Errors
+    /// As [`ComplementaritySolver::solve`].
+    fn solve_with_factor(
+        &self,
+        problem: &Problem<'_>,
+        warm: Option<&[bool]>,
+    ) -> Result<(Solution, Option<Cholesky<f64, Dyn>>), ComplementarityError> {
+        Ok((self.solve(problem, warm)?, None))
+    }
 }
 
 /// How far `forces` (n) are from solving `problem`, dimensionless: the largest of −p/p₀, −w/g₀ and
@@ -154,6 +168,23 @@ pub fn kkt_residual(problem: &Problem<'_>, forces: &[f64]) -> f64 {
 /// Refuses a problem with a compliance that is not square, with sizes that differ, or with values
 /// that are not finite.
 fn check(problem: &Problem<'_>) -> Result<(), ComplementarityError> {
+    check_sizes(problem)?;
+    let rows = problem.gaps.len();
+    // Whole columns are looked at without a branch for each entry.
+    let is_whole = |column: &[f64]| column.iter().fold(true, |whole, c| whole & c.is_finite());
+    let all = problem.compliance.as_slice();
+    if !all.chunks_exact(rows.max(1)).all(is_whole)
+        && let Some(k) = all.iter().position(|c| !c.is_finite())
+    {
+        // Column-major.
+        return Err(ComplementarityError::ComplianceNotFinite { row: k % rows, column: k / rows });
+    }
+    Ok(())
+}
+
+/// Refuses a problem with a compliance that is not square, with sizes that differ, or with gaps that are
+/// not finite.
+fn check_sizes(problem: &Problem<'_>) -> Result<(), ComplementarityError> {
     let (rows, columns) = problem.compliance.shape();
     if rows != columns {
         return Err(ComplementarityError::NotSquare { rows, columns });
@@ -161,10 +192,6 @@ fn check(problem: &Problem<'_>) -> Result<(), ComplementarityError> {
     if rows != problem.gaps.len() {
         let gaps = problem.gaps.len();
         return Err(ComplementarityError::SizeMismatch { order: rows, gaps });
-    }
-    if let Some(k) = problem.compliance.iter().position(|c| !c.is_finite()) {
-        // Column-major.
-        return Err(ComplementarityError::ComplianceNotFinite { row: k % rows, column: k / rows });
     }
     match problem.gaps.iter().position(|g| !g.is_finite()) {
         Some(index) => Err(ComplementarityError::GapNotFinite { index }),
@@ -184,10 +211,22 @@ fn accept(problem: &Problem<'_>, solution: Solution) -> Result<Solution, Complem
 
 /// w = C p + g.
 fn separations(problem: &Problem<'_>, forces: &[f64]) -> Vec<f64> {
+    const AT_ONCE: usize = 4;
     let mut w = problem.gaps.to_vec();
-    for (j, p) in forces.iter().enumerate().filter(|(_, p)| **p != 0.0) {
-        for (w, c) in w.iter_mut().zip(problem.compliance.column(j).iter()) {
-            *w += c * p;
+    let (n, c) = (w.len(), problem.compliance.as_slice());
+    let column = |j: usize| &c[j * n..(j + 1) * n];
+    let loaded: Vec<usize> = (0..n).filter(|j| forces[*j] != 0.0).collect();
+    let blocks = loaded.chunks_exact(AT_ONCE);
+    for j in blocks.remainder() {
+        w.iter_mut().zip(column(*j)).for_each(|(w, c)| *w += c * forces[*j]);
+    }
+    // Several columns for each pass over w.
+    for j in blocks {
+        let [p, q, r, s] = [0, 1, 2, 3].map(|k| forces[j[k]]);
+        let columns =
+            column(j[0]).iter().zip(column(j[1])).zip(column(j[2]).iter().zip(column(j[3])));
+        for (w, ((a, b), (c, d))) in w.iter_mut().zip(columns) {
+            *w += (a * p + b * q) + (c * r + d * s);
         }
     }
     w

@@ -53,8 +53,8 @@ impl MeshTable {
             return Ok(answer);
         }
         let problem = Problem { compliance: &self.compliance, gaps: &gaps };
-        let solution = solver
-            .solve(&problem, warm)
+        let (solution, factor) = solver
+            .solve_with_factor(&problem, warm)
             .map_err(|cause| FeError::Contact { phase: self.phase, cause })?;
         let active: Vec<usize> = (0..gaps.len()).filter(|i| solution.active[*i]).collect();
         for (force, k) in solution.forces.iter().zip(&owner) {
@@ -62,15 +62,19 @@ impl MeshTable {
         }
         // ½ pᵀCp = ½ pᵀ(−g) on the active cells.
         answer.energy = -0.5 * solution.forces.iter().zip(&gaps).map(|(p, g)| p * g).sum::<f64>();
-        // S = Eᵀ C_AA⁻¹ E, E: which pair each active cell belongs to.
-        let block = DMatrix::from_fn(active.len(), active.len(), |i, j| {
-            self.compliance[(active[i], active[j])]
-        });
-        if let Some(factor) = Cholesky::new(block) {
-            let e = DMatrix::from_fn(active.len(), count, |i, k| {
-                f64::from(u8::from(owner[active[i]] == k))
-            });
-            answer.tangent = e.transpose() * factor.solve(&e);
+        let block = || {
+            DMatrix::from_fn(active.len(), active.len(), |i, j| {
+                self.compliance[(active[i], active[j])]
+            })
+        };
+        // S = Eᵀ C_AA⁻¹ E = (L⁻¹E)ᵀ L⁻¹E, E: which pair each active cell belongs to.
+        if let Some(factor) = factor.or_else(|| Cholesky::new(block())) {
+            let mut e = DMatrix::zeros(active.len(), count);
+            for (i, cell) in active.iter().enumerate() {
+                e[(i, owner[*cell])] = 1.0;
+            }
+            factor.l_dirty().solve_lower_triangular_unchecked_mut(&mut e);
+            answer.tangent = e.tr_mul(&e);
         }
         answer.iterations = solution.iterations;
         answer.cell_forces = solution.forces;

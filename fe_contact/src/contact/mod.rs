@@ -6,6 +6,7 @@ pub mod half_plane;
 pub mod hertz;
 mod maps;
 mod pair;
+mod seen;
 mod table;
 
 pub use answer::MeshAnswer;

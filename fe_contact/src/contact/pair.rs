@@ -227,15 +227,23 @@ impl<'m> PairFrame<'m> {
         (self.flank(member).point(s), s)
     }
 
+    /// Points of both flanks at tangential coordinate `x`, driver first: see [`Self::flank_point`].
+    pub(crate) fn flank_points(&self, x: f64) -> [([f64; 2], f64); 2] {
+        [MeshMember::Driver, MeshMember::Driven].map(|member| self.flank_point(member, x))
+    }
+
     /// Gap at tangential coordinate `x` along the normal, tip relief included, m.
     pub fn gap_at(&self, x: f64) -> f64 {
-        let (p, s) = self.flank_point(MeshMember::Driver, x);
-        let (q, u) = self.flank_point(MeshMember::Driven, x);
+        self.gap_between(&self.flank_points(x))
+    }
+
+    /// Gap along the normal between points of both flanks, tip relief included, m.
+    pub(crate) fn gap_between(&self, [(p, s), (q, u)]: &[([f64; 2], f64); 2]) -> f64 {
         let n = self.normal;
         (q[0] - p[0]) * n[0]
             + (q[1] - p[1]) * n[1]
-            + self.driver.gear.relief_at(s)
-            + self.driven.gear.relief_at(u)
+            + self.driver.gear.relief_at(*s)
+            + self.driven.gear.relief_at(*u)
     }
 }
 

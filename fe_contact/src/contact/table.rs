@@ -7,7 +7,8 @@ use gearset::{Mesh, MeshMember, PerMesh};
 use super::half_plane::HalfPlane;
 use super::hertz::Hertz;
 use super::pair::{Location, PairFrame, candidates, members};
-use crate::body::{Deep, FlankPoint, GearBody};
+use super::seen::{Seen, tooth_numbers};
+use crate::body::GearBody;
 use crate::error::FeError;
 
 /// How cells are laid out and matched.
@@ -47,7 +48,7 @@ impl Matching {
         if self.points == 2 { &[2.0, -1.0] } else { &[1.0] }
     }
 
-    fn depth(&self, point: usize) -> f64 {
+    pub(super) fn depth(&self, point: usize) -> f64 {
         if self.points == 0 { 0.0 } else { self.depth * (point + 1) as f64 }
     }
 }
@@ -102,15 +103,6 @@ pub struct MeshTable {
     pub next_gap: f64,
 }
 
-/// A cell as one body sees it.
-struct Seen {
-    load: FlankPoint,
-    /// Matching points with their weights.
-    deep: Vec<(Deep, f64)>,
-    /// Normal in the tooth's frame.
-    normal: [f64; 2],
-}
-
 impl MeshTable {
     /// Lays out the cells of a mesh and computes the compliance between them.
     ///
@@ -137,7 +129,7 @@ impl MeshTable {
             least.iter().filter(|gap| **gap > window).fold(f64::INFINITY, |a, g| a.min(*g));
         let within = all.into_iter().zip(&least).filter(|(_, gap)| **gap <= window);
         let frames: Vec<PairFrame<'_>> = within.map(|(frame, _)| frame).collect();
-        let (mut pairs, mut gaps) = (Vec::new(), Vec::new());
+        let (mut pairs, mut gaps, mut points) = (Vec::new(), Vec::new(), Vec::new());
         for frame in &frames {
             let hertz = Hertz::new(settings.force / face_width, frame.radius(), &driver.material);
             let reach = GRID_MARGIN * hertz.half_width;
@@ -147,7 +139,9 @@ impl MeshTable {
             let width = (high - low) / settings.cells as f64;
             let x: Vec<f64> = (0..settings.cells).map(|i| low + (i as f64 + 0.5) * width).collect();
             let first = gaps.len();
-            gaps.extend(x.iter().map(|x| frame.gap_at(*x)));
+            let own: Vec<_> = x.iter().map(|x| frame.flank_points(*x)).collect();
+            gaps.extend(own.iter().map(|ends| frame.gap_between(ends)));
+            points.push(own);
             let (index, location, row) = (frame.index, frame.location, frame.approach_row());
             let axes = [MeshMember::Driver, MeshMember::Driven].map(|m| frame.tooth(m).axis);
             pairs.push(PairCells {
@@ -169,27 +163,34 @@ impl MeshTable {
             let name = members(mesh.kind)[member as usize];
             let deepest = settings.matching.depth(settings.matching.weights().len() - 1);
             let lost = || FeError::DepthOutside { body: name, phase, depth_mm: deepest * 1e3 };
-            let teeth = tooth_numbers(&frames, member, body);
-            let seen: Vec<Vec<Seen>> = frames
+            let numbers = tooth_numbers(&frames, member, body);
+            let seen: Vec<Seen> = frames
                 .iter()
-                .zip(&pairs)
-                .map(|(frame, cells)| {
-                    see(frame, cells, member, body, &settings.matching).ok_or_else(lost)
+                .zip(&points)
+                .map(|(frame, points)| {
+                    Seen::new(frame, points, member, body, &settings.matching).ok_or_else(lost)
                 })
                 .collect::<Result<_, _>>()?;
             for (a, (loads, on)) in seen.iter().zip(&pairs).enumerate() {
                 for (b, (deeps, of)) in seen.iter().zip(&pairs).enumerate() {
-                    let offset = teeth[b] - teeth[a];
-                    add_block(&mut compliance, body, (loads, on), offset, (deeps, of));
+                    let place = (of.first, on.first);
+                    deeps.add_under(loads, body, numbers[b] - numbers[a], &mut compliance, place);
                 }
             }
         }
         // Load and measured point stand at different depths, so reciprocity holds only as far as
         // the two solutions match; the complementarity problem takes the symmetric part.
-        let largest = compliance.amax();
-        let skew = (&compliance - compliance.transpose()).amax();
+        let (mut largest, mut skew) = (0.0f64, 0.0f64);
+        for i in 0..n {
+            for j in 0..=i {
+                let (low, high) = (compliance[(i, j)], compliance[(j, i)]);
+                largest = largest.max(low.abs()).max(high.abs());
+                skew = skew.max((low - high).abs());
+                let even = (0.5 * factor) * (low + high);
+                (compliance[(i, j)], compliance[(j, i)]) = (even, even);
+            }
+        }
         let asymmetry = if largest > 0.0 { 0.5 * skew / largest } else { 0.0 };
-        compliance = (0.5 * factor) * (&compliance + compliance.transpose());
         let half = bodies.map(|body| HalfPlane::new(&body.material));
         for cells in &pairs {
             add_half_planes(&mut compliance, &half, cells, &settings.matching, face_width);
@@ -218,102 +219,6 @@ impl MeshTable {
     pub fn pair_of_cells(&self) -> Vec<usize> {
         let of = |(k, pair): (usize, &PairCells)| std::iter::repeat_n(k, pair.x.len());
         self.pairs.iter().enumerate().flat_map(of).collect()
-    }
-}
-
-/// Numbers of the loaded teeth of one gear, counted from that of the first pair.
-fn tooth_numbers(frames: &[PairFrame<'_>], member: MeshMember, body: &GearBody) -> Vec<i64> {
-    let pitch = body.mesh.outline.gear().pitch_angle();
-    let first = frames.first().map_or(0.0, |f| f.tooth(member).axis);
-    frames.iter().map(|f| ((f.tooth(member).axis - first) / pitch).round() as i64).collect()
-}
-
-/// The cells of one pair in one body's tooth frame; `None` if a matching point falls outside.
-fn see(
-    frame: &PairFrame<'_>,
-    cells: &PairCells,
-    member: MeshMember,
-    body: &GearBody,
-    matching: &Matching,
-) -> Option<Vec<Seen>> {
-    let tooth = frame.tooth(member);
-    let into = |v: [f64; 2]| crate::fe_mesh::rotated(v, -tooth.axis);
-    let normal = into(frame.normal);
-    // The driver's material lies behind the normal, the driven gear's ahead of it.
-    let inwards = if member == MeshMember::Driver { -1.0 } else { 1.0 };
-    let one = |x: &f64| {
-        let (p, roll_length) = frame.flank_point(member, *x);
-        let at = into([p[0] - tooth.centre[0], p[1] - tooth.centre[1]]);
-        let weighted = matching.weights().iter().enumerate();
-        let deep = weighted.map(|(i, weight)| {
-            let depth = inwards * matching.depth(i);
-            let q = body.locate([at[0] + depth * normal[0], at[1] + depth * normal[1]])?;
-            Some((q, *weight))
-        });
-        let deep = deep.collect::<Option<Vec<_>>>()?;
-        let load = body.flank_point(tooth.side, body.mesh.outline.flank_parameter(roll_length));
-        Some(Seen { load, deep, normal })
-    };
-    cells.x.iter().map(one).collect()
-}
-
-/// FE part of eq. (1): displacement of the matching points of one pair under unit forces on the
-/// cells of another.
-fn add_block(
-    compliance: &mut DMatrix<f64>,
-    body: &GearBody,
-    (loads, on): (&[Seen], &PairCells),
-    offset: i64,
-    (deeps, of): (&[Seen], &PairCells),
-) {
-    let Some(response) = body.response(offset) else { return };
-    // Rows the matching points need, and columns the loads need: each a few elements.
-    let points = deeps.iter().flat_map(|s| &s.deep);
-    let mut rows: Vec<usize> =
-        points.flat_map(|(deep, _)| deep.nodes[..deep.count].iter().copied()).collect();
-    rows.sort_unstable();
-    rows.dedup();
-    let mut columns: Vec<usize> = loads.iter().flat_map(|s| s.load.columns).collect();
-    columns.sort_unstable();
-    columns.dedup();
-    // Both directions of force of every column, at the nodes of `rows` alone: side by side in memory.
-    let near: Vec<Vec<f64>> = columns
-        .iter()
-        .flat_map(|column| [*column, column + 1])
-        .map(|column| {
-            let of = response.column(column);
-            rows.iter().flat_map(|node| [of[2 * node], of[2 * node + 1]]).collect()
-        })
-        .collect();
-    let mut field = DMatrix::<f64>::zeros(2 * rows.len(), loads.len());
-    for (seen, mut field) in loads.iter().zip(field.column_iter_mut()) {
-        for (column, w) in seen.load.columns.iter().zip(seen.load.weights) {
-            let first = 2 * columns.partition_point(|c| c < column);
-            for (near, f) in near[first..first + 2].iter().zip(&seen.normal) {
-                let force = w * f;
-                field.iter_mut().zip(near).for_each(|(field, near)| *field += force * near);
-            }
-        }
-    }
-    // Side by side in memory are the loads of one point.
-    let field = field.transpose();
-    for (i, seen) in deeps.iter().enumerate() {
-        let row = (of.first + i, on.first);
-        let mut moved: Vec<f64> =
-            (0..loads.len()).map(|j| compliance[(row.0, row.1 + j)]).collect();
-        for (deep, weight) in &seen.deep {
-            for (node, n) in deep.nodes[..deep.count].iter().zip(deep.weights) {
-                let r = rows.partition_point(|row| row < node);
-                let w = [seen.normal[0] * weight * n, seen.normal[1] * weight * n];
-                let (x, y) = (field.column(2 * r), field.column(2 * r + 1));
-                for ((moved, x), y) in moved.iter_mut().zip(x.as_slice()).zip(y.as_slice()) {
-                    *moved += w[0] * x + w[1] * y;
-                }
-            }
-        }
-        for (j, value) in moved.into_iter().enumerate() {
-            compliance[(row.0, row.1 + j)] = value;
-        }
     }
 }
 

@@ -98,10 +98,10 @@ impl StaticSet<'_> {
             None => self.sprung(f)?,
         };
         let system = self.system(f, &none);
-        let (mut found, mut counts) = self.balance(&system, &mut q, &meshes, solver)?;
+        let (mut found, mut counts) = self.balance(&system, &mut q, (&meshes, &[]), solver)?;
         if self.backside_touches(&q) {
             meshes.extend(self.place_backside(position, &tables.settings)?);
-            let (again, more) = self.balance(&system, &mut q, &meshes, solver)?;
+            let (again, more) = self.balance(&system, &mut q, (&meshes, &found.0), solver)?;
             (found, counts) = (again, (counts.0 + more.0, counts.1 + more.1));
         }
         let (answers, residual) = found;
@@ -180,8 +180,9 @@ impl StaticSet<'_> {
         found: &mut Equilibrium<'_>,
         solver: &dyn ComplementaritySolver,
     ) -> Result<(), FeError> {
-        let ((answers, residual), counts) =
-            self.balance(&self.system(f, &found.load), &mut found.q, &found.meshes, solver)?;
+        let system = self.system(f, &found.load);
+        let known = (&*found.meshes, &*found.answers);
+        let ((answers, residual), counts) = self.balance(&system, &mut found.q, known, solver)?;
         (found.answers, found.residual, found.counts) = (answers, residual, counts);
         Ok(())
     }
@@ -197,17 +198,22 @@ impl StaticSet<'_> {
     }
 
     /// Newton's method from q; answers of all meshes with the residual, and the iterations it took.
+    /// Cells that touch in the `known` answers of the first of the meshes are the first guess.
     pub(super) fn balance(
         &self,
         system: &System,
         q: &mut DVector<f64>,
-        meshes: &[PlacedMesh<'_>],
+        (meshes, known): (&[PlacedMesh<'_>], &[MeshAnswer]),
         solver: &dyn ComplementaritySolver,
     ) -> Result<Balance, FeError> {
         const MOST: usize = 60;
         let System { stiffness, load: f } = system;
         let load = f.amax();
-        let mut warm: Vec<Option<Vec<bool>>> = meshes.iter().map(|m| Some(m.guess())).collect();
+        let first = |(i, mesh): (usize, &PlacedMesh<'_>)| {
+            let known = known.get(i).filter(|answer| answer.active.iter().any(|a| *a));
+            Some(known.map_or_else(|| mesh.guess(), |answer| answer.active.clone()))
+        };
+        let mut warm: Vec<Option<Vec<bool>>> = meshes.iter().enumerate().map(first).collect();
         let mut contact_iterations = 0;
         let mut evaluate = |q: &DVector<f64>, warm: &mut Vec<Option<Vec<bool>>>| {
             let mut answers = Vec::with_capacity(meshes.len());

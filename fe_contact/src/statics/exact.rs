@@ -105,7 +105,8 @@ impl StaticSet<'_> {
             }
             let system = System { stiffness: self.races.stiffness.clone(), load: f + &load };
             let before = q.clone();
-            let ((answers, residual), counts) = self.balance(&system, &mut q, &meshes, solver)?;
+            let ((answers, residual), counts) =
+                self.balance(&system, &mut q, (&meshes, &[]), solver)?;
             change = (&q - before).amax();
             if change < FOUND {
                 let found = Equilibrium {

@@ -57,6 +57,27 @@ impl NeighbourTables {
         Self::new(bodies, mesh, phase, &CellSettings { cells, ..*settings }, STEPS)
     }
 
+    /// The same for pairs with gaps up to a quarter of the window only: up to the deflection of a mesh a
+    /// third softer than one pair of steel teeth usually is. Pairs with larger gaps hardly ever carry
+    /// load, and without load they change nothing; [`NeighbourTables::hold`] tells whether that suffices.
+    pub(crate) fn nearest(
+        bodies: &Bodies,
+        mesh: &Mesh,
+        phase: f64,
+        settings: &CellSettings,
+    ) -> Result<Self, FeError> {
+        let window = 0.25 * settings.window;
+        Self::coarse(bodies, mesh, phase, &CellSettings { window, ..*settings })
+    }
+
+    /// Whether all tables have all pairs of the table `between` them that carry `forces` (N).
+    pub(crate) fn hold(&self, between: &MeshTable, forces: &[f64]) -> bool {
+        let loaded = || between.pairs.iter().zip(forces).filter(|(_, p)| **p > 0.0);
+        self.tables.iter().all(|(_, table)| {
+            loaded().all(|(pair, _)| table.pairs.iter().any(|own| own.index == pair.index))
+        })
+    }
+
     /// Tables beside a phase (cycles) of a mesh, with steps in σ and a' (m).
     pub(super) fn new(
         bodies: &Bodies,
@@ -96,15 +117,16 @@ impl NeighbourTables {
         if forces.iter().all(|p| *p <= 0.0) {
             return Ok(slopes);
         }
-        for (which, step) in self.steps.into_iter().enumerate() {
-            let mut ends = self.tables[2 * which..2 * which + 2]
-                .iter()
-                .map(|(mesh, table)| elastic(mesh, table, between, forces, solver));
-            let (Some(after), Some(before)) = (ends.next(), ends.next()) else { continue };
-            let (after, before) = (after?, before?);
-            slopes.rest[which] = (after.1 - before.1) / (2.0 * step);
+        let mut found: Vec<Elastic> = Vec::with_capacity(self.tables.len());
+        for (mesh, table) in &self.tables {
+            // Each starts from the one before, a few hundredths of a millimetre away.
+            found.push(elastic((mesh, table), between, forces, found.last(), solver)?);
+        }
+        for (which, (step, ends)) in self.steps.into_iter().zip(found.chunks(2)).enumerate() {
+            let [after, before] = ends else { continue };
+            slopes.rest[which] = (after.energy - before.energy) / (2.0 * step);
             for (k, force) in forces.iter().enumerate() {
-                let kappa = (after.0[k] - before.0[k]) / (2.0 * step);
+                let kappa = (after.of_pairs[k] - before.of_pairs[k]) / (2.0 * step);
                 slopes.of_pairs[k][which] = kappa;
                 slopes.rest[which] -= kappa * force;
             }
@@ -125,16 +147,25 @@ const MOST: usize = 80;
 /// iteration reduces an approach by at most this much and increases it by at most twice as much.
 const STRIDE: f64 = 1e-5;
 
-/// Elastic approach E (m, tip relief included) of pairs on `table` under the `forces` (N) that the
-/// pairs of the same numbers carry on the table `between`, and the elastic energy W = PᵀE − ½ pᵀCp
-/// (J).
+/// Elastic state of the pairs of one table under given forces.
+struct Elastic {
+    /// Elastic approach E, tip relief included, m: of all pairs of the table between.
+    of_pairs: Vec<f64>,
+    /// Elastic energy W = PᵀE − ½ pᵀCp, J.
+    energy: f64,
+    /// Cells that touch.
+    active: Vec<bool>,
+}
+
+/// Elastic state of pairs on `table` under the `forces` (N) that the pairs of the same numbers carry on
+/// the table `between`; `near`: that on a table nearby, to start from.
 fn elastic(
-    mesh: &Mesh,
-    table: &MeshTable,
+    (mesh, table): (&Mesh, &MeshTable),
     between: &MeshTable,
     forces: &[f64],
+    near: Option<&Elastic>,
     solver: &dyn ComplementaritySolver,
-) -> Result<(Vec<f64>, f64), FeError> {
+) -> Result<Elastic, FeError> {
     let still = unrelieved(mesh, table.phase)?;
     let pairs: Vec<(usize, usize)> = (0..forces.len())
         .filter(|k| forces[*k] > 0.0)
@@ -148,10 +179,11 @@ fn elastic(
     // Pairs without force are kept apart.
     let mut approaches = vec![-1.0; table.pairs.len()];
     let none = vec![0.0; table.pairs.len()];
-    for (_, j) in &pairs {
-        approaches[*j] = gap(*j) + table.pairs[*j].relief + STRIDE;
+    for (k, j) in &pairs {
+        let start = near.map_or(table.pairs[*j].relief + STRIDE, |near| near.of_pairs[*k]);
+        approaches[*j] = gap(*j) + start;
     }
-    let mut warm: Option<Vec<bool>> = None;
+    let mut warm: Option<Vec<bool>> = near.map(|near| near.active.clone());
     let mut residual = f64::INFINITY;
     for _ in 0..MOST {
         let now = table.answer(&approaches, &none, solver, warm.as_deref())?;
@@ -167,7 +199,7 @@ fn elastic(
                 of_pairs[*k] = approaches[*j] - gap(*j);
                 energy += p * of_pairs[*k];
             }
-            return Ok((of_pairs, energy));
+            return Ok(Elastic { of_pairs, energy, active: now.active });
         }
         let tangent = DMatrix::from_fn(pairs.len(), pairs.len(), |a, b| {
             now.tangent[(pairs[a].1, pairs[b].1)]

@@ -22,10 +22,19 @@ pub struct SetTables {
     /// Maps of each that sets in time have found.
     pub(crate) maps: Vec<Arc<SharedMaps>>,
     place: HashMap<(usize, i64), usize>,
-    /// Tables beside each, once slopes were asked for.
-    beside: Vec<OnceLock<Arc<NeighbourTables>>>,
+    /// Tables beside each, once slopes were asked for: of the nearest pairs, and of all.
+    beside: Vec<[OnceLock<Arc<NeighbourTables>>; 2]>,
     /// Settings they were made with.
     pub settings: CellSettings,
+}
+
+/// Which pairs tables beside another have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Beside {
+    /// Those with the smallest gaps.
+    Nearest,
+    /// All that the other may have.
+    All,
 }
 
 fn key(group: usize, phase: f64) -> (usize, i64) {
@@ -73,7 +82,7 @@ impl StaticSet<'_> {
             .collect();
         let place = wanted.iter().enumerate().map(|(i, (g, phase))| (key(*g, *phase), i)).collect();
         let list = list?;
-        let beside = vec![OnceLock::new(); list.len()];
+        let beside = vec![[const { OnceLock::new() }; 2]; list.len()];
         let maps = list.iter().map(|_| Arc::default()).collect();
         Ok(SetTables { list, maps, place, beside, settings })
     }
@@ -86,7 +95,7 @@ impl StaticSet<'_> {
         let mut of: Vec<(usize, usize)> = tables.place.iter().map(|(k, i)| (*i, k.0)).collect();
         of.sort_unstable();
         of.into_par_iter().try_for_each(|(place, group)| {
-            self.beside(tables, place, group)?;
+            self.beside(tables, place, group, Beside::Nearest)?;
             Ok(())
         })
     }
@@ -97,14 +106,19 @@ impl StaticSet<'_> {
         tables: &'t SetTables,
         place: usize,
         group: usize,
+        which: Beside,
     ) -> Result<&'t NeighbourTables, FeError> {
-        if let Some(beside) = tables.beside[place].get() {
+        let slot = &tables.beside[place][which as usize];
+        if let Some(beside) = slot.get() {
             return Ok(beside);
         }
+        let make = match which {
+            Beside::Nearest => NeighbourTables::nearest,
+            Beside::All => NeighbourTables::coarse,
+        };
         let mesh = &self.reference.loaded[group].mesh;
-        let phase = tables.list[place].phase;
-        let made = NeighbourTables::coarse(self.bodies, mesh, phase, &tables.settings)?;
-        Ok(tables.beside[place].get_or_init(|| Arc::new(made)))
+        let made = make(self.bodies, mesh, tables.list[place].phase, &tables.settings)?;
+        Ok(slot.get_or_init(|| Arc::new(made)))
     }
 
     /// Slopes of the flanks of a front mesh at a position, whose pairs carry `forces` (N).
@@ -119,8 +133,13 @@ impl StaticSet<'_> {
         forces: &[f64],
     ) -> Result<Slopes, FeError> {
         let place = self.place_of(tables, mesh, position);
-        let beside = self.beside(tables, place, self.reference.meshes[mesh].group)?;
-        beside.slopes(&tables.list[place], forces, &ActiveSet)
+        let group = self.reference.meshes[mesh].group;
+        let between = &tables.list[place];
+        let mut beside = self.beside(tables, place, group, Beside::Nearest)?;
+        if !beside.hold(between, forces) {
+            beside = self.beside(tables, place, group, Beside::All)?;
+        }
+        beside.slopes(between, forces, &ActiveSet)
     }
 
     /// One table of the meshes of a group.
