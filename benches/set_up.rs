@@ -1,10 +1,12 @@
 //! CPU time and memory of what a sweep needs before its first step: the bodies of four planets, the contact
-//! tables of a mesh cycle with the loaded configuration, and a set on them. Prints one line for each part.
+//! tables of a mesh cycle with the loaded configuration, and a set on them. Prints one line for each part, and last the
+//! same bodies from the assembled stiffness of whole gears.
 //!
 //! `RAYON_NUM_THREADS=1 cargo bench --bench set_up`
 
 use std::path::Path;
 
+use fe_contact::body::GearBody;
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{Loading, NominalRotation, Prepared, VibratingSet};
 use gearset::{Facing, Scene};
@@ -31,6 +33,10 @@ fn peak() -> f64 {
 }
 
 fn main() {
+    // `cargo bench … -- --test` only tests that benches start.
+    if std::env::args().any(|argument| argument == "--test") {
+        return;
+    }
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/oh58_4p.toml");
     let scene = Scene::from_file(&path).expect("a scene of the repository");
     let steps_per_cycle = scene.dynamics.steps_per_cycle as usize;
@@ -39,6 +45,10 @@ fn main() {
     let mut before = cpu();
     let mut report = |part: &str| {
         let now = cpu();
+        if part.is_empty() {
+            before = now;
+            return;
+        }
         println!("{part:<22} {:6.2} CPU-s   peak {:7.1} MB", now - before, peak());
         before = now;
     };
@@ -58,4 +68,13 @@ fn main() {
     report("first cycle of steps");
     let [tables, maps, frames] = set.bytes().map(|b| b as f64 / 1e6);
     println!("tables {tables:.1} MB, maps {maps:.1} MB, frames {frames:.1} MB");
+    drop((set, prepared));
+    report("");
+    for body in
+        [bodies.ring.as_ref(), bodies.sun.as_ref(), Some(&bodies.planet)].into_iter().flatten()
+    {
+        let whole = GearBody::of_whole_gear(body.mesh.clone(), body.material, body.face_width);
+        assert_eq!(whole.expect("body").unknowns, body.unknowns);
+    }
+    report("bodies of whole gears");
 }

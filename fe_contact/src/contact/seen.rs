@@ -168,3 +168,61 @@ pub(super) fn tooth_numbers(
     let first = frames.first().map_or(0.0, |f| f.tooth(member).axis);
     frames.iter().map(|f| ((f.tooth(member).axis - first) / pitch).round() as i64).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use gearset::{MeshKind, Scene};
+
+    use super::super::pair::candidates;
+    use super::*;
+    use crate::statics::Bodies;
+
+    /// The product D H Lᵀ is the sum over load, response and matching points, cell by cell.
+    #[test]
+    fn the_block_is_the_flexibility_of_each_cell() {
+        let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
+        let mut scene = Scene::from_file(path.as_ref()).unwrap();
+        scene.fe_contact.flank_elements = 8;
+        let bodies = Bodies::new(&scene).unwrap();
+        let mut compared = 0;
+        for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
+            let (mesh, pair) = bodies.joined(kind).unwrap();
+            for member in [MeshMember::Driver, MeshMember::Driven] {
+                let body = pair[member as usize];
+                let frames = candidates(mesh, 0.37, 1e-4);
+                let numbers = tooth_numbers(&frames, member, body);
+                let matching = &bodies.settings.matching;
+                let see = |frame: &PairFrame<'_>| {
+                    let [low, high] = frame.extent();
+                    let x = (0..7).map(|i| 0.1 * (low + f64::from(i) / 6.0 * (high - low)));
+                    let points: Vec<_> = x.map(|x| frame.flank_points(x)).collect();
+                    Seen::new(frame, &points, member, body, matching).unwrap()
+                };
+                let seen: Vec<Seen> = frames.iter().map(see).collect();
+                for (a, on) in seen.iter().enumerate() {
+                    for (b, of) in seen.iter().enumerate() {
+                        let (mut block, offset) = (DMatrix::zeros(8, 9), numbers[b] - numbers[a]);
+                        of.add_under(on, body, offset, &mut block, (1, 2));
+                        let depths = matching.weights().len();
+                        let single = DMatrix::from_fn(8, 9, |i, j| {
+                            if i == 0 || j < 2 {
+                                return 0.0;
+                            }
+                            let load = (&on.loads[j - 2], on.normal);
+                            let points = of.deep[depths * (i - 1)..depths * i].iter();
+                            let moved = |(deep, w): &(Deep, f64)| {
+                                w * body.flexibility(load, offset, (deep, of.normal))
+                            };
+                            points.map(moved).sum()
+                        });
+                        assert!(single.amax() > 0.0);
+                        let off = (&block - &single).amax() / single.amax();
+                        assert!(off < 1e-13, "{kind:?} {member:?} {a} {b}: {off:e}");
+                        compared += 1;
+                    }
+                }
+            }
+        }
+        assert!(compared >= 16, "{compared}");
+    }
+}

@@ -1,6 +1,6 @@
 //! Memory that the bodies of a scene need, before any of it is allocated.
 
-use gearset::{Gear, Scene};
+use gearset::{Fidelity, Gear, Scene};
 
 use super::bodies::{fit, geometry, matching, wanted};
 use crate::body::kept_teeth;
@@ -11,8 +11,8 @@ use crate::material::Elastic;
 
 /// Most memory that the bodies of a scene may need while they are made, bytes: 2 GiB.
 ///
-/// Contact tables of all phases and the matrices, factors and modes of fidelities `modal` and `full` come on top; 2 GiB of
-/// bodies leave room for them on a machine with 16 GiB. With 40 flank elements the bodies of an OH-58 set take 2.8 GB.
+/// Contact tables of all phases and the factors and modes of all bodies at fidelities `modal` and `full` come on top; 2 GiB
+/// of bodies leave room for them on a machine with 16 GiB. With 40 flank elements the bodies of an OH-58 set take 1.3 GB.
 pub const MOST_BYTES: u64 = 2 << 30;
 
 /// Scene key that sets the size of all elements.
@@ -35,7 +35,8 @@ pub struct BodyEstimate {
     pub unknowns: u64,
     /// Memory that the body holds once it is made (mesh, responses of teeth), bytes.
     pub held_bytes: u64,
-    /// Further memory while it is made (entries of the matrices, the matrices, their factor), bytes.
+    /// Further memory while it is made (the condensed sector and the ring of its cuts), and at fidelities `modal` and
+    /// `full` while the matrices of the whole gear are (their entries, the matrices, a factor), bytes.
     pub making_bytes: u64,
 }
 
@@ -51,8 +52,9 @@ pub struct FeEstimate {
 }
 
 /// Estimates the memory that [`super::Bodies::new`] needs for a scene, from the meshes of single teeth;
-/// nothing is assembled or factorised. The memory of contact tables, of the carrier and of the elastic
-/// states of fidelity `full` comes on top.
+/// nothing is assembled or factorised. At fidelities `modal` and `full` it includes the assembly and one factor
+/// of the largest whole gear, which are made later. The memory of contact tables, of the carrier and
+/// of elastic states comes on top.
 ///
 /// # Errors
 /// Those of [`super::Bodies::new`] for scenes without geometry and for settings that give no mesh or no
@@ -70,7 +72,8 @@ pub fn estimate(scene: &Scene) -> Result<FeEstimate, FeError> {
     for (name, gear) in gears.into_iter().filter_map(|(name, gear)| Some((name, gear?))) {
         let (outline, sector) = FeGearMesh::one_tooth(name, gear, input.element, meshed as usize)?;
         whole(name, &sector, &material, geometry.face_width)?;
-        bodies.push(sized(name, gear, &sector, &input));
+        let is_whole = matches!(scene.dynamics.fidelity, Fidelity::Modal(_) | Fidelity::Full);
+        bodies.push(sized(name, gear, &sector, &input, is_whole));
         outlines.push(outline);
     }
     matching(&input, geometry.base_pitch, outlines.iter())?;
@@ -134,12 +137,13 @@ fn whole(
 /// value.
 const ENTRY: f64 = 24.0;
 
-/// Size of a body with `sector` repeated for every tooth.
+/// Size of a body with `sector` repeated for every tooth; `is_whole`: with the matrices of the whole gear.
 fn sized(
     name: &'static str,
     gear: &Gear,
     sector: &Sector,
     input: &gearset::FeContactInput,
+    is_whole: bool,
 ) -> BodyEstimate {
     let teeth = f64::from(gear.teeth);
     // Finer flanks than the meshed one: elements grow in two directions, load nodes in one.
@@ -168,15 +172,25 @@ fn sized(
             count * (2.0 * count + 1.0) + count * (count + 1.0)
         })
         .sum();
-    let entries = entries * teeth * finer * finer * ENTRY * SORTING;
-    let factor = FACTOR * unknowns * unknowns.max(2.0).log2();
+    let entries = entries * finer * finer * ENTRY * SORTING;
+    let factor = |unknowns: f64| FACTOR * unknowns * unknowns.max(2.0).log2();
+    let held = responses + around + mesh;
+    // One sector: displacements under its loads and its cuts, in the numbering of its unknowns and of
+    // its nodes; then the ring: cuts of all sectors, harmonic by harmonic and sector by sector.
+    let cut = 2.0 * (sector.first.len() - 1) as f64 * finer;
+    let solved = 8.0 * 2.0 * per_tooth * (columns + 4.0 * cut);
+    let of_nodes = 8.0 * 2.0 * per_tooth * (columns + 2.0 * cut);
+    let ring = 8.0 * cut * columns * teeth;
+    let condensing = entries.max(factor(2.0 * per_tooth)) + solved + of_nodes;
+    let making = (of_nodes + ring).max(condensing.max(of_nodes + 2.0 * ring) - held);
+    let whole = if is_whole { (entries * teeth).max(factor(unknowns)) } else { 0.0 };
     BodyEstimate {
         name,
         elements: elements as u64,
         nodes: nodes as u64,
         unknowns: unknowns as u64,
-        held_bytes: (responses + around + mesh) as u64,
-        making_bytes: entries.max(factor) as u64,
+        held_bytes: held as u64,
+        making_bytes: making.max(whole) as u64,
     }
 }
 

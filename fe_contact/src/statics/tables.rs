@@ -164,3 +164,58 @@ impl StaticSet<'_> {
 fn missing(kind: MeshKind) -> FeError {
     super::bodies::missing_mesh(kind)
 }
+
+#[cfg(test)]
+mod tests {
+    use gearset::{Facing, Scene};
+
+    use super::super::bodies::Bodies;
+    use super::super::imperfection::Imperfections;
+    use super::*;
+
+    /// Slopes from the tables of the nearest pairs are those from tables of all pairs; a pair that only the latter
+    /// have is found to be missing.
+    #[test]
+    fn nearest_pairs_give_the_slopes_of_all() {
+        let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
+        let mut scene = Scene::from_file(path.as_ref()).unwrap();
+        scene.fe_contact.flank_elements = 8;
+        let bodies = Bodies::new(&scene).unwrap();
+        let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
+        let set = StaticSet::new(&scene, &bodies, sense, none).unwrap().under(1413.0).unwrap();
+        let positions: Vec<f64> = (0..9).map(|i| f64::from(i) / 9.0).collect();
+        let tables = set.tables(set.share(1413.0), &positions).unwrap();
+        let f = set.load(1413.0);
+        let (mut fewer, mut missing, mut worst) = (0, 0, 0.0f64);
+        for position in positions {
+            let found = set.equilibrium(&f, position, &tables, None, &ActiveSet).unwrap();
+            for (mesh, answer) in found.answers.iter().enumerate().take(set.nominal.len()) {
+                let (group, phase) = (set.reference.meshes[mesh].group, set.phase(mesh, position));
+                let place = tables.place_of(group, phase);
+                let between = &tables.list[place];
+                let beside = |which| set.beside(&tables, place, group, which).unwrap();
+                let (nearest, all) = (beside(Beside::Nearest), beside(Beside::All));
+                fewer += usize::from(!nearest.hold(between, &vec![1.0; between.pairs.len()]));
+                if !nearest.hold(between, &answer.pair_forces) {
+                    missing += 1;
+                    continue;
+                }
+                let of = |b: &NeighbourTables| {
+                    b.slopes(between, &answer.pair_forces, &ActiveSet).unwrap()
+                };
+                let (a, b) = (of(nearest), of(all));
+                let scale = b.of_pairs.iter().flatten().fold(0.0f64, |a, k| a.max(k.abs()));
+                for (a, b) in a.of_pairs.iter().flatten().zip(b.of_pairs.iter().flatten()) {
+                    worst = worst.max((a - b).abs() / scale);
+                }
+                for which in 0..2 {
+                    let load: f64 = answer.pair_forces.iter().sum();
+                    worst = worst.max((a.rest[which] - b.rest[which]).abs() / (scale * load));
+                }
+            }
+        }
+        println!("largest difference {worst:.1e}; {missing} of 72 meshes need all pairs");
+        assert!(worst < 1e-9, "{worst:e}");
+        assert!(fewer > 18 && missing < 18, "{fewer} {missing}");
+    }
+}
