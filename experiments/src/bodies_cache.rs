@@ -1,4 +1,4 @@
-//! Meshed and factorised gears, made once for all scenes that share them.
+//! Meshed gears with their flexibility, made once for all scenes that share them.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};

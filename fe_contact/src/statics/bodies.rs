@@ -97,10 +97,10 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// Meshes and factorises the gears a scene needs: all of a set, two of a pair.
+    /// Meshes the gears a scene needs and solves for their flexibility: all of a set, two of a pair.
     ///
     /// # Errors
-    /// If the scene has no tooth geometry, a gear cannot be meshed or factorised, or the bodies would
+    /// If the scene has no tooth geometry, a gear cannot be meshed or solved, or the bodies would
     /// need more than [`super::MOST_BYTES`] of memory.
     pub fn new(scene: &Scene) -> Result<Self, FeError> {
         super::estimate::within_memory(scene)?;
@@ -112,7 +112,7 @@ impl Bodies {
             GearBody::new(mesh, material, geometry.face_width)
         };
         let [ring_gear, sun_gear] = wanted(scene, &geometry);
-        // One after the other, so that only one factor is in memory at a time.
+        // One after the other, so that only one is being solved at a time.
         let ring = ring_gear.map(|g| make("ring", g)).transpose()?;
         let sun = sun_gear.map(|g| make("sun", g)).transpose()?;
         let planet = make("planet", &geometry.planet)?;
