@@ -230,6 +230,14 @@ pub enum Model {
     Lumped,
 }
 
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SteadyMethod {
+    /// Newton's method for the periodic motion, with its stability; marched where none is found or it is unstable.
+    Shooting,
+    /// Time integration until mesh cycles repeat.
+    Marching,
+}
+
 #[derive(Debug, Args)]
 pub struct Sweep {
     /// Scene file of a whole set; its `[dynamics]` gives fidelity and steps per mesh cycle.
@@ -251,6 +259,9 @@ pub struct Sweep {
     #[arg(long, value_name = "N", default_value_t = 0,
           value_parser = clap::value_parser!(u32).range(0..=1000))]
     pub refine: u32,
+    /// How steady states are found.
+    #[arg(long, value_enum, default_value_t = SteadyMethod::Shooting)]
+    pub method: SteadyMethod,
     /// Highest harmonic of the mesh frequency: up to 5, up to 10 with at least 560 steps in a cycle.
     #[arg(long, default_value_t = 5)]
     pub harmonics: u32,
@@ -261,7 +272,8 @@ pub struct Sweep {
     /// periodic.
     #[arg(long, default_value_t = 2000, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub most_cycles: u32,
-    /// Cycles over which the energy between harmonics is measured, 0 for none.
+    /// Cycles over which the energy between harmonics of a marched motion is measured, 0 for none; of a motion
+    /// found by shooting it is measured over the last two.
     #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(0..=10_000))]
     pub between_cycles: u32,
     /// Folder for finished points, then the table (CSV) and a sidecar (JSON); the same command resumes from

@@ -1,6 +1,6 @@
 //! Numerical methods without gears: eigenproblems of vibrating systems and their subspaces, time integration,
-//! periodic motions by harmonic balance, branches of solutions, spectra of records, identification of modes from
-//! records, and discretisation errors from three grids.
+//! periodic solutions by shooting with their stability, periodic motions by harmonic balance, branches of
+//! solutions, spectra of records, identification of modes from records, and discretisation errors from three grids.
 
 pub mod continuation;
 mod coupled;
@@ -14,13 +14,16 @@ pub mod identify;
 mod lowest_modes;
 mod matrix;
 mod newmark;
+mod periodic;
 mod rotating_frame;
 mod spectrum;
 mod state_space;
 mod subspace;
 mod symmetric;
 
-pub use coupled::{Coupled, CoupledError, CoupledState, Coupling, CouplingForce, LinearPart};
+pub use coupled::{
+    Coupled, CoupledDerivative, CoupledError, CoupledState, Coupling, CouplingForce, LinearPart,
+};
 pub use error::{EigenError, SpectrumError};
 pub use extrapolate::extrapolation_weights;
 pub use factored::{FactoredModes, SpringRow, factored_modes};
@@ -29,6 +32,10 @@ pub use grid_convergence::{GridConvergence, grid_convergence_index};
 pub use gyroscopic::{GyroscopicMode, gyroscopic_modes};
 pub use lowest_modes::{LowMode, ModalOperator, lowest_modes};
 pub use newmark::{AverageAcceleration, Motion, StepError};
+pub use periodic::{
+    Correction, MapDerivative, Multiplier, MultiplierKind, PeriodMap, PeriodicSolution,
+    ShootingError, ShootingSettings, multipliers, shoot,
+};
 pub use rotating_frame::RotatingFrame;
 pub use spectrum::{Spectrum, Window, spectrum};
 pub use state_space::{StateMode, state_modes};

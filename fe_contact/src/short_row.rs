@@ -32,6 +32,12 @@ impl ShortRow {
         row
     }
 
+    /// (Place, value) of the entries that are not zero.
+    pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, f64)> {
+        let entries = self.places.iter().zip(&self.values);
+        entries.filter(|(_, r)| **r != 0.0).map(|(i, r)| (usize::from(*i), *r))
+    }
+
     pub(crate) fn dot(&self, x: &[f64]) -> f64 {
         self.places.iter().zip(&self.values).map(|(i, r)| x[usize::from(*i)] * r).sum()
     }

@@ -14,7 +14,8 @@
 use nalgebra::DMatrix;
 
 use dynamics::{
-    AverageAcceleration, Coupled, CoupledState, Coupling, CouplingForce, LinearPart, Motion,
+    AverageAcceleration, Coupled, CoupledDerivative, CoupledState, Coupling, CouplingForce,
+    LinearPart, MapDerivative, Motion,
 };
 use gearset::{Facing, MeshLaw, Scene};
 
@@ -182,9 +183,18 @@ impl TimeVarying {
     /// Displacements of carrier, ring, sun (x, y, m; θ, rad; carrier frame) and of the planets
     /// (ζ, η, θ), counter-clockwise.
     pub fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+        self.by_body(|i| self.system.displacement(i))
+    }
+
+    /// The same in coordinates `y` as those of [`TimeVarying::coordinates_of_motion`].
+    pub fn displacements_of(&self, y: &[f64]) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+        let x = self.system.displacements_of(y);
+        self.by_body(|i| x[i])
+    }
+
+    fn by_body(&self, x: impl Fn(usize) -> f64) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
         let of = |body: Body, radius: f64| {
-            let value =
-                |axis| self.coordinates.of(body, axis).map_or(0.0, |i| self.system.displacement(i));
+            let value = |axis| self.coordinates.of(body, axis).map_or(0.0, &x);
             let [first, second, u] = Axis::ALL.map(value);
             // Mirrored back: y and θ change sign.
             [first, self.sign * second, self.sign * u / radius]
@@ -254,6 +264,36 @@ impl TimeVarying {
         v: &[f64],
     ) -> Result<(), LumpedError> {
         Ok(self.system.set_motion(step_in_cycle, x, v)?)
+    }
+
+    /// Displacements and velocities of the modes of the bodies on their supports: they determine the motion that
+    /// follows.
+    pub fn coordinates_of_motion(&self) -> Vec<f64> {
+        self.system.coordinates()
+    }
+
+    /// Continues from other such coordinates at the present step of the cycle.
+    ///
+    /// # Errors
+    /// If they are too few or too many, or not finite.
+    pub fn set_coordinates(&mut self, y: &[f64]) -> Result<(), LumpedError> {
+        Ok(self.system.set_coordinates(y)?)
+    }
+
+    /// The derivative with respect to these coordinates, at the start of a cycle.
+    pub fn start_derivative(&self) -> CoupledDerivative {
+        self.system.start_derivative()
+    }
+
+    /// Carries the derivative over the last step.
+    pub fn carry_derivative(&self, derivative: &mut CoupledDerivative) {
+        self.system.carry_derivative(derivative);
+    }
+
+    /// The derivative of the map from the start to now; frequencies of the motion are of the order of `rate`
+    /// (rad/s).
+    pub fn map_derivative(&self, derivative: &CoupledDerivative, rate: f64) -> MapDerivative {
+        self.system.map_derivative(derivative, rate)
     }
 
     /// Free coordinates.

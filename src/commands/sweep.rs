@@ -6,7 +6,7 @@ use std::path::Path;
 use experiments::ExperimentError;
 use experiments::sweep::{
     Direction, FeModel, Kept, LUMPED, Memory, MeshLawModel, Plan, PlanError, PointStore,
-    SteadySettings, Sweep, SweepModel, even_speeds, fidelity_name, run as run_plan,
+    SteadyMethod, SteadySettings, Sweep, SweepModel, even_speeds, fidelity_name, run as run_plan,
 };
 use fe_contact::statics::{Bodies, Imperfections};
 use gearset::{Fidelity, LoadCase, MOST_SCENE_BYTES, Scene, SceneKind, Verb};
@@ -163,7 +163,12 @@ impl<'a> Task<'a> {
         let [from, to, step] = arguments.speeds_rpm;
         let refuse = |argument| move |e: PlanError| refused(argument, e.to_string());
         let speeds = even_speeds(from, to, step).map_err(refuse("--speeds-rpm"))?;
+        let method = match arguments.method {
+            crate::arguments::SteadyMethod::Shooting => SteadyMethod::Shooting,
+            crate::arguments::SteadyMethod::Marching => SteadyMethod::Marching,
+        };
         let steady = SteadySettings {
+            method,
             tolerance: arguments.tolerance,
             most_cycles: arguments.most_cycles as usize,
             harmonics: arguments.harmonics as usize,

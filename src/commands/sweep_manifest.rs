@@ -1,10 +1,11 @@
 //! What the points in a folder of a sweep were computed from, and how two such descriptions differ.
 
-use experiments::sweep::Plan;
+use experiments::sweep::{Plan, SteadyMethod};
 use serde::{Deserialize, Serialize};
 
-/// Format of the folder; another one is refused. 3: points carry a checksum, and failed points are stored.
-pub(super) const FORMAT: u32 = 3;
+/// Format of the folder; another one is refused. 4: points say how they were found and
+/// carry Floquet multipliers.
+pub(super) const FORMAT: u32 = 4;
 
 /// Longest part of a line of the scene that a message repeats, characters.
 const LONGEST: usize = 60;
@@ -98,6 +99,14 @@ fn of_plans(found: &Plan, own: &Plan) -> Option<String> {
         return None;
     }
     let (theirs, ours) = (&found.steady, &own.steady);
+    if theirs.method != ours.method {
+        let name = |method: SteadyMethod| match method {
+            SteadyMethod::Shooting => "shooting",
+            SteadyMethod::Marching => "marching",
+        };
+        let (theirs, ours) = (name(theirs.method), name(ours.method));
+        return Some(format!("computed with --method {theirs}, not {ours}"));
+    }
     let settings = [
         ("--tolerance", theirs.tolerance, ours.tolerance),
         ("--most-cycles", theirs.most_cycles as f64, ours.most_cycles as f64),

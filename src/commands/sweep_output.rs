@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use experiments::sweep::{
-    FailedPoint, MOST_REPEATS, Part, Response, SteadySettings, Sweep, SweepPoint,
+    FailedPoint, MOST_REPEATS, Part, Response, SteadyMethod, SteadySettings, Sweep, SweepPoint,
 };
 use gearset::Scene;
 use schemars::JsonSchema;
@@ -25,6 +25,8 @@ pub struct SweepOutput {
     sun_torque_nm: f64,
     /// Steps in a mesh cycle.
     steps_per_cycle: u32,
+    /// How steady states were to be found.
+    method: SteadyMethod,
     /// Largest change of a steady state from cycle to cycle, over its peak-to-peak vibration.
     tolerance: f64,
     /// Largest number of mesh cycles integrated at one speed.
@@ -36,6 +38,8 @@ pub struct SweepOutput {
     /// Points by speed, at one speed in the order of their chains. The translation that tables and figures show
     /// is √(R² + T²) of the amplitudes R and T of `radial` and `tangential` in one harmonic.
     points: Vec<ChainPoint>,
+    /// Speeds (rpm) at which chains arrived at different steady motions.
+    coexisting_rpm: Vec<f64>,
     /// Speeds at which nothing could be computed, by speed.
     failed: Vec<FailedPoint>,
 }
@@ -68,7 +72,12 @@ struct PointHead<'a> {
     chain: &'a str,
     speed_rpm: f64,
     mesh_frequency_hz: f64,
+    method: SteadyMethod,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    why_marched: Option<&'a str>,
     cycles: usize,
+    derivatives: usize,
+    multipliers: &'a [[f64; 2]],
     residual: f64,
     is_steady: bool,
     between_harmonics: Option<f64>,
@@ -125,7 +134,9 @@ impl SweepOutput {
             sun_torque_nm,
             steps_per_cycle: scene.dynamics.steps_per_cycle,
             tolerance: settings.tolerance,
+            method: settings.method,
             most_cycles: settings.most_cycles,
+            coexisting_rpm: sweep.coexisting_rpm(),
             harmonics: settings.harmonics,
             between_cycles: settings.between_cycles,
             points: sweep.by_speed().into_iter().map(point).collect(),
@@ -142,6 +153,8 @@ impl SweepOutput {
         head.insert("sun_torque_nm".into(), self.sun_torque_nm.into());
         head.insert("steps_per_cycle".into(), self.steps_per_cycle.into());
         head.insert("tolerance".into(), self.tolerance.into());
+        let method = serde_json::to_value(self.method).unwrap_or_default();
+        head.insert("method".into(), method);
         head.insert("most_cycles".into(), self.most_cycles.into());
         head.insert("harmonics".into(), self.harmonics.into());
         head.insert("between_cycles".into(), self.between_cycles.into());
@@ -149,7 +162,11 @@ impl SweepOutput {
             chain,
             speed_rpm: p.state.case.speed_rpm,
             mesh_frequency_hz: p.state.case.mesh_frequency_hz,
+            method: p.method,
+            why_marched: p.why_marched.as_deref(),
             cycles: p.cycles,
+            derivatives: p.derivatives,
+            multipliers: &p.multipliers,
             residual: p.residual,
             is_steady: p.is_steady,
             between_harmonics: p.between,
@@ -200,6 +217,7 @@ lowest N: lowest force of any mesh during a cycle, N
 no contact: largest part of the time in which a mesh carries nothing; – for never
 backside: part of the time in which backside flanks of any mesh press; n/a for a model without backside flanks
 repeats: mesh cycles after which the motion repeats; – for none up to 8: not periodic, or not settled yet
+μ: size of the largest Floquet multiplier, below 1 if the motion is stable; – where it was marched
 cycles: mesh cycles integrated; residual: change between the last two of them over the peak-to-peak vibration";
 
 /// One line per speed: strongest harmonics of the sun's motion, contact, cycles and residual; then a legend,
@@ -219,10 +237,11 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
         "no contact",
         "backside",
         "repeats",
+        "μ",
         "cycles",
         "residual",
     ];
-    let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]);
+    let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13]);
     for ChainPoint { chain, point: p } in &result.points {
         let rotation = Response::Rotation(Part::Sun).strongest(&p.state, result.harmonics);
         let translation = Response::Translation(Part::Sun).strongest(&p.state, result.harmonics);
@@ -238,6 +257,7 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
             output::share(p.contact_loss),
             p.backside_contact.map_or("n/a".into(), output::share),
             p.repeats_after.map_or("–".into(), |cycles| cycles.to_string()),
+            p.largest_multiplier().map_or("–".into(), |size| format!("{size:.3}")),
             p.cycles.to_string(),
             format!("{:.0e}", p.residual),
         ]);
@@ -266,6 +286,21 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
         writeln!(
             out,
             "At {subharmonic} of these speeds the motion is subharmonic: it repeats only after 2 to {MOST_REPEATS} mesh cycles, and the harmonics are those of a single one."
+        )?;
+    }
+    let marched = count(|p| p.why_marched.is_some());
+    if marched > 0 {
+        writeln!(
+            out,
+            "At {marched} of these speeds shooting found no stable periodic motion, or the model has no derivative of its steps: the motion was marched; JSON has the reasons."
+        )?;
+    }
+    if !result.coexisting_rpm.is_empty() {
+        let list: Vec<String> = result.coexisting_rpm.iter().map(|s| format!("{s:.1}")).collect();
+        writeln!(
+            out,
+            "More than one stable motion exists at {} rpm: those reached from lower and from higher speeds differ.",
+            list.join(", ")
         )?;
     }
     let unsteady = count(|p| p.repeats_after.is_none());
@@ -303,7 +338,11 @@ mod tests {
             ];
             SweepPoint {
                 state: SteadyState { case: case(rpm), lines },
+                method: SteadyMethod::Marching,
+                why_marched: None,
                 cycles: 40,
+                derivatives: 0,
+                multipliers: Vec::new(),
                 residual: 1e-10,
                 is_steady: repeats_after == Some(1),
                 between: None,

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 use std::sync::Mutex;
 
 use experiments::sweep::{
-    Chain, Coordinate, Direction, FeModel, Kept, Memory, Part, Plan, PointStore, SteadySettings,
-    StoreError, Sweep, SweepModel, run,
+    Chain, Coordinate, Direction, FeModel, Kept, Memory, Part, Plan, PointStore, SteadyMethod,
+    SteadySettings, StoreError, Sweep, SweepModel, run,
 };
 use fe_contact::statics::{Bodies, Imperfections, PitchError};
 use gearset::{LoadCase, Scene};
@@ -23,7 +23,13 @@ fn under(scene: &Scene) -> LoadCase {
 }
 
 fn settings() -> SteadySettings {
-    SteadySettings { tolerance: 1e-6, most_cycles: 400, harmonics: 4, between_cycles: 4 }
+    SteadySettings {
+        method: SteadyMethod::Shooting,
+        tolerance: 1e-6,
+        most_cycles: 400,
+        harmonics: 4,
+        between_cycles: 4,
+    }
 }
 
 /// Keeps points as text, and refuses further ones after `most`.

@@ -20,6 +20,7 @@
 
 mod condensed;
 mod coupling;
+mod derivative;
 mod error;
 mod linear;
 mod newton;
@@ -28,6 +29,7 @@ mod state;
 mod system;
 
 pub use coupling::{Coupling, CouplingForce};
+pub use derivative::CoupledDerivative;
 pub use error::CoupledError;
 pub use linear::LinearPart;
 pub use system::{Coupled, CoupledState};

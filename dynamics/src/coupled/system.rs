@@ -35,6 +35,8 @@ pub struct Coupled<L> {
     pub(super) cycle: Vec<f64>,
     pub(super) state: CoupledState,
     work: Work,
+    /// Whether rare couplings took part in the last step.
+    pub(super) took_rare: bool,
     /// Iterations of all steps so far.
     pub iterations: u64,
     /// Steps in which rare couplings took part.
@@ -137,6 +139,7 @@ impl<L: CouplingForce> Coupled<L> {
                 modal: Motion::at_rest(padded),
                 forces: [vec![0.0; count], vec![0.0; count]],
             },
+            took_rare: false,
             iterations: 0,
             with_rare: 0,
         })
@@ -210,6 +213,7 @@ impl<L: CouplingForce> Coupled<L> {
             self.apply(true);
             self.with_rare += 1;
         }
+        self.took_rare = taking_part > self.usual.count;
         self.finish(taking_part);
         self.state.step_in_cycle = step_in_cycle;
         self.state.steps += 1;

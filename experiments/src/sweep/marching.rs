@@ -1,8 +1,10 @@
 //! Interface between a sweep and a model that is integrated in time.
 
+use dynamics::MapDerivative;
 use fe_contact::statics::SUN;
-use fe_contact::vibration::VibratingSet;
+use fe_contact::vibration::{SetDerivative, VibratingSet};
 
+use super::shooting::CycleDerivative;
 use crate::error::ExperimentError;
 
 /// Computational effort of the steps of a set so far.
@@ -63,6 +65,18 @@ pub trait Marching {
     /// # Errors
     /// If the state is that of another kind of set.
     fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError>;
+
+    /// The derivative of its cycles; `None` for a model that has none, whose steady states are marched.
+    fn derivative(&mut self) -> Option<&mut dyn CycleDerivative> {
+        None
+    }
+
+    /// Displacements as [`displacements`](Self::displacements) in other coordinates of
+    /// [`CycleDerivative::coordinates`]; only of a model with a derivative.
+    fn displacements_of(&self, coordinates: &[f64]) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+        let _ = coordinates;
+        self.displacements()
+    }
 }
 
 /// An FE/contact set under a constant torque on the sun (N m, magnitude).
@@ -70,6 +84,9 @@ pub trait Marching {
 pub(super) struct FeMarching<'s> {
     pub(super) set: VibratingSet<'s>,
     pub(super) torque_nm: f64,
+    /// Frequency (rad/s) to which velocities are related.
+    pub(super) rate: f64,
+    pub(super) derivative: Option<SetDerivative>,
 }
 
 impl Marching for FeMarching<'_> {
@@ -111,5 +128,40 @@ impl Marching for FeMarching<'_> {
 
     fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError> {
         Ok(self.set.restore(state)?)
+    }
+
+    fn derivative(&mut self) -> Option<&mut dyn CycleDerivative> {
+        if self.set.has_derivative() { Some(self) } else { None }
+    }
+
+    fn displacements_of(&self, coordinates: &[f64]) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+        self.set.displacements_of(coordinates)
+    }
+}
+
+impl CycleDerivative for FeMarching<'_> {
+    fn coordinates(&mut self) -> Vec<f64> {
+        self.set.coordinates()
+    }
+
+    fn set_coordinates(&mut self, y: &[f64]) -> Result<(), ExperimentError> {
+        Ok(self.set.set_coordinates(y)?)
+    }
+
+    fn start(&mut self) -> Result<(), ExperimentError> {
+        self.derivative = Some(self.set.start_derivative()?);
+        Ok(())
+    }
+
+    fn carry(&mut self) {
+        if let Some(derivative) = &mut self.derivative {
+            self.set.carry_derivative(derivative);
+        }
+    }
+
+    fn end(&mut self) -> Result<Option<MapDerivative>, ExperimentError> {
+        let mut own = self.derivative.take();
+        self.set.take_cycle_back(own.as_mut())?;
+        Ok(own.map(|own| own.map_derivative(self.rate)))
     }
 }

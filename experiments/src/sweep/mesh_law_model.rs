@@ -1,14 +1,15 @@
 //! Models whose meshes follow a tabulated law: the FE/contact fidelity `mesh_law`, and the lumped model in
 //! time.
 
-use dynamics::CoupledState;
+use dynamics::{CoupledDerivative, CoupledState, MapDerivative};
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use fe_contact::vibration::{MeshLawSet, MeshLawSettings, mesh_law};
 use gearset::{Fidelity, LoadCase, MeshLaw, Scene};
 use lumped::TimeVarying;
 
 use super::marching::{Effort, Marching};
-use super::sweep_model::{SweepModel, fidelity_name};
+use super::shooting::CycleDerivative;
+use super::sweep_model::{SweepModel, fidelity_name, scaling_rate};
 use crate::error::ExperimentError;
 
 /// Name of the lumped model, as tables print it.
@@ -81,12 +82,19 @@ impl SweepModel for MeshLawModel<'_> {
         let (law, torque) = (self.law.clone(), self.case.sun_load_nm());
         let has_backside = law.has_backside();
         let (sense, mesh_frequency) = (self.case.sense(), case.mesh_frequency_hz);
+        let rate = scaling_rate(mesh_frequency);
         if self.is_lumped {
             let set = TimeVarying::new(&self.scene, sense, law, mesh_frequency)?;
-            return Ok(Box::new(LumpedMarching(set, torque, has_backside)));
+            return Ok(Box::new(LumpedMarching {
+                set,
+                torque,
+                has_backside,
+                rate,
+                derivative: None,
+            }));
         }
         let set = MeshLawSet::on(&self.scene, &self.loaded, mesh_frequency, law)?;
-        Ok(Box::new(LawMarching(set, torque, has_backside)))
+        Ok(Box::new(LawMarching { set, torque, has_backside, rate, derivative: None }))
     }
 }
 
@@ -118,41 +126,57 @@ fn shaped(flat: &[f64], pattern: &CoupledState) -> Option<CoupledState> {
 /// A state of another kind of set.
 const FOREIGN: ExperimentError = ExperimentError::Incomplete("state that fits this model");
 
-/// A set with the torque it rests under (N m), and whether its law tabulates backside flanks.
-struct LawMarching<'s>(MeshLawSet<'s>, f64, bool);
+/// A set in time that follows a law.
+struct LawMarching<'s> {
+    set: MeshLawSet<'s>,
+    /// Torque on the sun under which it rests, N·m.
+    torque: f64,
+    /// Whether the law tabulates backside flanks.
+    has_backside: bool,
+    /// Frequency to which velocities are related, rad/s.
+    rate: f64,
+    derivative: Option<CoupledDerivative>,
+}
 
-struct LumpedMarching(TimeVarying, f64, bool);
+/// The same for the lumped set.
+struct LumpedMarching {
+    set: TimeVarying,
+    torque: f64,
+    has_backside: bool,
+    rate: f64,
+    derivative: Option<CoupledDerivative>,
+}
 
 macro_rules! marching {
-    ($which:ty) => {
+    ($which:ty, $coordinates:ident) => {
         impl Marching for $which {
             fn rest(&mut self) -> Result<(), ExperimentError> {
-                Ok(self.0.rest(self.1)?)
+                Ok(self.set.rest(self.torque)?)
             }
 
             fn step(&mut self) -> Result<(), ExperimentError> {
-                Ok(self.0.step()?)
+                Ok(self.set.step()?)
             }
 
             fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
-                self.0.displacements()
+                self.set.displacements()
             }
 
             fn mesh_forces(&self, out: &mut Vec<f64>) {
-                self.0.mesh_forces(out);
+                self.set.mesh_forces(out);
             }
 
             fn has_backside(&self) -> bool {
-                self.2
+                self.has_backside
             }
 
             fn effort(&self) -> Effort {
-                let coordinates = self.0.motion().x.len();
-                Effort { coordinates, solutions: self.0.counts().0 }
+                let coordinates = self.set.motion().x.len();
+                Effort { coordinates, solutions: self.set.counts().0 }
             }
 
             fn state(&mut self) -> Vec<f64> {
-                flat(self.0.state())
+                flat(self.set.state())
             }
 
             fn counters(&self) -> usize {
@@ -162,12 +186,46 @@ macro_rules! marching {
             fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError> {
                 // The load belongs to the set, not to its state.
                 self.rest()?;
-                let state = shaped(state, self.0.state()).ok_or(FOREIGN)?;
-                Ok(self.0.set_state(&state)?)
+                let state = shaped(state, self.set.state()).ok_or(FOREIGN)?;
+                Ok(self.set.set_state(&state)?)
+            }
+
+            fn derivative(&mut self) -> Option<&mut dyn CycleDerivative> {
+                Some(self)
+            }
+
+            fn displacements_of(&self, coordinates: &[f64]) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+                self.set.displacements_of(coordinates)
+            }
+        }
+
+        impl CycleDerivative for $which {
+            fn coordinates(&mut self) -> Vec<f64> {
+                self.set.$coordinates()
+            }
+
+            fn set_coordinates(&mut self, y: &[f64]) -> Result<(), ExperimentError> {
+                Ok(self.set.set_coordinates(y)?)
+            }
+
+            fn start(&mut self) -> Result<(), ExperimentError> {
+                self.derivative = Some(self.set.start_derivative());
+                Ok(())
+            }
+
+            fn carry(&mut self) {
+                if let Some(derivative) = &mut self.derivative {
+                    self.set.carry_derivative(derivative);
+                }
+            }
+
+            fn end(&mut self) -> Result<Option<MapDerivative>, ExperimentError> {
+                let own = self.derivative.take();
+                Ok(own.map(|own| self.set.map_derivative(&own, self.rate)))
             }
         }
     };
 }
 
-marching!(LawMarching<'_>);
-marching!(LumpedMarching);
+marching!(LawMarching<'_>, coordinates);
+marching!(LumpedMarching, coordinates_of_motion);

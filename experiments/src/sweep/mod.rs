@@ -1,5 +1,6 @@
 //! Speed sweeps: steady states of a turning set by marching, their harmonics, as fixed plans.
 
+mod coexisting;
 mod extrapolation;
 mod failed_point;
 mod judge;
@@ -11,6 +12,7 @@ mod plan;
 mod point;
 mod record;
 mod run;
+mod shooting;
 mod state;
 mod steady;
 mod sweep_model;
@@ -25,6 +27,7 @@ pub use plan::{Chain, Direction, Plan, PlanError, even_speeds};
 pub use point::{SweepPoint, TableRow};
 pub use record::Record;
 pub use run::{Kept, Memory, PointStore, StoreError, Sweep, run};
+pub use shooting::CycleDerivative;
 pub use state::{Coordinate, Line, Part, SteadyState};
-pub use steady::{MOST_REPEATS, Steady, SteadySettings, steady};
+pub use steady::{MOST_REPEATS, Steady, SteadyMethod, SteadySettings, steady};
 pub use sweep_model::{FeModel, HEADROOM, SweepModel, fidelity_name};

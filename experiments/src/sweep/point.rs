@@ -5,17 +5,27 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::state::{Coordinate, Line, Part, SteadyState};
-use super::steady::Steady;
+use super::steady::{Steady, SteadyMethod};
 use crate::error::ExperimentError;
 
-/// A steady state found by marching, and how the march went.
+/// A steady state, and how it was found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepPoint {
     /// Harmonics of everything, with speed and load.
     #[serde(flatten)]
     pub state: SteadyState,
+    /// How the steady state was found.
+    pub method: SteadyMethod,
+    /// Why it was marched although shooting was asked for.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub why_marched: Option<String>,
     /// Cycles marched.
     pub cycles: usize,
+    /// Derivatives of the cycle that shooting computed.
+    pub derivatives: usize,
+    /// Floquet multipliers of size 1e-3 and above (real and imaginary part) by descending size; empty for a
+    /// motion that was marched. The motion is stable if all are smaller than 1.
+    pub multipliers: Vec<[f64; 2]>,
     /// Change of the last two cycles over the largest peak-to-peak vibration.
     pub residual: f64,
     /// Whether that is within the tolerance.
@@ -79,6 +89,13 @@ pub struct TableRow {
 }
 
 impl SweepPoint {
+    /// Size of the largest Floquet multiplier: below 1 if the motion is stable, 0 if all perturbations are gone after
+    /// one cycle; `None` for a motion that was marched.
+    pub fn largest_multiplier(&self) -> Option<f64> {
+        let largest = self.multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
+        (self.method == SteadyMethod::Shooting).then_some(largest)
+    }
+
     /// From a march under a load case.
     ///
     /// # Errors
@@ -148,7 +165,11 @@ impl SweepPoint {
         }
         Ok(Self {
             state: SteadyState { case, lines },
+            method: found.method,
+            why_marched: found.why_marched.clone(),
             cycles: found.cycles,
+            derivatives: found.derivatives,
+            multipliers: found.multipliers.iter().map(|m| [m.re, m.im]).collect(),
             residual: found.residual,
             is_steady: found.residual <= settings.tolerance,
             between: found.between,

@@ -90,6 +90,29 @@ impl Record {
         Ok(())
     }
 
+    /// The same with the derivative of the set, which was started, carried along.
+    ///
+    /// # Errors
+    /// As [`Marching::step`].
+    pub(super) fn march_with(
+        &mut self,
+        set: &mut dyn Marching,
+        first_planet_rad: f64,
+        steps: usize,
+    ) -> Result<(), ExperimentError> {
+        self.samples.clear();
+        self.backside.clear();
+        self.has_backside = set.has_backside();
+        for _ in 0..steps {
+            self.take(set, first_planet_rad);
+            set.step()?;
+            if let Some(derivative) = set.derivative() {
+                derivative.carry();
+            }
+        }
+        Ok(())
+    }
+
     /// Appends the samples of a record of the same set that follows this one in time.
     pub(super) fn append(&mut self, next: Record) {
         self.samples.extend(next.samples);
@@ -151,17 +174,23 @@ impl Record {
         ratio(kinds[0]).max(ratio(kinds[1]))
     }
 
+    /// Largest peak-to-peak value of all translations (m) and of all rotations (rad).
+    pub(super) fn sizes(&self) -> [f64; 2] {
+        let mut sizes = [0.0f64; 2];
+        for channel in 0..self.displacements() {
+            let own = &mut sizes[usize::from(channel % 3 == 2)];
+            *own = own.max(self.range(channel));
+        }
+        sizes
+    }
+
     /// Displacements less those of an earlier record of the same length, translations and rotations each
     /// relative to their largest peak-to-peak value; empty if the lengths differ.
     pub fn scaled_difference(&self, before: &Record) -> Vec<f64> {
         if before.len() != self.len() {
             return Vec::new();
         }
-        let mut size = [0.0f64; 2];
-        for channel in 0..self.displacements() {
-            let kind = &mut size[usize::from(channel % 3 == 2)];
-            *kind = kind.max(self.range(channel));
-        }
+        let size = self.sizes();
         let (width, displacements) = (self.width(), self.displacements());
         let own = self.samples.iter().zip(&before.samples).enumerate();
         own.filter(|(i, _)| i % width < displacements)

@@ -178,6 +178,16 @@ pub fn run(
 ) -> Result<Sweep, ExperimentError> {
     plan.steady.check(model.steps_per_cycle())?;
     type Chained = (Vec<SweepPoint>, Vec<FailedPoint>);
+    let is_complete = |chain: &Chain| -> Result<bool, StoreError> {
+        let last = chain.speeds_rpm.len().saturating_sub(1);
+        Ok(store.load(chain, last)?.is_some())
+    };
+    for chain in &plan.chains {
+        if !is_complete(chain)? {
+            model.prepare()?;
+            break;
+        }
+    }
     let found: Mutex<BTreeMap<usize, Chained>> = Mutex::default();
     plan.chains.par_iter().enumerate().try_for_each(|(k, chain)| {
         let (mut points, mut failed) = Chained::default();

@@ -1,16 +1,34 @@
-//! Steady state by marching from cycle to cycle.
+//! Steady state by shooting, or by marching from cycle to cycle.
 
+use dynamics::Multiplier;
 use fe_contact::statics::KinematicRest;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::extrapolation::Extrapolation;
 use super::marching::Marching;
 use super::record::{Record, SUN};
+use super::shooting::{Shot, shot};
 use crate::error::ExperimentError;
 
-/// When a march is over, and what is recorded.
+/// How a steady state is found.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SteadyMethod {
+    /// Newton's method for the periodic motion of the time steps. Where the model has no derivative, no periodic
+    /// motion is found, or the one found is unstable, the motion is marched.
+    #[default]
+    Shooting,
+    /// Marching until cycles repeat.
+    Marching,
+}
+
+/// When a steady state is found, and what is recorded.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SteadySettings {
+    /// How it is found.
+    #[serde(default)]
+    pub method: SteadyMethod,
     /// Largest change from one cycle to the next of a steady state, relative to the largest peak-to-peak
     /// vibration.
     pub tolerance: f64,
@@ -18,23 +36,33 @@ pub struct SteadySettings {
     pub most_cycles: usize,
     /// Highest harmonic kept.
     pub harmonics: usize,
-    /// Cycles on which the energy between harmonics is measured; 0 leaves that out.
+    /// Cycles on which the energy between harmonics of a marched motion is measured; 0 leaves that out. Of a
+    /// motion found by shooting it is measured on the last two cycles.
     pub between_cycles: usize,
 }
 
 impl Default for SteadySettings {
-    /// 1e-9 within 2,000 cycles, harmonics 1 to 5, energy between them over 16 cycles.
+    /// Shooting to 1e-9 within 2,000 cycles, harmonics 1 to 5, energy between them over 16 cycles.
     fn default() -> Self {
-        Self { tolerance: 1e-9, most_cycles: 2000, harmonics: 5, between_cycles: 16 }
+        let method = SteadyMethod::Shooting;
+        Self { method, tolerance: 1e-9, most_cycles: 2000, harmonics: 5, between_cycles: 16 }
     }
 }
 
-/// A set marched until its cycles repeat.
+/// A set whose cycles repeat, or one that was marched as long as allowed.
 #[derive(Debug, Clone)]
 pub struct Steady {
+    /// How it was found.
+    pub method: SteadyMethod,
+    /// Why it was marched although shooting was asked for.
+    pub why_marched: Option<String>,
+    /// Derivatives of the cycle that shooting computed, those of a search without success included.
+    pub derivatives: usize,
+    /// Floquet multipliers of size 1e-3 and above of a motion found by shooting, by descending size.
+    pub multipliers: Vec<Multiplier>,
     /// The last cycle.
     pub record: Record,
-    /// Cycles marched before those that are recorded.
+    /// Cycles marched, the last of which is recorded.
     pub cycles: usize,
     /// Change from the last cycle but one to the last, relative as [`SteadySettings::tolerance`].
     pub residual: f64,
@@ -69,11 +97,82 @@ const CLEARLY: f64 = 10.0;
 /// Number of positions of a mesh cycle at which exact kinematics are evaluated.
 const SAMPLED: usize = 14;
 
-/// Marches from the present state, which must be at the start of a mesh cycle, to the steady state.
+/// A multiplier beyond 1 by more than this means that the motion is unstable: without damping, multipliers are of
+/// size 1 to rounding.
+const UNSTABLE: f64 = 1e-6;
+
+/// Finds the steady state near the present state, which must be at the start of a mesh cycle: by shooting, or by
+/// marching where that is asked for or shooting finds no stable periodic motion.
 ///
 /// # Errors
 /// If a step fails.
 pub fn steady(
+    set: &mut dyn Marching,
+    planets: usize,
+    first_planet_rad: f64,
+    steps: usize,
+    settings: &SteadySettings,
+) -> Result<Steady, ExperimentError> {
+    let mut why_marched = None;
+    let mut shot_cycles = (0, 0);
+    if settings.method == SteadyMethod::Shooting {
+        if set.derivative().is_some() {
+            let start = set.state();
+            match shot(set, planets, first_planet_rad, steps, settings)? {
+                Ok(found) if found.largest_multiplier() <= 1.0 + UNSTABLE => {
+                    return found.into_steady(set, steps, settings);
+                }
+                Ok(found) => {
+                    let largest = found.largest_multiplier();
+                    shot_cycles = (found.cycles, found.derivatives);
+                    why_marched = Some(format!(
+                        "the periodic motion that shooting found is unstable: a multiplier of size {largest:.6}"
+                    ));
+                }
+                Err(why) => why_marched = Some(why.to_string()),
+            }
+            set.restore(&start)?;
+        } else {
+            why_marched = Some("the model has no derivative of its steps".into());
+        }
+    }
+    let mut found = march(set, planets, first_planet_rad, steps, settings)?;
+    found.cycles += shot_cycles.0;
+    found.derivatives = shot_cycles.1;
+    found.why_marched = why_marched;
+    Ok(found)
+}
+
+impl Shot {
+    /// Size of the largest multiplier; 0 if all perturbations are gone after one cycle.
+    fn largest_multiplier(&self) -> f64 {
+        self.multipliers.first().map_or(0.0, |m| m.size())
+    }
+
+    fn into_steady(
+        self,
+        set: &mut dyn Marching,
+        steps: usize,
+        settings: &SteadySettings,
+    ) -> Result<Steady, ExperimentError> {
+        Ok(Steady {
+            method: SteadyMethod::Shooting,
+            why_marched: None,
+            derivatives: self.derivatives,
+            rest: sampled_rest(set, &self.record, steps)?,
+            multipliers: self.multipliers,
+            record: self.record,
+            cycles: self.cycles,
+            residual: self.residual,
+            between: (settings.between_cycles > 0).then_some(self.between),
+            repeats_after: Some(1),
+            further: None,
+        })
+    }
+}
+
+/// Marches from the present state to the steady state.
+fn march(
     set: &mut dyn Marching,
     planets: usize,
     first_planet_rad: f64,
@@ -107,7 +206,19 @@ pub fn steady(
         }
     };
     let rest = sampled_rest(set, &now, steps)?;
-    Ok(Steady { record: now, cycles, residual, between, rest, repeats_after, further })
+    Ok(Steady {
+        method: SteadyMethod::Marching,
+        why_marched: None,
+        derivatives: 0,
+        multipliers: Vec::new(),
+        record: now,
+        cycles,
+        residual,
+        between,
+        rest,
+        repeats_after,
+        further,
+    })
 }
 
 /// Number of mesh cycles (2 to [`MOST_REPEATS`]) after which a motion that is not steady repeats within the

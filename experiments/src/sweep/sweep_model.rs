@@ -27,6 +27,15 @@ pub trait SweepModel: Sync {
     /// Steps in a mesh cycle.
     fn steps_per_cycle(&self) -> usize;
 
+    /// Computes what sets share at all speeds, on all threads; without it the first sets on every thread would each
+    /// compute it.
+    ///
+    /// # Errors
+    /// If a set cannot be built.
+    fn prepare(&self) -> Result<(), ExperimentError> {
+        Ok(())
+    }
+
     /// The set turning at the speed of a load case. `size`: how often its tables were found too small
     /// and are to be laid out for twice the load.
     ///
@@ -51,6 +60,12 @@ pub fn fidelity_name(fidelity: Fidelity) -> String {
 
 /// Tables are made for this many times the even share of the load: resonance must fit.
 pub const HEADROOM: f64 = 2.0;
+
+/// Frequency (rad/s) to which velocities are related where states are scaled: resonances are excited by the
+/// first harmonics of the mesh frequency (Hz).
+pub(super) fn scaling_rate(mesh_frequency: f64) -> f64 {
+    3.0 * std::f64::consts::TAU * mesh_frequency
+}
 
 /// The FE/contact model on the fidelity of its scene, tables shared by all speeds.
 #[derive(Debug)]
@@ -83,6 +98,21 @@ impl<'s> FeModel<'s> {
         Self { table_size: size, ..self }
     }
 
+    /// What sets share whose tables were found too small `size` times.
+    fn shared(&self, size: usize) -> Result<&Prepared<'s>, ExperimentError> {
+        let slot = &self.prepared[size.min(SIZES - 1)];
+        if let Some(prepared) = slot.get() {
+            return Ok(prepared);
+        }
+        let (steps_per_cycle, mesh_frequency) = (self.steps_per_cycle(), 1.0);
+        let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle };
+        let mesh_force = self.force(self.table_size + size)?;
+        let loading = Loading { torque_nm: self.case.sun_load_nm(), mesh_force };
+        let (sense, own) = (self.case.sense(), self.imperfections.clone());
+        let made = Prepared::new(&self.scene, self.bodies, sense, own, rotation, loading)?;
+        Ok(slot.get_or_init(|| made))
+    }
+
     /// Mesh force that tables of a size are made for, N.
     fn force(&self, size: usize) -> Result<f64, ExperimentError> {
         let sun = self.bodies.geometry.sun.as_ref();
@@ -113,6 +143,10 @@ impl SweepModel for FeModel<'_> {
         self.scene.dynamics.steps_per_cycle as usize
     }
 
+    fn prepare(&self) -> Result<(), ExperimentError> {
+        self.shared(0).map(|_| ())
+    }
+
     fn turning(
         &self,
         case: &LoadCase,
@@ -121,19 +155,8 @@ impl SweepModel for FeModel<'_> {
         let (steps_per_cycle, mesh_frequency) = (self.steps_per_cycle(), case.mesh_frequency_hz);
         let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle };
         let torque_nm = self.case.sun_load_nm();
-        let mesh_force = self.force(self.table_size + size)?;
-        let loading = Loading { torque_nm, mesh_force };
-        let sense = self.case.sense();
-        let slot = &self.prepared[size.min(SIZES - 1)];
-        let prepared = match slot.get() {
-            Some(prepared) => prepared,
-            None => {
-                let own = self.imperfections.clone();
-                let made = Prepared::new(&self.scene, self.bodies, sense, own, rotation, loading)?;
-                slot.get_or_init(|| made)
-            }
-        };
-        let set = VibratingSet::on(&self.scene, prepared, rotation)?;
-        Ok(Box::new(FeMarching { set, torque_nm }))
+        let set = VibratingSet::on(&self.scene, self.shared(size)?, rotation)?;
+        let rate = scaling_rate(mesh_frequency);
+        Ok(Box::new(FeMarching { set, torque_nm, rate, derivative: None }))
     }
 }

@@ -23,20 +23,20 @@ use crate::statics::{CARRIER, PLANETS, Races};
 #[derive(Debug)]
 pub(super) struct Bearings {
     /// Elongations of rigid seats on the races' coordinates, 2N×n.
-    rigid: DMatrix<f64>,
+    pub(super) rigid: DMatrix<f64>,
     /// Elongations on the races' coordinates within a step, the carrier's inertia included, 2N×n.
-    rows: DMatrix<f64>,
+    pub(super) rows: DMatrix<f64>,
     packed_rows: Packed,
     /// I/k + A, m/N.
     pub(super) compliance: DMatrix<f64>,
     ratio: f64,
     /// (K'⁻¹ + G)⁻¹ with K' = (I/k + A)⁻¹ (1 + 2τ/h) and G the carrier's receptance at the seats.
-    dynamic: DMatrix<f64>,
+    pub(super) dynamic: DMatrix<f64>,
     /// rowsᵀ (K'⁻¹ + G)⁻¹.
     onto_races: Packed,
     /// (I/k + A) / (1 + 2τ/h).
     softened: DMatrix<f64>,
-    ports: Vec<Port>,
+    pub(super) ports: Vec<Port>,
     pub(super) state: Motion,
     history: DVector<f64>,
     free: DVector<f64>,
@@ -132,7 +132,7 @@ impl Bearings {
         load: &mut DVector<f64>,
     ) {
         // e_x = Bx − free, (K'⁻¹ + G) Q = e_x − τ' v*
-        let weight = self.ratio / (1.0 + self.ratio * rule.damping());
+        let weight = self.history_weight(rule);
         for (i, port) in self.ports.iter().enumerate() {
             self.history[i] = weight * rule.velocity_history(self.state.x[i], self.state.v[i]);
             self.free[i] = carrier.free(port) + self.history[i];
@@ -180,6 +180,33 @@ impl Bearings {
         self.forces = forces;
         self.press();
         carrier.rest_under(&self.ports, &self.pressing);
+    }
+
+    /// τ/(1 + 2τ/h): factor of v* of the elongations in `free`.
+    pub(super) fn history_weight(&self, rule: &AverageAcceleration) -> f64 {
+        self.ratio / (1.0 + self.ratio * rule.damping())
+    }
+
+    /// rowsᵀ (K'⁻¹ + G)⁻¹: load on the races by `free` of the seats, n×2N.
+    pub(super) fn seats_onto_races(&self) -> DMatrix<f64> {
+        self.rows.transpose() * &self.dynamic
+    }
+
+    /// The elongations that belong to a motion of the races and of the carrier's modes.
+    pub(super) fn follow(&mut self, races: &Motion, carrier: &dyn VibratingBody, modes: &Motion) {
+        let shapes = carrier.modes().unwrap_or_default();
+        let lists = [
+            (&mut self.state.x, &races.x, &modes.x),
+            (&mut self.state.v, &races.v, &modes.v),
+            (&mut self.state.a, &races.a, &modes.a),
+        ];
+        for (own, of_races, of_modes) in lists {
+            let rigid = &self.rigid * DVector::from_column_slice(of_races);
+            for ((own, rigid), port) in own.iter_mut().zip(rigid.iter()).zip(&self.ports) {
+                let along = shapes.iter().zip(of_modes).map(|(m, eta)| port.read(&m.shape) * eta);
+                *own = rigid - along.sum::<f64>();
+            }
+        }
     }
 
     /// A stretched bearing pulls its seat along the port's direction.

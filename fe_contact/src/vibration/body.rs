@@ -3,6 +3,7 @@
 use dynamics::Motion;
 
 use super::fixed_race_mode::FixedRaceMode;
+use super::modal_body::ModalBody;
 
 /// Displacement, velocity and acceleration of a race: x, y (m) and u = r θ (m) each.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -86,6 +87,11 @@ pub trait VibratingBody: std::fmt::Debug + Send {
 
     /// Degrees of freedom besides the race.
     fn unknowns(&self) -> usize;
+
+    /// The body as one of modes (none for a quasi-static body); `None` where it has every degree of freedom.
+    fn modal(&self) -> Option<&ModalBody> {
+        None
+    }
 }
 
 /// Components of a race vector in a frame turned by `angle`: x and y turn, u stays.

@@ -30,8 +30,8 @@ impl ContactTables {
     }
 
     /// Adds a table without maps; returns its index.
-    pub(super) fn add(&mut self, table: MeshTable) -> usize {
-        self.tables.list.push(Arc::new(table));
+    pub(super) fn add(&mut self, table: Arc<MeshTable>) -> usize {
+        self.tables.list.push(table);
         self.maps.push(ContactMaps::new(&self.tables.settings, Arc::default()));
         self.maps.len() - 1
     }

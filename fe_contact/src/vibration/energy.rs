@@ -96,7 +96,8 @@ impl VibratingSet<'_> {
     fn pressed(&self) -> DVector<f64> {
         match self.frames.current(self.clock.step_in_cycle) {
             Some(frame) => {
-                let pairs = frame.rigid.tr_mul(&self.pairs.forces.rows(0, frame.offsets.len()));
+                let pairs =
+                    frame.pattern.rigid.tr_mul(&self.pairs.forces.rows(0, frame.offsets.len()));
                 pairs
                     - self.contact.leaning[self.clock.step_in_cycle].rest_of(&self.statics)
                     - &self.pairs.bent
@@ -146,7 +147,7 @@ impl VibratingSet<'_> {
         x: &DVector<f64>,
     ) -> Result<Option<f64>, FeError> {
         let Some(frame) = self.frames.at(step_in_cycle) else { return Ok(None) };
-        let approaches = &frame.rigid * x - frame.opened_at(x.as_slice());
+        let approaches = &frame.pattern.rigid * x - frame.opened_at(x.as_slice());
         let meshes: Vec<_> = frame.meshes.iter().map(|m| (m.table, m.first, m.count)).collect();
         let mut held: Vec<Held> = frame.meshes.iter().map(|m| m.held).collect();
         let mut energy = 0.0;

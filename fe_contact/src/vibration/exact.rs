@@ -7,11 +7,13 @@
 //! and the compliance changes by the slopes of the flanks.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use gearset::DisplacedMesh;
 use nalgebra::DVector;
 
 use super::frame::{Frame, FrameInputs};
+use super::frame_pattern::FramePattern;
 use super::set::VibratingSet;
 use crate::contact::PairFrame;
 use crate::error::FeError;
@@ -72,7 +74,9 @@ impl VibratingSet<'_> {
             inverse: &self.race_dynamics.inverse,
             lag_end: self.pairs.lag.end,
         };
-        let frame = Frame::new(&inputs, &placed, &places, count, position)?;
+        let (statics, gears) = (&self.statics, &self.bodies.gears);
+        let pattern = FramePattern::new(statics, gears, placed, count, position)?;
+        let frame = Frame::new(&inputs, Arc::new(pattern), &places, position)?;
         Ok(PlacedStep { frame: Box::new(frame), load, places })
     }
 
@@ -88,7 +92,7 @@ impl VibratingSet<'_> {
         let table = self.statics.table(group, phase, &settings)?;
         let own = &self.statics.reference().loaded[group].mesh;
         let beside = NeighbourTables::coarse(self.statics.bodies, own, phase, &settings)?;
-        let place = self.contact.add(table);
+        let place = self.contact.add(Arc::new(table));
         let grid = self.contact.grid.get_or_insert_default();
         grid.place.insert(key, place);
         grid.beside.insert(place, beside);

@@ -89,7 +89,7 @@ impl<'s> FlexibleBodies<'s> {
         frame: &Frame,
         forces: &DVector<f64>,
     ) {
-        for ((ports, list), own) in self.ports.iter_mut().zip(&frame.own) {
+        for ((ports, list), own) in self.ports.iter_mut().zip(&frame.pattern.own) {
             if !ports.is_empty() {
                 list.clear();
                 list.extend(own.iter().map(|(pair, _)| forces[*pair]));
@@ -113,7 +113,7 @@ impl<'s> FlexibleBodies<'s> {
     /// Puts the gears to rest under the forces p (N) of a frame's pairs, whose ports are filled.
     pub(super) fn rest_gears(&mut self, frame: &Frame, p: &DVector<f64>) {
         for ((gear, (ports, forces)), own) in
-            self.gears.iter_mut().zip(&mut self.ports).zip(&frame.own)
+            self.gears.iter_mut().zip(&mut self.ports).zip(&frame.pattern.own)
         {
             if gear.vibrating.unknowns() == 0 {
                 continue;
@@ -126,7 +126,9 @@ impl<'s> FlexibleBodies<'s> {
 
     /// Sets the ports of all gears with elastic states, after `cycles` mesh cycles.
     pub(super) fn fill_ports(&mut self, frame: &Frame, cycles: i64) {
-        for ((gear, own), (ports, _)) in self.gears.iter().zip(&frame.own).zip(&mut self.ports) {
+        for ((gear, own), (ports, _)) in
+            self.gears.iter().zip(&frame.pattern.own).zip(&mut self.ports)
+        {
             if gear.vibrating.unknowns() == 0 {
                 continue;
             }
@@ -158,7 +160,7 @@ impl<'s> FlexibleBodies<'s> {
     pub(super) fn carried(&self, frame: &Frame, cycles: i64) -> DMatrix<f64> {
         let count = frame.offsets.len();
         let mut carried = DMatrix::zeros(count, count);
-        for (gear, own) in self.gears.iter().zip(&frame.own) {
+        for (gear, own) in self.gears.iter().zip(&frame.pattern.own) {
             if gear.vibrating.unknowns() == 0 {
                 continue;
             }
@@ -181,7 +183,9 @@ fn fill_one(
     at: (usize, usize),
     cycles: i64,
 ) {
-    let (Some(ends), Some(teeth)) = (&frame.ends[at.0], &frame.teeth[at.0]) else { return };
+    let (Some(ends), Some(teeth)) = (&frame.pattern.ends[at.0], &frame.pattern.teeth[at.0]) else {
+        return;
+    };
     let count = gear.body.mesh.outline.gear().teeth as i64;
     let tooth = teeth[at.1] + gear.teeth_per_cycle() * cycles;
     let tooth = tooth.rem_euclid(count) as usize;

@@ -1,18 +1,20 @@
-//! Everything of a vibrating set that depends on the position in the mesh cycle only.
+//! Everything of a vibrating set at one position of the mesh cycle that is the same in every cycle.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
 use super::body::Port;
+use super::frame_pattern::{FramePattern, PatternBend, PatternMesh};
 use super::gear::VibratingGear;
 use super::lag::PairSlot;
 use super::packed::Packed;
-use super::teeth::{ToothPoint, fill_port, tooth_points};
+use super::teeth::fill_port;
 use crate::contact::{ContactMap, ContactMaps, Held};
 use crate::error::FeError;
 use crate::short_row::ShortRow;
-use crate::statics::{PlacedMesh, StaticSet};
+use crate::statics::StaticSet;
 
 /// Solved combinations of contact maps that a frame keeps.
 const MOST_COMBINATIONS: usize = 6;
@@ -26,8 +28,6 @@ pub(super) struct FrameMesh {
     pub(super) count: usize,
     /// Map last found to hold.
     pub(super) held: Held,
-    /// Factor on the FE part of its flexibility.
-    pub(super) flexibility_factor: f64,
 }
 
 impl FrameMesh {
@@ -48,6 +48,10 @@ pub(super) struct Combination {
     pub(super) offset: Vec<f64>,
     /// P = S δ + P₀ of each pair within its mesh: P₀, then its row of S.
     pub(super) laws: Vec<f64>,
+    /// Pairs that touch: those with a force that changes with the approaches.
+    pub(super) touching: Vec<usize>,
+    /// S W between the touching pairs: change of their forces with the approaches b, N/m.
+    pub(super) response: DMatrix<f64>,
 }
 
 /// Second-order term of the gap of a pair in corner contact, as `Bend` in `statics/placed.rs`.
@@ -60,6 +64,10 @@ pub(super) struct FrameBend {
     pub(super) row: ShortRow,
     pub(super) offset: f64,
     pub(super) curvature: f64,
+    /// Δe in the present step, m.
+    pub(super) moved: f64,
+    /// Pair force expected at its end, N.
+    pub(super) force: f64,
     /// ½ G'' Δe² in the present step, m.
     pub(super) opened: f64,
 }
@@ -67,20 +75,12 @@ pub(super) struct FrameBend {
 /// All pairs of a set at one position.
 #[derive(Debug)]
 pub(super) struct Frame {
+    /// What depends on the position only.
+    pub(super) pattern: Arc<FramePattern>,
     /// Front meshes, then the backside ones where they may touch.
     pub(super) meshes: Vec<FrameMesh>,
     /// Offset of each pair, tooth errors included, m: its approach is b·x − offset.
     pub(super) offsets: Vec<f64>,
-    /// The same without tooth errors, m.
-    pub(super) perfect: Vec<f64>,
-    /// Ends of each pair on the teeth; none for backside flanks.
-    pub(super) ends: Vec<Option<[ToothPoint; 2]>>,
-    /// Number of the tooth of each end during the first mesh cycle.
-    pub(super) teeth: Vec<Option<[i64; 2]>>,
-    /// (Pair, end) of the ports of each gear.
-    pub(super) own: Vec<Vec<(usize, usize)>>,
-    /// Approach on the races' coordinates with rigid bodies, pairs×n.
-    pub(super) rigid: DMatrix<f64>,
     /// Approach on the races' coordinates within a step.
     pub(super) rows: Vec<ShortRow>,
     /// Y: reduction of the approach of one pair by a unit force on another within a step, beyond
@@ -96,9 +96,9 @@ pub(super) struct Frame {
     pub(super) is_coupled: bool,
     /// Second-order terms of the gaps of pairs in corner contact.
     pub(super) bends: Vec<FrameBend>,
-    /// Index of each pair in the state of the lag.
-    pub(super) slots: Vec<PairSlot>,
     pub(super) combinations: Vec<Combination>,
+    /// Index of the combination that held in the last step.
+    pub(super) used: usize,
     /// Index of the combination that is replaced next.
     pub(super) oldest: usize,
 }
@@ -114,84 +114,67 @@ pub(super) struct FrameInputs<'g> {
 }
 
 impl Frame {
-    /// Frame of the meshes `placed`, whose tables have the indices `places`; the first `front` are
-    /// front flanks. `turned`: mesh cycles since the start.
+    /// Frame of a pattern whose meshes' tables have the indices `places`. `turned`: mesh cycles since the start.
     pub(super) fn new(
         inputs: &FrameInputs<'_>,
-        placed: &[PlacedMesh<'_>],
+        pattern: Arc<FramePattern>,
         places: &[usize],
-        front: usize,
         turned: f64,
     ) -> Result<Self, FeError> {
-        let count: usize = placed.iter().map(|p| p.rows.len()).sum();
+        let count = pattern.perfect.len();
         let many = || FeError::NoEquilibrium("a tooth pair meets more than two bodies".into());
-        let n = inputs.statics.races.count;
+        let mesh = |(of, table): (&PatternMesh, &usize)| FrameMesh {
+            table: *table,
+            first: of.first,
+            count: of.count,
+            held: Held::default(),
+        };
+        let bend = |of: &PatternBend| FrameBend {
+            pair: of.pair,
+            mesh: of.mesh,
+            slot: of.slot,
+            row: of.row,
+            offset: of.offset,
+            curvature: of.curvature,
+            moved: 0.0,
+            force: 0.0,
+            opened: 0.0,
+        };
+        let is_coupled = inputs.gears.iter().any(|gear| gear.vibrating.unknowns() > 0);
         let mut frame = Self {
-            meshes: Vec::with_capacity(placed.len()),
-            offsets: Vec::with_capacity(count),
-            perfect: Vec::with_capacity(count),
-            ends: Vec::with_capacity(count),
-            teeth: Vec::with_capacity(count),
-            own: vec![Vec::new(); inputs.gears.len()],
-            rigid: DMatrix::zeros(count, n),
-            rows: Vec::new(),
+            meshes: pattern.meshes.iter().zip(places).map(mesh).collect(),
+            offsets: pattern.offsets.clone(),
+            rows: pattern.rows.clone(),
             receptance: DMatrix::zeros(count, count),
             lagging: DMatrix::zeros(count, count),
             lags: Vec::new(),
-            is_coupled: inputs.gears.iter().any(|gear| gear.vibrating.unknowns() > 0),
-            bends: Vec::new(),
-            slots: Vec::with_capacity(count),
+            is_coupled,
+            bends: pattern.bends.iter().map(bend).collect(),
             combinations: Vec::with_capacity(MOST_COMBINATIONS),
+            used: 0,
             oldest: 0,
+            pattern,
         };
-        for (which, (mesh, table)) in placed.iter().zip(places).enumerate() {
-            let first = frame.offsets.len();
-            for (k, row) in mesh.rows.iter().enumerate() {
-                frame.rigid.row_mut(first + k).tr_copy_from(row);
-            }
-            frame.perfect.extend(&mesh.offsets);
-            frame.offsets.extend(mesh.offsets.iter().zip(&mesh.errors).map(|(o, e)| o + e));
-            for bend in &mesh.bends {
-                let (row, offset) = (bend.row.iter().copied(), bend.offset);
-                frame.bends.push(FrameBend {
-                    pair: first + bend.pair,
-                    mesh: which,
-                    slot: PairSlot::of(mesh.table.pairs[bend.pair].index),
-                    row: ShortRow::new(row).ok_or_else(many)?,
-                    offset,
-                    curvature: bend.curvature,
-                    opened: 0.0,
-                });
-            }
-            frame.slots.extend(mesh.table.pairs.iter().map(|pair| PairSlot::of(pair.index)));
-            if which < front {
-                for ends in tooth_points(inputs.statics, which, mesh)? {
-                    let teeth = ends.each_ref().map(|end| {
-                        let gear = &inputs.gears[end.body - 1];
-                        gear.tooth_at(end.axis, turned)
-                    });
-                    frame.ends.push(Some(ends));
-                    frame.teeth.push(Some(teeth));
+        let own = frame.pattern.within.clone();
+        for (gear, flexibility) in own.iter().enumerate() {
+            for (j, (b, _)) in frame.pattern.own[gear].iter().enumerate() {
+                for (i, (a, _)) in frame.pattern.own[gear].iter().enumerate() {
+                    frame.lagging[(*a, *b)] += flexibility[(i, j)];
                 }
-            } else {
-                frame.ends.extend(mesh.rows.iter().map(|_| None));
-                frame.teeth.extend(mesh.rows.iter().map(|_| None));
             }
-            frame.meshes.push(FrameMesh {
-                table: *table,
-                first,
-                count: mesh.rows.len(),
-                held: Held::default(),
-                flexibility_factor: inputs.statics.bodies.flexibility_factor(mesh.kind),
-            });
         }
-        let mut rows = frame.rigid.clone();
-        for (k, gear) in inputs.gears.iter().enumerate() {
-            frame.add_body(inputs, k + 1, gear, turned, &mut rows);
+        if is_coupled {
+            let mut rows = frame.pattern.rigid.clone();
+            for (k, gear) in inputs.gears.iter().enumerate() {
+                frame.add_elastic_body(inputs, k + 1, gear, turned, &mut rows);
+            }
+            frame.receptance += &rows * (inputs.inverse * rows.transpose());
+            let short = rows.row_iter().map(|row| ShortRow::new(row.iter().copied()));
+            frame.rows = short.collect::<Option<_>>().ok_or_else(many)?;
+        } else {
+            let rigid = &frame.pattern.rigid;
+            frame.receptance = rigid * (inputs.inverse * rigid.transpose());
         }
-        frame.receptance += &rows * (inputs.inverse * rows.transpose());
-        let short = rows.row_iter().map(|row| ShortRow::new(row.iter().copied()));
-        frame.rows = short.collect::<Option<_>>().ok_or_else(many)?;
         frame.receptance -= (1.0 - inputs.lag_end) * &frame.lagging;
         for mesh in &frame.meshes {
             let lagged = frame.lagged_by(mesh);
@@ -207,14 +190,9 @@ impl Frame {
         if self.is_coupled { 0..self.offsets.len() } else { mesh.first..mesh.first + mesh.count }
     }
 
-    /// Mesh of each pair.
-    pub(super) fn mesh_of(&self, pair: usize) -> usize {
-        self.meshes.iter().position(|m| pair < m.first + m.count).unwrap_or(0)
-    }
-
-    /// Adds the elastic part of one gear: couplings, receptances between its ports, lagging
-    /// flexibility.
-    fn add_body(
+    /// Adds the elastic part of one gear, if it has elastic states: couplings, receptances between its ports, and
+    /// the flexibility that these states do not represent.
+    fn add_elastic_body(
         &mut self,
         inputs: &FrameInputs<'_>,
         body: usize,
@@ -222,62 +200,37 @@ impl Frame {
         turned: f64,
         rows: &mut DMatrix<f64>,
     ) {
-        let mut places: Vec<usize> = Vec::new();
-        let mut own: Vec<(ToothPoint, i64)> = Vec::new();
-        for (pair, (ends, teeth)) in self.ends.iter().zip(&self.teeth).enumerate() {
-            let (Some(ends), Some(teeth)) = (ends, teeth) else { continue };
-            for (e, (end, tooth)) in ends.iter().zip(teeth).enumerate() {
-                if end.body == body {
-                    self.own[body - 1].push((pair, e));
-                    places.push(pair);
-                    own.push((end.clone(), *tooth));
+        if gear.vibrating.unknowns() == 0 {
+            return;
+        }
+        let pattern = Arc::clone(&self.pattern);
+        let count = gear.body.mesh.outline.gear().teeth as i64;
+        let (angle, own) = (gear.angle(turned), &pattern.own[body - 1]);
+        let mut ports = vec![Port::default(); own.len()];
+        for (port, (pair, e)) in ports.iter_mut().zip(own) {
+            let (Some(ends), Some(teeth)) = (&pattern.ends[*pair], &pattern.teeth[*pair]) else {
+                continue;
+            };
+            let tooth = teeth[*e].rem_euclid(count) as usize;
+            fill_port(port, (gear.body, &gear.unknown_of), &ends[*e], tooth);
+        }
+        for ((pair, _), port) in own.iter().zip(&ports) {
+            for (axis, c) in gear.vibrating.coupling(port, angle).into_iter().enumerate() {
+                if let Some(i) = inputs.statics.races.of(body, axis) {
+                    rows[(*pair, i)] += c;
                 }
             }
         }
-        let count = gear.body.mesh.outline.gear().teeth as i64;
-        let carries = gear.vibrating.unknowns() > 0;
-        let (receptance, carried) = if carries {
-            let angle = gear.angle(turned);
-            let mut ports = vec![Port::default(); own.len()];
-            for (port, (end, tooth)) in ports.iter_mut().zip(&own) {
-                let tooth = tooth.rem_euclid(count) as usize;
-                fill_port(port, (gear.body, &gear.unknown_of), end, tooth);
-            }
-            for (pair, port) in places.iter().zip(&ports) {
-                for (axis, c) in gear.vibrating.coupling(port, angle).into_iter().enumerate() {
-                    if let Some(i) = inputs.statics.races.of(body, axis) {
-                        rows[(*pair, i)] += c;
-                    }
-                }
-            }
-            (gear.vibrating.receptance(&ports), gear.vibrating.carried_flexibility(&ports))
-        } else {
-            (Vec::new(), Vec::new())
-        };
+        let receptance = gear.vibrating.receptance(&ports);
+        let carried = gear.vibrating.carried_flexibility(&ports);
+        let across = &pattern.across(inputs.gears)[body - 1];
         let width = own.len();
-        for (i, a) in places.iter().enumerate() {
-            for (j, b) in places.iter().enumerate() {
-                let same = self.mesh_of(*a) == self.mesh_of(*b);
-                if !same && !carries {
-                    // Quasi-static bodies do not couple different meshes, as in statics.
-                    continue;
-                }
-                let ((on, tooth_on), (of, tooth_of)) = (&own[j], &own[i]);
-                let whole = gear.body.surface_flexibility(
-                    (&on.end.load, on.end.direction),
-                    tooth_of - tooth_on,
-                    (&of.end.load, of.end.direction),
-                );
-                // With the factor, as in the compliance of the cells, which covers the pairs of one
-                // mesh.
-                let whole = whole * self.meshes[self.mesh_of(*a)].flexibility_factor;
-                self.lagging[(*a, *b)] += whole;
-                if carries {
-                    self.lagging[(*a, *b)] -= carried[i * width + j];
-                    let beyond_cells = if same { 0.0 } else { whole };
-                    self.receptance[(*a, *b)] +=
-                        receptance[i * width + j] + beyond_cells - carried[i * width + j];
-                }
+        for (i, (a, _)) in own.iter().enumerate() {
+            for (j, (b, _)) in own.iter().enumerate() {
+                // `across` is 0 within a mesh, where the cells' compliance has the flexibility.
+                self.lagging[(*a, *b)] += across[(i, j)] - carried[i * width + j];
+                self.receptance[(*a, *b)] +=
+                    receptance[i * width + j] + across[(i, j)] - carried[i * width + j];
             }
         }
     }
@@ -306,10 +259,13 @@ impl Frame {
 
     /// Memory, bytes.
     pub(super) fn bytes(&self) -> usize {
-        let matrices = [&self.rigid, &self.receptance, &self.lagging];
+        let matrices = [&self.receptance, &self.lagging];
         let own: usize = matrices.iter().map(|m| 8 * m.len()).sum();
         let rows = self.rows.len() * size_of::<ShortRow>();
-        let of = |c: &Combination| c.slope.bytes() + 8 * (c.offset.len() + c.laws.len());
+        let of = |c: &Combination| {
+            let lists = c.offset.len() + c.laws.len() + c.touching.len() + c.response.len();
+            c.slope.bytes() + 8 * lists
+        };
         own + rows + 8 * self.lags.len() + self.combinations.iter().map(of).sum::<usize>()
     }
 }

@@ -17,7 +17,7 @@ use dynamics::AverageAcceleration;
 
 /// Pairs −LEAST … WIDTH − 1 − LEAST are kept.
 const LEAST: i64 = 4;
-const WIDTH: usize = 12;
+pub(super) const WIDTH: usize = 12;
 
 /// Weights of the forces at the end and at the start of a step and one step earlier, and of the
 /// state P̃.
@@ -30,6 +30,11 @@ pub(super) struct LagRule {
 }
 
 impl LagRule {
+    /// Weights of the forces at the end and at the start of a step and one step earlier, and of P̃.
+    pub(super) fn weights(&self) -> [f64; 4] {
+        [self.end, self.start, self.before, self.state]
+    }
+
     pub(super) fn new(beta: f64, rule: &AverageAcceleration) -> Self {
         if beta <= 0.0 {
             return Self { end: 1.0, start: 0.0, before: 0.0, state: 0.0 };
@@ -77,7 +82,7 @@ impl PairSlot {
         Self(place.unwrap_or(WIDTH as u8))
     }
 
-    fn place(self) -> Option<usize> {
+    pub(super) fn place(self) -> Option<usize> {
         Some(usize::from(self.0)).filter(|i| *i < WIDTH)
     }
 }

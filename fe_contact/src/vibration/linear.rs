@@ -106,7 +106,7 @@ impl VibratingSet<'_> {
         turning.view_mut((0, 0), (n, n)).copy_from(&self.statics.reference().stiffness);
         // Generalised force of a corner: P (b − G'' Δe ∂e). Its derivative has the term −P G'' ∂e
         // ∂eᵀ beside that of P.
-        let mut rigid = frame.rigid.clone();
+        let mut rigid = frame.pattern.rigid.clone();
         for bend in &frame.bends {
             let row = bend.row.full(n);
             let moved =
@@ -148,7 +148,7 @@ impl VibratingSet<'_> {
         rows.view_mut((0, 0), (count, n)).copy_from(&rigid);
         let mut first = n + lists[0].2.len();
         for ((gear, own), (_, _, modes)) in
-            self.bodies.gears.iter().zip(&frame.own).zip(&lists[1..])
+            self.bodies.gears.iter().zip(&frame.pattern.own).zip(&lists[1..])
         {
             if modes.is_empty() {
                 continue;

@@ -16,11 +16,11 @@ use super::fixed_race_mode::FixedRaceMode;
 pub struct ModalBody {
     /// Mass, mass, polar inertia over r², kg.
     mass: [f64; 3],
-    damping: Proportional,
-    modes: std::sync::Arc<[FixedRaceMode]>,
+    pub(super) damping: Proportional,
+    pub(super) modes: std::sync::Arc<[FixedRaceMode]>,
     rule: AverageAcceleration,
     /// 4/h² + (α + βω²) 2/h + ω² of each mode, 1/s².
-    dynamic: Vec<f64>,
+    pub(super) dynamic: Vec<f64>,
     state: Motion,
     /// η at the end of the step with the race at its origin and no loads.
     free: Vec<f64>,
@@ -53,7 +53,7 @@ impl ModalBody {
     }
 
     /// 4/h² + 2α/h.
-    fn inertia(&self) -> f64 {
+    pub(super) fn inertia(&self) -> f64 {
         self.rule.inertia() + self.damping.alpha * self.rule.damping()
     }
 }
@@ -152,6 +152,10 @@ impl VibratingBody for ModalBody {
 
     fn unknowns(&self) -> usize {
         self.modes.len()
+    }
+
+    fn modal(&self) -> Option<&ModalBody> {
+        Some(self)
     }
 }
 

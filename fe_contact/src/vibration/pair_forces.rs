@@ -59,7 +59,7 @@ impl PairForces {
     pub(super) fn advance(&mut self, frame: &Frame) {
         for (memory, mesh) in self.memory.iter_mut().zip(&frame.meshes) {
             let own = &self.forces.as_slice()[mesh.first..mesh.first + mesh.count];
-            let slots = &frame.slots[mesh.first..mesh.first + mesh.count];
+            let slots = &frame.pattern.slots[mesh.first..mesh.first + mesh.count];
             memory.advance(&self.lag, slots.iter().copied().zip(own.iter().copied()));
         }
     }
@@ -68,7 +68,7 @@ impl PairForces {
     pub(super) fn rest(&mut self, frame: &Frame, p: &DVector<f64>) {
         for (memory, mesh) in self.memory.iter_mut().zip(&frame.meshes) {
             let own = &p.as_slice()[mesh.first..mesh.first + mesh.count];
-            let slots = &frame.slots[mesh.first..mesh.first + mesh.count];
+            let slots = &frame.pattern.slots[mesh.first..mesh.first + mesh.count];
             memory.rest(slots.iter().copied().zip(own.iter().copied()));
         }
     }

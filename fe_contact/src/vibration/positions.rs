@@ -1,6 +1,9 @@
 //! Frames of a set, built at the first visit of a position.
 
+use std::sync::Arc;
+
 use super::frame::{Frame, FrameInputs};
+use super::frame_pattern::FramePattern;
 use super::rotation::NominalRotation;
 use super::set::VibratingSet;
 use crate::error::FeError;
@@ -16,40 +19,41 @@ impl VibratingSet<'_> {
             return Ok(frame);
         }
         let position = self.clock.position(k);
-        let mut placed = self.statics.place(position, &self.contact.tables);
-        let front = placed.len();
-        let mut places: Vec<usize> =
-            (0..front).map(|m| self.statics.place_of(&self.contact.tables, m, position)).collect();
-        if let Some(leaning) = self.contact.leaning.get(k) {
-            leaning.apply(&self.statics, &mut placed);
-        }
-        if with_backside {
-            let backside = self.statics.place_backside(position, &self.contact.tables.settings)?;
-            for (i, backside) in backside.into_iter().enumerate() {
-                places.push(self.contact.tables.list.len() + i);
-                placed.push(backside);
-            }
-        }
         let turned = match self.clock.rotation {
             NominalRotation::Standing { .. } => 0.0,
             NominalRotation::Turning { .. } => position,
         };
+        let make = || self.pattern(k, with_backside, turned);
+        let pattern = Arc::clone(&self.patterns).at(k, with_backside, make)?;
+        let front = self.statics.reference().meshes.len();
+        let mut places: Vec<usize> =
+            (0..front).map(|m| self.statics.place_of(&self.contact.tables, m, position)).collect();
+        places.extend(pattern.backside.iter().map(|table| self.contact.add(Arc::clone(table))));
         let inputs = FrameInputs {
             statics: &self.statics,
             gears: &self.bodies.gears,
             inverse: &self.race_dynamics.inverse,
             lag_end: self.pairs.lag.end,
         };
-        let mut frame = Box::new(Frame::new(&inputs, &placed, &places, front, turned)?);
-        let owned: Vec<crate::contact::MeshTable> =
-            placed.drain(front..).map(|p| p.table.into_owned()).collect();
-        for table in owned {
-            self.contact.add(table);
-        }
+        let mut frame = Box::new(Frame::new(&inputs, pattern, &places, turned)?);
         if self.statics.has_tooth_errors() {
             self.renew_offsets(&mut frame);
         }
         Ok(frame)
+    }
+
+    /// The pattern of a step.
+    fn pattern(&self, k: usize, with_backside: bool, turned: f64) -> Result<FramePattern, FeError> {
+        let position = self.clock.position(k);
+        let mut placed = self.statics.place(position, &self.contact.tables);
+        let front = placed.len();
+        if let Some(leaning) = self.contact.leaning.get(k) {
+            leaning.apply(&self.statics, &mut placed);
+        }
+        if with_backside {
+            placed.extend(self.statics.place_backside(position, &self.contact.tables.settings)?);
+        }
+        FramePattern::new(&self.statics, &self.bodies.gears, placed, front, turned)
     }
 
     /// Sets the gap offsets to those of the teeth that are in mesh now.
@@ -61,7 +65,7 @@ impl VibratingSet<'_> {
         for (which, mesh) in frame.meshes.iter().enumerate().take(self.pairs.memory.len()) {
             let table = &self.contact.tables.list[mesh.table];
             let own = mesh.first..mesh.first + mesh.count;
-            let (offsets, perfect) = (&mut frame.offsets[own.clone()], &frame.perfect[own]);
+            let (offsets, perfect) = (&mut frame.offsets[own.clone()], &frame.pattern.perfect[own]);
             self.statics.write_errors(which, table, turned, offsets);
             offsets.iter_mut().zip(perfect).for_each(|(offset, perfect)| *offset += perfect);
         }
@@ -98,7 +102,7 @@ mod tests {
                 let table = &set.contact.tables.list[mesh.table];
                 for (k, pair) in table.pairs.iter().map(|p| p.index).enumerate() {
                     let at = mesh.first + k;
-                    let (ends, teeth) = (frame.ends[at].as_ref(), frame.teeth[at]);
+                    let (ends, teeth) = (frame.pattern.ends[at].as_ref(), frame.pattern.teeth[at]);
                     let teeth: Vec<i64> = ends
                         .unwrap()
                         .iter()

@@ -1,7 +1,10 @@
 //! Checks before a set can move, and the data that sets of one scene share.
 
+use std::sync::Arc;
+
 use gearset::{Facing, Fidelity, MeshKinematics, Scene};
 
+use super::frame_pattern::FramePatterns;
 use super::leaning::Leaning;
 use super::rotation::NominalRotation;
 use crate::error::FeError;
@@ -28,6 +31,10 @@ pub struct Prepared<'s> {
     pub(super) leaning: Vec<Leaning>,
     /// Whether kinematics are exact at every step.
     pub(super) is_exact: bool,
+    /// Patterns of the frames of the rotation it was made for, shared by its sets.
+    patterns: Arc<FramePatterns>,
+    /// Whether that rotation turns.
+    turns: bool,
 }
 
 impl<'s> Prepared<'s> {
@@ -53,17 +60,28 @@ impl<'s> Prepared<'s> {
         let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
         let mut statics = statics.under(loading.torque_nm)?;
         let positions = rotation.positions();
+        let patterns = Arc::new(FramePatterns::new(positions.len()));
         if is_exact {
             // The actual lines of action are used, so that the linearised turning of mesh forces is
             // dropped; tables are laid out in the run, at the phases that occur.
             statics.reference.stiffness.fill(0.0);
             let tables = statics.tables(loading.mesh_force, &positions[..1])?;
             let leaning = vec![Leaning::none(&statics); positions.len()];
-            return Ok(Self { statics, tables, leaning, is_exact });
+            return Ok(Self { statics, tables, leaning, is_exact, patterns, turns });
         }
         let tables = statics.tables(loading.mesh_force, &positions)?;
         let leaning = Leaning::at(&statics, &tables, &positions)?;
-        Ok(Self { statics, tables, leaning, is_exact })
+        Ok(Self { statics, tables, leaning, is_exact, patterns, turns })
+    }
+
+    /// The shared patterns, or none yet for another rotation: a standing set has its teeth numbered from its own
+    /// position.
+    pub(super) fn patterns_for(&self, rotation: &NominalRotation) -> Arc<FramePatterns> {
+        let turns = matches!(rotation, NominalRotation::Turning { .. });
+        if turns && self.turns && rotation.count() == self.patterns.count() {
+            return Arc::clone(&self.patterns);
+        }
+        Arc::new(FramePatterns::new(rotation.count()))
     }
 
     /// Refuses a scene or a rotation for which the data were not prepared.

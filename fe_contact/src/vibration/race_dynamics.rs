@@ -150,6 +150,20 @@ impl RaceDynamics {
         }
     }
 
+    /// Load on the races by v* of Newmark's rule, n×n: α m + τ k of the supports, gyroscopic terms, and bearings
+    /// on rigid seats.
+    pub(super) fn velocity_load(&self, rule: &AverageAcceleration) -> DMatrix<f64> {
+        let weight = self.bearings.history_weight(rule);
+        let mut load = self.bearings.seats_onto_races() * &self.bearings.rigid * weight;
+        for (i, mass) in self.mass.iter().enumerate() {
+            load[(i, i)] += self.damping.alpha * mass + self.bearing_ratio * self.supports[i];
+        }
+        if let Some(terms) = &self.gyroscopic {
+            load += &terms.gyroscopic;
+        }
+        load
+    }
+
     /// Ends the step of races and carrier with the races at x, n, m.
     pub(super) fn finish(
         &mut self,

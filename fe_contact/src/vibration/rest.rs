@@ -41,7 +41,7 @@ impl VibratingSet<'_> {
         if across.amax() > 0.0 && torque_nm != 0.0 {
             for _ in 0..30 {
                 let shifted = &across * &p;
-                let mut offsets = frame.perfect.iter().zip(shifted.iter());
+                let mut offsets = frame.pattern.perfect.iter().zip(shifted.iter());
                 for offset in found.meshes.iter_mut().flat_map(|m| m.offsets.iter_mut()) {
                     if let Some((nominal, shift)) = offsets.next() {
                         *offset = nominal + shift;
@@ -58,7 +58,7 @@ impl VibratingSet<'_> {
             q = found.q.clone();
         }
         let offsets = frame.opened_at(q.as_slice());
-        self.pairs.approaches = &frame.rigid * &q - offsets - &across * &p;
+        self.pairs.approaches = &frame.pattern.rigid * &q - offsets - &across * &p;
         self.pairs.bent = if torque_nm == 0.0 { level * 0.0 } else { &found.load - level };
         self.race_dynamics.rest(&mut self.bodies, &q);
         self.bodies.fill_ports(&frame, self.clock.cycles);

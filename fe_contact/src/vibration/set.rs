@@ -10,6 +10,8 @@
 //! with b from the state at the start of the step. The set of touching cells is changed until all
 //! complementarity conditions hold.
 
+use std::sync::Arc;
+
 use dynamics::Motion;
 use gearset::{Facing, Scene};
 use nalgebra::DVector;
@@ -19,6 +21,7 @@ use super::clock::Clock;
 use super::contact_tables::ContactTables;
 use super::damping::Proportional;
 use super::flexible_bodies::FlexibleBodies;
+use super::frame_pattern::FramePatterns;
 use super::frames::Frames;
 use super::gyroscopic::carrier_speed;
 use super::lag::LagRule;
@@ -38,6 +41,7 @@ pub struct VibratingSet<'s> {
     pub(super) bodies: FlexibleBodies<'s>,
     pub(super) race_dynamics: RaceDynamics,
     pub(super) contact: ContactTables,
+    pub(super) patterns: Arc<FramePatterns>,
     pub(super) frames: Frames,
     pub(super) pairs: PairForces,
     pub(super) work: Workspace,
@@ -97,7 +101,8 @@ impl<'s> VibratingSet<'s> {
         prepared: Prepared<'s>,
         rotation: NominalRotation,
     ) -> Result<Self, FeError> {
-        let Prepared { statics, tables, leaning, is_exact } = prepared;
+        let patterns = prepared.patterns_for(&rotation);
+        let Prepared { statics, tables, leaning, is_exact, .. } = prepared;
         build::one_flexibility(scene, statics.bodies)?;
         let clock = Clock::new(rotation)?;
         let rule = clock.rule;
@@ -132,6 +137,7 @@ impl<'s> VibratingSet<'s> {
             bodies,
             race_dynamics,
             contact: ContactTables::new(tables, leaning, is_exact),
+            patterns,
             frames: Frames::new(count),
             work: Workspace::new(n),
             external: DVector::zeros(n),

@@ -80,10 +80,11 @@ impl VibratingSet<'_> {
         self.pairs.bent.fill(0.0);
         for bend in &mut frame.bends {
             let moved = bend.row.dot(&self.work.expected) - bend.offset;
+            bend.moved = moved;
             bend.opened = 0.5 * bend.curvature * moved * moved;
-            let force = self.pairs.memory[bend.mesh].expected(bend.slot);
-            if force > 0.0 {
-                let pressed = force * bend.curvature * moved;
+            bend.force = self.pairs.memory[bend.mesh].expected(bend.slot);
+            if bend.force > 0.0 {
+                let pressed = bend.force * bend.curvature * moved;
                 bend.row.add_to(pressed, self.pairs.bent.as_mut_slice());
             }
         }
@@ -94,8 +95,8 @@ impl VibratingSet<'_> {
     /// added.
     fn bend_again(&mut self, frame: &mut Frame) {
         for bend in &mut frame.bends {
-            let moved = bend.row.dot(&self.work.expected) - bend.offset;
-            bend.opened = 0.5 * bend.curvature * moved * moved;
+            bend.moved = bend.row.dot(&self.work.expected) - bend.offset;
+            bend.opened = 0.5 * bend.curvature * bend.moved * bend.moved;
         }
     }
 
@@ -133,7 +134,7 @@ impl VibratingSet<'_> {
             work.b[bend.pair] -= bend.opened;
         }
         for ((gear, own), (ports, _)) in
-            self.bodies.gears.iter().zip(&frame.own).zip(&self.bodies.ports)
+            self.bodies.gears.iter().zip(&frame.pattern.own).zip(&self.bodies.ports)
         {
             if gear.vibrating.unknowns() > 0 {
                 for ((pair, _), port) in own.iter().zip(ports) {
@@ -144,7 +145,7 @@ impl VibratingSet<'_> {
         let mut lags = frame.lags.as_slice();
         for (memory, mesh) in self.pairs.memory.iter().zip(&frame.meshes) {
             let lagged = &mut work.b.as_mut_slice()[frame.lagged_by(mesh)];
-            for slot in &frame.slots[mesh.first..mesh.first + mesh.count] {
+            for slot in &frame.pattern.slots[mesh.first..mesh.first + mesh.count] {
                 let known = memory.known(&self.pairs.lag, *slot);
                 let column;
                 (column, lags) = lags.split_at(lagged.len());
@@ -160,7 +161,7 @@ impl VibratingSet<'_> {
             forces.fill(0.0);
             for (memory, mesh) in self.pairs.memory.iter().zip(&frame.meshes) {
                 let own = mesh.first..mesh.first + mesh.count;
-                let slots = frame.slots[own.clone()].iter();
+                let slots = frame.pattern.slots[own.clone()].iter();
                 forces[own].iter_mut().zip(slots).for_each(|(p, slot)| *p = memory.now(*slot));
             }
             for (i, (delta, b)) in approaches.iter_mut().zip(b).enumerate() {
@@ -213,6 +214,7 @@ impl VibratingSet<'_> {
                 }
             }
             if all_hold {
+                frame.used = place;
                 approaches.copy_from_slice(forces);
                 // P = S δ + P₀,  x = A⁻¹ (load − rowsᵀ P)
                 let mut laws = frame.combinations[place].laws.as_slice();
@@ -309,11 +311,22 @@ fn combine(
             }
         }
     }
-    let matrix = DMatrix::identity(count, count) + &frame.receptance * &s;
+    let touches = |i: &usize| s.row(*i).iter().any(|k| *k != 0.0);
+    let touching: Vec<usize> = (0..count).filter(touches).collect();
+    // Only the touching pairs t are coupled: S W = (I + S_tt Y_tt)⁻¹ S_tt, W = I − Y_t (S W).
+    let own = s.select_rows(&touching).select_columns(&touching);
+    let across = frame.receptance.select_columns(&touching);
+    let matrix =
+        DMatrix::identity(touching.len(), touching.len()) + &own * across.select_rows(&touching);
     let singular = || FeError::NoEquilibrium("the step's contact problem is singular".into());
-    let slope = matrix.try_inverse().ok_or_else(singular)?;
+    let response = matrix.lu().solve(&own).ok_or_else(singular)?;
+    let shares = &across * &response;
+    let mut slope = DMatrix::identity(count, count);
+    for (j, pair) in touching.iter().enumerate() {
+        slope.column_mut(*pair).axpy(-1.0, &shares.column(j), 1.0);
+    }
     let offset = &slope * (&frame.receptance * -p0);
     let slope = Packed::new(&slope);
     let offset = offset.as_slice().to_vec();
-    Ok(Some(Combination { maps: ids.to_vec(), slope, offset, laws }))
+    Ok(Some(Combination { maps: ids.to_vec(), slope, offset, laws, touching, response }))
 }

@@ -10,6 +10,7 @@ use gearset::LoadCase;
 use super::super::marching::{Effort, Marching};
 use super::super::plan::{Direction, Plan};
 use super::super::state::{Coordinate, Part};
+use super::super::steady::SteadyMethod;
 use super::*;
 
 const STEPS: usize = 28;
@@ -155,8 +156,13 @@ impl SweepModel for Prescribed {
 }
 
 fn plan(speeds: &[f64]) -> Plan {
-    let steady =
-        SteadySettings { tolerance: 1e-9, most_cycles: 30, harmonics: 2, between_cycles: 0 };
+    let steady = SteadySettings {
+        method: SteadyMethod::Shooting,
+        tolerance: 1e-9,
+        most_cycles: 30,
+        harmonics: 2,
+        between_cycles: 0,
+    };
     Plan::new(speeds, &[Direction::Up], steady).unwrap()
 }
 

@@ -1,7 +1,10 @@
 //! A set in time whose mesh forces follow a mesh law: races, masses, bearings and carrier of the
 //! quasi-static fidelity, with table look-up in place of contact.
 
-use dynamics::{AverageAcceleration, Coupled, CoupledState, Coupling, LinearPart, Motion};
+use dynamics::{
+    AverageAcceleration, Coupled, CoupledDerivative, CoupledState, Coupling, LinearPart,
+    MapDerivative, Motion,
+};
 use gearset::{Facing, MeshLaw, Scene};
 use nalgebra::{DMatrix, DVector};
 
@@ -202,6 +205,41 @@ impl<'s> MeshLawSet<'s> {
     /// If the state is of another set.
     pub fn set_state(&mut self, state: &CoupledState) -> Result<(), FeError> {
         self.system.set_state(state).map_err(|cause| failed(&self.statics, cause))
+    }
+
+    /// Displacements and velocities of the modes of the races on their supports: they determine the motion that
+    /// follows.
+    pub fn coordinates(&self) -> Vec<f64> {
+        self.system.coordinates()
+    }
+
+    /// Continues from other coordinates at the present step of the cycle.
+    ///
+    /// # Errors
+    /// If they are too few or too many, or not finite.
+    pub fn set_coordinates(&mut self, y: &[f64]) -> Result<(), FeError> {
+        self.system.set_coordinates(y).map_err(|cause| failed(&self.statics, cause))
+    }
+
+    /// Displacements as [`MeshLawSet::displacements`] in coordinates `y`.
+    pub fn displacements_of(&self, y: &[f64]) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+        self.statics.displacements(&DVector::from_vec(self.system.displacements_of(y)))
+    }
+
+    /// The derivative with respect to the coordinates, at the start of a cycle.
+    pub fn start_derivative(&self) -> CoupledDerivative {
+        self.system.start_derivative()
+    }
+
+    /// Carries the derivative over the last step.
+    pub fn carry_derivative(&self, derivative: &mut CoupledDerivative) {
+        self.system.carry_derivative(derivative);
+    }
+
+    /// The derivative of the map from the start to now; frequencies of the motion are of the order of `rate`
+    /// (rad/s).
+    pub fn map_derivative(&self, derivative: &CoupledDerivative, rate: f64) -> MapDerivative {
+        self.system.map_derivative(derivative, rate)
     }
 
     /// Time since the start, s.

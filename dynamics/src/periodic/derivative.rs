@@ -1,0 +1,78 @@
+//! The derivative of a map of one period, and Newton's correction from it.
+
+use faer::Mat;
+use faer::linalg::solvers::{PartialPivLu, Solve};
+use nalgebra::DMatrix;
+
+use crate::error::EigenError;
+
+/// Derivative DΦ of the n coordinates at the end of a period with respect to those at its start.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapDerivative {
+    /// Coordinates whose columns are given, ascending; all others have columns of zeros.
+    pub active: Vec<usize>,
+    /// The columns of the active coordinates, n×(number of active coordinates).
+    pub columns: DMatrix<f64>,
+    /// Typical size of each coordinate beside that of a displacement, n: matrices are scaled by these before
+    /// they are factorised.
+    pub scales: Vec<f64>,
+}
+
+/// Newton's correction towards a fixed point of the map, (I − DΦ) factorised.
+#[derive(Debug, Clone)]
+pub struct Correction {
+    derivative: MapDerivative,
+    factor: PartialPivLu<f64>,
+}
+
+impl MapDerivative {
+    /// The rows and columns of the active coordinates, scaled: S⁻¹ DΦ S.
+    pub(super) fn scaled(&self) -> Mat<f64> {
+        let (active, s) = (&self.active, &self.scales);
+        Mat::from_fn(active.len(), active.len(), |i, j| {
+            self.columns[(active[i], j)] * s[active[j]] / s[active[i]]
+        })
+    }
+
+    /// Factorises I − DΦ.
+    ///
+    /// # Errors
+    /// If an entry is not finite.
+    pub fn correction(self) -> Result<Correction, EigenError> {
+        let m = self.scaled();
+        let n = m.nrows();
+        for column in 0..n {
+            for row in 0..n {
+                if !m[(row, column)].is_finite() {
+                    return Err(EigenError::NotFinite { row, column });
+                }
+            }
+        }
+        let shifted = Mat::from_fn(n, n, |i, j| f64::from(u8::from(i == j)) - m[(i, j)]);
+        Ok(Correction { factor: shifted.partial_piv_lu(), derivative: self })
+    }
+}
+
+impl Correction {
+    /// Δy with (I − DΦ) Δy = r for r = Φ(y) − y, all n coordinates.
+    pub fn of(&self, residual: &[f64]) -> Vec<f64> {
+        let MapDerivative { active, columns, scales } = &self.derivative;
+        let scaled = Mat::from_fn(active.len(), 1, |i, _| residual[active[i]] / scales[active[i]]);
+        let solved = self.factor.solve(&scaled);
+        // Coordinates without a column: Δy_j = r_j + Σ DΦ_ja Δy_a.
+        let mut change = residual.to_vec();
+        for (k, a) in active.iter().enumerate() {
+            let along = solved[(k, 0)] * scales[*a];
+            change.iter_mut().zip(columns.column(k).iter()).for_each(|(c, m)| *c += m * along);
+        }
+        for (k, a) in active.iter().enumerate() {
+            change[*a] = solved[(k, 0)] * scales[*a];
+        }
+        change
+    }
+
+    /// The derivative it was made from.
+    pub fn derivative(&self) -> &MapDerivative {
+        &self.derivative
+    }
+}

@@ -1,0 +1,113 @@
+//! The coordinates that determine the motion of a set after a whole number of mesh cycles.
+
+use nalgebra::DVector;
+
+use super::derivative::SetDerivative;
+use super::set::VibratingSet;
+use super::tooth_shift::ToothShift;
+use crate::error::FeError;
+
+impl VibratingSet<'_> {
+    /// Whether [`VibratingSet::start_derivative`] has a derivative: not where kinematics are exact at every step, where
+    /// bodies have every degree of freedom, or where tooth errors let no cycle repeat.
+    pub fn has_derivative(&self) -> bool {
+        self.contact.grid.is_none()
+            && !self.statics.has_tooth_errors()
+            && self.bodies.all().all(|(_, body)| body.modal().is_some())
+    }
+
+    /// Coordinates that determine the motion after a whole number of mesh cycles: displacements, velocities and
+    /// accelerations of the races, of the bodies' modes, and the state of the lag.
+    pub fn coordinates(&mut self) -> Vec<f64> {
+        let mut out = Vec::new();
+        self.visit_coordinates(&mut |list| out.extend_from_slice(list));
+        out
+    }
+
+    /// Continues from other coordinates; bearings follow.
+    ///
+    /// # Errors
+    /// If they are too few or too many, or not finite.
+    pub fn set_coordinates(&mut self, y: &[f64]) -> Result<(), FeError> {
+        let mut count = 0;
+        self.visit_coordinates(&mut |list| count += list.len());
+        if y.len() != count || !y.iter().all(|y| y.is_finite()) {
+            return Err(FeError::Unfit {
+                key: "state".into(),
+                value: format!("{} numbers", y.len()),
+                allowed: format!("{count} finite numbers"),
+                why: "a set goes on from a state of the same scene and fidelity only".into(),
+            });
+        }
+        let mut rest = y;
+        self.visit_coordinates(&mut |list| {
+            let (own, others) = rest.split_at(list.len());
+            list.copy_from_slice(own);
+            rest = others;
+        });
+        let race = self.race_dynamics.motion.clone();
+        let carrier = self.bodies.carrier.elastic_mut().clone();
+        let bearings = &mut self.race_dynamics.bearings;
+        bearings.follow(&race, self.bodies.carrier.as_ref(), &carrier);
+        Ok(())
+    }
+
+    fn visit_coordinates(&mut self, each: &mut dyn FnMut(&mut [f64])) {
+        let mut motion = |motion: &mut dynamics::Motion| {
+            each(&mut motion.x);
+            each(&mut motion.v);
+            each(&mut motion.a);
+        };
+        motion(&mut self.race_dynamics.motion);
+        motion(self.bodies.carrier.elastic_mut());
+        for gear in &mut self.bodies.gears {
+            motion(gear.vibrating.elastic_mut());
+        }
+        for memory in &mut self.pairs.memory {
+            for list in memory.lists() {
+                each(list);
+            }
+        }
+    }
+
+    /// Displacements of carrier, ring, sun (x, y, m; θ, rad) and of the planets (ζ, η, θ) in coordinates `y`.
+    pub fn displacements_of(&self, y: &[f64]) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+        let n = self.statics.races.count.min(y.len());
+        self.statics.displacements(&DVector::from_column_slice(&y[..n]))
+    }
+
+    /// After a whole cycle: takes the cycle back, with the bodies' modes turned by one tooth, so that the state
+    /// can be compared with that at the start of the cycle; the same for a derivative.
+    ///
+    /// # Errors
+    /// If a body's modes are not those of equal teeth.
+    pub fn take_cycle_back(
+        &mut self,
+        derivative: Option<&mut SetDerivative>,
+    ) -> Result<(), FeError> {
+        self.clock.cycles -= 1;
+        if self.bodies.gears.iter().all(|gear| gear.vibrating.unknowns() == 0) {
+            return Ok(());
+        }
+        let shifts = match &derivative {
+            Some(d) => d.shifts.clone(),
+            None => ToothShift::of_set(&self.bodies)?,
+        };
+        let gears = self.bodies.gears.iter_mut().zip(shifts.iter().skip(1));
+        for (gear, shift) in gears {
+            if let Some(shift) = shift {
+                shift.apply(gear.vibrating.elastic_mut());
+            }
+        }
+        if let Some(d) = derivative {
+            for (own, shift) in d.elastic.iter_mut().zip(&shifts) {
+                if let Some(shift) = shift {
+                    own.x *= shift.transposed();
+                    own.v *= shift.transposed();
+                    own.a *= shift.transposed();
+                }
+            }
+        }
+        Ok(())
+    }
+}
