@@ -44,6 +44,9 @@ pub enum ExperimentError {
     /// A speed of a sweep at which no steady state could be computed.
     #[error(transparent)]
     Failed(Box<crate::sweep::FailedPoint>),
+    /// A branch of periodic motions that could not be begun.
+    #[error(transparent)]
+    Branch(#[from] crate::branches::BranchError),
     /// A point of a sweep that could not be kept or read.
     #[error(transparent)]
     Store(#[from] crate::sweep::StoreError),

@@ -2,6 +2,7 @@
 //! load case.
 
 mod bodies_cache;
+pub mod branches;
 mod error;
 mod mesh_cycle;
 pub mod modal;

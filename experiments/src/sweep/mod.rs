@@ -28,6 +28,7 @@ pub use point::{SweepPoint, TableRow};
 pub use record::Record;
 pub use run::{Kept, Memory, PointStore, StoreError, Sweep, run};
 pub use shooting::CycleDerivative;
+pub(crate) use shooting::{RecordedCycles, SMALL, shot};
 pub use state::{Coordinate, Line, Part, SteadyState};
 pub use steady::{MOST_REPEATS, Steady, SteadyMethod, SteadySettings, steady};
 pub use sweep_model::{FeModel, HEADROOM, SweepModel, fidelity_name};

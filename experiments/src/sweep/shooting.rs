@@ -16,7 +16,7 @@ const MOST_CYCLES: usize = 80;
 const SETTLING: usize = 2;
 
 /// Multipliers below this size are left out: such perturbations are gone after one cycle.
-const SMALL: f64 = 1e-3;
+pub(crate) const SMALL: f64 = 1e-3;
 
 /// The derivative of the cycles of a set.
 pub trait CycleDerivative {
@@ -46,7 +46,7 @@ pub trait CycleDerivative {
 }
 
 /// Whole cycles of a set, the last two recorded.
-struct RecordedCycles<'m> {
+pub(crate) struct RecordedCycles<'m> {
     set: &'m mut dyn Marching,
     first_planet_rad: f64,
     steps: usize,
@@ -54,6 +54,24 @@ struct RecordedCycles<'m> {
     before: Record,
     /// Whether the last cycle followed the one before, and the next will follow the last.
     follows: [bool; 2],
+}
+
+impl<'m> RecordedCycles<'m> {
+    /// Of a set at the start of a mesh cycle of some `steps`; none is recorded yet.
+    pub(crate) fn new(
+        set: &'m mut dyn Marching,
+        planets: usize,
+        first_planet_rad: f64,
+        steps: usize,
+    ) -> Self {
+        let (now, before) = (Record::new(planets), Record::new(planets));
+        Self { set, first_planet_rad, steps, now, before, follows: [false; 2] }
+    }
+
+    /// The last cycle.
+    pub(crate) fn into_record(self) -> Record {
+        self.now
+    }
 }
 
 /// A model that has lost its derivative.
@@ -108,7 +126,7 @@ impl PeriodMap for RecordedCycles<'_> {
 }
 
 /// A periodic solution found by shooting.
-pub(super) struct Shot {
+pub(crate) struct Shot {
     /// The last cycle.
     pub(super) record: Record,
     /// Energy between harmonics over the last two cycles.
@@ -123,16 +141,14 @@ pub(super) struct Shot {
 ///
 /// # Errors
 /// If the spectrum of the record or the multipliers cannot be computed.
-pub(super) fn shot(
+pub(crate) fn shot(
     set: &mut dyn Marching,
     planets: usize,
     first_planet_rad: f64,
     steps: usize,
     settings: &SteadySettings,
 ) -> Result<Result<Shot, ShootingError<ExperimentError>>, ExperimentError> {
-    let (now, before) = (Record::new(planets), Record::new(planets));
-    let mut cycles =
-        RecordedCycles { set, first_planet_rad, steps, now, before, follows: [false; 2] };
+    let mut cycles = RecordedCycles::new(set, planets, first_planet_rad, steps);
     let most_periods = settings.most_cycles.clamp(2, MOST_CYCLES);
     let own = ShootingSettings { tolerance: settings.tolerance, settling: SETTLING, most_periods };
     let found = match shoot(&mut cycles, &own) {

@@ -85,6 +85,23 @@ impl Steady {
     pub fn watched(&self) -> &Record {
         self.further.as_ref().unwrap_or(&self.record)
     }
+
+    /// A periodic motion of which one cycle was recorded.
+    pub(crate) fn periodic(record: Record, multipliers: Vec<Multiplier>, residual: f64) -> Self {
+        Self {
+            method: SteadyMethod::Shooting,
+            why_marched: None,
+            derivatives: 1,
+            multipliers,
+            record,
+            cycles: 1,
+            residual,
+            between: None,
+            rest: None,
+            repeats_after: Some(1),
+            further: None,
+        }
+    }
 }
 
 /// Largest number of mesh cycles after which a motion is tested for repeating.

@@ -1,0 +1,110 @@
+//! A periodic motion on a branch.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::sweep::SteadyState;
+
+/// What a point of a branch is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BranchPointKind {
+    /// Any point.
+    Regular,
+    /// The branch turns back in speed: a multiplier is +1.
+    Fold,
+    /// Stability changes at a multiplier of +1 without a fold: another branch crosses.
+    BranchPoint,
+    /// Stability changes at a multiplier of −1: motions that repeat after two mesh cycles branch off.
+    PeriodDoubling,
+    /// Stability changes at a complex pair of multipliers on the unit circle.
+    NeimarkSacker,
+}
+
+impl BranchPointKind {
+    /// As tables print it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Regular => "regular",
+            Self::Fold => "fold",
+            Self::BranchPoint => "branch_point",
+            Self::PeriodDoubling => "period_doubling",
+            Self::NeimarkSacker => "neimark_sacker",
+        }
+    }
+}
+
+/// A periodic motion, stable or not.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BranchPoint {
+    /// Harmonics of everything, with speed and load.
+    #[serde(flatten)]
+    pub state: SteadyState,
+    /// What the point is.
+    pub kind: BranchPointKind,
+    /// Whether all multipliers are smaller than 1.
+    pub is_stable: bool,
+    /// Floquet multipliers of size 1e-3 and above (real and imaginary part) by descending size.
+    pub multipliers: Vec<[f64; 2]>,
+    /// Deviation from periodicity over the largest peak-to-peak vibration.
+    pub residual: f64,
+    /// Length along the branch from its start, negative before it: 1 is a change of the motion by its peak-to-peak
+    /// vibration at the start, or of the speed by 2 % of the middle of the range.
+    pub arc: f64,
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Lowest force of any mesh, N; 0 where flanks part.
+    pub lowest_force_n: f64,
+    /// Largest part of the time in which a mesh carries no force, 0 to 1.
+    pub contact_loss: f64,
+    /// Part of the time in which backside flanks of any mesh press, 0 to 1; absent for a model without
+    /// backside flanks.
+    pub backside_contact: Option<f64>,
+    /// Distance to grazing: the least of lowest over mean force of the meshes that never part, 0 where one is about to;
+    /// absent if all meshes part.
+    pub grazing_margin: Option<f64>,
+}
+
+impl BranchPoint {
+    /// Size of the largest multiplier; 0 if all perturbations are gone after one cycle.
+    pub fn largest_multiplier(&self) -> f64 {
+        self.multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im))
+    }
+}
+
+/// One row of the tidy table of a branch.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BranchRow {
+    /// Scene.
+    pub scene: String,
+    /// Fidelity or model.
+    pub fidelity: String,
+    /// Torque on the sun, N m.
+    pub sun_torque_nm: f64,
+    /// Speed of the input member, rpm.
+    pub speed_rpm: f64,
+    /// f_m, Hz.
+    pub mesh_frequency_hz: f64,
+    /// Number of the point along the branch, from 0.
+    pub point: usize,
+    /// What the point is.
+    pub kind: String,
+    /// Whether the motion is stable.
+    pub is_stable: bool,
+    /// Size of the largest multiplier.
+    pub largest_multiplier: f64,
+    /// Length along the branch from its start.
+    pub arc: f64,
+    /// Body or mesh.
+    pub body: String,
+    /// Quantity.
+    pub coordinate: String,
+    /// Harmonic; 0 is the mean.
+    pub harmonic: usize,
+    /// Amplitude.
+    pub amplitude: f64,
+    /// Its unit.
+    pub unit: String,
+    /// Phase, rad.
+    pub phase_rad: f64,
+}
