@@ -26,6 +26,8 @@ pub enum Verb {
     Impulse(Impulse),
     /// Steady states over speed: harmonics of every body and mesh; can be interrupted and resumed.
     Sweep(Sweep),
+    /// Periodic motions over speed, stable or not, through the folds at which sweeps jump.
+    Branches(Branches),
     /// Finite-element meshes of a scene: quality, mass properties, flexibility, pictures.
     Mesh(MeshVerb),
     /// Write or explain a scene file.
@@ -107,7 +109,7 @@ pub enum TableFormat {
     Text,
     /// Stable keys for programs; schemas in `schemas/`.
     Json,
-    /// One row per position and tooth pair (`static`), mode (`impulse`) or harmonic (`sweep`).
+    /// One row per position and tooth pair (`static`), mode (`impulse`) or harmonic (`sweep`, `branches`).
     Csv,
 }
 
@@ -288,6 +290,47 @@ pub struct Sweep {
     pub format: TableFormat,
 }
 
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Over {
+    /// Speed of the input member.
+    Speed,
+}
+
+#[derive(Debug, Args)]
+pub struct Branches {
+    /// Scene file of a whole set; its `[dynamics]` gives fidelity and steps per mesh cycle.
+    pub scene: PathBuf,
+    /// What is varied along the branch.
+    #[arg(long, value_enum, default_value_t = Over::Speed)]
+    pub over: Over,
+    /// Least and greatest speed of the input member, rpm.
+    #[arg(long, value_name = "FROM:TO", value_parser = speeds, allow_negative_numbers = true)]
+    pub speeds_rpm: [f64; 2],
+    /// Speed at which the branch begins, with the motion found from rest, rpm; the greatest if left out.
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    pub start: Option<f64>,
+    /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out.
+    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
+    pub sun_torque_nm: Option<f64>,
+    /// Model whose motion is followed.
+    #[arg(long, value_enum, default_value_t = Model::FeContact)]
+    pub model: Model,
+    /// Factor on every damping of the scene.
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = tolerance,
+          allow_negative_numbers = true)]
+    pub damping_factor: f64,
+    /// Most points each way from the start.
+    #[arg(long, value_name = "N", default_value_t = 500,
+          value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    pub max_points: u32,
+    /// Also draw the strongest motions of the sun into this folder (SVG, PNG): stable solid, unstable dashed.
+    #[cfg(feature = "charts")]
+    #[arg(long, value_name = "DIR")]
+    pub figures: Option<PathBuf>,
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    pub format: TableFormat,
+}
+
 #[derive(Debug, Args)]
 pub struct MeshVerb {
     /// Scene file.
@@ -362,6 +405,10 @@ fn two(text: &str) -> Result<[f64; 2], String> {
         [Some(low), Some(high)] => Ok([low, high]),
         _ => Err("two frequencies as LOW:HIGH, in Hz".into()),
     }
+}
+
+fn speeds(text: &str) -> Result<[f64; 2], String> {
+    two(text).map_err(|_| "two speeds as FROM:TO, in rpm".into())
 }
 
 fn range(text: &str) -> Result<[f64; 3], String> {

@@ -19,13 +19,15 @@ pub enum Verb {
     Impulse,
     /// `sweep` of the scene at this fidelity.
     Sweep(Fidelity),
+    /// `branches` of the scene at this fidelity.
+    Branches(Fidelity),
     /// `compare`.
     Compare,
 }
 
 impl Verb {
-    /// Every verb, `sweep` at each fidelity.
-    pub const ALL: [Self; 10] = [
+    /// Every verb, `sweep` and `branches` at each fidelity that they have.
+    pub const ALL: [Self; 13] = [
         Self::Modes,
         Self::Rules,
         Self::Mesh,
@@ -35,10 +37,13 @@ impl Verb {
         Self::Sweep(Fidelity::QuasiStatic),
         Self::Sweep(Fidelity::Modal(1)),
         Self::Sweep(Fidelity::Full),
+        Self::Branches(Fidelity::MeshLaw),
+        Self::Branches(Fidelity::QuasiStatic),
+        Self::Branches(Fidelity::Modal(1)),
         Self::Compare,
     ];
 
-    /// Its name; of `sweep` with the fidelity.
+    /// Its name; of `sweep` and `branches` with the fidelity.
     pub fn name(self) -> &'static str {
         match self {
             Self::Modes => "modes",
@@ -50,6 +55,10 @@ impl Verb {
             Self::Sweep(Fidelity::QuasiStatic) => "sweep (quasi_static)",
             Self::Sweep(Fidelity::Modal(_)) => "sweep (modal)",
             Self::Sweep(Fidelity::Full) => "sweep (full)",
+            Self::Branches(Fidelity::MeshLaw) => "branches (mesh_law)",
+            Self::Branches(Fidelity::QuasiStatic) => "branches (quasi_static)",
+            Self::Branches(Fidelity::Modal(_)) => "branches (modal)",
+            Self::Branches(Fidelity::Full) => "branches (full)",
             Self::Compare => "compare",
         }
     }
@@ -117,7 +126,11 @@ impl Scene {
                     lacks.push(lack("dynamics.fidelity", why));
                 }
             }
-            Verb::Sweep(fidelity) => {
+            Verb::Sweep(fidelity) | Verb::Branches(fidelity) => {
+                if verb == Verb::Branches(Fidelity::Full) {
+                    let why = "\"full\" has no derivative of its time steps: \"mesh_law\", \"quasi_static\" or \"modal\" is needed";
+                    lacks.push(lack("dynamics.fidelity", why));
+                }
                 self.lacks_bodies(&mut lacks);
                 if self.operation.is_none() {
                     lacks.push(lack("operation", "it says which member's speed is swept"));

@@ -46,6 +46,8 @@ fn a_rigid_carrier_needs_a_mass_from_somewhere() {
         assert_eq!(lacks(&bare, Verb::Sweep(fidelity)), ["geometry.carrier"]);
         assert!(lacks(&no_shape, Verb::Sweep(fidelity)).is_empty());
     }
+    // No derivative of the steps of every degree of freedom.
+    assert_eq!(lacks(&no_shape, Verb::Branches(Fidelity::Full)), ["dynamics.fidelity"]);
     assert_eq!(lacks(&bare, Verb::Impulse), ["geometry.carrier"]);
     assert!(lacks(&bare, Verb::Static).is_empty());
     assert_eq!(lacks(&bare, Verb::Modes), ["lumped"]);
@@ -59,7 +61,7 @@ fn torques_need_a_path_and_modes_do_not() {
     let held = [("motion = \"free\"", "motion = \"rotation_held\"")];
     for verb in Verb::ALL {
         let expected: &[&str] = match verb {
-            Verb::Static | Verb::Impulse | Verb::Sweep(_) => &["sun.motion"],
+            Verb::Static | Verb::Impulse | Verb::Sweep(_) | Verb::Branches(_) => &["sun.motion"],
             _ => &[],
         };
         assert_eq!(keys(&held, SceneKind::Planetary, verb), expected, "{}", verb.name());

@@ -1,5 +1,7 @@
 //! One module per verb.
 
+mod branches;
+mod branches_output;
 mod compare;
 mod impulse;
 mod impulse_output;
@@ -83,6 +85,7 @@ fn dispatch(
         Verb::Static(arguments) => statics::run(&arguments, out, err).map(|()| true),
         Verb::Impulse(arguments) => impulse::run(&arguments, out, err).map(|()| true),
         Verb::Sweep(arguments) => sweep::run(&arguments, out, err).map(|()| true),
+        Verb::Branches(arguments) => branches::run(&arguments, out, err).map(|()| true),
         Verb::Mesh(arguments) => mesh::run(&arguments, out, err).map(|()| true),
         Verb::Scene(verb) => scene::run(&verb, out).map(|()| true),
         Verb::Compare(arguments) => compare::run(&arguments, out),

@@ -3,6 +3,7 @@
 use schemars::{JsonSchema, Schema, schema_for};
 use validation::{Comparison, Verdict};
 
+use super::branches_output::BranchesOutput;
 use super::impulse_output::ImpulseOutput;
 use super::mesh::MeshOutput;
 use super::modes::ModesOutput;
@@ -33,6 +34,7 @@ pub fn schemas() -> Vec<(&'static str, Schema)> {
         ("static_set", of::<SetOutput>()),
         ("impulse", of::<ImpulseOutput>()),
         ("sweep", of::<SweepOutput>()),
+        ("branches", of::<BranchesOutput>()),
         ("mesh", of::<MeshOutput>()),
         ("compare", of::<Comparison>()),
     ]

@@ -1,6 +1,7 @@
-//! Figures of the verdict's report, of a mesh cycle at rest, of impulse tests and of speed sweeps, one module
+//! Figures of the verdict's report, of a mesh cycle at rest, of impulse tests, of speed sweeps and of branches, one module
 //! per figure; all are saved as SVG and PNG.
 
+mod branches;
 mod campbell;
 mod cost;
 mod drawing;
@@ -20,6 +21,7 @@ mod torque_map;
 mod torque_peaks;
 mod waterfall;
 
+pub use branches::of_branch;
 pub use campbell::campbell;
 pub use cost::cost;
 pub use drawing::{FigureError, Picture};

@@ -73,6 +73,11 @@ fn every_verb(folder: &Path) -> Vec<(&'static str, bool, Vec<String>)> {
         ("static_approach", true, words(&format!("static {pair} --approach-um 20 --phase 0.7"))),
         ("impulse", true, words(&format!("impulse {plain} --duration-ms 10"))),
         ("impulse", false, words(&format!("impulse {plain} --duration-ms 10 --band"))),
+        (
+            "branches",
+            true,
+            words(&format!("branches {plain} --speeds-rpm 990:1000 --model lumped")),
+        ),
         ("modes", false, words(&format!("modes {set}"))),
         ("modes", false, words(&format!("modes {set} --carrier-speeds-rpm 0,535.7"))),
         ("modes", false, words(&format!("modes {}", scene("lin_parker_1999_3p.toml")))),
@@ -146,6 +151,33 @@ fn a_reader_that_goes_away_is_no_fault() {
         let mut err = Vec::new();
         let code = epicyclic::run(words, &mut Closing(50), &mut err);
         assert_eq!((code, err.len()), (0, 0), "{line}: {}", String::from_utf8_lossy(&err));
+    }
+}
+
+#[test]
+fn a_branch_without_speeds_or_start_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let plain = coarse(folder.path(), "oh58_4p.toml");
+    let full = folder.path().join("full.toml");
+    let text = std::fs::read_to_string(&plain).unwrap() + "[dynamics]\nfidelity = \"full\"\n";
+    std::fs::write(&full, text).unwrap();
+    let full = full.to_str().unwrap();
+    let pair = scene("oh58_sun_planet_pair.toml");
+    for (line, named) in [
+        (format!("branches {plain}"), "--speeds-rpm"),
+        (format!("branches {plain} --speeds-rpm 900"), "FROM:TO"),
+        (format!("branches {plain} --speeds-rpm 900:800"), "--speeds-rpm"),
+        (format!("branches {plain} --speeds-rpm -900:800"), "--speeds-rpm"),
+        (format!("branches {plain} --speeds-rpm 800:900 --start 1000"), "--start"),
+        (format!("branches {plain} --speeds-rpm 800:900 --sun-torque-nm 0"), "--sun-torque-nm"),
+        (format!("branches {plain} --speeds-rpm 800:900 --damping-factor 0"), "--damping-factor"),
+        (format!("branches {plain} --speeds-rpm 800:900 --over torque"), "--over"),
+        (format!("branches {pair} --speeds-rpm 800:900"), "`kind`"),
+        (format!("branches {full} --speeds-rpm 800:900"), "dynamics.fidelity"),
+    ] {
+        let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!((code, out.as_str()), (2, ""), "{line}");
+        assert!(err.contains(named), "{line}: {err}");
     }
 }
 
