@@ -176,7 +176,7 @@ fn it_says_verb_by_verb_what_is_lacking() {
     for words in [
         "verbs that run: rules, mesh, static\n",
         "modes, compare cannot run:\n  `lumped`: ",
-        "sweep (full) cannot run:\n  `geometry.carrier`: ",
+        "branches (modal) cannot run:\n  `geometry.carrier`: ",
     ] {
         assert!(out.contains(words), "{words}: {out}");
     }
