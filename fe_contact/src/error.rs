@@ -158,6 +158,16 @@ pub enum FeError {
         "`dynamics.fidelity` = \"mesh_law\" looks mesh forces up in tables and solves no contact: this needs \"quasi_static\", \"modal\" or \"full\""
     )]
     NoContact,
+    /// An iteration at one position of a mesh cycle did not converge.
+    #[error("{torque_nm} N·m on the sun, position {position:.4} of the mesh cycle: {cause}")]
+    AtPosition {
+        /// Magnitude of the torque on the sun, N·m.
+        torque_nm: f64,
+        /// Position, cycles.
+        position: f64,
+        /// Which iteration ended how.
+        cause: Box<FeError>,
+    },
     /// There is no equilibrium, or a matrix that must be definite is not; the text names the cause.
     #[error("no equilibrium: {0}")]
     NoEquilibrium(String),
@@ -172,4 +182,16 @@ pub enum FeError {
         /// change of displacements or approaches, m.
         residual: f64,
     },
+}
+
+impl FeError {
+    /// The same with the position (cycles) and the torque on the sun (N·m) at which an iteration did not converge.
+    pub(crate) fn at_position(self, torque_nm: f64, position: f64) -> FeError {
+        match self {
+            cause @ FeError::NotConverged { .. } => {
+                FeError::AtPosition { torque_nm, position, cause: Box::new(cause) }
+            }
+            other => other,
+        }
+    }
 }

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use dynamics::continuation::{Evaluation, Family, Judgement};
 use nalgebra::{DMatrix, DVector};
 
-use super::Oscillator;
+use super::oscillator::Oscillator;
 
 /// Periodic motions of an oscillator by shooting: unknowns x, v at phase 0; fourth-order Runge–Kutta in θ = ωt, with
 /// the derivatives by start and frequency integrated along.

@@ -80,14 +80,7 @@ impl Record {
         first_planet_rad: f64,
         steps: usize,
     ) -> Result<(), ExperimentError> {
-        self.samples.clear();
-        self.backside.clear();
-        self.has_backside = set.has_backside();
-        for _ in 0..steps {
-            self.take(set, first_planet_rad);
-            set.step()?;
-        }
-        Ok(())
+        self.march_and(set, first_planet_rad, steps, false)
     }
 
     /// The same with the derivative of the set, which was started, carried along.
@@ -100,13 +93,23 @@ impl Record {
         first_planet_rad: f64,
         steps: usize,
     ) -> Result<(), ExperimentError> {
+        self.march_and(set, first_planet_rad, steps, true)
+    }
+
+    fn march_and(
+        &mut self,
+        set: &mut dyn Marching,
+        first_planet_rad: f64,
+        steps: usize,
+        carries_derivative: bool,
+    ) -> Result<(), ExperimentError> {
         self.samples.clear();
         self.backside.clear();
         self.has_backside = set.has_backside();
         for _ in 0..steps {
             self.take(set, first_planet_rad);
             set.step()?;
-            if let Some(derivative) = set.derivative() {
+            if carries_derivative && let Some(derivative) = set.derivative() {
                 derivative.carry();
             }
         }

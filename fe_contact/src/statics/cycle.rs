@@ -93,7 +93,8 @@ impl<'s> StaticSet<'s> {
         let mut start = self.reference.q.clone();
         let f = self.load_with(torque_nm, further);
         for position in positions {
-            let found = self.equilibrium(&f, position, &tables, Some(&start), &ActiveSet)?;
+            let found = self.equilibrium(&f, position, &tables, Some(&start), &ActiveSet);
+            let found = found.map_err(|cause| cause.at_position(torque_nm, position))?;
             q += &found.q / count as f64;
             for (mean, answer) in forces.iter_mut().zip(&found.answers) {
                 *mean += answer.pair_forces.iter().sum::<f64>() / count as f64;
@@ -213,8 +214,10 @@ impl<'s> StaticSet<'s> {
         let mut states = Vec::with_capacity(positions);
         let mut start = (self.reference.torque_nm > 0.0).then(|| self.reference.q.clone());
         for position in list {
-            let mut found = self.equilibrium(&f, position, &tables, start.as_ref(), solver)?;
-            self.lean_all(&f, &tables, &mut found, solver)?;
+            let at = |cause: FeError| cause.at_position(torque_nm, position);
+            let found = self.equilibrium(&f, position, &tables, start.as_ref(), solver);
+            let mut found = found.map_err(at)?;
+            self.lean_all(&f, &tables, &mut found, solver).map_err(at)?;
             states.push(self.state(&found));
             start = Some(found.q);
         }

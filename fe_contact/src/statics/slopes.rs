@@ -19,7 +19,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::bodies::Bodies;
 use crate::complementarity::ComplementaritySolver;
-use crate::contact::{CellSettings, MeshTable};
+use crate::contact::{CellSettings, MeshAnswer, MeshTable};
 use crate::error::FeError;
 
 /// Slopes of the flanks of one mesh under the forces of its pairs.
@@ -144,7 +144,7 @@ pub(super) fn unrelieved(mesh: &Mesh, phase: f64) -> Result<DisplacedMesh, FeErr
 const MOST: usize = 80;
 
 /// Approach beyond first contact (m) from which the iteration for a loaded pair starts; an
-/// iteration reduces an approach by at most this much and increases it by at most twice as much.
+/// iteration changes an approach by at most this much.
 const STRIDE: f64 = 1e-5;
 
 /// Elastic state of the pairs of one table under given forces.
@@ -185,12 +185,10 @@ fn elastic(
     }
     let mut warm: Option<Vec<bool>> = near.map(|near| near.active.clone());
     let mut residual = f64::INFINITY;
+    let mut now = table.answer(&approaches, &none, solver, warm.as_deref())?;
+    // The approaches are where φ = Pᵀa − W(a) is largest; W is convex, as contact only stiffens.
     for _ in 0..MOST {
-        let now = table.answer(&approaches, &none, solver, warm.as_deref())?;
-        let off = DVector::from_iterator(
-            pairs.len(),
-            pairs.iter().zip(wanted.iter()).map(|((_, j), p)| p - now.pair_forces[*j]),
-        );
+        let off = off_by(&pairs, &wanted, &now);
         residual = off.amax() / wanted.amax().max(f64::MIN_POSITIVE);
         if residual < 1e-10 {
             let mut of_pairs = vec![0.0; forces.len()];
@@ -201,21 +199,59 @@ fn elastic(
             }
             return Ok(Elastic { of_pairs, energy, active: now.active });
         }
-        let tangent = DMatrix::from_fn(pairs.len(), pairs.len(), |a, b| {
-            now.tangent[(pairs[a].1, pairs[b].1)]
-        });
-        let step = tangent.lu().solve(&off);
-        for (i, (_, j)) in pairs.iter().enumerate() {
-            // A pair that lost contact in the iteration is moved back towards contact.
-            let is_lost = now.pair_forces[*j] <= 0.0;
-            approaches[*j] += match &step {
-                Some(step) if !is_lost && step[i].is_finite() => {
-                    step[i].clamp(-STRIDE, 2.0 * STRIDE)
-                }
-                _ => 0.2 * STRIDE,
-            };
-        }
+        let step = ascent(&pairs, &off, &now);
+        let slope = off.dot(&step);
+        let potential = |approaches: &[f64], answer: &MeshAnswer| {
+            let work = pairs.iter().zip(wanted.iter()).map(|((_, j), p)| p * approaches[*j]);
+            work.sum::<f64>() - answer.energy
+        };
+        let before = potential(&approaches, &now);
         warm = now.active.iter().any(|a| *a).then_some(now.active);
+        let mut scale = 1.0;
+        loop {
+            let mut trial = approaches.clone();
+            for (i, (_, j)) in pairs.iter().enumerate() {
+                trial[*j] += scale * step[i];
+            }
+            let there = table.answer(&trial, &none, solver, warm.as_deref())?;
+            let rounding = 1e-12 * (before.abs() + slope.abs());
+            let gain = potential(&trial, &there) - before;
+            if gain >= 1e-4 * scale * slope - rounding || scale < 1e-6 {
+                (approaches, now) = (trial, there);
+                break;
+            }
+            scale *= 0.5;
+        }
     }
     Err(FeError::NotConverged { iterations: MOST, residual })
+}
+
+/// Forces wanted less forces found (N) of the loaded pairs.
+fn off_by(pairs: &[(usize, usize)], wanted: &DVector<f64>, now: &MeshAnswer) -> DVector<f64> {
+    let found = pairs.iter().map(|(_, j)| now.pair_forces[*j]);
+    wanted - DVector::from_iterator(pairs.len(), found)
+}
+
+/// Direction (m) in which Pᵀa − W(a) grows: Newton's for the pairs that touch, towards contact for those that lost it
+/// in the iteration, whose forces do not depend on their approaches.
+fn ascent(pairs: &[(usize, usize)], off: &DVector<f64>, now: &MeshAnswer) -> DVector<f64> {
+    let touching: Vec<usize> =
+        (0..pairs.len()).filter(|i| now.pair_forces[pairs[*i].1] > 0.0).collect();
+    let tangent = DMatrix::from_fn(touching.len(), touching.len(), |a, b| {
+        now.tangent[(pairs[touching[a]].1, pairs[touching[b]].1)]
+    });
+    let unbalanced = DVector::from_fn(touching.len(), |a, _| off[touching[a]]);
+    let mut step = DVector::from_element(pairs.len(), 0.2 * STRIDE);
+    if let Some(factor) = tangent.cholesky() {
+        let newton = factor.solve(&unbalanced);
+        let most = newton.amax().max(STRIDE) / STRIDE;
+        for (a, i) in touching.iter().enumerate() {
+            step[*i] = newton[a] / most;
+        }
+    } else {
+        for i in &touching {
+            step[*i] *= off[*i].signum();
+        }
+    }
+    step
 }

@@ -173,6 +173,38 @@ mod tests {
     use super::super::imperfection::Imperfections;
     use super::*;
 
+    /// Share of a mesh's load that a pair barely carries.
+    const SLIGHT: f64 = 1e-4;
+
+    /// Slopes are found under forces of which one pair carries next to nothing, though Newton's iteration for its
+    /// approach may part it on its way.
+    #[test]
+    fn a_pair_that_carries_next_to_nothing_has_its_slopes() {
+        let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
+        let scene = Scene::from_file(path.as_ref()).unwrap();
+        let bodies = Bodies::new(&scene).unwrap();
+        let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
+        let set = StaticSet::new(&scene, &bodies, sense, none).unwrap().under(339.0).unwrap();
+        let positions: Vec<f64> = (0..140).map(|i| f64::from(i) / 140.0).collect();
+        let tables = set.tables(set.share(339.0), &positions).unwrap();
+        let load = set.share(339.0);
+        for position in positions {
+            for mesh in 0..set.nominal.len() {
+                let phase = set.phase(mesh, position);
+                let between =
+                    &tables.list[tables.place_of(set.reference.meshes[mesh].group, phase)];
+                // Each pair in turn carries next to nothing, the others the same each.
+                for slight in 0..between.pairs.len() {
+                    let others = between.pairs.len() - 1;
+                    let rest = load * (1.0 - SLIGHT) / others as f64;
+                    let mut forces = vec![rest; between.pairs.len()];
+                    forces[slight] = SLIGHT * load;
+                    set.slopes(&tables, mesh, position, &forces).unwrap();
+                }
+            }
+        }
+    }
+
     /// Slopes from the tables of the nearest pairs are those from tables of all pairs; a pair that only the latter
     /// have is found to be missing.
     #[test]

@@ -1,8 +1,6 @@
 //! The state of a set between two mesh cycles as plain numbers, from which it continues with the
 //! same results.
 
-use dynamics::Motion;
-
 use super::set::VibratingSet;
 use crate::error::FeError;
 
@@ -21,43 +19,53 @@ impl VibratingSet<'_> {
     /// # Errors
     /// If the state is that of another kind of set.
     pub fn restore(&mut self, state: &[f64]) -> Result<(), FeError> {
-        let mut expected = 1;
-        self.visit(&mut |list| expected += list.len());
-        if state.len() != expected || !state.iter().all(|x| x.is_finite()) {
-            return Err(FeError::Unfit {
-                key: "state".into(),
-                value: format!("{} numbers", state.len()),
-                allowed: format!("{expected} finite numbers"),
-                why: "a set goes on from a state of the same scene and fidelity only".into(),
-            });
+        let (cycles, rest) = state.split_first().unwrap_or((&f64::NAN, state));
+        let cycles = *cycles;
+        if !cycles.is_finite() {
+            return Err(foreign(state.len(), "finite numbers"));
         }
-        self.clock.cycles = state[0] as i64;
-        let mut rest = &state[1..];
-        self.visit(&mut |list| {
-            let (own, others) = rest.split_at(list.len());
-            list.copy_from_slice(own);
-            rest = others;
-        });
+        replace(rest, &mut |each| self.visit(each))?;
+        self.clock.cycles = cycles as i64;
         Ok(())
     }
 
     fn visit(&mut self, each: &mut dyn FnMut(&mut [f64])) {
-        let mut motion = |motion: &mut Motion| {
-            each(&mut motion.x);
-            each(&mut motion.v);
-            each(&mut motion.a);
-        };
-        motion(&mut self.race_dynamics.motion);
-        motion(&mut self.race_dynamics.bearings.state);
-        motion(self.bodies.carrier.elastic_mut());
-        for gear in &mut self.bodies.gears {
-            motion(gear.vibrating.elastic_mut());
-        }
-        for memory in &mut self.pairs.memory {
-            for list in memory.lists() {
-                each(list);
-            }
-        }
+        self.visit_coordinates(each);
+        let bearings = &mut self.race_dynamics.bearings.state;
+        each(&mut bearings.x);
+        each(&mut bearings.v);
+        each(&mut bearings.a);
         each(self.external.as_mut_slice());
+    }
+}
+
+/// Shows lists of numbers, in a fixed order, to what is given.
+pub(super) type Visit<'v> = dyn FnMut(&mut dyn FnMut(&mut [f64])) + 'v;
+
+/// Replaces the lists that `visit` shows by numbers in the same order.
+///
+/// # Errors
+/// If these are too few or too many, or not finite; nothing is changed then.
+pub(super) fn replace(numbers: &[f64], visit: &mut Visit<'_>) -> Result<(), FeError> {
+    let mut expected = 0;
+    visit(&mut |list| expected += list.len());
+    if numbers.len() != expected || !numbers.iter().all(|x| x.is_finite()) {
+        return Err(foreign(numbers.len(), &format!("{expected} finite numbers")));
+    }
+    let mut rest = numbers;
+    visit(&mut |list| {
+        let (own, others) = rest.split_at(list.len());
+        list.copy_from_slice(own);
+        rest = others;
+    });
+    Ok(())
+}
+
+fn foreign(count: usize, allowed: &str) -> FeError {
+    FeError::Unfit {
+        key: "state".into(),
+        value: format!("{count} numbers"),
+        allowed: allowed.into(),
+        why: "a set goes on from a state of the same scene and fidelity only".into(),
     }
 }

@@ -2,6 +2,7 @@
 
 use nalgebra::DVector;
 
+use super::checkpoint::replace;
 use super::derivative::SetDerivative;
 use super::set::VibratingSet;
 use super::tooth_shift::ToothShift;
@@ -29,22 +30,7 @@ impl VibratingSet<'_> {
     /// # Errors
     /// If they are too few or too many, or not finite.
     pub fn set_coordinates(&mut self, y: &[f64]) -> Result<(), FeError> {
-        let mut count = 0;
-        self.visit_coordinates(&mut |list| count += list.len());
-        if y.len() != count || !y.iter().all(|y| y.is_finite()) {
-            return Err(FeError::Unfit {
-                key: "state".into(),
-                value: format!("{} numbers", y.len()),
-                allowed: format!("{count} finite numbers"),
-                why: "a set goes on from a state of the same scene and fidelity only".into(),
-            });
-        }
-        let mut rest = y;
-        self.visit_coordinates(&mut |list| {
-            let (own, others) = rest.split_at(list.len());
-            list.copy_from_slice(own);
-            rest = others;
-        });
+        replace(y, &mut |each| self.visit_coordinates(each))?;
         let race = self.race_dynamics.motion.clone();
         let carrier = self.bodies.carrier.elastic_mut().clone();
         let bearings = &mut self.race_dynamics.bearings;
@@ -52,7 +38,7 @@ impl VibratingSet<'_> {
         Ok(())
     }
 
-    fn visit_coordinates(&mut self, each: &mut dyn FnMut(&mut [f64])) {
+    pub(super) fn visit_coordinates(&mut self, each: &mut dyn FnMut(&mut [f64])) {
         let mut motion = |motion: &mut dynamics::Motion| {
             each(&mut motion.x);
             each(&mut motion.v);

@@ -1,8 +1,5 @@
 //! Oscillators with one degree of freedom, their forced first harmonic, and their motion by other means than the
 //! library's.
-#![allow(dead_code)]
-
-pub mod shooting;
 
 use std::f64::consts::TAU;
 

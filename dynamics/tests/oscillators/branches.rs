@@ -1,9 +1,9 @@
 //! Branches of oscillators by harmonic balance against closed forms and against shooting by a Runge–Kutta method.
 
-mod oscillators;
-
 use std::f64::consts::{PI, TAU};
 
+use crate::oscillator::{Law, Oscillator, duffing, duffing_fold};
+use crate::shooting::Shooting;
 use dynamics::continuation::{
     Branch, BranchPoint, ContinuationOptions, Deflation, Direction, End, Evaluation, Family,
     JudgedBy, PointKind, Scales, deflated_solution, trace,
@@ -11,8 +11,6 @@ use dynamics::continuation::{
 use dynamics::harmonic_balance::{
     BalanceError, BalanceOptions, FrequencyResponse, HarmonicBalance, LoadResponse,
 };
-use oscillators::shooting::Shooting;
-use oscillators::{Law, Oscillator, duffing, duffing_fold};
 
 fn response(
     problem: &HarmonicBalance<Law>,

@@ -1,13 +1,11 @@
 //! Harmonic balance against closed forms and against marching extrapolated in the step.
 
-mod oscillators;
-
 use std::f64::consts::TAU;
 
+use crate::oscillator::{Law, Oscillator, duffing};
 use dynamics::harmonic_balance::{BalanceError, BalanceOptions, HarmonicBalance};
 use dynamics::{Coupling, CouplingForce, LinearPart, c64};
 use nalgebra::DMatrix;
-use oscillators::{Law, Oscillator, duffing};
 
 /// Largest difference over the largest vibration.
 fn off(found: &dynamics::harmonic_balance::FourierSeries, samples: &[f64]) -> f64 {

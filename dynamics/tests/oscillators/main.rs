@@ -1,0 +1,6 @@
+//! Oscillators by harmonic balance and continuation, against closed forms and other routes.
+
+mod branches;
+mod harmonic_balance;
+mod oscillator;
+mod shooting;
