@@ -7,7 +7,7 @@ use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, InteriorPoin
 use fe_contact::contact::{MeshTable, PairFrame};
 use fe_contact::statics::{Bodies, Imperfections, StaticSet, at_phase, pair_cycle};
 use fe_contact::{Elastic, FeError};
-use gearset::{Facing, Mesh, MeshKind, Scene};
+use gearset::{ElementFamily, Facing, Mesh, MeshKind, Scene};
 
 fn scene(name: &str) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
@@ -68,6 +68,43 @@ fn solvers_agree_on_teeth() {
         let base = solve(&ActiveSet);
         assert!((solve(&Lemke) / base - 1.0).abs() < 1e-10);
         assert!((solve(&InteriorPoint) / base - 1.0).abs() < 1e-7);
+    }
+}
+
+/// The table of docs/fe_contact.md from which the default element was chosen: mean secant stiffness of the sun mesh,
+/// 1e6 N/m, with 7, 14 and 28 elements along a flank.
+#[test]
+fn stiffness_by_element_is_as_tabled() {
+    let table = [
+        (ElementFamily::Linear, [648.6, 631.5, 621.7]),
+        (ElementFamily::Incompatible, [639.3, 628.9, 620.9]),
+        (ElementFamily::Quadratic, [620.6, 618.3, 617.3]),
+    ];
+    for (element, stiffness) in table {
+        for (flank_elements, expected) in [7, 14, 28].into_iter().zip(stiffness) {
+            let mut scene = scene("oh58_4p.toml");
+            scene.fe_contact.element = element;
+            scene.fe_contact.flank_elements = flank_elements;
+            (scene.fe_contact.matching_points, scene.fe_contact.matching_depth) =
+                (1, Some(0.98e-3));
+            let bodies = Bodies::new(&scene).unwrap();
+            let cycle = pair_cycle(&bodies, MeshKind::SunPlanet, FORCE, 40, &ActiveSet).unwrap();
+            let mean = cycle.mean_secant_stiffness() / 1e6;
+            assert!((mean - expected).abs() < 0.051, "{element:?} {flank_elements}: {mean}");
+        }
+    }
+}
+
+/// The Hermite edges of the sun's flanks are within 45 nm of the involute with ten elements along a flank, within 15 nm
+/// with fourteen.
+#[test]
+fn flanks_follow_the_involute() {
+    for (flank_elements, stated) in [(10, 45e-9), (14, 15e-9)] {
+        let mut scene = scene("oh58_4p.toml");
+        scene.fe_contact.flank_elements = flank_elements;
+        let bodies = Bodies::new(&scene).unwrap();
+        let error = bodies.sun.as_ref().unwrap().mesh.flank_error();
+        assert!((error - stated).abs() < 0.5e-9, "{flank_elements}: {error}");
     }
 }
 
