@@ -7,7 +7,7 @@ use crate::error::EigenError;
 use crate::symmetric::symmetric_eigen;
 
 /// A direction belongs to a kind if its share in the kind is at least 1 − `IMPURE`.
-const IMPURE: f64 = 1e-6;
+pub const IMPURE: f64 = 1e-6;
 
 /// Groups of equal eigenvalues in an ascending list: neighbours that differ by no more than
 /// 1e-9 λ + 1e-11 λ_max, the rounding error of eigenvalue routines at an exact multiplicity.

@@ -1,0 +1,7 @@
+//! Methods pushed until they fail: systems with known solutions, on which the borders are drawn.
+
+mod bouncing_bar;
+mod explicit_step;
+
+pub use bouncing_bar::{BarError, Bounces, BouncingBar};
+pub use explicit_step::explicit_limit;
