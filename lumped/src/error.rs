@@ -66,6 +66,28 @@ pub enum LumpedError {
     /// A mesh frequency that gives no time step.
     #[error("mesh frequency {0} Hz: it must be positive and finite")]
     Frequency(f64),
+    /// A planet whose mass would not be positive and finite.
+    #[error(
+        "a planet heavier by a part {part} has no positive mass: allowed is a finite part above -1"
+    )]
+    Heavier {
+        /// The part.
+        part: f64,
+    },
+    /// Teeth are needed for contact ratios and mesh phases, and the scene has none.
+    #[error("[teeth] and [geometry] are absent: contact ratios and mesh phases come from them")]
+    NoTeeth,
+    /// A variation of mesh stiffness that makes it negative.
+    #[error(
+        "a stiffness variation of ε = {epsilon} leaves {lowest} of the mean mesh stiffness at the lowest: ε must be \
+         finite and not negative, and leave a stiffness that is not negative"
+    )]
+    Variation {
+        /// ε.
+        epsilon: f64,
+        /// Lowest stiffness over the mean.
+        lowest: f64,
+    },
     /// The steps in time failed.
     #[error(transparent)]
     Coupled(#[from] dynamics::CoupledError),
