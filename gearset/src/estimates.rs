@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::geometry::Geometry;
 use crate::load_case::LoadCase;
-use crate::scene::{Freedom, Scene, SceneKind, Support, Torsional};
+use crate::scene::{Freedom, PerMesh, Scene, SceneKind, Support, Torsional};
 
 /// One pair of steel teeth in mesh has about E b/13: 14 N/(mm µm) for steel, as in ISO 6336-1.
 const PAIR_STIFFNESS_DIVISOR: f64 = 13.0;
@@ -57,7 +57,11 @@ pub(crate) fn discs(scene: &Scene) -> [Option<Disc>; 4] {
 
 /// Stiffness of one mesh, N/m: as given, or E b/13.
 pub(crate) fn mesh_stiffness(scene: &Scene) -> Option<f64> {
-    let given = scene.lumped.as_ref().map(|l| l.mesh.sun_planet.min(l.mesh.ring_planet));
+    let softer = |mesh: &PerMesh| match scene.kind {
+        SceneKind::Planetary => mesh.sun_planet.min(mesh.ring_planet),
+        SceneKind::GearPair => mesh.sun_planet,
+    };
+    let given = scene.lumped.as_ref().map(|l| softer(&l.mesh));
     given.or_else(|| pair_stiffness(scene))
 }
 

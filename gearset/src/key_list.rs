@@ -13,7 +13,7 @@ const RULES_FE: &str = "rules, mesh, static, impulse, sweep";
 const MOTION: &str = "impulse, sweep";
 const SWEEP: &str = "sweep";
 const LOAD: &str = "static, impulse, sweep";
-const PAIR: &str = "mesh, static";
+const PAIR: &str = "all";
 const NONE: &str = "–";
 
 /// Every key, each table before its keys.
@@ -84,11 +84,13 @@ pub(crate) const KEYS: &[SceneKey] = &[
     SceneKey { path: "material.young_modulus_pa", kind: Number(Bound::Positive), unit: "Pa", presence: Default("206e9"), meaning: "Young's modulus E", needed_by: NONE },
     SceneKey { path: "material.poisson_ratio", kind: Number(Bound::Between(-1.0, 0.5)), unit: "–", presence: Default("0.3"), meaning: "Poisson's ratio ν", needed_by: NONE },
     SceneKey { path: "material.density_kg_per_m3", kind: Number(Bound::Positive), unit: "kg/m³", presence: Default("7850"), meaning: "density ρ", needed_by: NONE },
-    SceneKey { path: "sun", kind: Table, unit: "–", presence: Optional("free, without bearing; never of a gear pair"), meaning: "support of the sun", needed_by: LOAD },
+    SceneKey { path: "sun", kind: Table, unit: "–", presence: Optional("free, without bearing; of a gear pair with a rigid bearing"), meaning: "support of the sun; of gear pairs only with mesh = \"sun_planet\"", needed_by: LOAD },
     SceneKey { path: "sun.motion", kind: Choice(&["free", "rotation_held", "held"]), unit: "–", presence: Default("free"), meaning: "free; rotation held; held in all directions. Torques of static, impulse and sweep need a free sun", needed_by: LOAD },
-    SceneKey { path: "sun.bearing_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "bearing stiffness to ground, equal in all directions; not of a held member", needed_by: NONE },
+    SceneKey { path: "sun.bearing_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "bearing stiffness to ground, equal in all directions; not of a held member; of a gear pair above 0, and left out the bearing is rigid", needed_by: NONE },
     SceneKey { path: "sun.torsional_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "torsional stiffness to ground per u = r·θ; r is the base radius, of the carrier the centre distance; only with motion = \"free\"", needed_by: NONE },
     SceneKey { path: "sun.torsional_nm_per_rad", kind: Number(Bound::NonNegative), unit: "N·m/rad", presence: Optional("torsional_n_per_m holds"), meaning: "the same per θ, instead of torsional_n_per_m", needed_by: NONE },
+    SceneKey { path: "sun.mass_kg", kind: Number(Bound::Positive), unit: "kg", presence: Optional("that of the finite-element mesh; only of a gear pair"), meaning: "mass of the gear with its shaft in the FE/contact model, at \"quasi_static\" and \"mesh_law\"", needed_by: NONE },
+    SceneKey { path: "sun.inertia_kg_m2", kind: Number(Bound::Positive), unit: "kg·m²", presence: Optional("that of the finite-element mesh; only of a gear pair"), meaning: "polar inertia of the gear with its shaft, as mass_kg", needed_by: NONE },
     SceneKey { path: "ring", kind: Table, unit: "–", presence: Optional("free, without bearing; never of a gear pair"), meaning: "support of the ring", needed_by: NONE },
     SceneKey { path: "ring.motion", kind: Choice(&["free", "rotation_held", "held"]), unit: "–", presence: Default("free"), meaning: "free; rotation held; held in all directions. Torques of static, impulse and sweep need it held or a torsional stiffness", needed_by: LOAD },
     SceneKey { path: "ring.bearing_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "bearing stiffness to ground, equal in all directions; not of a held member", needed_by: NONE },
@@ -99,11 +101,16 @@ pub(crate) const KEYS: &[SceneKey] = &[
     SceneKey { path: "carrier.bearing_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "bearing stiffness to ground, equal in all directions; not of a held member", needed_by: NONE },
     SceneKey { path: "carrier.torsional_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "torsional stiffness to ground per u = r·θ; r is the base radius, of the carrier the centre distance; only with motion = \"free\"", needed_by: NONE },
     SceneKey { path: "carrier.torsional_nm_per_rad", kind: Number(Bound::NonNegative), unit: "N·m/rad", presence: Optional("torsional_n_per_m holds"), meaning: "the same per θ, instead of torsional_n_per_m", needed_by: NONE },
-    SceneKey { path: "planet", kind: Table, unit: "–", presence: Optional("always of a planetary set, never of a gear pair"), meaning: "every planet on its pin", needed_by: ALL },
-    SceneKey { path: "planet.bearing_n_per_m", kind: Number(Bound::Positive), unit: "N/m", presence: Required, meaning: "stiffness between planet and carrier, equal in all directions", needed_by: ALL },
-    SceneKey { path: "planet.added_mass_kg", kind: Number(Bound::NonNegative), unit: "kg", presence: Default("0"), meaning: "mass fixed to each planet's race, beside the meshed or lumped mass", needed_by: NONE },
-    SceneKey { path: "planet.added_inertia_kg_m2", kind: Number(Bound::NonNegative), unit: "kg·m²", presence: Default("0"), meaning: "polar inertia of the added mass", needed_by: NONE },
-    SceneKey { path: "lumped", kind: Table, unit: "–", presence: Optional("no lumped model; epicyclic mesh and epicyclic static supply its numbers"), meaning: "parameters of the Lin–Parker model", needed_by: LUMPED },
+    SceneKey { path: "planet", kind: Table, unit: "–", presence: Optional("always of a planetary set; of a gear pair with a rigid bearing"), meaning: "every planet on its pin; of a gear pair with mesh = \"sun_planet\" the support of its planet", needed_by: ALL },
+    SceneKey { path: "planet.bearing_n_per_m", kind: Number(Bound::Positive), unit: "N/m", presence: Optional("always of a planetary set; of a gear pair a rigid bearing"), meaning: "stiffness between planet and carrier, of a gear pair to ground, equal in all directions", needed_by: ALL },
+    SceneKey { path: "planet.added_mass_kg", kind: Number(Bound::NonNegative), unit: "kg", presence: Default("0"), meaning: "mass fixed to each planet's race, beside the meshed or lumped mass; not of a gear pair", needed_by: NONE },
+    SceneKey { path: "planet.added_inertia_kg_m2", kind: Number(Bound::NonNegative), unit: "kg·m²", presence: Default("0"), meaning: "polar inertia of the added mass; not of a gear pair", needed_by: NONE },
+    SceneKey { path: "planet.motion", kind: Choice(&["free", "rotation_held", "held"]), unit: "–", presence: Optional("free; only of a gear pair"), meaning: "as `sun.motion`. A planet of a gear pair that turns freely carries the torque that balances the sun's; one that is held or sprung passes it to its support", needed_by: NONE },
+    SceneKey { path: "planet.torsional_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Optional("0; only of a gear pair"), meaning: "stiffness of the planet's shaft to ground per u = r·θ; only with motion = \"free\"", needed_by: NONE },
+    SceneKey { path: "planet.torsional_nm_per_rad", kind: Number(Bound::NonNegative), unit: "N·m/rad", presence: Optional("torsional_n_per_m holds; only of a gear pair"), meaning: "the same per θ, instead of torsional_n_per_m", needed_by: NONE },
+    SceneKey { path: "planet.mass_kg", kind: Number(Bound::Positive), unit: "kg", presence: Optional("that of the finite-element mesh; only of a gear pair"), meaning: "mass of the gear with its shaft in the FE/contact model, at \"quasi_static\" and \"mesh_law\"", needed_by: NONE },
+    SceneKey { path: "planet.inertia_kg_m2", kind: Number(Bound::Positive), unit: "kg·m²", presence: Optional("that of the finite-element mesh; only of a gear pair"), meaning: "polar inertia of the gear with its shaft, as mass_kg", needed_by: NONE },
+    SceneKey { path: "lumped", kind: Table, unit: "–", presence: Optional("no lumped model; epicyclic mesh and epicyclic static supply its numbers"), meaning: "parameters of the Lin–Parker model, or of the lumped sun–planet pair", needed_by: LUMPED },
     SceneKey { path: "lumped.mass_kg", kind: Table, unit: "–", presence: Optional("of every body that can move"), meaning: "mass of each body", needed_by: LUMPED },
     SceneKey { path: "lumped.mass_kg.carrier", kind: Number(Bound::Positive), unit: "kg", presence: Optional("of every body that can move"), meaning: "mass of the carrier", needed_by: LUMPED },
     SceneKey { path: "lumped.mass_kg.ring", kind: Number(Bound::Positive), unit: "kg", presence: Optional("of every body that can move"), meaning: "mass of the ring", needed_by: LUMPED },
@@ -126,10 +133,10 @@ pub(crate) const KEYS: &[SceneKey] = &[
     SceneKey { path: "lumped.radius_mm.planet", kind: Number(Bound::Positive), unit: "mm", presence: Optional("base radius, of the carrier the centre distance, from [geometry]"), meaning: "r in u = r·θ of the planet", needed_by: NONE },
     SceneKey { path: "lumped.mesh_n_per_m", kind: Table, unit: "–", presence: Required, meaning: "constant mesh stiffnesses along the line of action", needed_by: LUMPED },
     SceneKey { path: "lumped.mesh_n_per_m.sun_planet", kind: Number(Bound::Positive), unit: "N/m", presence: Required, meaning: "stiffness of each sun–planet mesh", needed_by: LUMPED },
-    SceneKey { path: "lumped.mesh_n_per_m.ring_planet", kind: Number(Bound::Positive), unit: "N/m", presence: Required, meaning: "stiffness of each ring–planet mesh", needed_by: LUMPED },
+    SceneKey { path: "lumped.mesh_n_per_m.ring_planet", kind: Number(Bound::Positive), unit: "N/m", presence: Optional("always of a planetary set, never of a gear pair"), meaning: "stiffness of each ring–planet mesh; not of a gear pair", needed_by: LUMPED },
     SceneKey { path: "lumped.pressure_angle_deg", kind: Table, unit: "–", presence: Optional("from [geometry]"), meaning: "operating pressure angles", needed_by: NONE },
     SceneKey { path: "lumped.pressure_angle_deg.sun_planet", kind: Number(Bound::Between(0.0, 60.0)), unit: "°", presence: Required, meaning: "operating pressure angle of the sun–planet meshes", needed_by: NONE },
-    SceneKey { path: "lumped.pressure_angle_deg.ring_planet", kind: Number(Bound::Between(0.0, 60.0)), unit: "°", presence: Required, meaning: "operating pressure angle of the ring–planet meshes", needed_by: NONE },
+    SceneKey { path: "lumped.pressure_angle_deg.ring_planet", kind: Number(Bound::Between(0.0, 60.0)), unit: "°", presence: Optional("always of a planetary set, never of a gear pair"), meaning: "operating pressure angle of the ring–planet meshes; not of a gear pair", needed_by: NONE },
     SceneKey { path: "planet_override", kind: Tables, unit: "–", presence: Optional("all planets alike; with [lumped]"), meaning: "one planet that differs from the others; values left out stay those of the others", needed_by: NONE },
     SceneKey { path: "planet_override.planet", kind: Integer(0, 63), unit: "–", presence: Required, meaning: "index of the planet, from 0 and below planets.count; each once", needed_by: NONE },
     SceneKey { path: "planet_override.mass_kg", kind: Number(Bound::Positive), unit: "kg", presence: Optional("as of the others"), meaning: "mass of this planet in the lumped model", needed_by: NONE },
@@ -142,8 +149,8 @@ pub(crate) const KEYS: &[SceneKey] = &[
     SceneKey { path: "damping.stiffness_proportional_s", kind: Number(Bound::NonNegative), unit: "s", presence: Default("2.21e-6"), meaning: "β", needed_by: NONE },
     SceneKey { path: "damping.bearing_s", kind: Number(Bound::NonNegative), unit: "s", presence: Optional("β"), meaning: "viscous damping of every bearing over its stiffness", needed_by: NONE },
     SceneKey { path: "operation", kind: Table, unit: "–", presence: Optional("no torque, speed or mesh frequency of its own"), meaning: "operating point", needed_by: LOAD },
-    SceneKey { path: "operation.fixed", kind: Choice(&["sun", "ring", "carrier"]), unit: "–", presence: Default("ring"), meaning: "member that stands still", needed_by: NONE },
-    SceneKey { path: "operation.input", kind: Choice(&["sun", "ring", "carrier"]), unit: "–", presence: Default("sun"), meaning: "member whose speed and torque are given; another than fixed", needed_by: NONE },
+    SceneKey { path: "operation.fixed", kind: Choice(&["sun", "ring", "carrier"]), unit: "–", presence: Default("ring"), meaning: "member that stands still; not of a gear pair, whose bearings do", needed_by: NONE },
+    SceneKey { path: "operation.input", kind: Choice(&["sun", "ring", "carrier"]), unit: "–", presence: Default("sun"), meaning: "member whose speed and torque are given; another than fixed; of a gear pair the sun", needed_by: NONE },
     SceneKey { path: "operation.speed_rpm", kind: Number(Bound::Finite), unit: "rpm", presence: Required, meaning: "speed of the input member, counter-clockwise positive", needed_by: SWEEP },
     SceneKey { path: "operation.torque_nm", kind: Number(Bound::Finite), unit: "N·m", presence: Required, meaning: "external torque on the input member, counter-clockwise positive; 0 needs the argument --sun-torque-nm", needed_by: LOAD },
     SceneKey { path: "fe_contact", kind: Table, unit: "–", presence: Optional("its defaults"), meaning: "choices of the FE/contact model", needed_by: NONE },
@@ -160,6 +167,6 @@ pub(crate) const KEYS: &[SceneKey] = &[
     SceneKey { path: "dynamics.fidelity", kind: Choice(&["mesh_law", "quasi_static", "modal", "full"]), unit: "–", presence: Default("quasi_static"), meaning: "inertia of the bodies behind the teeth: quasi_static none of their own, modal that of some modes, full all of it; mesh_law: mesh forces from a table, in sweeps only", needed_by: NONE },
     SceneKey { path: "dynamics.modes", kind: Integer(1, 400), unit: "–", presence: Optional("always, and only, with fidelity = \"modal\""), meaning: "modes of each body with its race held", needed_by: NONE },
     SceneKey { path: "dynamics.steps_per_cycle", kind: Integer(16, 100000), unit: "–", presence: Default("140"), meaning: "time steps in a mesh cycle", needed_by: NONE },
-    SceneKey { path: "dynamics.gyroscopic", kind: Choice(&["off", "on"]), unit: "–", presence: Default("off"), meaning: "gyroscopic and centripetal terms of the turning carrier frame", needed_by: NONE },
+    SceneKey { path: "dynamics.gyroscopic", kind: Choice(&["off", "on"]), unit: "–", presence: Default("off"), meaning: "gyroscopic and centripetal terms of the turning carrier frame; off of a gear pair", needed_by: NONE },
     SceneKey { path: "dynamics.kinematics", kind: Choice(&["about_mean", "exact"]), unit: "–", presence: Default("about_mean"), meaning: "how approaches of tooth pairs follow from displacements in a sweep: exact only about the mean configuration under load, or at every step (slow; quasi_static only)", needed_by: NONE },
 ];

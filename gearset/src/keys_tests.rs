@@ -9,7 +9,7 @@ use crate::scene::SceneKind;
 use crate::template::template;
 
 /// Sets in which every table is given, so that the reader asks for every key.
-const MAXIMAL: [&str; 2] = [
+const MAXIMAL: [&str; 3] = [
     "format = 1\nkind = \"planetary\"\n[planets]\ncount = 3\n[teeth]\n[geometry]\nrack = {}\n\
      sun = { tip_relief = {} }\nplanet = { tip_relief = {} }\nring = { tip_relief = {} }\ncarrier = {}\n\
      thickness = { profile_shift = {} }\n[material]\n[sun]\n[ring]\n[carrier]\n[planet]\n[lumped]\n\
@@ -17,6 +17,8 @@ const MAXIMAL: [&str; 2] = [
      pressure_angle_deg = {}\n[[planet_override]]\n[damping]\n[operation]\n[fe_contact]\n\
      flexibility_factor = {}\n[dynamics]\n",
     "format = 1\nkind = \"planetary\"\n[geometry]\nthickness = {}\n",
+    "format = 1\nkind = \"gear_pair\"\nmesh = \"sun_planet\"\n[geometry]\n[sun]\n[planet]\n[lumped]\n\
+     mesh_n_per_m = {}\npressure_angle_deg = {}\n[operation]\n",
 ];
 
 /// Every key the reader asks for in these scenes, with what it says is allowed.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::gear::Facing;
 use crate::kinematics::{Kinematics, KinematicsError};
-use crate::scene::{Member, Scene};
+use crate::scene::{Member, Operation, Scene, SceneKind};
 
 /// One operating condition of a set. Torques and speeds are counter-clockwise positive.
 ///
@@ -44,6 +44,9 @@ impl LoadCase {
     /// [`KinematicsError`] if the scene has no operating point or no numbers of teeth.
     pub fn of_scene(scene: &Scene) -> Result<Self, KinematicsError> {
         let operation = scene.operation.ok_or(KinematicsError::Absent("[operation]"))?;
+        if scene.kind == SceneKind::GearPair {
+            return Self::of_pair(scene, &operation);
+        }
         let mut at_one = scene.clone();
         if let Some(operation) = &mut at_one.operation {
             operation.speed_rpm = 1.0;
@@ -61,6 +64,18 @@ impl LoadCase {
             mesh_frequency_per_rpm_hz: kinematics.mesh_frequency_hz,
         };
         Ok(case.with_input_torque(operation.torque_nm).at_speed(operation.speed_rpm))
+    }
+
+    /// f_m = Z_s n_s / 60 with the speed n_s of the sun in rpm.
+    fn of_pair(scene: &Scene, operation: &Operation) -> Result<Self, KinematicsError> {
+        let teeth = scene.teeth.and_then(|teeth| teeth.sun);
+        let teeth = teeth.ok_or(KinematicsError::Absent("teeth.sun"))?;
+        let case = Self {
+            held: Some(operation.fixed),
+            mesh_frequency_per_rpm_hz: f64::from(teeth) / 60.0,
+            ..Self::standing(operation.torque_nm)
+        };
+        Ok(case.at_speed(operation.speed_rpm))
     }
 
     /// A standing set under a torque on its sun, N m. No member is named as held: that follows from the
@@ -123,7 +138,6 @@ impl LoadCase {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::SceneKind;
     use crate::template::template;
 
     fn scene() -> Scene {

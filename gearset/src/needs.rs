@@ -83,8 +83,14 @@ impl Scene {
     /// What the scene lacks for a verb, empty if the verb can run.
     pub fn lacks(&self, verb: Verb) -> Vec<Lack> {
         let mut lacks = Vec::new();
-        if self.kind == SceneKind::GearPair && !matches!(verb, Verb::Mesh | Verb::Static) {
+        if self.kind == SceneKind::GearPair && matches!(verb, Verb::Rules | Verb::Compare) {
             lacks.push(lack("kind", "one mesh alone is \"gear_pair\": \"planetary\" is needed"));
+            return lacks;
+        }
+        let is_at_rest = matches!(verb, Verb::Mesh | Verb::Static);
+        if self.pair == Some(MeshKind::RingPlanet) && !is_at_rest {
+            let why = "it is \"ring_planet\": of gear pairs only \"sun_planet\" has modes and motion in time; mesh and static run";
+            lacks.push(lack("mesh", why));
             return lacks;
         }
         match verb {
@@ -121,6 +127,7 @@ impl Scene {
                 self.lacks_torque(&mut lacks);
                 self.lacks_torque_path(&mut lacks);
                 self.lacks_carrier_mass(&mut lacks);
+                self.lacks_elastic_pair(self.dynamics.fidelity, &mut lacks);
                 if self.dynamics.fidelity == Fidelity::MeshLaw {
                     let why = "\"mesh_law\" solves no contact: \"quasi_static\", \"modal\" or \"full\" is needed";
                     lacks.push(lack("dynamics.fidelity", why));
@@ -139,6 +146,7 @@ impl Scene {
                 self.lacks_torque_path(&mut lacks);
                 self.lacks_carrier_mass(&mut lacks);
                 self.lacks_one_flexibility(fidelity, &mut lacks);
+                self.lacks_elastic_pair(fidelity, &mut lacks);
             }
         }
         lacks
@@ -196,6 +204,26 @@ impl Scene {
             let why = "the carrier can move and has no mass: give its shape, or `lumped.mass_kg.carrier`, or \
                        `carrier.motion` = \"held\"";
             lacks.push(lack("geometry.carrier", why));
+        }
+    }
+
+    /// A held or sprung rotation, and inertias of the meshes, of a pair whose gears have elastic states.
+    fn lacks_elastic_pair(&self, fidelity: Fidelity, lacks: &mut Vec<Lack>) {
+        let Some(pair) = &self.supports.pair else { return };
+        if !matches!(fidelity, Fidelity::Modal(_) | Fidelity::Full) {
+            return;
+        }
+        if self.is_free_pair() {
+            let why = "above 0, or `sun.torsional_nm_per_rad`, or `planet.motion` = \"rotation_held\": with both rotations \
+                       free only \"quasi_static\" and \"mesh_law\" compute the relative rotation alone";
+            lacks.push(lack("planet.torsional_nm_per_rad", why));
+        }
+        for (name, given) in [("sun", pair.sun_inertia), ("planet", pair.planet_inertia)] {
+            let keys = [("mass_kg", given.mass_kg), ("inertia_kg_m2", given.inertia_kg_m2)];
+            for (key, _) in keys.into_iter().filter(|(_, value)| value.is_some()) {
+                let why = "nothing: at \"modal\" and \"full\" masses and inertias follow from the finite-element meshes";
+                lacks.push(lack(format!("{name}.{key}"), why));
+            }
         }
     }
 

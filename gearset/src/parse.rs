@@ -119,7 +119,7 @@ fn read(document: &Document<'_>, root: Section<'_, '_>) -> Option<Scene> {
         root.fault("geometry", "[geometry]", "a gear pair is nothing without its tooth geometry");
     }
     let material = material(root.section("material"));
-    let supports = supports(&root, kind);
+    let supports = supports(&root, kind, pair);
     let dynamics = root.section("dynamics").map(dynamics).unwrap_or_default();
     let fe_contact = root.section("fe_contact").map(fe_contact).unwrap_or_default();
     let geometry = shape.as_ref().and_then(GeometryRead::complete);
@@ -128,8 +128,8 @@ fn read(document: &Document<'_>, root: Section<'_, '_>) -> Option<Scene> {
     let resolved = resolved.and_then(Result::ok);
     let lumped = root.section("lumped");
     let lumped = match lumped {
-        Some(_) if is_pair => {
-            root.fault("lumped", "nothing here", "a gear pair has no lumped model");
+        Some(_) if is_pair && pair == Some(MeshKind::RingPlanet) => {
+            root.fault("lumped", "nothing here", "only a sun–planet pair has a lumped model");
             None
         }
         Some(s) => lumped::lumped(s, document, resolved.as_ref(), &supports),
@@ -137,12 +137,16 @@ fn read(document: &Document<'_>, root: Section<'_, '_>) -> Option<Scene> {
     };
     let overrides = overrides(&root, planets.as_ref());
     let damping = damping(root.section("damping"));
-    let operation = root.section("operation").and_then(operation);
+    let operation = root.section("operation").and_then(|s| operation(s, is_pair));
     root.finish();
     if let Some(positions) = &planets {
         check::distinct_positions(document, positions);
     }
     check::factors_need_quasi_static(document, &fe_contact, &dynamics);
+    if is_pair && dynamics.gyroscopic {
+        let why = "the bearings of a gear pair stand still: there is no turning carrier frame";
+        document.fault("dynamics.gyroscopic", "\"off\"", why);
+    }
     if let Some(shape) = &shape {
         check_geometry::shape(document, shape, &teeth, planets.as_ref());
     }
@@ -250,13 +254,24 @@ fn damping(s: Option<Section<'_, '_>>) -> Damping {
     }
 }
 
-fn operation(s: Section<'_, '_>) -> Option<Operation> {
+fn operation(s: Section<'_, '_>, is_pair: bool) -> Option<Operation> {
     let members = [Member::Sun, Member::Ring, Member::Carrier].map(|m| (m.name(), m));
-    let fixed = s.choice("fixed", &members, "the member that stands still");
+    let mut fixed = s.choice("fixed", &members, "the member that stands still");
     let input = s.choice("input", &members, "the member whose speed and torque are given");
+    if is_pair {
+        if s.has("fixed") {
+            let why = "the bearings of a gear pair stand still";
+            s.fault("fixed", "nothing here", why);
+        }
+        if input.is_some_and(|input| input != Member::Sun) {
+            let why = "speed and torque of a gear pair are those of the sun";
+            s.fault("input", "\"sun\", or nothing", why);
+        }
+        fixed = Some(Member::Carrier);
+    }
     let is_known = !s.is_doubtful("fixed") && !s.is_doubtful("input");
     let (fixed, input) = (fixed.unwrap_or(Member::Ring), input.unwrap_or(Member::Sun));
-    if fixed == input && is_known {
+    if fixed == input && is_known && !is_pair {
         s.fault("input", "another member than `fixed`", "a held member cannot be driven");
     }
     let speed = s.required("speed_rpm", Bound::Finite, "speed of the input member");

@@ -31,6 +31,7 @@ pub(crate) fn lumped(
     geometry: Option<&Geometry>,
     supports: &Supports,
 ) -> Option<LumpedInput> {
+    let is_pair = supports.pair.is_some();
     // A geometry at fault would give angles and radii once it is mended.
     let has_geometry = document.may_hold("geometry");
     let mass = per_body(s.section("mass_kg"), "mass", 1.0);
@@ -40,7 +41,7 @@ pub(crate) fn lumped(
     let mesh = s.section("mesh_n_per_m").and_then(|m| {
         let why = "constant stiffness along the line of action";
         let sun_planet = m.required("sun_planet", Bound::Positive, why);
-        let ring_planet = m.required("ring_planet", Bound::Positive, why);
+        let ring_planet = other_mesh(&m, is_pair, Bound::Positive, why);
         m.finish();
         Some(PerMesh { sun_planet: sun_planet?, ring_planet: ring_planet? })
     });
@@ -51,7 +52,7 @@ pub(crate) fn lumped(
     let given_angle = s.section("pressure_angle_deg").and_then(|a| {
         let why = "operating pressure angle";
         let sun_planet = a.required("sun_planet", Bound::Between(0.0, 60.0), why);
-        let ring_planet = a.required("ring_planet", Bound::Between(0.0, 60.0), why);
+        let ring_planet = other_mesh(&a, is_pair, Bound::Between(0.0, 60.0), why);
         a.finish();
         let (sun_planet, ring_planet) = (sun_planet?.to_radians(), ring_planet?.to_radians());
         Some(PerMesh { sun_planet, ring_planet })
@@ -64,7 +65,10 @@ pub(crate) fn lumped(
         let g = geometry?;
         Some(PerMesh {
             sun_planet: g.sun_planet.as_ref()?.pressure_angle,
-            ring_planet: g.ring_planet.as_ref()?.pressure_angle,
+            ring_planet: match &g.ring_planet {
+                _ if is_pair => 0.0,
+                mesh => mesh.as_ref()?.pressure_angle,
+            },
         })
     });
     // u = r·θ with the base radius of a gear and the centre distance for the carrier.
@@ -76,20 +80,20 @@ pub(crate) fn lumped(
         planet: given_radius.planet.or(geometry.map(|g| base(&g.planet))),
     };
     let mut inertia_over_r2 = over_r2;
-    let free = Freedom::Free;
+    let planet = supports.pair.map_or(Freedom::Free, |pair| pair.planet.motion);
     let bodies: [(&str, Freedom, Entry); 4] = [
         ("carrier", supports.carrier.motion, |p| &mut p.carrier),
         ("ring", supports.ring.motion, |p| &mut p.ring),
         ("sun", supports.sun.motion, |p| &mut p.sun),
-        ("planet", free, |p| &mut p.planet),
+        ("planet", planet, |p| &mut p.planet),
     ];
     let (mut own_mass, mut inertia, mut over_r2, mut own_radius) = (mass, inertia, over_r2, radius);
     for (name, motion, of) in bodies {
-        if name != "planet" && document.is_doubtful(&format!("{name}.motion")) {
+        if (name != "planet" || is_pair) && document.is_doubtful(&format!("{name}.motion")) {
             continue; // Whether it can move is not known.
         }
         let is_doubtful = |table: &str| s.is_doubtful(&format!("{table}.{name}"));
-        if motion != Freedom::Held && of(&mut own_mass).is_none() && !is_doubtful("mass_kg") {
+        if motion.translates() && of(&mut own_mass).is_none() && !is_doubtful("mass_kg") {
             let why = format!("the {name} can move");
             fault_in(&s, "mass_kg", name, "a mass above 0", &why);
         }
@@ -101,13 +105,13 @@ pub(crate) fn lumped(
                 let allowed = "one of inertia_kg_m2 and inertia_over_r2_kg";
                 fault_in(&s, "inertia_over_r2_kg", name, allowed, "both say the same");
             }
-            (None, None, _) if motion == free => {
+            (None, None, _) if motion.rotates() => {
                 let allowed = "inertia_kg_m2, or inertia_over_r2_kg";
                 let why = format!("the {name} can rotate");
                 fault_in(&s, "inertia_kg_m2", name, allowed, &why);
             }
             (Some(_), None, None)
-                if motion == free && !has_geometry && !is_doubtful("radius_mm") =>
+                if motion.rotates() && !has_geometry && !is_doubtful("radius_mm") =>
             {
                 let why = format!("I/r² of the {name} needs r, and no [geometry] gives it");
                 fault_in(&s, "radius_mm", name, "a radius above 0", &why);
@@ -134,6 +138,17 @@ pub(crate) fn lumped(
     })
 }
 
+/// A value of the ring–planet meshes; of a gear pair, which has none, 0.
+fn other_mesh(s: &Section<'_, '_>, is_pair: bool, bound: Bound, why: &str) -> Option<f64> {
+    if !is_pair {
+        return s.required("ring_planet", bound, why);
+    }
+    if s.number("ring_planet", bound, why).is_some() {
+        s.fault("ring_planet", "nothing here", "a sun–planet pair has no ring");
+    }
+    Some(0.0)
+}
+
 /// Adds a fault about the key `table.name`.
 fn fault_in(s: &Section<'_, '_>, table: &str, name: &str, allowed: &str, why: &str) {
     s.fault(&format!("{table}.{name}"), allowed, why);
@@ -141,11 +156,12 @@ fn fault_in(s: &Section<'_, '_>, table: &str, name: &str, allowed: &str, why: &s
 
 /// Reports torsional stiffnesses per angle whose body has no radius r: per u = r·θ they are k_θ/r².
 fn torsional_needs_radius(s: &Section<'_, '_>, supports: &Supports, radius: &PerBody) {
-    let members = [
+    let mut members = vec![
         ("carrier", supports.carrier, radius.carrier),
         ("ring", supports.ring, radius.ring),
         ("sun", supports.sun, radius.sun),
     ];
+    members.extend(supports.pair.map(|pair| ("planet", pair.planet, radius.planet)));
     for (name, support, radius) in members {
         if let (Torsional::PerAngle(k), None) = (support.torsional, radius)
             && k > 0.0

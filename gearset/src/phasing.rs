@@ -93,9 +93,7 @@ impl<'g> Phasing<'g> {
     pub fn phases(&self, sun_angle: f64, loaded: Facing) -> MeshPhases {
         let sign = loaded.sign();
         let z_s = f64::from(self.sun.teeth);
-        let mesh = self.sun_planet;
-        let start = z_s * (sign * sun_angle + self.sun.half_angle_base + mesh.pressure_angle) / TAU
-            - mesh.path_start / mesh.base_pitch;
+        let start = self.sun_planet.sun_mesh_phase(sun_angle, loaded);
         let gamma = self.gamma();
         let sun: Vec<f64> =
             (0..self.positions.count()).map(|n| start - sign * self.turns(n, z_s)).collect();
@@ -190,6 +188,17 @@ impl<'g> Phasing<'g> {
             let pitch = self.sun_planet.base_pitch;
             gap - pitch * (gap / pitch).round()
         })
+    }
+}
+
+impl Mesh {
+    /// Phase of a sun–planet mesh whose planet stands at ψ = 0, not reduced, cycles; arguments as those of
+    /// [`Phasing::phases`].
+    pub fn sun_mesh_phase(&self, sun_angle: f64, loaded: Facing) -> f64 {
+        let sun = self.gear(MeshMember::Driver);
+        // φ_s = Z_s (θ_s + β_s + α_s)/2π − s_start/p_b
+        let turned = loaded.sign() * sun_angle + sun.half_angle_base + self.pressure_angle;
+        f64::from(sun.teeth) * turned / TAU - self.path_start / self.base_pitch
     }
 }
 

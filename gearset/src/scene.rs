@@ -12,7 +12,7 @@ use crate::mesh_kind::MeshKind;
 pub enum SceneKind {
     /// A whole planetary set.
     Planetary,
-    /// One mesh alone: sun–planet or ring–planet.
+    /// One mesh alone: sun–planet or ring–planet. The bearings of its gears stand still; the gear called sun drives.
     GearPair,
 }
 
@@ -220,8 +220,22 @@ pub enum Freedom {
     Free,
     /// Translates; its rotation is held.
     RotationHeld,
+    /// Rotates; rigid bearings hold its centre. Only gears of a pair.
+    CentreHeld,
     /// Does not move.
     Held,
+}
+
+impl Freedom {
+    /// Whether the centre can move.
+    pub fn translates(self) -> bool {
+        matches!(self, Self::Free | Self::RotationHeld)
+    }
+
+    /// Whether the member can turn.
+    pub fn rotates(self) -> bool {
+        matches!(self, Self::Free | Self::CentreHeld)
+    }
 }
 
 /// Support of one central member.
@@ -233,6 +247,18 @@ pub struct Support {
     pub bearing: f64,
     /// Torsional stiffness, if any.
     pub torsional: Torsional,
+}
+
+impl Support {
+    /// A member that cannot move.
+    pub const HELD: Self =
+        Self { motion: Freedom::Held, bearing: 0.0, torsional: Torsional::PerLength(0.0) };
+
+    /// Whether nothing holds the rotation: neither a support nor a torsional spring.
+    pub fn turns_freely(&self) -> bool {
+        let (Torsional::PerLength(k) | Torsional::PerAngle(k)) = self.torsional;
+        self.motion.rotates() && k == 0.0
+    }
 }
 
 /// Torsional stiffness of a central member.
@@ -258,6 +284,28 @@ pub struct Supports {
     pub planet_bearing: f64,
     /// Mass and inertia fixed to each planet's rigid race.
     pub planet_added: AddedMass,
+    /// What only a gear pair has; `None` for a set.
+    pub pair: Option<PairSupports>,
+}
+
+/// The gears of a sun–planet pair in time, beyond the sun's support.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PairSupports {
+    /// Support of the planet, to ground.
+    pub planet: Support,
+    /// Mass and inertia of the sun with its shaft.
+    pub sun_inertia: GivenInertia,
+    /// Mass and inertia of the planet with its shaft.
+    pub planet_inertia: GivenInertia,
+}
+
+/// Mass and inertia of a gear with its shaft; what is `None` follows from the finite-element mesh of the gear.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct GivenInertia {
+    /// Mass, kg.
+    pub mass_kg: Option<f64>,
+    /// Polar inertia about the centre, kg m².
+    pub inertia_kg_m2: Option<f64>,
 }
 
 /// A rigid piece fixed to a race, centred on it; none by default.
@@ -310,9 +358,9 @@ pub struct LumpedInput {
     pub inertia_over_r2: PerBody,
     /// Radii r in u = r·θ, m, where known.
     pub radius: PerBody,
-    /// Constant mesh stiffnesses, N/m.
+    /// Constant mesh stiffnesses, N/m; 0 for the ring–planet mesh of a gear pair, which has none.
     pub mesh: PerMesh,
-    /// Operating pressure angles, rad, from the geometry or as given.
+    /// Operating pressure angles, rad, from the geometry or as given; 0 as above.
     pub pressure_angle: PerMesh,
 }
 
@@ -387,11 +435,28 @@ impl Scene {
         Self { title: format!("{}: {what}", self.title), ..self.clone() }
     }
 
+    /// Whether the scene is a gear pair with neither gear's rotation held or sprung. The rotation of both gears
+    /// without relative motion then has no stiffness; in time only the relative rotation is computed.
+    pub fn is_free_pair(&self) -> bool {
+        let pair = self.supports.pair;
+        pair.is_some_and(|pair| pair.planet.turns_freely() && self.supports.sun.turns_freely())
+    }
+
     /// What the scene lacks and what therefore cannot be computed, one entry each.
     pub fn limits(&self) -> Vec<String> {
         let mut limits = Vec::new();
         if self.kind == SceneKind::GearPair {
-            limits.push("one mesh alone: no natural modes, no excitation rules".to_owned());
+            limits.push("one mesh alone: no excitation rules".to_owned());
+            if self.pair == Some(MeshKind::RingPlanet) {
+                limits.push("a ring–planet pair: statics only".to_owned());
+            } else {
+                if self.lumped.is_none() {
+                    limits.push("no [lumped]: no lumped natural modes".to_owned());
+                }
+                if self.operation.is_none() {
+                    limits.push("no [operation]: no speed or mesh frequency of its own".to_owned());
+                }
+            }
         } else {
             if self.teeth.is_none() {
                 limits.push("no [teeth]: no mesh phases, excitation rules or speeds".to_owned());

@@ -1,6 +1,7 @@
 //! Whether a torque on the sun can load the meshes.
 
-use crate::scene::{Freedom, Scene, SceneKind, Support, Torsional};
+use crate::mesh_kind::MeshKind;
+use crate::scene::{Freedom, Scene, SceneKind};
 
 /// The supports let no torque pass from the sun through the meshes.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -19,16 +20,18 @@ pub struct NoTorquePath {
 impl Scene {
     /// Whether a torque on the sun loads the meshes: T_s + T_r + T_c = 0 with every share ≠ 0, so that the sun
     /// must be able to turn and the rotations of ring and carrier must both be held or sprung. Natural modes need
-    /// none of this. A gear pair, loaded by a normal force, always passes.
+    /// none of this. Of a gear pair only the sun must be able to turn: a planet that turns freely carries the torque
+    /// that balances the sun's, and one that is held or sprung passes it to its support.
     ///
     /// # Errors
     /// [`NoTorquePath`] with the first support that lets no torque pass.
     pub fn torque_path(&self) -> Result<(), NoTorquePath> {
-        if self.kind == SceneKind::GearPair {
-            return Ok(());
-        }
         let supports = &self.supports;
-        if supports.sun.motion != Freedom::Free {
+        let is_pair = self.kind == SceneKind::GearPair;
+        if is_pair && self.pair == Some(MeshKind::RingPlanet) {
+            return Ok(()); // Loaded by a normal force only.
+        }
+        if !supports.sun.motion.rotates() {
             return Err(NoTorquePath {
                 key: "sun.motion",
                 value: word(supports.sun.motion),
@@ -38,9 +41,12 @@ impl Scene {
                       members held",
             });
         }
+        if is_pair {
+            return Ok(());
+        }
         for (key, support) in [("ring.motion", supports.ring), ("carrier.motion", supports.carrier)]
         {
-            if turns_freely(&support) {
+            if support.turns_freely() {
                 return Err(NoTorquePath {
                     key,
                     value: word(support.motion),
@@ -54,16 +60,11 @@ impl Scene {
     }
 }
 
-fn turns_freely(support: &Support) -> bool {
-    let stiffness = match support.torsional {
-        Torsional::PerLength(k) | Torsional::PerAngle(k) => k,
-    };
-    support.motion == Freedom::Free && stiffness == 0.0
-}
-
 fn word(motion: Freedom) -> &'static str {
     match motion {
         Freedom::Free => "free",
+        // The centre of a pair's gear is held by leaving its bearing out.
+        Freedom::CentreHeld => "free",
         Freedom::RotationHeld => "rotation_held",
         Freedom::Held => "held",
     }
@@ -72,6 +73,7 @@ fn word(motion: Freedom) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scene::Torsional;
     use crate::template::template;
 
     fn key_at_fault(
@@ -101,7 +103,10 @@ mod tests {
     }
 
     #[test]
-    fn one_mesh_alone_is_loaded_by_a_force() {
-        assert_eq!(Scene::from_toml(template(SceneKind::GearPair)).unwrap().torque_path(), Ok(()));
+    fn of_a_pair_only_the_sun_must_turn() {
+        let mut scene = Scene::from_toml(template(SceneKind::GearPair)).unwrap();
+        assert_eq!(scene.torque_path(), Ok(()));
+        scene.supports.sun.motion = Freedom::Held;
+        assert_eq!(scene.torque_path().unwrap_err().key, "sun.motion");
     }
 }

@@ -4,8 +4,8 @@ use std::fmt;
 
 use crate::estimates::{self, BODIES};
 use crate::geometry::Geometry;
-use crate::kinematics::Kinematics;
-use crate::scene::{Freedom, PerBody, Scene, Support, Torsional};
+use crate::load_case::LoadCase;
+use crate::scene::{PerBody, Scene, Support, Torsional};
 
 /// Mass and inertia of a body against its disc of the same width and density: webs, hubs and shafts change them by
 /// less than this factor, a slip of unit or of size by more.
@@ -252,13 +252,15 @@ fn supports(scene: &Scene, geometry: Option<&Geometry>, found: &mut Found) {
     let s = &scene.supports;
     let base = |gear: Option<&crate::gear::Gear>| gear.map(|g| g.base_radius);
     let lumped = scene.lumped.as_ref().map(|l| l.radius).unwrap_or_default();
-    let members: [(&str, Support, Option<f64>); 3] = [
+    let mut members: Vec<(&str, Support, Option<f64>)> = vec![
         ("sun", s.sun, lumped.sun.or(geometry.and_then(|g| base(g.sun.as_ref())))),
         ("ring", s.ring, lumped.ring.or(geometry.and_then(|g| base(g.ring.as_ref())))),
         ("carrier", s.carrier, lumped.carrier.or(geometry.map(|g| g.center_distance))),
     ];
+    let base_radius = lumped.planet.or(geometry.map(|g| g.planet.base_radius));
+    members.extend(s.pair.map(|pair| ("planet", pair.planet, base_radius)));
     for (name, support, radius) in members {
-        if support.motion != Freedom::Held && soft(support.bearing, SUPPORT_TO_MESH) {
+        if support.motion.translates() && soft(support.bearing, SUPPORT_TO_MESH) {
             found.add(
                 format!("{name}.bearing_n_per_m"),
                 support.bearing,
@@ -266,7 +268,7 @@ fn supports(scene: &Scene, geometry: Option<&Geometry>, found: &mut Found) {
                 likely,
             );
         }
-        if support.motion != Freedom::Free {
+        if !support.motion.rotates() {
             continue;
         }
         let (key, given, unit) = match support.torsional {
@@ -316,8 +318,8 @@ fn damping(scene: &Scene, found: &mut Found) {
 }
 
 fn speed(scene: &Scene, found: &mut Found) {
-    let Ok(kinematics) = Kinematics::from_scene(scene) else { return };
-    let hertz = kinematics.mesh_frequency_hz;
+    let Ok(case) = LoadCase::of_scene(scene) else { return };
+    let hertz = case.mesh_frequency_hz;
     if let Some(operation) = scene.operation
         && hertz > MESH_FREQUENCY_HZ
     {

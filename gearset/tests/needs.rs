@@ -25,7 +25,15 @@ fn one_mesh_alone_is_meshed_and_loaded_by_a_force() {
         let expected: &[&str] = match verb {
             Verb::Mesh => &[],
             Verb::Static => &["operation"],
-            _ => &["kind"],
+            Verb::Modes => &["lumped"],
+            Verb::Rules | Verb::Compare => &["kind"],
+            Verb::Impulse => &["operation.torque_nm"],
+            // A rotation without stiffness, beside elastic states.
+            Verb::Sweep(Fidelity::Modal(_) | Fidelity::Full)
+            | Verb::Branches(Fidelity::Modal(_)) => {
+                &["operation", "operation.torque_nm", "planet.torsional_nm_per_rad"]
+            }
+            Verb::Sweep(_) | Verb::Branches(_) => &["operation", "operation.torque_nm"],
         };
         assert_eq!(keys(&[], SceneKind::GearPair, verb), expected, "{}", verb.name());
     }

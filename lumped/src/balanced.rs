@@ -8,7 +8,7 @@ use dynamics::harmonic_balance::{
 };
 use gearset::{Facing, MeshLaw, Scene};
 
-use crate::coordinates::{Axis, Body, Coordinates};
+use crate::coordinates::Coordinates;
 use crate::error::LumpedError;
 use crate::time_varying::{MeshLawCouplings, Parts};
 
@@ -32,15 +32,11 @@ impl BalancedSet {
         law: MeshLaw,
         torque_nm: f64,
     ) -> Result<Self, LumpedError> {
-        let Parts { coordinates, linear, front, backside, side_loads, radii, .. } =
+        let Parts { coordinates, linear, front, backside, side_loads, by_torque, .. } =
             Parts::new(scene, sense, &law)?;
         let (couplings, steps) = ([front, backside].concat(), law.steps());
         let mut balance = HarmonicBalance::new(&linear, &couplings, MeshLawCouplings(law), steps)?;
-        let mut force = vec![0.0; balance.count()];
-        if let Some(i) = coordinates.of(Body::Sun, Axis::Rotation) {
-            // f_u = T / r
-            force[i] = torque_nm / radii[2];
-        }
+        let force: Vec<f64> = by_torque.iter().map(|f| f * torque_nm).collect();
         balance.set_external(&force)?;
         for (step, load) in side_loads.iter().enumerate() {
             balance.add_in_cycle(step, load)?;

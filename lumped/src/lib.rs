@@ -1,6 +1,6 @@
 //! The Lin–Parker lumped-parameter model of a planetary gear set: rigid bodies, springs at meshes
 //! and bearings, natural modes and their sensitivities; and the same set in time, its mesh springs
-//! replaced by tables of mesh force.
+//! replaced by tables of mesh force. A gear pair is a sun and one planet, each on a bearing of its own.
 //!
 //! Source of the equations: Lin & Parker (1999), J. Vib. Acoust. 121, 316–321. Coordinates and
 //! signs are defined in [`springs`](Spring) and checked in the tests against matrices derived by hand.
@@ -14,6 +14,7 @@ mod kinds;
 mod model;
 mod modes;
 mod parametric;
+mod relative_rotation;
 mod sensitivity;
 mod springs;
 mod time_varying;

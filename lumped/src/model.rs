@@ -8,7 +8,7 @@ use crate::coordinates::{Axis, Body, Coordinates};
 use crate::error::LumpedError;
 use crate::springs::{Rows, Spring, SpringId};
 
-/// The Lin–Parker model: a diagonal mass matrix and a list of springs on the free coordinates.
+/// The Lin–Parker model, or that of a gear pair (six coordinates at most): a diagonal mass matrix and a list of springs on the free coordinates.
 #[derive(Debug, Clone)]
 pub struct LumpedModel {
     /// ψ_n, rad.
@@ -36,11 +36,8 @@ impl LumpedModel {
         }
         let special = |n: usize| scene.overrides.iter().find(|o| o.planet == n);
         let coordinates = Coordinates::new(count, |body, axis| {
-            match (support(scene, body).map(|s| s.motion), axis) {
-                (None | Some(Freedom::Free), _) => true,
-                (Some(Freedom::RotationHeld), axis) => axis != Axis::Rotation,
-                (Some(Freedom::Held), _) => false,
-            }
+            let motion = support(scene, body).map_or(Freedom::Free, |s| s.motion);
+            if axis == Axis::Rotation { motion.rotates() } else { motion.translates() }
         });
         // Added to every planet, also to one with a mass of its own.
         let piece = supports.planet_added;
@@ -72,14 +69,14 @@ impl LumpedModel {
             coordinates.free().iter().map(inertia).collect::<Result<Vec<f64>, LumpedError>>()?;
         let rows = Rows { coordinates: &coordinates };
         let mut springs = Vec::with_capacity(3 * count + 6);
-        for body in [Body::Carrier, Body::Ring, Body::Sun] {
+        for body in [Body::Carrier, Body::Ring, Body::Sun, Body::Planet(0)] {
             let Some(support) = support(scene, body) else { continue };
-            if support.motion != Freedom::Held && support.bearing != 0.0 {
+            if support.motion.translates() && support.bearing != 0.0 {
                 let rows = rows.central_bearing(body);
                 let id = SpringId::CentralBearing(body);
                 springs.push(Spring { id, stiffness: support.bearing, rows });
             }
-            if support.motion == Freedom::Free {
+            if support.motion.rotates() {
                 let stiffness = torsional(&support, of(&lumped.radius, body), body)?;
                 if stiffness != 0.0 {
                     let id = SpringId::Torsional(body);
@@ -95,6 +92,9 @@ impl LumpedModel {
                 stiffness: own(o.and_then(|o| o.sun_mesh), lumped.mesh.sun_planet),
                 rows: vec![rows.sun_mesh(n, psi, angle.sun_planet)],
             });
+            if supports.pair.is_some() {
+                continue; // One mesh alone, whose gears have bearings of their own.
+            }
             springs.push(Spring {
                 id: SpringId::RingMesh(n),
                 stiffness: own(o.and_then(|o| o.ring_mesh), lumped.mesh.ring_planet),
@@ -137,7 +137,8 @@ fn support(scene: &Scene, body: Body) -> Option<Support> {
         Body::Carrier => Some(scene.supports.carrier),
         Body::Ring => Some(scene.supports.ring),
         Body::Sun => Some(scene.supports.sun),
-        Body::Planet(_) => None,
+        // A planet of a set has a bearing on the carrier only.
+        Body::Planet(_) => scene.supports.pair.map(|pair| pair.planet),
     }
 }
 

@@ -22,6 +22,7 @@ use gearset::{Facing, MeshLaw, Scene};
 use crate::coordinates::{Axis, Body, Coordinates};
 use crate::error::LumpedError;
 use crate::model::LumpedModel;
+use crate::relative_rotation::RelativeRotation;
 use crate::springs::{Rows, SpringId};
 
 /// The forces of a mesh law as couplings: front flanks of all meshes, then backside flanks if the law has them.
@@ -46,6 +47,9 @@ pub struct TimeVarying {
     system: Coupled<MeshLawCouplings>,
     /// r in u = r θ of carrier, ring, sun and planet, m.
     radii: [f64; 4],
+    /// Load on the coordinates by a unit torque on the sun, N/(N m).
+    by_torque: Vec<f64>,
+    relative: Option<RelativeRotation>,
     sign: f64,
     planets: usize,
 }
@@ -61,6 +65,12 @@ pub(crate) struct Parts {
     pub(crate) side_loads: Vec<Vec<f64>>,
     /// r in u = r θ of carrier, ring, sun and planet, m.
     pub(crate) radii: [f64; 4],
+    /// Load on the coordinates by a unit torque on the sun, N/(N m); a planet of a pair that turns freely has the
+    /// torque that balances it.
+    pub(crate) by_torque: Vec<f64>,
+    /// How the rotations of a pair whose gears both turn freely are one coordinate; all of the above is then on
+    /// the reduced coordinates.
+    pub(crate) relative: Option<RelativeRotation>,
     sign: f64,
     planets: usize,
 }
@@ -78,8 +88,9 @@ impl Parts {
         let model = LumpedModel::from_scene(&seen)?;
         let lumped = scene.lumped.as_ref().ok_or(LumpedError::NoParameters)?;
         let planets = model.psi.len();
-        if law.meshes() != 2 * planets {
-            return Err(LumpedError::Law { got: law.meshes(), wanted: 2 * planets });
+        let wanted = if scene.supports.pair.is_some() { 1 } else { 2 * planets };
+        if law.meshes() != wanted {
+            return Err(LumpedError::Law { got: law.meshes(), wanted });
         }
         let d = &scene.damping;
         for (key, value) in [
@@ -120,11 +131,40 @@ impl Parts {
             let own = if i == j { d.mass_proportional_per_s * model.mass[i] } else { 0.0 };
             own + d.bearing_s * stiffness[(i, j)]
         });
-        let [front, backside] = couplings(&model, lumped, d.stiffness_proportional_s, law);
-        let linear = LinearPart { mass: model.mass.clone(), damping, stiffness };
-        let side_loads = side_loads(&model, law);
+        let [mut front, mut backside] = couplings(&model, lumped, d.stiffness_proportional_s, law);
+        let mut linear = LinearPart { mass: model.mass.clone(), damping, stiffness };
+        let mut side_loads = side_loads(&model, law);
+        let mut by_torque = vec![0.0; n];
+        let balances = scene.supports.pair.is_some_and(|pair| pair.planet.turns_freely());
+        let loaded = [Some(Body::Sun), balances.then_some(Body::Planet(0))];
+        for i in
+            loaded.into_iter().flatten().filter_map(|b| model.coordinates.of(b, Axis::Rotation))
+        {
+            // f_u = T_s / r_s; of a planet T_p / r_p with T_p = T_s r_p / r_s.
+            by_torque[i] = 1.0 / radii[2];
+        }
+        let relative = RelativeRotation::of(scene, &model);
+        if let Some(relative) = &relative {
+            linear = relative.reduce(&linear);
+            for coupling in front.iter_mut().chain(&mut backside) {
+                *coupling = relative.coupling(coupling);
+            }
+            side_loads.iter_mut().for_each(|load| *load = relative.reduced(load));
+            by_torque = relative.reduced(&by_torque);
+        }
         let coordinates = model.coordinates;
-        Ok(Self { coordinates, linear, front, backside, side_loads, radii, sign, planets })
+        Ok(Self {
+            coordinates,
+            linear,
+            front,
+            backside,
+            side_loads,
+            radii,
+            by_torque,
+            relative,
+            sign,
+            planets,
+        })
     }
 }
 
@@ -148,14 +188,24 @@ impl TimeVarying {
         let steps = law.steps();
         let rule = AverageAcceleration::new(1.0 / (mesh_frequency_hz * steps as f64))
             .map_err(|_| LumpedError::Frequency(mesh_frequency_hz))?;
-        let Parts { coordinates, linear, front, backside, side_loads, radii, sign, planets } =
-            parts;
+        let Parts {
+            coordinates,
+            linear,
+            front,
+            backside,
+            side_loads,
+            radii,
+            by_torque,
+            relative,
+            sign,
+            planets,
+        } = parts;
         let mut system =
             Coupled::new(&linear, &front, &backside, MeshLawCouplings(law), rule, steps)?;
         for (step, load) in side_loads.iter().enumerate() {
             system.add_in_cycle(step, load)?;
         }
-        Ok(Self { coordinates, system, radii, sign, planets })
+        Ok(Self { coordinates, system, radii, by_torque, relative, sign, planets })
     }
 
     /// Puts the set to rest under a torque on the sun (N m, magnitude) at its current step.
@@ -163,11 +213,7 @@ impl TimeVarying {
     /// # Errors
     /// If there is no equilibrium.
     pub fn rest(&mut self, torque_nm: f64) -> Result<(), LumpedError> {
-        let mut force = vec![0.0; self.system.count()];
-        if let Some(i) = self.coordinates.of(Body::Sun, Axis::Rotation) {
-            // f_u = T / r
-            force[i] = torque_nm / self.radii[2];
-        }
+        let force: Vec<f64> = self.by_torque.iter().map(|f| f * torque_nm).collect();
         self.system.set_external(&force)?;
         Ok(self.system.rest()?)
     }
@@ -194,7 +240,11 @@ impl TimeVarying {
 
     fn by_body(&self, x: impl Fn(usize) -> f64) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
         let of = |body: Body, radius: f64| {
-            let value = |axis| self.coordinates.of(body, axis).map_or(0.0, &x);
+            let at = |i: usize| match &self.relative {
+                Some(relative) => relative.full(i, &x),
+                None => x(i),
+            };
+            let value = |axis| self.coordinates.of(body, axis).map_or(0.0, at);
             let [first, second, u] = Axis::ALL.map(value);
             // Mirrored back: y and θ change sign.
             [first, self.sign * second, self.sign * u / radius]
@@ -248,7 +298,8 @@ impl TimeVarying {
     }
 
     /// Displacements, velocities and accelerations of the free coordinates (u = r θ; of the set mirrored to
-    /// counter-clockwise torque), m and s.
+    /// counter-clockwise torque), m and s. Of a pair whose gears both turn freely the sum of their u stands in the
+    /// sun's place, and the planet's falls away.
     pub fn motion(&self) -> Motion {
         self.system.motion()
     }
@@ -313,7 +364,7 @@ fn side_loads(model: &LumpedModel, law: &MeshLaw) -> Vec<Vec<f64>> {
     let planets = model.psi.len();
     let of_step = |step: usize| {
         let mut load = vec![0.0; model.coordinates.count()];
-        for mesh in 0..2 * planets {
+        for mesh in 0..law.meshes() {
             let n = mesh % planets;
             let central = if mesh < planets { Body::Sun } else { Body::Ring };
             let (sin, cos) = model.psi[n].sin_cos();
@@ -353,7 +404,8 @@ fn couplings(
         front.push(coupling(n, rows.sun_mesh(n, psi, angle.sun_planet)));
         backside.push(coupling(n, rows.sun_backside(n, psi, angle.sun_planet)));
     }
-    for (n, &psi) in model.psi.iter().enumerate() {
+    let with_ring = if law.meshes() == 2 * planets { &model.psi[..] } else { &[] };
+    for (n, &psi) in with_ring.iter().enumerate() {
         front.push(coupling(planets + n, rows.ring_mesh(n, psi, angle.ring_planet)));
         backside.push(coupling(planets + n, rows.ring_backside(n, psi, angle.ring_planet)));
     }

@@ -26,6 +26,7 @@ pub(super) fn run(
     let path = &arguments.scene;
     let mut scene = read_scene(path)?;
     let settings = settings(arguments)?;
+    needs::not_ring_pair(path, &scene)?;
     let case = case(arguments, &scene)?;
     let steps = scene.dynamics.steps_per_cycle as usize;
     let harmonics = SteadySettings { harmonics: settings.harmonics, ..SteadySettings::default() };

@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
+use gearset::Verb;
 use validation::{Comparison, ListedMode, ModelMode, compare};
 
 use crate::arguments::{Compare, Format};
@@ -19,6 +20,10 @@ const TYPES: [&str; 4] = ["rotational", "translational", "planet", "mixed"];
 pub(crate) fn run(arguments: &Compare, out: &mut dyn Write) -> Result<bool, CommandError> {
     let listed = read_modes(&arguments.modes)?;
     let scene = read_scene(&arguments.scene)?;
+    let of_kind = scene.lacks(Verb::Compare).into_iter().find(|lack| lack.key == "kind");
+    if let Some(lack) = of_kind {
+        return Err(unfit(&arguments.scene, format!("`{}`: {}", lack.key, lack.why)));
+    }
     let (_, found) = modes::solve(&scene).map_err(|reason| unfit(&arguments.scene, reason))?;
     let model: Vec<ModelMode> = found
         .groups

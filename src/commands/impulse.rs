@@ -9,7 +9,7 @@ use experiments::modal::{
 };
 use fe_contact::FeError;
 use fe_contact::statics::{Bodies, Races};
-use gearset::{Fidelity, LoadCase, Scene, SceneKind, Verb};
+use gearset::{Fidelity, LoadCase, Scene, Verb};
 #[cfg(feature = "charts")]
 use validation::ValidationError;
 
@@ -83,9 +83,7 @@ fn draw(found: &Found, folder: &std::path::Path) -> Result<(), CommandError> {
 /// The preload that is asked for; every argument that can be judged without the set's modes is judged here.
 fn preload(arguments: &Impulse, scene: &Scene) -> Result<Preload, CommandError> {
     let path = &arguments.scene;
-    if scene.kind != SceneKind::Planetary {
-        return Err(unfit(path, "`kind` is \"gear_pair\": a modal test needs \"planetary\""));
-    }
+    needs::not_ring_pair(path, scene)?;
     if scene.geometry.is_none() {
         return Err(unfit(path, "[geometry] is absent: teeth are needed to touch"));
     }

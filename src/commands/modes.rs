@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::io::Write;
 
-use gearset::{Scene, SceneKind};
+use gearset::{Scene, SceneKind, Verb};
 use lumped::{
     LumpedModel, ModeGroup, NaturalModes, Parameter, campbell, kinetic_energy, sensitivities,
     strain_energy,
@@ -83,6 +83,10 @@ pub(crate) fn run(
             "JSON holds the sensitivities anyway: leave it out, or take --format text".into();
         return Err(CommandError::Argument { argument: "--details", reason });
     }
+    if scene.kind == SceneKind::GearPair && !arguments.carrier_speeds_rpm.is_empty() {
+        let reason = "a gear pair has no carrier: leave it out".into();
+        return Err(CommandError::Argument { argument: "--carrier-speeds-rpm", reason });
+    }
     let (model, modes) = solve(&scene).map_err(|reason| unfit(&arguments.scene, reason))?;
     let mut result = describe(&model, &modes);
     if !arguments.carrier_speeds_rpm.is_empty() {
@@ -108,8 +112,8 @@ pub(crate) fn run(
 
 /// Model and modes of a scene, or why there are none.
 pub(crate) fn solve(scene: &Scene) -> Result<(LumpedModel, NaturalModes), String> {
-    if scene.kind != SceneKind::Planetary {
-        return Err("`kind` is \"gear_pair\": natural modes need \"planetary\"".into());
+    if let Some(lack) = scene.lacks(Verb::Modes).first().filter(|lack| lack.key == "mesh") {
+        return Err(format!("`{}`: {}", lack.key, lack.why));
     }
     let model = LumpedModel::from_scene(scene).map_err(|e| e.to_string())?;
     let modes = NaturalModes::of(&model).map_err(|e| e.to_string())?;

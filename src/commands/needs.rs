@@ -25,6 +25,15 @@ pub(super) fn require(
     Err(unfit(path, format!("{} cannot run: {}", verb.name(), each.join("; "))))
 }
 
+/// Refuses a ring–planet pair, of which only statics are computed.
+pub(super) fn not_ring_pair(path: &Path, scene: &Scene) -> Result<(), CommandError> {
+    let lacks = scene.lacks(Verb::Modes);
+    match lacks.iter().find(|lack| lack.key == "mesh") {
+        Some(lack) => Err(unfit(path, format!("`{}`: {}", lack.key, lack.why))),
+        None => Ok(()),
+    }
+}
+
 /// Writes a scene's warnings, one a line.
 ///
 /// # Errors

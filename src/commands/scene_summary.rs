@@ -4,7 +4,8 @@ use fe_contact::FeError;
 use fe_contact::statics::within_memory;
 use gearset::involute::roll_length_at;
 use gearset::{
-    Gear, Geometry, Kinematics, Mesh, MeshKind, Phasing, ReliefShape, Scene, SceneKind, Verb,
+    Gear, Geometry, Kinematics, LoadCase, Mesh, MeshKind, Phasing, ReliefShape, Scene, SceneKind,
+    Verb,
 };
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -113,6 +114,7 @@ impl SceneSummary {
     pub(super) fn of(scene: &Scene) -> Self {
         let geometry = Geometry::from_scene(scene).ok();
         let kinematics = Kinematics::from_scene(scene).ok();
+        let mesh_frequency_hz = LoadCase::of_scene(scene).ok().map(|case| case.mesh_frequency_hz);
         let geometry = geometry.as_ref();
         let phasing = geometry.and_then(|g| Phasing::new(g, &scene.planets));
         let phasing = phasing.filter(|_| scene.kind == SceneKind::Planetary);
@@ -138,7 +140,7 @@ impl SceneSummary {
             gamma: phasing.as_ref().map(Phasing::gamma),
             sun_mesh_phases: phases.as_ref().map(|p| relative(&p.sun_planet, zero)),
             ring_mesh_phases: phases.as_ref().map(|p| relative(&p.ring_planet, zero)),
-            mesh_frequency_hz: kinematics.as_ref().map(|k| k.mesh_frequency_hz),
+            mesh_frequency_hz,
             carrier_speed_rpm: kinematics.as_ref().map(|k| k.speeds_rpm.carrier),
             limits: scene.limits(),
             fe_bodies: admitted.as_ref().ok().map(|found| FeBodiesSummary {

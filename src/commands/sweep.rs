@@ -9,13 +9,14 @@ use experiments::sweep::{
     SteadyMethod, SteadySettings, Sweep, SweepModel, even_speeds, fidelity_name, run as run_plan,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, LoadCase, MOST_SCENE_BYTES, Scene, SceneKind, Verb};
+use gearset::{Fidelity, LoadCase, MOST_SCENE_BYTES, Scene, Verb};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::arguments::{Model, Sweep as SweepArguments, TableFormat};
 use crate::error::CommandError;
 use crate::output;
 
+use super::needs::not_ring_pair;
 use super::statics::{operating_torque, refused};
 use super::sweep_claim::{Claim, PEAKS, PLAN};
 use super::sweep_manifest::Manifest;
@@ -136,9 +137,7 @@ struct Task<'a> {
 impl<'a> Task<'a> {
     fn new(arguments: &'a SweepArguments, scene: &Scene) -> Result<Self, CommandError> {
         let path = &arguments.scene;
-        if scene.kind != SceneKind::Planetary {
-            return Err(unfit(path, "`kind` is \"gear_pair\": a sweep needs \"planetary\""));
-        }
+        not_ring_pair(path, scene)?;
         if scene.geometry.is_none() {
             return Err(unfit(path, "[geometry] is absent: teeth are needed to touch"));
         }

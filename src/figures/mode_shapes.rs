@@ -77,7 +77,10 @@ fn circles(of: &ModalTest<'_>) -> Vec<Circle> {
         hand_from: if body == SUN { 0.0 } else { 0.8 },
         colour,
     };
-    let mut list = vec![central(CARRIER, a, arm_carrier, "#8a949c")];
+    let mut list = Vec::new();
+    if !races.is_pair() {
+        list.push(central(CARRIER, a, arm_carrier, "#8a949c"));
+    }
     if let Some(ring) = &geometry.ring {
         let radius = a * teeth(ring) / (teeth(ring) - planet);
         list.push(central(RING, radius, arm_ring, "#5a6570"));

@@ -9,7 +9,7 @@ fn impulse_refuses_what_makes_no_sense_with_one_message() {
     let (pair, set) = (scene("oh58_sun_planet_pair.toml"), scene("oh58_4p.toml"));
     let lumped = scene("lin_parker_1999_3p.toml");
     let cases: [(&[&str], &str); 16] = [
-        (&["impulse", &pair], "`kind` is \"gear_pair\""),
+        (&["impulse", &pair], "`operation.torque_nm` is absent"),
         (&["impulse", &lumped], "[geometry] is absent"),
         (
             &["impulse", &set, "--sun-torque-nm", "0"],

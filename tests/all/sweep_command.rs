@@ -101,7 +101,13 @@ fn ranges_and_harmonics_that_make_no_sense_are_refused() {
         assert!(text.contains(words), "{arguments:?}: {text}");
     }
     let pair = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/oh58_sun_planet_pair.toml");
-    assert!(refused(&["sweep", pair]).contains("gear_pair"));
+    assert!(refused(&["sweep", pair]).contains("`operation"));
+    let pair = concat!(env!("CARGO_MANIFEST_DIR"), "/scenes/oh58_ring_planet_pair.toml");
+    for verb in ["sweep", "branches", "impulse", "modes"] {
+        let speeds: &[&str] = if verb == "branches" { &["--speeds-rpm", "1000:1100"] } else { &[] };
+        let text = refused(&[&[verb, pair], speeds].concat());
+        assert!(text.contains("`mesh`: it is \"ring_planet\""), "{verb}: {text}");
+    }
 }
 
 #[test]

@@ -12,6 +12,10 @@ use super::system::Coupled;
 /// Iterations after which the search for equilibrium fails.
 const MOST_ITERATIONS: usize = 200;
 
+/// Deflection of a coupling under the load by which its auxiliary stiffness is chosen where no other stiffness gives
+/// a scale, m. It changes the way to the equilibrium, not the equilibrium.
+const LENT_DEFLECTION: f64 = 1e-4;
+
 /// Imbalance over the load that counts as zero.
 const NIL: f64 = 1e-12;
 
@@ -31,7 +35,12 @@ impl<L: CouplingForce> Coupled<L> {
         // Auxiliary stiffness of couplings out of contact, N/m, for iterations in which nothing else holds
         // the system.
         let widest = rows.column_iter().map(|r| r.norm_squared()).fold(0.0, f64::max);
-        let lent = if widest > 0.0 { lambda.amax() / widest } else { 0.0 };
+        let lent = match (widest > 0.0, lambda.amax() > 0.0) {
+            (false, _) => 0.0,
+            (true, true) => lambda.amax() / widest,
+            // Nothing but couplings holds the system (a gear pair on rigid bearings).
+            (true, false) => load.amax() / (widest.sqrt() * LENT_DEFLECTION),
+        };
         let answer = |q: &DVector<f64>| -> (DVector<f64>, DVector<f64>, DVector<f64>) {
             let delta = rows.tr_mul(q) - &offsets;
             let one = |k: usize| self.law.answer(k, step, delta[k]);

@@ -149,6 +149,7 @@ impl YourModel {
             for axis in 0..3 {
                 free[at(body, axis)] = match motion {
                     Freedom::Free => true,
+                    Freedom::CentreHeld => axis == 2,
                     Freedom::RotationHeld => axis < 2,
                     Freedom::Held => false,
                 };

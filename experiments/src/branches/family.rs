@@ -44,8 +44,8 @@ impl<'m> PeriodicFamily<'m> {
     }
 
     fn cycles<'s>(&self, set: &'s mut dyn Marching) -> RecordedCycles<'s> {
-        let (planets, steps) = (self.model.planets(), self.model.steps_per_cycle());
-        RecordedCycles::new(set, planets, self.model.first_planet_rad(), steps)
+        let (shape, steps) = (self.model.shape(), self.model.steps_per_cycle());
+        RecordedCycles::new(set, shape, self.model.first_planet_rad(), steps)
     }
 
     /// Φ(y; n).

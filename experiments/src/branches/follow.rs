@@ -89,17 +89,16 @@ fn first(
 ) -> Result<(Vec<f64>, Scales), ExperimentError> {
     let mut set = model.turning(&model.case().at_speed(settings.start_rpm), size)?;
     let lost = || BranchError::NoDerivative(model.name());
-    let (planets, psi, steps) =
-        (model.planets(), model.first_planet_rad(), model.steps_per_cycle());
+    let (shape, psi, steps) = (model.shape(), model.first_planet_rad(), model.steps_per_cycle());
     let mut last = String::new();
     for cycles in SETTLING {
         set.rest()?;
         if set.derivative().is_none() {
             return Err(lost().into());
         }
-        let mut record = Record::new(planets);
+        let mut record = Record::new(shape);
         record.march(set.as_mut(), psi, steps * cycles)?;
-        match shot(set.as_mut(), planets, psi, steps, &SteadySettings::default())? {
+        match shot(set.as_mut(), shape, psi, steps, &SteadySettings::default())? {
             Ok(_) => {
                 last.clear();
                 break;
@@ -173,7 +172,7 @@ fn point(
         lowest_force_n,
         contact_loss,
         backside_contact,
-        grazing_margin: grazing_margin(&found.record, model.planets()),
+        grazing_margin: grazing_margin(&found.record),
     })
 }
 
@@ -189,14 +188,14 @@ fn kind(all: &[Multiplier]) -> BranchPointKind {
 }
 
 /// Least of lowest over mean force of the meshes that never part.
-fn grazing_margin(record: &Record, planets: usize) -> Option<f64> {
+fn grazing_margin(record: &Record) -> Option<f64> {
     let margin = |mesh: usize| {
         let force = record.mesh_force(mesh);
         let lowest = force.iter().copied().fold(f64::INFINITY, f64::min);
         let mean = force.iter().sum::<f64>() / force.len().max(1) as f64;
         (lowest > 0.0).then(|| lowest / mean)
     };
-    (0..2 * planets).filter_map(margin).min_by(f64::total_cmp)
+    (0..record.shape().meshes()).filter_map(margin).min_by(f64::total_cmp)
 }
 
 /// Leaves out changes of stability that are the folds beside them.

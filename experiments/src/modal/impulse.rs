@@ -62,7 +62,7 @@ pub struct ImpulseTest {
     pub steps: u64,
 }
 
-/// Forces on sun and carrier, a torque on the sun, and pulses on the planets that do not move the central
+/// Forces on sun and carrier (of a gear pair on sun and planet), a torque on the sun, and pulses on the planets that do not move the central
 /// members: radial, tangential and rotational, in every pattern over the planets orthogonal to 1, cos ψ and
 /// sin ψ.
 pub fn pulses(races: &Races) -> Vec<Pulse> {
@@ -81,6 +81,14 @@ pub fn pulses(races: &Races) -> Vec<Pulse> {
     ];
     let mut list: Vec<Pulse> =
         central.into_iter().filter_map(|(name, body, axis)| single(name, body, axis)).collect();
+    if races.is_pair() {
+        // No pattern over one planet leaves the sun at rest.
+        let of_planet = [("planet x force", 0), ("planet y force", 1), ("planet torque", 2)];
+        let is_new = |axis: &usize| *axis < 2 || races.of(PLANETS, 2) != races.of(SUN, 2);
+        let own = of_planet.into_iter().filter(|(_, axis)| is_new(axis));
+        list.extend(own.filter_map(|(name, axis)| single(name, PLANETS, axis)));
+        return list;
+    }
     let n = races.planets();
     let of = |f: &dyn Fn(f64) -> f64| races.psi.iter().map(|psi| f(*psi)).collect::<Vec<f64>>();
     let known = orthonormal_basis(&[of(&|_| 1.0), of(&f64::cos), of(&f64::sin)], &[]);

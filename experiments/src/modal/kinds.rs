@@ -1,7 +1,7 @@
 //! Kinds of modes as subspaces of the races' motion.
 
 use dynamics::{EigenError, orthonormal_basis, split};
-use fe_contact::statics::{CARRIER, PLANETS, Races};
+use fe_contact::statics::{CARRIER, PLANETS, Races, SUN};
 use lumped::ModeType;
 
 /// A mode is of a kind if that kind has more than this share of its kinetic energy. At one position
@@ -35,6 +35,9 @@ impl RaceKinds {
                 }
                 v
             };
+            if races.is_pair() && axis == 2 && races.of(PLANETS, 2) == races.of(SUN, 2) {
+                continue; // One coordinate, which is in the basis already, or none.
+            }
             let alike = orthonormal_basis(&[pattern(&|_| 1.0)], &[]);
             let around = orthonormal_basis(&[pattern(&f64::cos), pattern(&f64::sin)], &alike);
             rotational.extend(alike);

@@ -8,6 +8,7 @@ use gearset::{Fidelity, LoadCase, MeshLaw, Scene};
 use lumped::TimeVarying;
 
 use super::marching::{Effort, Marching};
+use super::set_shape::SetShape;
 use super::shooting::CycleDerivative;
 use super::sweep_model::{SweepModel, fidelity_name, scaling_rate};
 use crate::error::ExperimentError;
@@ -19,10 +20,10 @@ pub const LUMPED: &str = "lumped";
 #[derive(Debug)]
 pub struct MeshLawModel<'s> {
     scene: Scene,
-    loaded: StaticSet<'s>,
+    /// The loaded FE/contact set; `None` for the lumped model.
+    loaded: Option<StaticSet<'s>>,
     case: LoadCase,
     law: MeshLaw,
-    is_lumped: bool,
 }
 
 impl<'s> MeshLawModel<'s> {
@@ -38,24 +39,25 @@ impl<'s> MeshLawModel<'s> {
         let law = mesh_law(&scene, bodies, case.sense(), steps, &settings)?;
         let loaded = StaticSet::new(&scene, bodies, case.sense(), Imperfections::default())?;
         let loaded = loaded.under(case.sun_load_nm())?;
-        Ok(Self { scene, loaded, case, law, is_lumped: false })
+        Ok(Self { scene, loaded: Some(loaded), case, law })
     }
 
     /// The lumped model with the same law in its meshes.
-    pub fn lumped(&self) -> Self {
-        Self {
-            scene: self.scene.clone(),
-            loaded: self.loaded.clone(),
-            case: self.case,
-            law: self.law.clone(),
-            is_lumped: true,
-        }
+    pub fn lumped(&self) -> MeshLawModel<'static> {
+        MeshLawModel::lumped_with(&self.scene, self.case, self.law.clone())
+    }
+}
+
+impl MeshLawModel<'static> {
+    /// The lumped model of a scene with any law in its meshes, under the torque of a load case.
+    pub fn lumped_with(scene: &Scene, case: LoadCase, law: MeshLaw) -> Self {
+        Self { scene: scene.clone(), loaded: None, case, law }
     }
 }
 
 impl SweepModel for MeshLawModel<'_> {
     fn name(&self) -> String {
-        if self.is_lumped { LUMPED.into() } else { fidelity_name(Fidelity::MeshLaw) }
+        if self.loaded.is_none() { LUMPED.into() } else { fidelity_name(Fidelity::MeshLaw) }
     }
 
     fn case(&self) -> LoadCase {
@@ -64,6 +66,10 @@ impl SweepModel for MeshLawModel<'_> {
 
     fn planets(&self) -> usize {
         self.scene.planets.psi_rad.len()
+    }
+
+    fn shape(&self) -> SetShape {
+        SetShape::of(&self.scene)
     }
 
     fn first_planet_rad(&self) -> f64 {
@@ -83,7 +89,7 @@ impl SweepModel for MeshLawModel<'_> {
         let has_backside = law.has_backside();
         let (sense, mesh_frequency) = (self.case.sense(), case.mesh_frequency_hz);
         let rate = scaling_rate(mesh_frequency);
-        if self.is_lumped {
+        let Some(loaded) = &self.loaded else {
             let set = TimeVarying::new(&self.scene, sense, law, mesh_frequency)?;
             return Ok(Box::new(LumpedMarching {
                 set,
@@ -92,8 +98,8 @@ impl SweepModel for MeshLawModel<'_> {
                 rate,
                 derivative: None,
             }));
-        }
-        let set = MeshLawSet::on(&self.scene, &self.loaded, mesh_frequency, law)?;
+        };
+        let set = MeshLawSet::on(&self.scene, loaded, mesh_frequency, law)?;
         Ok(Box::new(LawMarching { set, torque, has_backside, rate, derivative: None }))
     }
 }

@@ -119,25 +119,29 @@ impl SweepPoint {
             }));
             Ok(())
         };
-        for body in 0..record.bodies() {
+        let shape = record.shape();
+        // Carrier and ring of a pair do not exist.
+        let first_body = if shape.has_ring { 0 } else { 2 };
+        for body in first_body..record.bodies() {
             for (axis, coordinate) in Coordinate::DISPLACEMENTS.into_iter().enumerate() {
                 add(Part::body(body), coordinate, 3 * body + axis)?;
             }
         }
-        let planets = record.bodies() - 3;
+        let planets = shape.planets;
         let part = |mesh: usize| match mesh < planets {
             true => Part::SunMesh(mesh),
             false => Part::RingMesh(mesh - planets),
         };
         let first = record.displacements();
-        for mesh in 0..2 * planets {
+        for mesh in 0..shape.meshes() {
             add(part(mesh), Coordinate::Force, first + mesh)?;
         }
         let watched = found.watched();
-        let forces: Vec<Vec<f64>> = (0..2 * planets).map(|mesh| watched.mesh_force(mesh)).collect();
+        let forces: Vec<Vec<f64>> =
+            (0..shape.meshes()).map(|mesh| watched.mesh_force(mesh)).collect();
         let steps = watched.len().max(1) as f64;
         let (mut lowest_force_n, mut contact_loss) = (f64::INFINITY, 0.0f64);
-        for side in 0..2 {
+        for side in 0..shape.meshes().div_ceil(planets.max(1)) {
             let side = side * planets..(side + 1) * planets;
             let total: Vec<f64> = (0..watched.len())
                 .map(|k| forces[side.clone()].iter().map(|f| f[k]).sum())

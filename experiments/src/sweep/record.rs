@@ -3,6 +3,7 @@
 use dynamics::{Window, spectrum};
 
 use super::marching::Marching;
+use super::set_shape::SetShape;
 use crate::error::ExperimentError;
 
 /// Samples by rows: three displacements of every body (carrier, ring, sun, planets: radial,
@@ -11,7 +12,7 @@ use crate::error::ExperimentError;
 /// The first sample is the state the cycle starts from, so that phases count from position 0.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Record {
-    planets: usize,
+    shape: SetShape,
     samples: Vec<f64>,
     forces: Vec<f64>,
     /// Whether backside flanks of each mesh (sun meshes, ring meshes) pressed, by rows as the samples.
@@ -24,14 +25,19 @@ pub struct Record {
 pub(super) const SUN: [usize; 3] = [6, 7, 8];
 
 impl Record {
-    /// An empty record of a set of N planets.
-    pub fn new(planets: usize) -> Self {
-        Self { planets, ..Self::default() }
+    /// An empty record of a set of N planets or of another shape.
+    pub fn new(shape: impl Into<SetShape>) -> Self {
+        Self { shape: shape.into(), ..Self::default() }
+    }
+
+    /// Number of planets, and whether there are ring meshes.
+    pub fn shape(&self) -> SetShape {
+        self.shape
     }
 
     /// Bodies: carrier, ring, sun, planets.
     pub fn bodies(&self) -> usize {
-        3 + self.planets
+        3 + self.shape.planets
     }
 
     /// Channels of displacements.
@@ -41,7 +47,7 @@ impl Record {
 
     /// All channels.
     pub fn width(&self) -> usize {
-        self.displacements() + 2 * self.planets
+        self.displacements() + self.shape.meshes()
     }
 
     /// Samples.
@@ -64,7 +70,7 @@ impl Record {
         }
         self.samples.extend(planets.iter().flatten());
         set.mesh_forces(&mut self.forces);
-        let fronts = 2 * self.planets;
+        let fronts = self.shape.meshes();
         self.samples.extend(self.forces.iter().take(fronts));
         let behind = self.forces.get(fronts..).unwrap_or_default();
         self.backside.extend((0..fronts).map(|mesh| behind.get(mesh).is_some_and(|f| *f > 0.0)));
@@ -123,7 +129,7 @@ impl Record {
         self.has_backside = next.has_backside;
     }
 
-    /// Forces of one mesh (sun meshes 0 to N−1, ring meshes N to 2N−1) in order of time, N.
+    /// Forces of one mesh (sun meshes 0 to N−1, ring meshes N to 2N−1, none of a pair) in order of time, N.
     pub fn mesh_force(&self, mesh: usize) -> Vec<f64> {
         self.channel(self.displacements() + mesh)
     }
@@ -136,7 +142,7 @@ impl Record {
             Some(mesh) => row.get(mesh).copied().unwrap_or(false),
             None => row.contains(&true),
         };
-        let rows = self.backside.chunks(2 * self.planets.max(1));
+        let rows = self.backside.chunks(self.shape.meshes().max(1));
         let share = rows.filter(presses).count() as f64 / self.len().max(1) as f64;
         self.has_backside.then_some(share)
     }

@@ -245,8 +245,7 @@ fn one(
         }
         has_started.set(true);
         let steps = model.steps_per_cycle();
-        let found =
-            steady(set.as_mut(), model.planets(), model.first_planet_rad(), steps, settings)?;
+        let found = steady(set.as_mut(), model.shape(), model.first_planet_rad(), steps, settings)?;
         if let Some(rest) = found.rest {
             rest.check()?;
         }

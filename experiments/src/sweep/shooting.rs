@@ -6,6 +6,7 @@ use dynamics::{
 
 use super::marching::Marching;
 use super::record::Record;
+use super::set_shape::SetShape;
 use super::steady::SteadySettings;
 use crate::error::ExperimentError;
 
@@ -60,11 +61,11 @@ impl<'m> RecordedCycles<'m> {
     /// Of a set at the start of a mesh cycle of some `steps`; none is recorded yet.
     pub(crate) fn new(
         set: &'m mut dyn Marching,
-        planets: usize,
+        shape: SetShape,
         first_planet_rad: f64,
         steps: usize,
     ) -> Self {
-        let (now, before) = (Record::new(planets), Record::new(planets));
+        let (now, before) = (Record::new(shape), Record::new(shape));
         Self { set, first_planet_rad, steps, now, before, follows: [false; 2] }
     }
 
@@ -143,12 +144,12 @@ pub(crate) struct Shot {
 /// If the spectrum of the record or the multipliers cannot be computed.
 pub(crate) fn shot(
     set: &mut dyn Marching,
-    planets: usize,
+    shape: SetShape,
     first_planet_rad: f64,
     steps: usize,
     settings: &SteadySettings,
 ) -> Result<Result<Shot, ShootingError<ExperimentError>>, ExperimentError> {
-    let mut cycles = RecordedCycles::new(set, planets, first_planet_rad, steps);
+    let mut cycles = RecordedCycles::new(set, shape, first_planet_rad, steps);
     let most_periods = settings.most_cycles.clamp(2, MOST_CYCLES);
     let own = ShootingSettings { tolerance: settings.tolerance, settling: SETTLING, most_periods };
     let found = match shoot(&mut cycles, &own) {

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::extrapolation::Extrapolation;
 use super::marching::Marching;
 use super::record::{Record, SUN};
+use super::set_shape::SetShape;
 use super::shooting::{Shot, shot};
 use crate::error::ExperimentError;
 
@@ -125,17 +126,18 @@ const UNSTABLE: f64 = 1e-6;
 /// If a step fails.
 pub fn steady(
     set: &mut dyn Marching,
-    planets: usize,
+    shape: impl Into<SetShape>,
     first_planet_rad: f64,
     steps: usize,
     settings: &SteadySettings,
 ) -> Result<Steady, ExperimentError> {
+    let shape = shape.into();
     let mut why_marched = None;
     let mut shot_cycles = (0, 0);
     if settings.method == SteadyMethod::Shooting {
         if set.derivative().is_some() {
             let start = set.state();
-            match shot(set, planets, first_planet_rad, steps, settings)? {
+            match shot(set, shape, first_planet_rad, steps, settings)? {
                 Ok(found) if found.largest_multiplier() <= 1.0 + UNSTABLE => {
                     return found.into_steady(set, steps, settings);
                 }
@@ -153,7 +155,7 @@ pub fn steady(
             why_marched = Some("the model has no derivative of its steps".into());
         }
     }
-    let mut found = march(set, planets, first_planet_rad, steps, settings)?;
+    let mut found = march(set, shape, first_planet_rad, steps, settings)?;
     found.cycles += shot_cycles.0;
     found.derivatives = shot_cycles.1;
     found.why_marched = why_marched;
@@ -191,12 +193,12 @@ impl Shot {
 /// Marches from the present state to the steady state.
 fn march(
     set: &mut dyn Marching,
-    planets: usize,
+    shape: SetShape,
     first_planet_rad: f64,
     steps: usize,
     settings: &SteadySettings,
 ) -> Result<Steady, ExperimentError> {
-    let (mut now, mut before) = (Record::new(planets), Record::new(planets));
+    let (mut now, mut before) = (Record::new(shape), Record::new(shape));
     let (mut cycles, mut residual) = (0, f64::INFINITY);
     let mut ahead = Extrapolation::default();
     while residual > settings.tolerance && cycles < settings.most_cycles.max(2) {
@@ -212,7 +214,7 @@ fn march(
     let (repeats_after, further) = if residual <= settings.tolerance {
         (Some(1), None)
     } else {
-        let (period, watched) = period(set, planets, first_planet_rad, steps, settings.tolerance)?;
+        let (period, watched) = period(set, shape, first_planet_rad, steps, settings.tolerance)?;
         (period, Some(watched))
     };
     let between = match settings.between_cycles {
@@ -243,18 +245,18 @@ fn march(
 /// [`MOST_REPEATS`] cycles.
 fn period(
     set: &mut dyn Marching,
-    planets: usize,
+    shape: SetShape,
     first_planet_rad: f64,
     steps: usize,
     tolerance: f64,
 ) -> Result<(Option<usize>, Record), ExperimentError> {
     // The first cycle is marched anew: a leap may lie between the last cycle of the march and the next.
-    let mut first = Record::new(planets);
+    let mut first = Record::new(shape);
     first.march(set, first_planet_rad, steps)?;
     let mut watched = first.clone();
     let mut differs = false;
     for cycles in 1..=MOST_REPEATS {
-        let mut next = Record::new(planets);
+        let mut next = Record::new(shape);
         next.march(set, first_planet_rad, steps)?;
         let change = next.change_from(&first);
         if cycles == 1 {

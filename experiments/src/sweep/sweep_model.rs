@@ -7,6 +7,7 @@ use fe_contact::vibration::{Loading, NominalRotation, Prepared, VibratingSet};
 use gearset::{Fidelity, LoadCase, Scene};
 
 use super::marching::{FeMarching, Marching};
+use super::set_shape::SetShape;
 use crate::error::ExperimentError;
 use crate::table_growth::SIZES;
 
@@ -20,6 +21,11 @@ pub trait SweepModel: Sync {
 
     /// Number of planets.
     fn planets(&self) -> usize;
+
+    /// Number of planets, and whether there are ring meshes; by default there are.
+    fn shape(&self) -> SetShape {
+        self.planets().into()
+    }
 
     /// ψ₀: central members' radial direction is towards planet 0, rad.
     fn first_planet_rad(&self) -> f64;
@@ -133,6 +139,10 @@ impl SweepModel for FeModel<'_> {
 
     fn planets(&self) -> usize {
         self.scene.planets.psi_rad.len()
+    }
+
+    fn shape(&self) -> SetShape {
+        SetShape::of(&self.scene)
     }
 
     fn first_planet_rad(&self) -> f64 {

@@ -3,7 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use gearset::{Displacements, Freedom, MeshKind, Scene, Support, Torsional};
+use gearset::{Displacements, Freedom, GivenInertia, MeshKind, Scene, Support, Torsional};
 
 use super::bodies::Bodies;
 use crate::body::CarrierBody;
@@ -18,8 +18,11 @@ pub struct Races {
     pub psi: Vec<f64>,
     /// Index of each of the 3(3 + N) coordinates.
     index: Vec<Option<usize>>,
-    /// Radii r in u = r θ: carrier, ring, sun, planet, m.
+    /// Radii r in u = r θ: carrier, ring, sun, planet, m. Of a pair whose gears both turn freely, r_b over the
+    /// gear's share of the relative rotation (see [`Races::new`]).
     pub radii: [f64; 4],
+    /// Centre distance, base radii of ring, sun and planet, m.
+    pub base_radii: [f64; 4],
     /// Stiffness of all bearings and torsional supports, the carrier's flexibility included, n×n,
     /// N/m.
     pub stiffness: DMatrix<f64>,
@@ -30,6 +33,12 @@ pub struct Races {
     /// Elongations of the planet bearings (radial, tangential of each) on the coordinates, 2N×n, and
     /// their stiffness in series with the carrier, 2N×2N, N/m.
     seats: [DMatrix<f64>; 2],
+    /// Number of planets on the carrier: all of a set, none of a pair.
+    pub(crate) seated: usize,
+    /// Supports to ground: carrier, ring, sun; of a pair its planet, too.
+    supports: Vec<Support>,
+    /// Torque that balances a unit torque on the sun, on a planet of a pair that turns freely; else 0.
+    balancing: f64,
 }
 
 /// Number of the carrier in the order of the bodies.
@@ -44,6 +53,16 @@ pub const PLANETS: usize = 3;
 impl Races {
     /// Races of a set with its bearings.
     ///
+    /// The gears of a pair have supports to ground, and no seats. If both turn freely, the motion without relative
+    /// rotation has no stiffness; balanced torques and a force along the line of action do not excite it
+    /// (m_s u_s = m_p u_p at all times, m = J/r_b²). Both rotations are then one coordinate
+    ///
+    /// ```text
+    /// w = u_s + u_p,   u_s = a_s w,  u_p = a_p w,   a_s = m_p/(m_s + m_p),  a_p = m_s/(m_s + m_p)
+    /// ```
+    ///
+    /// of mass m_s m_p/(m_s + m_p).
+    ///
     /// # Errors
     /// If the carrier's mesh fails or a radius is not known.
     pub fn new(scene: &Scene, bodies: &Bodies, psi: &[f64]) -> Result<Self, FeError> {
@@ -56,22 +75,39 @@ impl Races {
             base(geometry.sun.as_ref()),
             geometry.planet.base_radius,
         ];
-        let supports = [scene.supports.carrier, scene.supports.ring, scene.supports.sun];
+        let pair = scene.supports.pair;
+        let mut supports = vec![scene.supports.carrier, scene.supports.ring, scene.supports.sun];
+        supports.extend(pair.map(|pair| pair.planet));
         let mut next = 0;
-        let mut index = Vec::with_capacity(3 * (3 + n));
+        let mut index: Vec<Option<usize>> = Vec::with_capacity(3 * (3 + n));
         for body in 0..3 + n {
             for axis in 0..3 {
-                let free = match supports.get(body).map(|s| s.motion) {
-                    None | Some(Freedom::Free) => true,
-                    Some(Freedom::RotationHeld) => axis < 2,
-                    Some(Freedom::Held) => false,
-                };
+                let motion = supports.get(body).map_or(Freedom::Free, |s| s.motion);
+                let free = if axis < 2 { motion.translates() } else { motion.rotates() };
+                if scene.is_free_pair() && body == PLANETS && axis == 2 {
+                    index.push(index[3 * SUN + 2]);
+                    continue;
+                }
                 index.push(free.then(|| {
                     next += 1;
                     next - 1
                 }));
             }
         }
+        let base_radii = radii;
+        let mut radii = radii;
+        if let (true, Some(pair), Some(sun)) = (scene.is_free_pair(), pair, &bodies.sun) {
+            let over_r2 = |given: GivenInertia, inertia: f64, radius: f64| {
+                given.inertia_kg_m2.unwrap_or(inertia) / (radius * radius)
+            };
+            let m_s = over_r2(pair.sun_inertia, sun.inertia, radii[SUN]);
+            let m_p = over_r2(pair.planet_inertia, bodies.planet.inertia, radii[PLANETS]);
+            radii[SUN] *= (m_s + m_p) / m_p;
+            radii[PLANETS] *= (m_s + m_p) / m_s;
+        }
+        let balances = pair.is_some_and(|pair| pair.planet.turns_freely());
+        let balancing = if balances { base_radii[PLANETS] / base_radii[SUN] } else { 0.0 };
+        let seated = if pair.is_some() { 0 } else { n };
         let shape = scene.geometry.as_ref().and_then(|g| g.carrier);
         let (a, width) = (geometry.center_distance, geometry.face_width);
         let carrier = shape
@@ -81,15 +117,19 @@ impl Races {
             psi: psi.to_vec(),
             index,
             radii,
+            base_radii,
+            seated,
+            supports,
+            balancing,
             stiffness: DMatrix::zeros(next, next),
             carrier,
             count: next,
             seats: [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)],
         };
-        for body in CARRIER..PLANETS {
+        for body in 0..races.supports.len() {
             for axis in 0..3 {
                 if let Some(i) = races.of(body, axis) {
-                    races.stiffness[(i, i)] += races.support(scene, body, axis);
+                    races.stiffness[(i, i)] += races.support(body, axis);
                 }
             }
         }
@@ -107,13 +147,24 @@ impl Races {
         [0, 1, 2].map(|axis| self.of(body, axis).map_or(0.0, |i| x[i]))
     }
 
-    /// Stiffness of a central member's own support on one of its coordinates, N/m.
-    pub(crate) fn support(&self, scene: &Scene, body: usize, axis: usize) -> f64 {
-        let support = [scene.supports.carrier, scene.supports.ring, scene.supports.sun][body];
+    /// Stiffness of a body's own support to ground on one of its coordinates, N/m; 0 for a planet on a carrier.
+    pub(crate) fn support(&self, body: usize, axis: usize) -> f64 {
+        let Some(support) = self.supports.get(body) else { return 0.0 };
         match axis {
             0 | 1 => support.bearing,
-            _ => torsional(&support, self.radii[body]),
+            _ => torsional(support, self.radii[body]),
         }
+    }
+
+    /// Generalised load of a torque on the sun (N m, magnitude), with the torque on a planet that balances it, N.
+    pub(crate) fn load(&self, torque_nm: f64) -> DVector<f64> {
+        let mut f = DVector::zeros(self.count);
+        for (body, torque) in [(SUN, torque_nm), (PLANETS, self.balancing * torque_nm)] {
+            if let Some(i) = self.of(body, 2) {
+                f[i] += torque / self.radii[body];
+            }
+        }
+        f
     }
 
     /// Body and quantity of a coordinate.
@@ -132,6 +183,11 @@ impl Races {
         (body, names[place % 3])
     }
 
+    /// Whether these are the two gears of a pair, which have supports to ground.
+    pub fn is_pair(&self) -> bool {
+        self.seated == 0
+    }
+
     /// Number of planets.
     pub fn planets(&self) -> usize {
         self.psi.len()
@@ -140,7 +196,7 @@ impl Races {
     /// Planet bearings in series with the carrier: (I/k + A)⁻¹ on the elongations
     /// planet race − rigid seat, radial and tangential.
     fn planet_bearings(&mut self, scene: &Scene) -> Result<(), FeError> {
-        let n = self.planets();
+        let n = self.seated;
         let rigid = || DMatrix::zeros(2 * n, 2 * n);
         let mut compliance = self.carrier.as_ref().map_or_else(rigid, |c| c.flexibility.clone());
         for planet in 0..n {
@@ -197,7 +253,7 @@ impl Races {
     pub(crate) fn carrier_torque(&self, q: &DVector<f64>) -> f64 {
         let [rows, stiffness] = &self.seats;
         let forces = stiffness * (rows * q);
-        (0..self.planets()).map(|n| forces[2 * n + 1] * self.radii[0]).sum()
+        (0..self.seated).map(|n| forces[2 * n + 1] * self.radii[0]).sum()
     }
 
     /// Matrix from the races' coordinates to displacements (x, y, m; θ, rad) of driver and driven

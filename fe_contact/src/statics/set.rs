@@ -3,7 +3,9 @@
 //! Its methods are in the modules `tables` (contact tables), `placing` (meshes at a position),
 //! `equilibrium`, and `cycle` (a mesh cycle, and the loaded configuration).
 
-use gearset::{Facing, MeshKind, MeshStart, Phasing, PlanetPositions, Scene};
+use gearset::{
+    Facing, MeshKind, MeshPhases, MeshStart, Phasing, PlanetPositions, Scene, SceneKind,
+};
 use nalgebra::DVector;
 
 use super::bodies::{Bodies, missing_mesh};
@@ -36,7 +38,7 @@ impl<'s> StaticSet<'s> {
     /// torque.
     ///
     /// # Errors
-    /// If the scene does not describe a whole set, or the carrier cannot be meshed.
+    /// If the scene describes neither a whole set nor a sun–planet pair, or the carrier cannot be meshed.
     pub fn new(
         scene: &Scene,
         bodies: &'s Bodies,
@@ -53,15 +55,24 @@ impl<'s> StaticSet<'s> {
                 .as_ref()
                 .map(|steps| steps.iter().map(|s| if sign < 0.0 { -s } else { *s }).collect()),
         };
-        bodies.joined(MeshKind::SunPlanet)?;
-        let phasing = Phasing::new(&bodies.geometry, &positions)
-            .ok_or_else(|| missing_mesh(MeshKind::RingPlanet))?;
-        let at_zero = phasing.phases(0.0, Facing::CounterClockwise);
+        let (mesh, _) = bodies.joined(MeshKind::SunPlanet)?;
+        let phases = |sun_angle: f64, loaded: Facing| match scene.kind {
+            SceneKind::Planetary => {
+                let phasing = Phasing::new(&bodies.geometry, &positions)
+                    .ok_or_else(|| missing_mesh(MeshKind::RingPlanet))?;
+                Ok(phasing.phases(sun_angle, loaded))
+            }
+            SceneKind::GearPair => {
+                let own = cycle(mesh.sun_mesh_phase(sun_angle, loaded));
+                Ok::<_, FeError>(MeshPhases { sun_planet: vec![own], ring_planet: Vec::new() })
+            }
+        };
+        let at_zero = phases(0.0, Facing::CounterClockwise)?;
         let first = at_zero.sun_planet[0];
         // Phases of the backside flanks at the same sun angle. The planets stand where the front
         // flanks of the sun meshes touch, one sun-mesh backlash ahead of where the backside flanks
         // would touch.
-        let at_backside = phasing.phases(-first * pitch_angle(bodies), Facing::Clockwise);
+        let at_backside = phases(-first * pitch_angle(bodies), Facing::Clockwise)?;
         let normal = bodies.geometry.normal_backlash(MeshKind::SunPlanet).unwrap_or(0.0);
         let ahead = normal / bodies.geometry.base_pitch;
         let list = |kind, front: &[f64], backside: &[f64], ahead: f64| -> Vec<NominalMesh> {
@@ -140,11 +151,12 @@ impl<'s> StaticSet<'s> {
 
     /// Generalised load of a torque on the sun (N m, magnitude) on the races' coordinates, N.
     pub(crate) fn load(&self, torque_nm: f64) -> DVector<f64> {
-        let mut f = DVector::zeros(self.races.count);
-        if let Some(i) = self.races.of(SUN, 2) {
-            f[i] = torque_nm / self.races.radii[2];
-        }
-        f
+        self.races.load(torque_nm)
+    }
+
+    /// Number of meshes: two for each planet of a set, one of a pair.
+    pub(crate) fn meshes(&self) -> usize {
+        self.nominal.len()
     }
 
     /// Angle of the sun's tooth 0 (mirrored frame) at a position, with the sun's rotation at the
@@ -198,7 +210,9 @@ impl<'s> StaticSet<'s> {
         let of = |body: usize, radius: f64| {
             let value = |axis| self.races.of(body, axis).map_or(0.0, |i| q[i]);
             // Mirrored back: y and θ change sign.
-            [value(0), self.sign * value(1), self.sign * value(2) / radius]
+            // A gear that the set does not have has no radius, and does not turn.
+            let turned = if value(2) == 0.0 { 0.0 } else { value(2) / radius };
+            [value(0), self.sign * value(1), self.sign * turned]
         };
         let planets = (0..self.races.planets()).map(|n| of(PLANETS + n, radii[3])).collect();
         ([0, 1, 2].map(|body| of(body, radii[body])), planets)

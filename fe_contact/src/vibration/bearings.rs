@@ -55,7 +55,7 @@ impl Bearings {
         carrier: &dyn VibratingBody,
         ratio: f64,
     ) -> Self {
-        let n = races.planets();
+        let n = races.seated;
         let mut rigid = DMatrix::zeros(2 * n, races.count);
         for planet in 0..n {
             let (sin, cos) = races.psi[planet].sin_cos();

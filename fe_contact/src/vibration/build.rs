@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use dynamics::AverageAcceleration;
-use gearset::{Fidelity, Freedom, MeshKind, Scene};
+use gearset::{Fidelity, Freedom, GivenInertia, MeshKind, Scene, SceneKind};
 use nalgebra::DMatrix;
 
 use super::body::{Port, VibratingBody};
@@ -60,11 +60,18 @@ pub(super) fn gears<'s>(
     let races = &statics.races;
     let angles = start_angles(statics, tables, start)?;
     let missing = |key: &str| FeError::Missing { key: key.into(), why: "a set needs it" };
-    let ring = bodies.ring.as_ref().ok_or_else(|| missing("geometry.ring"))?;
     let sun = bodies.sun.as_ref().ok_or_else(|| missing("geometry.sun"))?;
+    // A pair has no ring: a gear without mass and mesh has its number, so that bodies are numbered as in a set.
+    let ring = match scene.kind {
+        SceneKind::Planetary => bodies.ring.as_ref().ok_or_else(|| missing("geometry.ring"))?,
+        SceneKind::GearPair => &bodies.planet,
+    };
     let kinds = [(RING, ring), (SUN, sun), (PLANETS, &bodies.planet)];
     let mut gears = Vec::with_capacity(2 + races.planets());
     for (kind, body) in kinds {
+        let is_absent = kind == RING && scene.kind == SceneKind::GearPair;
+        let absent = Settings { fidelity: Fidelity::QuasiStatic, ..*settings };
+        let settings = if is_absent { &absent } else { settings };
         let unknown_of = Arc::new(number_unknowns(&body.mesh));
         let mass = body_mass(statics, scene, kind)?;
         let radius = races.radii[kind];
@@ -124,7 +131,7 @@ pub(super) fn carrier(
     settings: &Settings,
 ) -> Result<SeatedCarrier, FeError> {
     let races = &statics.races;
-    let n = races.planets();
+    let n = races.seated;
     let mass = body_mass(statics, scene, CARRIER)?;
     let Some(body) = races.carrier.as_ref().filter(|b| !b.is_rigid) else {
         let rigid = Settings { fidelity: Fidelity::QuasiStatic, ..*settings };
@@ -149,8 +156,12 @@ pub(super) fn body_mass(
 ) -> Result<[f64; 3], FeError> {
     let races = &statics.races;
     let bodies = statics.bodies;
-    let of_gear =
-        |gear: &GearBody, radius: f64| [gear.mass, gear.mass, gear.inertia / (radius * radius)];
+    let of_gear = |gear: &GearBody, radius: f64, given: GivenInertia| {
+        let mass = given.mass_kg.unwrap_or(gear.mass);
+        [mass, mass, given.inertia_kg_m2.unwrap_or(gear.inertia) / (radius * radius)]
+    };
+    let pair = scene.supports.pair;
+    let none = GivenInertia::default();
     let missing = |key: &str| FeError::Missing { key: key.into(), why: "its motion needs a mass" };
     match body {
         CARRIER => {
@@ -166,17 +177,19 @@ pub(super) fn body_mass(
             let turning = lumped.and_then(|l| l.inertia_over_r2.carrier).unwrap_or(0.0);
             Ok([mass, mass, turning])
         }
+        RING if pair.is_some() => Ok([0.0; 3]),
         RING => {
             let ring = bodies.ring.as_ref().ok_or_else(|| missing("geometry.ring"))?;
-            Ok(of_gear(ring, races.radii[1]))
+            Ok(of_gear(ring, races.radii[1], none))
         }
         SUN => {
             let sun = bodies.sun.as_ref().ok_or_else(|| missing("geometry.sun"))?;
-            Ok(of_gear(sun, races.radii[2]))
+            Ok(of_gear(sun, races.radii[2], pair.map_or(none, |p| p.sun_inertia)))
         }
         _ => {
             let added = scene.supports.planet_added;
-            let [mass, _, turning] = of_gear(&bodies.planet, races.radii[3]);
+            let given = pair.map_or(none, |p| p.planet_inertia);
+            let [mass, _, turning] = of_gear(&bodies.planet, races.radii[3], given);
             let mass = mass + added.mass_kg;
             Ok([mass, mass, turning + added.inertia_kg_m2 / races.radii[3].powi(2)])
         }

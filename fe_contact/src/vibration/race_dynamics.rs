@@ -50,8 +50,7 @@ impl RaceDynamics {
     ) -> Result<Self, FeError> {
         let races = &statics.races;
         let (ports, flexibility) = seats;
-        let of_bearings: Vec<f64> =
-            (0..races.planets()).map(|n| planet_bearing(scene, n)).collect();
+        let of_bearings: Vec<f64> = (0..races.seated).map(|n| planet_bearing(scene, n)).collect();
         let ratio = scene.damping.bearing_s;
         let carrier = bodies.carrier.as_ref();
         let bearings = Bearings::new(races, &of_bearings, ports, &flexibility, carrier, ratio);
@@ -68,10 +67,8 @@ impl RaceDynamics {
             let own = build::body_mass(statics, scene, body)?;
             for (axis, m) in own.into_iter().enumerate() {
                 if let Some(i) = races.of(body, axis) {
-                    mass[i] = m;
-                    if body < PLANETS {
-                        supports[i] = races.support(scene, body, axis);
-                    }
+                    mass[i] += m;
+                    supports[i] += races.support(body, axis);
                 }
             }
         }

@@ -32,7 +32,7 @@ impl VibratingSet<'_> {
             found.level = level.clone();
             self.statics.settle_bent(&f, &mut found, solver)?;
         }
-        let has_backside = found.meshes.len() > 2 * self.statics.races.planets();
+        let has_backside = found.meshes.len() > self.statics.meshes();
         let (mut q, mut p) = (found.q.clone(), all(&found.answers));
         let mut frame = self.take_frame(has_backside)?;
         // Bodies with elastic states couple their meshes; the compliance of the cells covers one

@@ -122,7 +122,7 @@ impl<'s> VibratingSet<'s> {
         };
         let seats = (ports, flexibility);
         let race_dynamics = RaceDynamics::new(&statics, scene, &rule, &bodies, seats, speed)?;
-        let (n, meshes) = (statics.races.count, 2 * statics.races.planets());
+        let (n, meshes) = (statics.races.count, statics.meshes());
         let count = rotation.count();
         // Meshes whose phase is less at a step of the cycle than at the one before.
         let restarts = |step: usize| {

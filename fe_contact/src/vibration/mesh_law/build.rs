@@ -48,7 +48,7 @@ impl MeshLawSettings {
 /// function of phase with the pair forces of the equilibrium there.
 ///
 /// # Errors
-/// If the scene is no whole set, contact cannot be solved, or the settings are unfit.
+/// If the scene is neither a whole set nor a sun–planet pair, contact cannot be solved, or the settings are unfit.
 pub fn mesh_law(
     scene: &Scene,
     bodies: &Bodies,
@@ -89,7 +89,8 @@ pub fn mesh_law(
         shares.iter().sum::<f64>() / shares.len().max(1) as f64
     };
     let (sun, ring) = (mean(MeshKind::SunPlanet), mean(MeshKind::RingPlanet));
-    let shares: Vec<f64> = (0..2 * planets).map(|m| if m < planets { sun } else { ring }).collect();
+    let shares: Vec<f64> =
+        (0..statics.meshes()).map(|m| if m < planets { sun } else { ring }).collect();
     let sides = made.iter().map(|made| made.side_load).collect();
     let law = plan.law(made.into_iter().map(|made| made.curve).collect())?;
     Ok(law.with_damping_share(&shares)?.with_side_loads(sides)?)
@@ -233,7 +234,7 @@ impl Job<'_, '_> {
             let row = turned(gradient, pose.direction);
             sum.iter_mut().zip(row).for_each(|(sum, row)| *sum += force * row);
         }
-        let radii = &statics.races.radii;
+        let radii = &statics.races.base_radii;
         let [first, second] = [[sum[0], sum[1], sum[2]], [sum[3], sum[4], sum[5]]];
         let (central, planet, radius) = match pose.kind {
             MeshKind::SunPlanet => (first, second, radii[SUN]),

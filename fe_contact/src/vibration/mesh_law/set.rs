@@ -60,11 +60,11 @@ impl<'s> MeshLawSet<'s> {
         let reference = statics.reference();
         let races = &statics.races;
         let planets = races.planets();
-        if law.meshes() != 2 * planets {
+        if law.meshes() != statics.meshes() {
             return Err(FeError::Unfit {
                 key: "planets.count".into(),
-                value: format!("{planets}"),
-                allowed: format!("{} planets", law.meshes() / 2),
+                value: format!("{} meshes", statics.meshes()),
+                allowed: format!("{} meshes", law.meshes()),
                 why: "the mesh law was made for them".into(),
             });
         }
@@ -73,7 +73,7 @@ impl<'s> MeshLawSet<'s> {
         for body in CARRIER..PLANETS + planets {
             for (axis, m) in body_mass(&statics, scene, body)?.into_iter().enumerate() {
                 if let Some(i) = races.of(body, axis) {
-                    mass[i] = m;
+                    mass[i] += m;
                 }
             }
         }
@@ -269,7 +269,7 @@ fn side_loads(races: &Races, law: &MeshLaw) -> Vec<Vec<f64>> {
     let planets = races.planets();
     let of_step = |step: usize| {
         let mut load = vec![0.0; races.count];
-        for mesh in 0..2 * planets {
+        for mesh in 0..law.meshes() {
             let (central, planet) =
                 if mesh < planets { (SUN, mesh) } else { (RING, mesh - planets) };
             let (sin, cos) = races.psi[planet].sin_cos();
@@ -277,9 +277,12 @@ fn side_loads(races: &Races, law: &MeshLaw) -> Vec<Vec<f64>> {
             // The mesh frame is turned by ψ_n from the carrier frame.
             let turned = [cos * x - sin * y, sin * x + cos * y, u];
             for (body, own) in [(central, turned), (PLANETS + planet, [zeta, eta, spin])] {
+                // The law's u is r θ with the base radius.
+                let kind = body.min(PLANETS);
+                let share = races.base_radii[kind] / races.radii[kind];
                 for (axis, f) in own.into_iter().enumerate() {
                     if let Some(i) = races.of(body, axis) {
-                        load[i] += f;
+                        load[i] += if axis == 2 { share * f } else { f };
                     }
                 }
             }

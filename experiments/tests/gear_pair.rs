@@ -1,0 +1,369 @@
+//! Gear pairs in time: the jump of a pair with backlash on lumped and finite-element models, by three tools that share
+//! no code but the time step: marching up and down, shooting with continuation, and Floquet multipliers.
+
+use std::f64::consts::TAU;
+
+use experiments::branches::{Branch, BranchEnd, BranchPoint, BranchSettings, branch};
+use experiments::sweep::{
+    Coordinate, Direction, FeModel, Memory, MeshLawModel, Part, Plan, SteadyMethod, SteadySettings,
+    SteadyState, SweepModel, even_speeds, run, steady,
+};
+use fe_contact::complementarity::ActiveSet;
+use fe_contact::statics::{Bodies, Imperfections, pair_cycle};
+use gearset::{Facing, LoadCase, MeshKind, MeshLaw, PairFlanks, Scene, pair_law};
+use lumped::BalancedSet;
+
+const STEPS: usize = 140;
+
+/// Mean mesh stiffness, N/m.
+const K: f64 = 3.0e8;
+
+/// The 50/50 pair, with inertias of the lumped model that give it the natural frequency 2500 Hz at `K`.
+fn scene(damping_ratio: f64) -> Scene {
+    let omega = TAU * NATURAL_HZ;
+    // m_e = J/2r²
+    let (radius, m_e) = (0.075 * f64::to_radians(20.0).cos(), K / (omega * omega));
+    let inertia = 2.0 * m_e * radius * radius;
+    let alpha = 2.0 * damping_ratio * omega;
+    let text = format!(
+        "{}\n[lumped]\ninertia_kg_m2 = {{ sun = {inertia}, planet = {inertia} }}\n\
+         mesh_n_per_m = {{ sun_planet = {K} }}\n\
+         [damping]\nmass_proportional_per_s = {alpha}\nstiffness_proportional_s = 0\n\
+         [dynamics]\nsteps_per_cycle = {STEPS}\n",
+        include_str!("../../scenes/pair_50_50.toml")
+    );
+    Scene::from_toml(&text).unwrap()
+}
+
+const NATURAL_HZ: f64 = 2500.0;
+
+/// k = K (1 + 2 Σ ε_l cos lφ): harmonics of the mesh stiffness. The flanks have a backlash of 0.2 mm and meet
+/// within 2 µm, a third of their mean approach.
+fn law(epsilon: &[f64]) -> MeshLaw {
+    let k = |step: usize| {
+        let phi = TAU * step as f64 / STEPS as f64;
+        let change = epsilon.iter().zip(1..).map(|(e, l)| 2.0 * e * f64::cos(f64::from(l) * phi));
+        K * (1.0 + change.sum::<f64>())
+    };
+    let flanks = PairFlanks { backlash_m: Some(2e-4), rounding_m: 2e-6 };
+    pair_law(&(0..STEPS).map(k).collect::<Vec<_>>(), &[0.0; STEPS], flanks).unwrap()
+}
+
+fn lumped(scene: &Scene, epsilon: &[f64]) -> MeshLawModel<'static> {
+    let case = LoadCase::of_scene(scene).unwrap();
+    MeshLawModel::lumped_with(scene, case, law(epsilon))
+}
+
+/// Speed (rpm) at a share of the natural frequency.
+fn at_share(share: f64) -> f64 {
+    share * NATURAL_HZ * 60.0 / 50.0
+}
+
+/// Amplitudes of the sun's rotation, harmonics 1 to 5, rad.
+fn rotation(state: &SteadyState) -> [f64; 5] {
+    [1, 2, 3, 4, 5].map(|l| state.amplitude(Part::Sun, Coordinate::Rotation, l))
+}
+
+fn off(a: &[f64; 5], b: &[f64; 5]) -> f64 {
+    let size = a.iter().fold(0.0f64, |s, x| s.max(*x));
+    a.iter().zip(b).fold(0.0f64, |s, (a, b)| s.max((a - b).abs())) / size
+}
+
+fn speed(p: &BranchPoint) -> f64 {
+    p.state.case.speed_rpm
+}
+
+/// The motions of a branch at one speed, with their stability, between neighbouring points.
+fn at(branch: &Branch, rpm: f64) -> Vec<([f64; 5], bool)> {
+    let crossing = |pair: &[BranchPoint]| {
+        let [a, b] = [speed(&pair[0]), speed(&pair[1])];
+        let share = (rpm - a) / (b - a);
+        (0.0..1.0).contains(&share).then(|| {
+            let [from, to] = [rotation(&pair[0].state), rotation(&pair[1].state)];
+            let mut between = from;
+            between.iter_mut().zip(to).for_each(|(f, t)| *f += share * (t - *f));
+            (between, pair[0].is_stable && pair[1].is_stable)
+        })
+    };
+    branch.points.windows(2).filter_map(crossing).collect()
+}
+
+/// Traces the branch through the primary resonance and marches along it in both directions; checks that a softening
+/// jump is where theory has it. Returns the speeds of jump-up (upper fold) and jump-down (lower fold).
+fn softening_jump(model: &dyn SweepModel, range: [f64; 2], step: f64) -> [f64; 2] {
+    let settings = BranchSettings {
+        start_rpm: range[1],
+        longest_step: 0.05,
+        most_points: 3000,
+        ..BranchSettings::over(range)
+    };
+    let found = branch(model, &settings).unwrap();
+    assert_eq!(found.ends, [BranchEnd::Bound, BranchEnd::Bound]);
+    let folds: Vec<&BranchPoint> = found.folds().collect();
+    for fold in &folds {
+        println!("fold at {:.4} rpm: {:?}", speed(fold), fold.multipliers[0]);
+        // A multiplier crosses +1 at a fold.
+        let [re, im] = fold.multipliers[0];
+        assert!((re - 1.0).abs() < 1e-4 && im == 0.0, "{:?}", fold.multipliers);
+    }
+    assert_eq!((folds.len(), found.bifurcations().count()), (2, 0));
+    let (up, down) = (speed(folds[0]), speed(folds[1]));
+    assert!(up > down + 4.0 * step, "no softening jump: folds at {up} and {down}");
+    let [first, last] = [0, 1].map(|k| found.points.iter().position(|p| p == folds[k]).unwrap());
+    for (i, p) in found.points.iter().enumerate() {
+        if i != first && i != last {
+            assert_eq!(p.is_stable, !(first..last).contains(&i), "{} rpm", speed(p));
+        }
+        // Contact is lost on the upper branch behind the last fold, and teeth stay together on the lower branch.
+        if i > last && speed(p) < up {
+            assert!(p.contact_loss > 0.0, "{} rpm", speed(p));
+        }
+        if i < first && speed(p) < down {
+            assert_eq!(p.contact_loss, 0.0, "{} rpm", speed(p));
+        }
+    }
+
+    // Motions at the bounds themselves have one neighbour only.
+    let speeds = even_speeds(range[0] + step, range[1] - step, step).unwrap();
+    let settings = SteadySettings {
+        method: SteadyMethod::Marching,
+        between_cycles: 0,
+        most_cycles: 6000,
+        ..SteadySettings::default()
+    };
+    for direction in [Direction::Up, Direction::Down] {
+        let mut plan = Plan::new(&speeds, &[direction], settings.clone()).unwrap();
+        let all: Vec<f64> = match direction {
+            Direction::Up => speeds.clone(),
+            Direction::Down => speeds.iter().rev().copied().collect(),
+        };
+        plan.chains.truncate(1);
+        plan.chains[0].speeds_rpm = all;
+        let swept = run(model, &plan, &Memory, &|_| ()).unwrap();
+        assert_eq!(swept.chains[0].1.len(), speeds.len());
+        let (mut jumps, mut was_upper) = (Vec::new(), None);
+        for p in &swept.chains[0].1 {
+            let rpm = p.state.case.speed_rpm;
+            assert!(p.is_steady, "{rpm}");
+            let (own, motions) = (rotation(&p.state), at(&found, rpm));
+            assert_eq!(motions.len(), if (down..up).contains(&rpm) { 3 } else { 1 }, "{rpm}");
+            let by_size = |a: &(usize, &([f64; 5], bool)), b: &(usize, &([f64; 5], bool))| {
+                off(&own, &a.1.0).total_cmp(&off(&own, &b.1.0))
+            };
+            let (index, (motion, is_stable)) = motions.iter().enumerate().min_by(by_size).unwrap();
+            assert!(*is_stable, "{direction:?} {rpm}: on the unstable part");
+            assert!(off(&own, motion) < 2e-2, "{direction:?} {rpm}: {}", off(&own, motion));
+            let is_upper = if motions.len() == 3 { index == 2 } else { rpm >= up };
+            if was_upper.is_some_and(|was| was != is_upper) {
+                jumps.push(rpm);
+            }
+            was_upper = Some(is_upper);
+        }
+        println!("{direction:?}: jumps at {jumps:?}, folds at {up:.3} and {down:.3}");
+        assert_eq!(jumps.len(), 1);
+        let expected = if direction == Direction::Up { up } else { down };
+        assert!((jumps[0] - expected).abs() <= step, "{jumps:?} {expected}");
+    }
+    [up, down]
+}
+
+#[test]
+fn a_lumped_pair_jumps_where_the_folds_of_its_branch_are() {
+    let scene = scene(0.05);
+    let [up, down] = softening_jump(&lumped(&scene, &[0.1]), [at_share(0.7), at_share(1.1)], 10.0);
+    let natural = at_share(1.0);
+    println!("natural frequency at {natural} rpm; folds at {up} and {down}");
+    assert!(down < up && up < 1.02 * natural);
+}
+
+/// Negative control: with so much damping that teeth stay together the resonance has no fold.
+#[test]
+fn without_contact_loss_there_is_no_jump() {
+    let scene = scene(0.2);
+    let settings = BranchSettings {
+        start_rpm: at_share(1.1),
+        ..BranchSettings::over([at_share(0.7), at_share(1.1)])
+    };
+    let found = branch(&lumped(&scene, &[0.1]), &settings).unwrap();
+    assert_eq!((found.folds().count(), found.bifurcations().count()), (0, 0));
+    assert!(found.points.iter().all(|p| p.is_stable && p.contact_loss == 0.0));
+}
+
+/// Harmonic l of the stiffness excites the pair most where l f_m is the natural frequency: superharmonic resonances at
+/// a half and a third of it, each led by its own harmonic. The excitation is so small that teeth stay together and the
+/// pair is linear but for its changing stiffness; the peaks are then at f_n/l to first order in it.
+#[test]
+fn superharmonic_resonances_are_at_a_half_and_a_third() {
+    let scene = scene(0.02);
+    let model = lumped(&scene, &[0.002, 0.002, 0.002]);
+    let speeds = even_speeds(at_share(0.25), at_share(0.6), 2.5).unwrap();
+    let plan = Plan::new(&speeds, &[Direction::Up], SteadySettings::default()).unwrap();
+    let swept = run(&model, &plan, &Memory, &|_| ()).unwrap();
+    let points = swept.points();
+    assert_eq!(points.len(), speeds.len());
+    assert!(points.iter().all(|p| p.is_steady && p.contact_loss == 0.0));
+    for harmonic in [2usize, 3] {
+        let own = |p: &&experiments::sweep::SweepPoint| {
+            p.state.amplitude(Part::Sun, Coordinate::Rotation, harmonic)
+        };
+        let top = points.iter().copied().max_by(|a, b| own(a).total_cmp(&own(b))).unwrap();
+        let rpm = top.state.case.speed_rpm;
+        let all = rotation(&top.state);
+        println!("harmonic {harmonic} is largest at {rpm} rpm: {all:?}");
+        let expected = at_share(1.0 / harmonic as f64);
+        assert!((rpm - expected).abs() <= 5.0, "{rpm} {expected}");
+        assert!(all.iter().all(|a| *a <= all[harmonic - 1]));
+        // |q_l| = 2 ε F/(k_m) / (2ζ) at resonance, F/k_m the mean deflection; the sun turns by half of it.
+        let case = model.case();
+        let r = 0.075 * f64::to_radians(20.0).cos();
+        let mean = case.sun_load_nm() / r / K;
+        let amplitude = 2.0 * 0.002 * mean / (2.0 * 0.02) / (2.0 * r);
+        assert!((all[harmonic - 1] / amplitude - 1.0).abs() < 0.03, "{all:?} {amplitude:e}");
+    }
+}
+
+/// The folds of time stepping and of harmonic balance are the same, but for the time step of the one.
+#[test]
+fn harmonic_balance_finds_the_motion_of_the_upper_branch() {
+    let scene = scene(0.05);
+    let model = lumped(&scene, &[0.1]);
+    let speeds = [at_share(1.05)];
+    let plan = Plan::new(&speeds, &[Direction::Up], SteadySettings::default()).unwrap();
+    let swept = run(&model, &plan, &Memory, &|_| ()).unwrap();
+    let point = swept.points()[0];
+    let case = model.case();
+    let set = BalancedSet::new(&scene, Facing::CounterClockwise, law(&[0.1]), case.sun_load_nm());
+    let balanced =
+        set.unwrap().solve(point.state.case.mesh_frequency_hz, None, &Default::default()).unwrap();
+    let first = balanced.coordinates[0].lines[1].norm();
+    let r = 0.075 * f64::to_radians(20.0).cos();
+    // The one coordinate is the relative rotation; each gear has half of it.
+    let own = 2.0 * r * rotation(&point.state)[0];
+    println!("{first:e} {own:e}");
+    assert!((first / own - 1.0).abs() < 2e-3);
+}
+
+/// Far below resonance the transmission error in time is that of a mesh cycle at rest with the driven gear held, by
+/// another part of the program: mean and peak to peak.
+#[test]
+fn at_a_low_speed_the_transmission_error_is_the_static_one() {
+    let (scene, bodies) = meshed();
+    let case = LoadCase::of_scene(&scene).unwrap().at_speed(10.0);
+    let radius = bodies.planet.mesh.outline.gear().base_radius;
+    let force = case.sun_load_nm() / radius;
+    let rest = pair_cycle(&bodies, MeshKind::SunPlanet, force, 70, &ActiveSet).unwrap();
+    let fe = FeModel::new(&scene, &bodies, Imperfections::default(), case);
+    let mut set = fe.turning(&case, 0).unwrap();
+    set.rest().unwrap();
+    let found = steady(set.as_mut(), fe.shape(), 0.0, 70, &SteadySettings::default()).unwrap();
+    // Rotations of sun and of planet 0 after those of carrier and ring.
+    let [sun, planet] = [8, 11].map(|channel| found.record.channel(channel));
+    let error: Vec<f64> = sun.iter().zip(&planet).map(|(s, p)| radius * (s + p)).collect();
+    let mean = error.iter().sum::<f64>() / 70.0;
+    let fold = |f: fn(f64, f64) -> f64| error.iter().copied().reduce(f).unwrap();
+    let peak_to_peak = fold(f64::max) - fold(f64::min);
+    println!("mean {mean:e} {:e}", rest.mean_deflection());
+    println!("peak to peak {peak_to_peak:e} {:e}", rest.peak_to_peak());
+    assert!((mean / rest.mean_deflection() - 1.0).abs() < 0.01);
+    assert!((peak_to_peak / rest.peak_to_peak() - 1.0).abs() < 0.02);
+    // Equal gears turn by equal angles.
+    assert!(sun.iter().zip(&planet).all(|(s, p)| (s - p).abs() < 1e-9 * s.abs()));
+}
+
+/// The catalogue scene on a coarse mesh, and its gears.
+fn meshed() -> (Scene, Bodies) {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/pair_50_50.toml");
+    let mut scene = Scene::from_file(path.as_ref()).unwrap();
+    scene.fe_contact.flank_elements = 8;
+    scene.dynamics.steps_per_cycle = 70;
+    let bodies = Bodies::new(&scene).unwrap();
+    (scene, bodies)
+}
+
+/// √(k/m_e)/2π with the mean tangent stiffness of the mesh at rest, as a speed of the sun, rpm.
+fn natural_rpm(bodies: &Bodies, case: &LoadCase) -> f64 {
+    let radius = bodies.planet.mesh.outline.gear().base_radius;
+    let force = case.sun_load_nm() / radius;
+    let cycle = pair_cycle(bodies, MeshKind::SunPlanet, force, 28, &ActiveSet).unwrap();
+    let over_r2 = |inertia: f64| inertia / (radius * radius);
+    let (m_s, m_p) =
+        (over_r2(bodies.sun.as_ref().unwrap().inertia), over_r2(bodies.planet.inertia));
+    let f_n = (cycle.mean_tangent_stiffness() * (m_s + m_p) / (m_s * m_p)).sqrt() / TAU;
+    println!(
+        "k = {:e} N/m, m_e = {} kg, f_n = {f_n} Hz",
+        cycle.mean_tangent_stiffness(),
+        m_s / 2.0
+    );
+    60.0 * f_n / 50.0
+}
+
+/// The 50/50 pair with its teeth meshed and half as much damping again, so that both folds of the primary resonance lie
+/// apart from the resonance at half its speed: the branch is traced on the mesh law. With contact solved in every step the
+/// same motions are found by marching up and down.
+#[test]
+fn a_finite_element_pair_jumps_where_the_folds_of_its_branch_are() {
+    let (mut scene, bodies) = meshed();
+    scene.damping.mass_proportional_per_s *= 1.5;
+    scene.damping.stiffness_proportional_s *= 1.5;
+    let case = LoadCase::of_scene(&scene).unwrap();
+    let natural = natural_rpm(&bodies, &case);
+    let law = MeshLawModel::new(&scene, &bodies, case).unwrap();
+    let range = [0.6, 1.1].map(|share| (share * natural).round());
+    let [up, down] = softening_jump(&law, range, 10.0);
+    println!("mesh law: folds at {} and {} of f_n", up / natural, down / natural);
+
+    let fe = FeModel::new(&scene, &bodies, Imperfections::default(), case);
+    let step = 0.01 * natural;
+    let speeds = even_speeds(down - 5.5 * step, up + 5.5 * step, step).unwrap();
+    let settings = SteadySettings {
+        method: SteadyMethod::Marching,
+        between_cycles: 0,
+        most_cycles: 4000,
+        ..SteadySettings::default()
+    };
+    let plan = Plan::new(&speeds, &[Direction::Up, Direction::Down], settings).unwrap();
+    let swept = run(&fe, &plan, &Memory, &|_| ()).unwrap();
+    let coexisting = swept.coexisting_rpm();
+    println!("contact: {:?} of f_n", coexisting.iter().map(|n| n / natural).collect::<Vec<_>>());
+    let (first, last) = (coexisting[0], coexisting[coexisting.len() - 1]);
+    // Both ends of the range within two steps of the folds of the mesh law.
+    assert!((first - down).abs() < 2.0 * step, "{first} {down}");
+    assert!((last - up).abs() < 2.0 * step, "{last} {up}");
+    for rpm in &coexisting {
+        let here = swept.points().into_iter().filter(|p| p.state.case.speed_rpm == *rpm);
+        let lost: Vec<f64> = here.map(|p| p.contact_loss).collect();
+        let most = lost.iter().fold(0.0f64, |a, l| a.max(*l));
+        assert!(lost.len() == 2 && lost.contains(&0.0) && most > 0.0, "{rpm}: {lost:?}");
+    }
+}
+
+/// Superharmonic resonances: the harmonics 2 and 3 of the transmission error have a local maximum where the harmonic is at
+/// the natural frequency. Where teeth part the peak is bent to lower speeds.
+#[test]
+fn superharmonic_resonances_of_the_finite_element_pair() {
+    let (scene, bodies) = meshed();
+    let case = LoadCase::of_scene(&scene).unwrap();
+    let natural = natural_rpm(&bodies, &case);
+    let law = MeshLawModel::new(&scene, &bodies, case).unwrap();
+    for harmonic in [2usize, 3] {
+        let own = natural / harmonic as f64;
+        let speeds = even_speeds(0.8 * own, 1.2 * own, 0.01 * own).unwrap();
+        let plan = Plan::new(&speeds, &[Direction::Up], SteadySettings::default()).unwrap();
+        let swept = run(&law, &plan, &Memory, &|_| ()).unwrap();
+        let list: Vec<(f64, f64)> = swept
+            .points()
+            .iter()
+            .map(|p| {
+                let size = p.state.amplitude(Part::Sun, Coordinate::Rotation, harmonic);
+                (p.state.case.speed_rpm / own, size)
+            })
+            .collect();
+        let (at, top) = list.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
+        let ends = [list[0].1, list[list.len() - 1].1];
+        println!(
+            "harmonic {harmonic}: {top:e} rad at {at} of f_n/{harmonic}, at the ends {ends:?}"
+        );
+        assert!((0.88..1.05).contains(&at), "{at}");
+        assert!(ends.iter().all(|end| top > 2.0 * end), "{top} {ends:?}");
+    }
+}
