@@ -3,7 +3,8 @@
 //! What is compared: places and amounts with closed forms (the vertex of the relieved gap, Hertz's pressure); static
 //! transmission errors and shares of load, from 60 to 6,000 N, with the same contact problem laid out in another way
 //! (grids of unrelieved flanks, longer, with gaps to which relief is added from its definition), to 0.5 %. The flexibility
-//! of the FE bodies is the same on both sides: no calculation without this program's bodies is among these tests.
+//! of the FE bodies is the same on both sides; `resolved_pair` holds relieved teeth to a calculation without this
+//! program's bodies, contact and relief.
 
 use std::sync::OnceLock;
 
