@@ -97,7 +97,8 @@ pub struct Rules {
     /// Scene file.
     pub scene: PathBuf,
     /// Highest harmonic of mesh frequency.
-    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1000),
+          allow_negative_numbers = true)]
     pub harmonics: u32,
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
@@ -136,7 +137,7 @@ pub struct Static {
     pub normal_force_n: Option<f64>,
     /// Number of evenly spaced positions in the mesh cycle, from phase 0 [default: 140].
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=100_000),
-          conflicts_with = "approach_um")]
+          conflicts_with = "approach_um", allow_negative_numbers = true)]
     pub positions: Option<u32>,
     /// Solver of the contact problem.
     #[arg(long, value_enum, default_value_t = ContactSolver::ActiveSet)]
@@ -147,7 +148,8 @@ pub struct Static {
     pub figures: Option<PathBuf>,
     /// Gear pair only: instead of loading the driving gear, rotate its race by this approach divided by its
     /// base radius, at one phase; µm.
-    #[arg(long, value_name = "UM", conflicts_with_all = ["normal_force_n", "sun_torque_nm"])]
+    #[arg(long, value_name = "UM", conflicts_with_all = ["normal_force_n", "sun_torque_nm"],
+          allow_negative_numbers = true)]
     pub approach_um: Option<f64>,
     /// Phase of that approach, cycles.
     #[arg(long, value_name = "CYCLES", requires = "approach_um", allow_negative_numbers = true)]
@@ -160,7 +162,7 @@ pub struct Static {
     pub export_per_half_width: Option<f64>,
     /// Elements along the other flanks in that deck [default: 12].
     #[arg(long, value_name = "N", requires = "export_inp",
-          value_parser = clap::value_parser!(u32).range(3..=64))]
+          value_parser = clap::value_parser!(u32).range(3..=64), allow_negative_numbers = true)]
     pub export_flank_elements: Option<u32>,
     /// Teeth kept on either side of the loaded ones in that deck; whole gears if left out.
     #[arg(long, value_name = "N", requires = "export_inp")]
@@ -259,24 +261,24 @@ pub struct Sweep {
     pub both_ways: bool,
     /// Number of further speeds about each peak, 0 for none.
     #[arg(long, value_name = "N", default_value_t = 0,
-          value_parser = clap::value_parser!(u32).range(0..=1000))]
+          value_parser = clap::value_parser!(u32).range(0..=1000), allow_negative_numbers = true)]
     pub refine: u32,
     /// How steady states are found.
     #[arg(long, value_enum, default_value_t = SteadyMethod::Shooting)]
     pub method: SteadyMethod,
     /// Highest harmonic of the mesh frequency: up to 5, up to 10 with at least 560 steps in a cycle.
-    #[arg(long, default_value_t = 5)]
+    #[arg(long, default_value_t = 5, allow_negative_numbers = true)]
     pub harmonics: u32,
     /// Largest change of a steady state from cycle to cycle, over its peak-to-peak vibration.
     #[arg(long, default_value_t = 1e-9, value_parser = small)]
     pub tolerance: f64,
     /// Cycles after which a set that has not settled is recorded as it is, flagged as subharmonic or not
     /// periodic.
-    #[arg(long, default_value_t = 2000, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    #[arg(long, default_value_t = 2000, value_parser = clap::value_parser!(u32).range(2..=1_000_000), allow_negative_numbers = true)]
     pub most_cycles: u32,
     /// Cycles over which the energy between harmonics of a marched motion is measured, 0 for none; of a motion
     /// found by shooting it is measured over the last two.
-    #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(0..=10_000))]
+    #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(0..=10_000), allow_negative_numbers = true)]
     pub between_cycles: u32,
     /// Folder for finished points, then the table (CSV) and a sidecar (JSON); the same command resumes from
     /// the points in it. A folder with anything else that would be overwritten is refused.
@@ -321,7 +323,7 @@ pub struct Branches {
     pub damping_factor: f64,
     /// Most points each way from the start.
     #[arg(long, value_name = "N", default_value_t = 500,
-          value_parser = clap::value_parser!(u32).range(2..=100_000))]
+          value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
     pub max_points: u32,
     /// Also draw the strongest motions of the sun into this folder (SVG, PNG): stable solid, unstable dashed.
     #[cfg(feature = "charts")]
@@ -383,7 +385,7 @@ pub struct Compare {
     #[arg(long)]
     pub scene: PathBuf,
     /// Largest difference that counts as agreement, percent.
-    #[arg(long, default_value_t = 1.0, value_parser = tolerance)]
+    #[arg(long, default_value_t = 1.0, value_parser = tolerance, allow_negative_numbers = true)]
     pub tolerance_percent: f64,
     /// Demand every mode of the model: without it, modes above the list's highest frequency may be absent.
     #[arg(long)]

@@ -159,7 +159,7 @@ pub enum FeError {
     )]
     NoContact,
     /// An iteration at one position of a mesh cycle did not converge.
-    #[error("{torque_nm} N·m on the sun, position {position:.4} of the mesh cycle: {cause}")]
+    #[error("{torque_nm:?} N·m on the sun, position {position:.4} of the mesh cycle: {cause}")]
     AtPosition {
         /// Magnitude of the torque on the sun, N·m.
         torque_nm: f64,

@@ -2,12 +2,9 @@
 
 use crate::estimates;
 use crate::geometry::Geometry;
+use crate::load_size::MOST_MODULES;
 use crate::reader::Document;
 use crate::scene::Scene;
-
-/// Largest deflection, in modules, with which a scene is accepted: beyond one module teeth leave their spaces, and
-/// displacements that are linear in the load describe no gear set.
-const MOST_MODULES: f64 = 1.0;
 
 /// Refuses a torque under which the set gives way by more than a module.
 pub(crate) fn deflection(document: &Document<'_>, scene: &Scene) {

@@ -65,7 +65,8 @@ pub(crate) fn mesh_stiffness(scene: &Scene) -> Option<f64> {
     given.or_else(|| pair_stiffness(scene))
 }
 
-fn pair_stiffness(scene: &Scene) -> Option<f64> {
+/// Mean stiffness of one mesh from face width and modulus, N/m: E b/13.
+pub(crate) fn pair_stiffness(scene: &Scene) -> Option<f64> {
     let width = scene.geometry.as_ref()?.face_width;
     Some(scene.material.young_modulus_pa * width / PAIR_STIFFNESS_DIVISOR)
 }
@@ -83,7 +84,11 @@ pub(crate) fn deflection(scene: &Scene, geometry: &Geometry) -> Option<f64> {
     if scene.kind != SceneKind::Planetary || scene.torque_path().is_err() {
         return None;
     }
-    let force = mesh_force(scene, geometry)?;
+    way_under(scene, geometry, mesh_force(scene, geometry)?)
+}
+
+/// The same under a mean force of one mesh, N, whatever the scene's torque; `None` without a ring.
+pub(crate) fn way_under(scene: &Scene, geometry: &Geometry, force: f64) -> Option<f64> {
     let planets = scene.planets.count() as f64;
     // A pin carries the forces of both meshes.
     let mut length =

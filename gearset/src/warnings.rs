@@ -4,8 +4,10 @@ use std::fmt;
 
 use crate::estimates::{self, BODIES};
 use crate::geometry::Geometry;
+use crate::kinematics::Kinematics;
 use crate::load_case::LoadCase;
-use crate::scene::{PerBody, Scene, Support, Torsional};
+use crate::load_size::LARGE_MODULES;
+use crate::scene::{Freedom, PerBody, Scene, Support, Torsional};
 
 /// Mass and inertia of a body against its disc of the same width and density: webs, hubs and shafts change them by
 /// less than this factor, a slip of unit or of size by more.
@@ -28,8 +30,6 @@ const YOUNG_PA: [f64; 2] = [1e9, 1.1e12];
 const POISSON: [f64; 2] = [0.2, 0.4];
 /// Density, kg/m³: plastics have 900 or more, tungsten and gold 19300.
 const DENSITY_KG_PER_M3: [f64; 2] = [500.0, 20_000.0];
-/// Deflection over module: OH-58's published loads and bearings give 0.13 at most.
-const DEFLECTION_IN_MODULES: f64 = 0.25;
 /// Module, mm: below 0.2 are watches, above 100 no cutter exists. A module of 2.8 mm typed in inches is 0.11, in
 /// metres 0.0028.
 const MODULE_MM: [f64; 2] = [0.2, 100.0];
@@ -167,7 +167,7 @@ fn load(scene: &Scene, geometry: &Geometry, found: &mut Found) {
     let deflection = estimates::deflection(scene, geometry);
     if let (Some(length), Some(module), Some(o)) =
         (deflection, estimates::module(geometry), scene.operation)
-        && length > DEFLECTION_IN_MODULES * module
+        && length > LARGE_MODULES * module
     {
         let what = format!(
             "by estimate the teeth give way by {} mm, {} of the module",

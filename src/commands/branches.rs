@@ -13,9 +13,8 @@ use crate::error::CommandError;
 use crate::output;
 
 use super::branches_output::BranchesOutput;
-use super::statics::{operating_torque, refused};
 use super::working::Working;
-use super::{fe_refused, needs, read_scene, unfit};
+use super::{fe_refused, loads, needs, read_scene, refused, unfit};
 
 /// Follows the branch: results to `out`, warnings to `err`.
 pub(super) fn run(
@@ -27,13 +26,13 @@ pub(super) fn run(
     let mut scene = read_scene(path)?;
     let settings = settings(arguments)?;
     needs::not_ring_pair(path, &scene)?;
-    let case = case(arguments, &scene)?;
+    let case = case(arguments, &scene, err)?;
     let steps = scene.dynamics.steps_per_cycle as usize;
     let harmonics = SteadySettings { harmonics: settings.harmonics, ..SteadySettings::default() };
     harmonics.check(steps).map_err(|e| unfit(path, e.to_string()))?;
     needs::warn(&scene, err)?;
     #[cfg(feature = "charts")]
-    needs::warn_of_title(&scene, arguments.figures.as_deref(), err)?;
+    needs::figures(&scene, arguments.figures.as_deref(), err)?;
     let damping = &mut scene.damping;
     damping.mass_proportional_per_s *= arguments.damping_factor;
     damping.stiffness_proportional_s *= arguments.damping_factor;
@@ -87,7 +86,11 @@ fn settings(arguments: &Branches) -> Result<BranchSettings, CommandError> {
 }
 
 /// Torque and driven member.
-fn case(arguments: &Branches, scene: &Scene) -> Result<LoadCase, CommandError> {
+fn case(
+    arguments: &Branches,
+    scene: &Scene,
+    err: &mut dyn Write,
+) -> Result<LoadCase, CommandError> {
     let path = &arguments.scene;
     let verb = Verb::Branches(match arguments.model {
         Model::Lumped => Fidelity::QuasiStatic,
@@ -95,14 +98,7 @@ fn case(arguments: &Branches, scene: &Scene) -> Result<LoadCase, CommandError> {
     });
     let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
     needs::require(path, scene, verb, is_given)?;
-    let torque_nm = match arguments.sun_torque_nm {
-        Some(t) if t.is_finite() && t != 0.0 => t,
-        Some(t) => {
-            let reason = format!("{t}: allowed is a finite torque other than 0 N·m");
-            return Err(refused("--sun-torque-nm", reason));
-        }
-        None => operating_torque(path, scene)?,
-    };
+    let torque_nm = loads::sun_torque(arguments.sun_torque_nm, path, scene, err)?;
     let missing = || unfit(path, "[operation] is absent: it says which member's speed is varied");
     Ok(LoadCase::of_scene(scene).map_err(|_| missing())?.with_sun_torque(torque_nm))
 }

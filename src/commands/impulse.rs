@@ -18,9 +18,8 @@ use crate::error::CommandError;
 use crate::output;
 
 use super::impulse_output::ImpulseOutput;
-use super::statics::{operating_torque, refused};
 use super::working::Working;
-use super::{fe_refused, impulse_text, needs, read_scene, unfit};
+use super::{fe_refused, impulse_text, loads, needs, read_scene, refused, unfit};
 
 /// Parts of the torque for which `--band` linearises.
 const BAND_TORQUES: [f64; 3] = [0.5, 1.0, 1.5];
@@ -52,12 +51,12 @@ pub(super) fn run(
     err: &mut dyn Write,
 ) -> Result<(), CommandError> {
     let scene = read_scene(&arguments.scene)?;
-    let preload = preload(arguments, &scene)?;
+    let preload = preload(arguments, &scene, err)?;
     let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
     needs::require(&arguments.scene, &scene, Verb::Impulse, is_given)?;
     needs::warn(&scene, err)?;
     #[cfg(feature = "charts")]
-    needs::warn_of_title(&scene, arguments.figures.as_deref(), err)?;
+    needs::figures(&scene, arguments.figures.as_deref(), err)?;
     let found = find(arguments, scene, preload)?;
     #[cfg(feature = "charts")]
     if let Some(folder) = &arguments.figures {
@@ -81,7 +80,11 @@ fn draw(found: &Found, folder: &std::path::Path) -> Result<(), CommandError> {
 }
 
 /// The preload that is asked for; every argument that can be judged without the set's modes is judged here.
-fn preload(arguments: &Impulse, scene: &Scene) -> Result<Preload, CommandError> {
+fn preload(
+    arguments: &Impulse,
+    scene: &Scene,
+    err: &mut dyn Write,
+) -> Result<Preload, CommandError> {
     let path = &arguments.scene;
     needs::not_ring_pair(path, scene)?;
     if scene.geometry.is_none() {
@@ -92,10 +95,7 @@ fn preload(arguments: &Impulse, scene: &Scene) -> Result<Preload, CommandError> 
                       take \"quasi_static\", \"modal\" or \"full\"";
         return Err(unfit(path, reason));
     }
-    let torque_nm = match arguments.sun_torque_nm {
-        Some(torque) => torque,
-        None => operating_torque(path, scene)?,
-    };
+    let torque_nm = loads::sun_torque(arguments.sun_torque_nm, path, scene, err)?;
     let usual = ImpulseSettings::at(LoadCase::standing(torque_nm), arguments.position);
     let band_hz = arguments.band_hz.map_or(usual.band_hz, |[low, high]| (low, high));
     // A band of one's own is judged with step and decay; without one, these wait for the band.

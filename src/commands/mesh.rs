@@ -15,7 +15,9 @@ use crate::error::CommandError;
 use crate::output;
 
 use super::working::Working;
-use super::{fe_refused, needs, read_scene, save};
+#[cfg(feature = "charts")]
+use super::writable;
+use super::{fe_refused, folder, needs, read_scene, save};
 
 /// `mesh --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -71,6 +73,9 @@ pub(crate) fn run(
     let scene = read_scene(path)?;
     needs::require(path, &scene, Verb::Mesh, |_| false)?;
     needs::warn(&scene, err)?;
+    #[cfg(feature = "charts")]
+    writable(arguments.svg.as_deref())?;
+    folder("--vtu", arguments.vtu.as_deref())?;
     let working = Working::new("meshing and factorising the bodies");
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let carrier = carrier(&scene, &bodies).transpose().map_err(fe_refused(path))?;

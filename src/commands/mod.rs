@@ -6,6 +6,7 @@ mod compare;
 mod impulse;
 mod impulse_output;
 mod impulse_text;
+mod loads;
 mod mesh;
 mod modes;
 mod needs;
@@ -109,6 +110,36 @@ fn save(path: &Path, text: &str) -> Result<(), CommandError> {
 /// The error for a scene that FE/contact cannot use or cannot solve.
 fn fe_refused(path: &Path) -> impl Fn(fe_contact::FeError) -> CommandError + '_ {
     |e| unfit(path, e.to_string())
+}
+
+/// Refuses a file that cannot be written, before the work whose results it is to hold: a folder in its place, or a file in
+/// place of its folder, which is made if need be.
+fn writable(path: Option<&Path>) -> Result<(), CommandError> {
+    let Some(path) = path else { return Ok(()) };
+    let failed = |source| CommandError::File { what: "cannot write", path: path.into(), source };
+    if path.is_dir() {
+        return Err(failed(std::io::ErrorKind::IsADirectory.into()));
+    }
+    match path.parent().filter(|p| !p.as_os_str().is_empty()) {
+        Some(folder) => std::fs::create_dir_all(folder).map_err(failed),
+        None => Ok(()),
+    }
+}
+
+/// Refuses a folder that cannot be made, before the work whose results it is to hold.
+fn folder(argument: &'static str, path: Option<&Path>) -> Result<(), CommandError> {
+    let Some(path) = path else { return Ok(()) };
+    if path.exists() && !path.is_dir() {
+        let reason = format!("`{}` is a file: allowed is a folder", path.display());
+        return Err(refused(argument, reason));
+    }
+    let failed = |source| CommandError::File { what: "cannot write", path: path.into(), source };
+    std::fs::create_dir_all(path).map_err(failed)
+}
+
+/// The error for an argument whose value is not allowed.
+fn refused(argument: &'static str, reason: impl Into<String>) -> CommandError {
+    CommandError::Argument { argument, reason: reason.into() }
 }
 
 /// The error for a valid scene that this verb cannot use.

@@ -74,8 +74,10 @@ pub(crate) fn run(
 ) -> Result<(), CommandError> {
     let scene = read_scene(&arguments.scene)?;
     needs::warn(&scene, err)?;
-    if let Some(bad) = arguments.carrier_speeds_rpm.iter().find(|s| !s.is_finite()) {
-        let reason = format!("{bad} is not a finite speed in rpm");
+    let most = gearset::SPEEDS_RPM[1];
+    // Not `abs() > most`: what is no number is within nothing.
+    if let Some(bad) = arguments.carrier_speeds_rpm.iter().find(|s| !(-most..=most).contains(*s)) {
+        let reason = format!("{bad:?} is not a finite speed from {:e} to {most:e} rpm", -most);
         return Err(CommandError::Argument { argument: "--carrier-speeds-rpm", reason });
     }
     if arguments.details && arguments.format == Format::Json {

@@ -42,25 +42,26 @@ pub(super) fn warn(scene: &Scene, err: &mut dyn Write) -> std::io::Result<()> {
     gearset::warnings(scene).iter().try_for_each(|warning| writeln!(err, "warning: {warning}"))
 }
 
-/// Warns of characters in the title that figures, if they are asked for, cannot show.
+/// Refuses a folder of figures that cannot be made, and warns of characters in the title that figures cannot show.
 ///
 /// # Errors
-/// If the warning cannot be written.
+/// [`CommandError`] for the folder, or if the warning cannot be written.
 #[cfg(feature = "charts")]
-pub(super) fn warn_of_title(
+pub(super) fn figures(
     scene: &Scene,
     figures: Option<&Path>,
     err: &mut dyn Write,
-) -> std::io::Result<()> {
+) -> Result<(), CommandError> {
+    super::folder("--figures", figures)?;
     let lacking: Vec<String> =
         crate::figures::lacking(&scene.title).into_iter().map(String::from).collect();
     if figures.is_none() || lacking.is_empty() {
         return Ok(());
     }
-    writeln!(
+    Ok(writeln!(
         err,
         "warning: `title` has characters that the font of PNG figures lacks ({}): `?` stands for them there, and the SVG \
          figures keep them",
         lacking.join(" ")
-    )
+    )?)
 }

@@ -14,7 +14,7 @@ use crate::error::CommandError;
 use crate::output;
 
 use super::working::Working;
-use super::{fe_refused, save, statics, unfit};
+use super::{fe_refused, loads, refused, save, statics, unfit, writable};
 
 /// `static --approach-um --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -41,18 +41,16 @@ pub(super) fn run(
     arguments: &Static,
     scene: &Scene,
     out: &mut dyn Write,
+    err: &mut dyn Write,
 ) -> Result<(), CommandError> {
     let path = &arguments.scene;
     let kind = scene.pair.ok_or_else(|| unfit(path, "`mesh` is absent"))?;
-    let approach_um = arguments.approach_um.unwrap_or(0.0);
-    if !(approach_um.is_finite() && approach_um > 0.0) {
-        let reason = format!("{approach_um}: allowed is a finite approach above 0 µm");
-        return Err(statics::refused("--approach-um", reason));
-    }
+    let approach_um = loads::approach(arguments.approach_um.unwrap_or(0.0), scene, err)?;
+    writable(arguments.export_inp.as_deref())?;
     let phase = arguments.phase.unwrap_or(0.0);
     if !phase.is_finite() {
         let reason = format!("{phase}: allowed is a finite number of cycles");
-        return Err(statics::refused("--phase", reason));
+        return Err(refused("--phase", reason));
     }
     let phase = phase.rem_euclid(1.0);
     let start = Instant::now();

@@ -1,17 +1,16 @@
 //! `static SCENE`: a gear pair or a whole set at rest.
 
 use std::io::Write;
-use std::path::Path;
 
 #[cfg(feature = "interior_point")]
 use fe_contact::complementarity::InteriorPoint;
 use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, Lemke};
-use gearset::{LoadCase, Scene, SceneKind, Verb};
+use gearset::{Scene, SceneKind, Verb};
 
 use crate::arguments::{ContactSolver, Static};
 use crate::error::CommandError;
 
-use super::{needs, read_scene, static_approach, static_pair, static_set, unfit};
+use super::{loads, needs, read_scene, refused, static_approach, static_pair, static_set, unfit};
 
 pub(crate) fn run(
     arguments: &Static,
@@ -29,20 +28,20 @@ pub(crate) fn run(
     let path = &arguments.scene;
     needs::warn(&scene, err)?;
     #[cfg(feature = "charts")]
-    needs::warn_of_title(&scene, arguments.figures.as_deref(), err)?;
+    needs::figures(&scene, arguments.figures.as_deref(), err)?;
     match scene.kind {
         SceneKind::GearPair if arguments.approach_um.is_some() => {
-            static_approach::run(arguments, &scene, out)
+            static_approach::run(arguments, &scene, out, err)
         }
         _ if arguments.approach_um.is_some() => {
             Err(refused("--approach-um", "only a gear pair is turned by an approach"))
         }
         SceneKind::GearPair => {
-            let force = pair_force(arguments, &scene)?;
+            let force = pair_force(arguments, &scene, err)?;
             static_pair::run(arguments, &scene, force, out)
         }
         SceneKind::Planetary => {
-            let torques = set_torques(arguments, &scene)?;
+            let torques = set_torques(arguments, &scene, err)?;
             let is_given = |argument: &str| {
                 argument == "--sun-torque-nm" && !arguments.sun_torque_nm.is_empty()
             };
@@ -62,49 +61,29 @@ pub(super) fn solver(which: ContactSolver) -> &'static (dyn ComplementaritySolve
     }
 }
 
-pub(super) fn refused(argument: &'static str, reason: impl Into<String>) -> CommandError {
-    CommandError::Argument { argument, reason: reason.into() }
-}
-
-fn pair_force(arguments: &Static, scene: &Scene) -> Result<f64, CommandError> {
+/// Normal force of a gear pair.
+fn pair_force(arguments: &Static, scene: &Scene, err: &mut dyn Write) -> Result<f64, CommandError> {
     if !arguments.sun_torque_nm.is_empty() {
         let argument = "--sun-torque-nm";
         return Err(refused(argument, "a gear pair is loaded by --normal-force-n, in N"));
     }
-    let Some(force) = arguments.normal_force_n else {
-        let name = &scene.title;
-        let reason = format!("is absent: `{name}` is a gear pair, loaded by a normal force in N");
-        return Err(refused("--normal-force-n", reason));
-    };
-    if !(force.is_finite() && force > 0.0) {
-        let reason = format!("{force}: allowed is a finite force above 0 N; flanks only press");
-        return Err(refused("--normal-force-n", reason));
-    }
-    Ok(force)
+    loads::normal_force(arguments.normal_force_n, scene, err)
 }
 
 /// Torques on the sun: those asked for, or the operating point's.
-fn set_torques(arguments: &Static, scene: &Scene) -> Result<Vec<f64>, CommandError> {
+fn set_torques(
+    arguments: &Static,
+    scene: &Scene,
+    err: &mut dyn Write,
+) -> Result<Vec<f64>, CommandError> {
     if arguments.normal_force_n.is_some() {
         let argument = "--normal-force-n";
         return Err(refused(argument, "a whole set is loaded by --sun-torque-nm"));
     }
-    if let Some(bad) = arguments.sun_torque_nm.iter().find(|t| !t.is_finite() || **t == 0.0) {
-        let reason = format!("{bad}: allowed are finite torques other than 0 N·m");
-        return Err(refused("--sun-torque-nm", reason));
+    let path = &arguments.scene;
+    if arguments.sun_torque_nm.is_empty() {
+        return Ok(vec![loads::sun_torque(None, path, scene, err)?]);
     }
-    if !arguments.sun_torque_nm.is_empty() {
-        return Ok(arguments.sun_torque_nm.clone());
-    }
-    Ok(vec![operating_torque(&arguments.scene, scene)?])
-}
-
-/// Torque on the sun at the operating point, other than 0.
-pub(super) fn operating_torque(path: &Path, scene: &Scene) -> Result<f64, CommandError> {
-    let torque = LoadCase::of_scene(scene).ok().map(|case| case.sun_torque_nm);
-    torque.filter(|t| *t != 0.0).ok_or_else(|| {
-        let reason =
-            "`operation.torque_nm` is absent or 0: give it, or the argument --sun-torque-nm";
-        unfit(path, reason)
-    })
+    let each = arguments.sun_torque_nm.iter();
+    each.map(|torque| loads::sun_torque(Some(*torque), path, scene, err)).collect()
 }

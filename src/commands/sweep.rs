@@ -17,13 +17,12 @@ use crate::error::CommandError;
 use crate::output;
 
 use super::needs::not_ring_pair;
-use super::statics::{operating_torque, refused};
 use super::sweep_claim::{Claim, PEAKS, PLAN};
 use super::sweep_manifest::Manifest;
 use super::sweep_output::{SweepOutput, text, write_csv, write_failed};
 use super::sweep_store::{Folder, write_whole};
 use super::working::Working;
-use super::{fe_refused, needs, read_scene, unfit};
+use super::{fe_refused, loads, needs, read_scene, refused, unfit};
 
 /// Half-width of the refinement about a peak, as a share of its speed.
 const SPAN: f64 = 0.04;
@@ -40,12 +39,12 @@ pub(super) fn run(
 ) -> Result<(), CommandError> {
     let path = &arguments.scene;
     let scene = read_scene(path)?;
-    let task = Task::new(arguments, &scene)?;
+    let task = Task::new(arguments, &scene, err)?;
     // Bodies and tables take minutes: a folder that cannot be used is refused before.
     let _claim = task.claim()?;
     needs::warn(&scene, err)?;
     #[cfg(feature = "charts")]
-    needs::warn_of_title(&scene, arguments.figures.as_deref(), err)?;
+    needs::figures(&scene, arguments.figures.as_deref(), err)?;
     let working = Working::new("meshing the bodies and laying out tables");
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let model: Box<dyn SweepModel> = match (arguments.model, scene.dynamics.fidelity) {
@@ -135,20 +134,17 @@ struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
-    fn new(arguments: &'a SweepArguments, scene: &Scene) -> Result<Self, CommandError> {
+    fn new(
+        arguments: &'a SweepArguments,
+        scene: &Scene,
+        err: &mut dyn Write,
+    ) -> Result<Self, CommandError> {
         let path = &arguments.scene;
         not_ring_pair(path, scene)?;
         if scene.geometry.is_none() {
             return Err(unfit(path, "[geometry] is absent: teeth are needed to touch"));
         }
-        let torque_nm = match arguments.sun_torque_nm {
-            Some(t) if t.is_finite() && t != 0.0 => t,
-            Some(t) => {
-                let reason = format!("{t}: allowed is a finite torque other than 0 N·m");
-                return Err(refused("--sun-torque-nm", reason));
-            }
-            None => operating_torque(path, scene)?,
-        };
+        let torque_nm = loads::sun_torque(arguments.sun_torque_nm, path, scene, err)?;
         let missing =
             || unfit(path, "[operation] is absent: it says which member's speed is swept");
         let case = LoadCase::of_scene(scene).map_err(|_| missing())?.with_sun_torque(torque_nm);

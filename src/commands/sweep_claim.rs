@@ -10,7 +10,7 @@ use gearset::read_text;
 
 use crate::error::CommandError;
 
-use super::statics::refused;
+use super::refused;
 use super::sweep_manifest::Manifest;
 use super::sweep_store::MOST_BYTES;
 

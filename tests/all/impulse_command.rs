@@ -13,7 +13,7 @@ fn impulse_refuses_what_makes_no_sense_with_one_message() {
         (&["impulse", &lumped], "[geometry] is absent"),
         (
             &["impulse", &set, "--sun-torque-nm", "0"],
-            "argument --sun-torque-nm: 0 N·m: nothing touches",
+            "argument --sun-torque-nm: 0 N·m: allowed is a finite torque other than 0 N·m",
         ),
         (&["impulse", &set, "--sun-torque-nm", "-0"], "nothing touches"),
         (&["impulse", &set, "--sun-torque-nm", "nan"], "finite torque"),

@@ -17,7 +17,7 @@ pub enum BranchError {
         reason: String,
     },
     /// Speeds that bound nothing, or a start outside.
-    #[error("speeds from {from} to {to} rpm, starting at {start} rpm: {allowed}")]
+    #[error("speeds from {from:?} to {to:?} rpm, starting at {start:?} rpm: {allowed}")]
     Speeds {
         /// Least speed, rpm.
         from: f64,

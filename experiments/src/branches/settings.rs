@@ -33,8 +33,8 @@ impl BranchSettings {
         let [from, to] = self.speeds_rpm;
         let start = self.start_rpm;
         let refuse = |allowed| Err(BranchError::Speeds { from, to, start, allowed });
-        if ![from, to, start].iter().all(|s| s.is_finite() && *s > 0.0) {
-            return refuse("speeds must be finite and above 0");
+        if ![from, to, start].iter().all(|s| gearset::is_speed(*s)) {
+            return refuse("speeds must be finite and above 0, from 0.001 to 1e7 rpm");
         }
         if from >= to {
             return refuse("the first must be below the last");

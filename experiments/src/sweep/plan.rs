@@ -45,11 +45,12 @@ pub struct Plan {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlanError {
     /// A speed that is none.
-    #[error("a speed of {0} rpm: speeds must be finite and above 0")]
+    #[error("a speed of {0:?} rpm: speeds must be finite and above 0, from {least} to {most:e} rpm",
+        least = gearset::SPEEDS_RPM[0], most = gearset::SPEEDS_RPM[1])]
     Speed(f64),
     /// No speed between the ends.
     #[error(
-        "speeds from {from} to {to} rpm: the range is empty, the first must not exceed the last"
+        "speeds from {from:?} to {to:?} rpm: the range is empty, the first must not exceed the last"
     )]
     Empty {
         /// First, rpm.
@@ -58,14 +59,14 @@ pub enum PlanError {
         to: f64,
     },
     /// A step that leads nowhere.
-    #[error("a step of {0} rpm: it must be finite and above 0")]
+    #[error("a step of {0:?} rpm: it must be finite and above 0")]
     Step(f64),
     /// More speeds than anyone could want.
     #[error("{0:.0} speeds: at most 100,000")]
     TooMany(f64),
     /// Harmonics that the steps of a cycle do not resolve.
     #[error(
-        "{harmonics} harmonics with {steps} steps in a mesh cycle: up to 5 with any, up to 10 with at least 560, none above (Newmark's method is {percent:.0} % off at a resonance of the highest)"
+        "{harmonics} harmonics with {steps} steps in a mesh cycle: up to 5 with any, up to 10 with at least 560, none above; at least one (at a resonance of the highest Newmark's method is {percent:.0} % off)"
     )]
     Harmonics {
         /// Harmonics asked for.
@@ -100,7 +101,7 @@ impl SteadySettings {
 /// [`PlanError`] for a range or a step that makes none.
 pub fn even_speeds(from: f64, to: f64, step: f64) -> Result<Vec<f64>, PlanError> {
     for speed in [from, to] {
-        if !(speed > 0.0 && speed.is_finite()) {
+        if !gearset::is_speed(speed) {
             return Err(PlanError::Speed(speed));
         }
     }
@@ -130,7 +131,7 @@ impl Plan {
         if speeds_rpm.is_empty() {
             return Err(PlanError::Empty { from: f64::NAN, to: f64::NAN });
         }
-        if let Some(bad) = speeds_rpm.iter().find(|s| !(**s > 0.0 && s.is_finite())) {
+        if let Some(bad) = speeds_rpm.iter().find(|s| !gearset::is_speed(**s)) {
             return Err(PlanError::Speed(*bad));
         }
         let mut sorted = speeds_rpm.to_vec();

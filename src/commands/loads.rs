@@ -1,0 +1,100 @@
+//! Loads given on the command line: finite, of a size that the linear theory can bear, and warned of where they are large.
+
+use std::io::Write;
+use std::path::Path;
+
+use gearset::{LoadCase, LoadSize, Scene};
+
+use crate::error::CommandError;
+
+use super::{refused, unfit};
+
+/// Torque on the sun, N·m: that of `--sun-torque-nm`, or the operating point's; neither 0.
+pub(super) fn sun_torque(
+    asked: Option<f64>,
+    path: &Path,
+    scene: &Scene,
+    err: &mut dyn Write,
+) -> Result<f64, CommandError> {
+    let Some(torque) = asked else { return operating_torque(path, scene) };
+    if !torque.is_finite() || torque == 0.0 {
+        let reason = format!(
+            "{torque} N·m: allowed is a finite torque other than 0 N·m, at which nothing touches"
+        );
+        return Err(refused("--sun-torque-nm", reason));
+    }
+    sized("--sun-torque-nm", torque, "N·m", scene.size_of_sun_torque(torque), err)?;
+    Ok(torque)
+}
+
+/// Normal force of a gear pair, N.
+pub(super) fn normal_force(
+    asked: Option<f64>,
+    scene: &Scene,
+    err: &mut dyn Write,
+) -> Result<f64, CommandError> {
+    let Some(force) = asked else {
+        let name = &scene.title;
+        let reason = format!("is absent: `{name}` is a gear pair, loaded by a normal force in N");
+        return Err(refused("--normal-force-n", reason));
+    };
+    if !(force.is_finite() && force > 0.0) {
+        let reason = format!("{force}: allowed is a finite force above 0 N; flanks only press");
+        return Err(refused("--normal-force-n", reason));
+    }
+    sized("--normal-force-n", force, "N", scene.size_of_normal_force(force), err)?;
+    Ok(force)
+}
+
+/// Approach of a gear pair, µm.
+pub(super) fn approach(
+    asked_um: f64,
+    scene: &Scene,
+    err: &mut dyn Write,
+) -> Result<f64, CommandError> {
+    if !(asked_um.is_finite() && asked_um > 0.0) {
+        let reason = format!("{asked_um}: allowed is a finite approach above 0 µm");
+        return Err(refused("--approach-um", reason));
+    }
+    sized("--approach-um", asked_um, "µm", scene.size_of_approach(1e-6 * asked_um), err)?;
+    Ok(asked_um)
+}
+
+/// Refuses a load under which teeth give way by more than a module, and warns from a quarter of a module on, as the scene's
+/// own `operation.torque_nm` is refused and warned of.
+fn sized(
+    argument: &'static str,
+    load: f64,
+    unit: &str,
+    size: Option<LoadSize>,
+    err: &mut dyn Write,
+) -> Result<(), CommandError> {
+    let Some(size) = size else { return Ok(()) };
+    let modules = size.deflection / size.module;
+    let way = format!(
+        "by estimate the teeth give way by {:.3e} mm, {modules:.3e} of the module",
+        1e3 * size.deflection
+    );
+    if size.is_too_large() {
+        let most = size.most(load);
+        let reason = format!(
+            "{load:e} {unit}: allowed is a magnitude below {most:.3e} {unit}; {way}, and displacements are no longer \
+             linear in the load"
+        );
+        return Err(refused(argument, reason));
+    }
+    if size.is_worth_a_warning() {
+        writeln!(err, "warning: {argument} is {load} {unit}: {way}; likely a slip of unit")?;
+    }
+    Ok(())
+}
+
+/// Torque on the sun at the operating point, other than 0.
+fn operating_torque(path: &Path, scene: &Scene) -> Result<f64, CommandError> {
+    let torque = LoadCase::of_scene(scene).ok().map(|case| case.sun_torque_nm);
+    torque.filter(|t| *t != 0.0).ok_or_else(|| {
+        let reason =
+            "`operation.torque_nm` is absent or 0: give it, or the argument --sun-torque-nm";
+        unfit(path, reason)
+    })
+}
