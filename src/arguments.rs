@@ -28,6 +28,8 @@ pub enum Verb {
     Sweep(Sweep),
     /// Periodic motions over speed, stable or not, through the folds at which sweeps jump.
     Branches(Branches),
+    /// Methods and sets pushed until they fail: borders of stability, measured, with theory beside them.
+    Stability(Stability),
     /// Finite-element meshes of a scene: quality, mass properties, flexibility, pictures.
     Mesh(MeshVerb),
     /// Write or explain a scene file.
@@ -110,7 +112,8 @@ pub enum TableFormat {
     Text,
     /// Stable keys for programs; schemas in `schemas/`.
     Json,
-    /// One row per position and tooth pair (`static`), mode (`impulse`) or harmonic (`sweep`, `branches`).
+    /// One row per position and tooth pair (`static`), mode (`impulse`), harmonic (`sweep`, `branches`) or
+    /// border (`stability`).
     Csv,
 }
 
@@ -329,6 +332,36 @@ pub struct Branches {
     #[cfg(feature = "charts")]
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    pub format: TableFormat,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum MapArgument {
+    /// Spectral radius, period error and numerical damping of time-stepping schemes over ω Δt.
+    Integrators,
+    /// Where the explicit central difference becomes unstable, and how many steps a mesh cycle would need.
+    ExplicitStep,
+    /// Energy of a bar bouncing on rigid ground, by scheme.
+    BouncingBar,
+    /// Parametric instability by varying mesh stiffness: tongues over mesh frequency.
+    Parametric,
+    /// Types of modes when one planet is heavier.
+    ModeTypes,
+}
+
+#[derive(Debug, Args)]
+pub struct Stability {
+    /// The map; without it, the maps are listed.
+    #[arg(value_enum)]
+    pub map: Option<MapArgument>,
+    /// Set for which the map is computed (explicit-step, parametric, mode-types); five equally spaced planets if left
+    /// out.
+    #[arg(long, value_name = "FILE")]
+    pub scene: Option<PathBuf>,
+    /// Also write table (CSV), result (JSON) and figure (SVG, PNG) into this folder.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
     #[arg(long, value_enum, default_value_t = TableFormat::Text)]
     pub format: TableFormat,
 }

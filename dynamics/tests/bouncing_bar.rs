@@ -4,7 +4,7 @@
 //! dissipative or energy-keeping treatments do not; Acary, Z. Angew. Math. Mech. 96 (2016), proves that Moreau–Jean with
 //! θ = ½ keeps it for e = 1 and never gains for e < 1.
 
-use dynamics::integrators::{IntegratorError, Scheme};
+use dynamics::integrators::{IntegratorError, Scheme, VibratingSystem};
 use dynamics::stability::BouncingBar;
 
 const SOUND: Scheme = Scheme::MoreauJean { theta: 0.5, restitution: 1.0 };
@@ -44,6 +44,31 @@ fn dissipative_contact_never_gains() {
         assert!(found.largest_energy < 1.0 + 1e-10, "{name}: {}", found.largest_energy);
         assert!(found.energy[9] < 0.99, "{name}: {:?}", found.energy);
     }
+}
+
+/// The guard from both sides: schemes that are cautioned of gain energy on the bar, the others do not. Central difference
+/// does so at the largest step that is stable without contact.
+#[test]
+fn schemes_that_gain_energy_at_contacts_are_cautioned_of() {
+    let bar = BouncingBar::PUBLISHED;
+    let system = bar.system(50, false).unwrap();
+    let inelastic = Scheme::MoreauJean { theta: 0.5, restitution: 0.0 };
+    for scheme in Scheme::ALL.into_iter().chain([inelastic]) {
+        let courant = if scheme == Scheme::CentralDifference { 1.0 } else { 0.5 };
+        let found = bar.bounces(&scheme, false, 50, courant, 10).unwrap();
+        let caution = scheme.caution(&system);
+        let name = scheme.label();
+        assert_eq!(
+            caution.is_some(),
+            found.largest_energy > 1.01,
+            "{name}: {}",
+            found.largest_energy
+        );
+        assert!(caution.is_none_or(|text| text.contains("Moreau–Jean")), "{name}");
+    }
+    // Without obstacles there is nothing to caution of.
+    let free = VibratingSystem::oscillator(1.0, 0.0, 1.0).unwrap();
+    assert!(Scheme::AverageAcceleration.caution(&free).is_none());
 }
 
 /// Energy alone would not tell a bar that bounces wrongly: the lower end follows the closed form, the better the finer,

@@ -9,6 +9,7 @@ pub mod modal;
 mod model;
 pub mod models;
 mod natural_mode;
+pub mod stability;
 pub mod sweep;
 mod table_growth;
 pub mod torque;

@@ -227,7 +227,14 @@ fn coupling(
 /// away, and mixed modes that have most of their motion in one kind. Empty where types can be relied on.
 pub fn type_warnings(model: &LumpedModel, modes: &NaturalModes) -> Vec<String> {
     let mut all = Vec::new();
+    let mut told: Vec<[(f64, ModeType); 2]> = Vec::new();
     for t in type_tolerances(model, modes).iter().filter(|t| t.half_up_to < OPEN_MASS) {
+        let (own, nearest) = ((t.frequency_hz, t.mode_type), (t.nearest_hz, t.nearest_type));
+        // Each of two modes has the other as its nearest: one warning for both.
+        if told.contains(&[nearest, own]) {
+            continue;
+        }
+        told.push([own, nearest]);
         all.push(format!(
             "the {} mode at {:.2} Hz and the {} one at {:.2} Hz lie so close that a planet heavier by {:.1e} of its mass mixes \
              them: read the two as one group, or separate them by another stiffness",

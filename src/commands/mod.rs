@@ -16,6 +16,7 @@ mod scene;
 mod scene_summary;
 mod scene_text;
 mod schema;
+mod stability;
 mod static_approach;
 mod static_pair;
 mod static_set;
@@ -87,6 +88,7 @@ fn dispatch(
         Verb::Impulse(arguments) => impulse::run(&arguments, out, err).map(|()| true),
         Verb::Sweep(arguments) => sweep::run(&arguments, out, err).map(|()| true),
         Verb::Branches(arguments) => branches::run(&arguments, out, err).map(|()| true),
+        Verb::Stability(arguments) => stability::run(&arguments, out, err).map(|()| true),
         Verb::Mesh(arguments) => mesh::run(&arguments, out, err).map(|()| true),
         Verb::Scene(verb) => scene::run(&verb, out).map(|()| true),
         Verb::Compare(arguments) => compare::run(&arguments, out),

@@ -90,6 +90,9 @@ pub(crate) fn run(
         return Err(CommandError::Argument { argument: "--carrier-speeds-rpm", reason });
     }
     let (model, modes) = solve(&scene).map_err(|reason| unfit(&arguments.scene, reason))?;
+    for warning in lumped::type_warnings(&model, &modes) {
+        writeln!(err, "warning: {warning}")?;
+    }
     let mut result = describe(&model, &modes);
     if !arguments.carrier_speeds_rpm.is_empty() {
         let speeds: Vec<f64> =

@@ -9,6 +9,7 @@ use super::mesh::MeshOutput;
 use super::modes::ModesOutput;
 use super::rules::RulesOutput;
 use super::scene_summary::SceneSummary;
+use super::stability::{StabilityList, StabilityOutput};
 use super::static_approach::ApproachOutput;
 use super::static_pair::PairOutput;
 use super::static_set::SetOutput;
@@ -35,6 +36,8 @@ pub fn schemas() -> Vec<(&'static str, Schema)> {
         ("impulse", of::<ImpulseOutput>()),
         ("sweep", of::<SweepOutput>()),
         ("branches", of::<BranchesOutput>()),
+        ("stability", of::<StabilityOutput>()),
+        ("stability_list", of::<StabilityList>()),
         ("mesh", of::<MeshOutput>()),
         ("compare", of::<Comparison>()),
     ]

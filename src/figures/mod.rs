@@ -1,5 +1,5 @@
-//! Figures of the verdict's report, of a mesh cycle at rest, of impulse tests, of speed sweeps and of branches, one module
-//! per figure; all are saved as SVG and PNG.
+//! Figures of the verdict's report, of a mesh cycle at rest, of impulse tests, of speed sweeps, of branches and of stability maps,
+//! one module per figure; all are saved as SVG and PNG.
 
 mod branches;
 mod campbell;
@@ -16,6 +16,7 @@ mod pressure;
 mod set_cycle;
 mod spectrum;
 mod stabilisation;
+mod stability;
 mod sweep;
 mod torque_map;
 mod torque_peaks;
@@ -30,6 +31,7 @@ pub use impulse::{ModalTest, of_impulse_test};
 pub use meshes::meshes;
 pub use pair_cycle::of_pair_cycle;
 pub use set_cycle::of_set_cycles;
+pub use stability::of_map;
 pub use sweep::{SweepContext, of_sweep};
 pub use torque_map::torque_map;
 pub use torque_peaks::torque_peaks;

@@ -78,6 +78,10 @@ fn every_verb(folder: &Path) -> Vec<(&'static str, bool, Vec<String>)> {
             true,
             words(&format!("branches {plain} --speeds-rpm 990:1000 --model lumped")),
         ),
+        ("stability", true, words("stability explicit-step")),
+        ("stability", true, words("stability integrators")),
+        ("stability", true, words(&format!("stability mode-types --scene {set}"))),
+        ("stability_list", true, words("stability")),
         ("modes", false, words(&format!("modes {set}"))),
         ("modes", false, words(&format!("modes {set} --carrier-speeds-rpm 0,535.7"))),
         ("modes", false, words(&format!("modes {}", scene("lin_parker_1999_3p.toml")))),
@@ -178,6 +182,51 @@ fn a_branch_without_speeds_or_start_is_refused() {
         let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
         assert_eq!((code, out.as_str()), (2, ""), "{line}");
         assert!(err.contains(named), "{line}: {err}");
+    }
+}
+
+#[test]
+fn stability_maps_that_are_none_are_refused() {
+    let (set, pair) = (scene("oh58_4p.toml"), scene("oh58_sun_planet_pair.toml"));
+    let bare = scene("lin_parker_1999_4p.toml");
+    for (line, named) in [
+        ("stability tongues".to_owned(), "bouncing-bar"),
+        (format!("stability bouncing-bar --scene {set}"), "--scene"),
+        (format!("stability --scene {set}"), "--scene"),
+        ("stability --out out".to_owned(), "--out"),
+        (format!("stability parametric --scene {pair}"), "lumped"),
+        (format!("stability parametric --scene {bare}"), "teeth"),
+        (format!("stability explicit-step --scene {bare}"), "operation"),
+        ("stability parametric --scene none.toml".to_owned(), "none.toml"),
+    ] {
+        let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!((code, out.as_str()), (2, ""), "{line}");
+        assert!(err.contains(named), "{line}: {err}");
+    }
+}
+
+#[test]
+fn a_stability_map_writes_its_table_and_its_figure() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("maps");
+    let result =
+        json(&["stability", "explicit-step", "--format", "json", "--out", out.to_str().unwrap()]);
+    for file in ["explicit-step.json", "explicit-step.csv", "stability_explicit_step.svg"] {
+        assert!(out.join(file).metadata().unwrap().len() > 100, "{file}");
+    }
+    let text = std::fs::read_to_string(out.join("explicit-step.json")).unwrap();
+    assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), result);
+    // Observed borders agree with theory within 1 %.
+    for border in result["borders"].as_array().unwrap() {
+        assert!(border["difference_percent"].as_f64().unwrap().abs() < 1.0, "{border}");
+    }
+}
+
+#[test]
+fn modes_whose_types_mean_nothing_are_warned_of() {
+    for (name, is_warned) in [("oh58_4p.toml", false), ("coinciding_modes.toml", true)] {
+        let (code, _, err) = run(&["modes", &scene(name)]);
+        assert_eq!((code, err.contains("lie so close")), (0, is_warned), "{name}: {err}");
     }
 }
 

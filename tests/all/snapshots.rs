@@ -208,6 +208,12 @@ fn campbell() {
 }
 
 #[test]
+fn stability() {
+    assert_json("stability_explicit_step", &["stability", "explicit-step"]);
+    assert_json("stability_list", &["stability"]);
+}
+
+#[test]
 fn rules() {
     for name in ["oh58_4p", "oh58_3p", "five_planets"] {
         assert_json(&format!("rules_{name}"), &["rules", &scene(name)]);

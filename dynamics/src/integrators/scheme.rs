@@ -68,6 +68,21 @@ impl Scheme {
         }
     }
 
+    /// What to know before this scheme is used on a system with obstacles; `None` if it cannot gain energy at them.
+    ///
+    /// Proofs exist for contact-stabilised Newmark (Deuflhard, Krause & Ertel 2008) and for Moreau–Jean with θ ≥ ½ (Acary
+    /// 2016); the others gain energy on the bouncing bar.
+    pub fn caution(&self, system: &VibratingSystem) -> Option<String> {
+        let is_sound = matches!(self, Self::ContactStabilised | Self::MoreauJean { .. });
+        (!is_sound && !system.clearance.is_empty()).then(|| {
+            format!(
+                "{} may gain energy where contact with a rigid obstacle opens, at any step: take Moreau–Jean with θ = 1/2, which \
+                 keeps it, or contact-stabilised Newmark, which loses some",
+                self.label()
+            )
+        })
+    }
+
     /// Made ready for a system and a step of h seconds.
     ///
     /// # Errors

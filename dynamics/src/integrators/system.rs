@@ -64,6 +64,9 @@ impl VibratingSystem {
     }
 
     /// One mass m with c and k: m ẍ + c ẋ + k x = 0.
+    ///
+    /// # Errors
+    /// If a number is not finite.
     pub fn oscillator(mass: f64, damping: f64, stiffness: f64) -> Result<Self, IntegratorError> {
         let one = |x| DMatrix::from_element(1, 1, x);
         Self::new(one(mass), one(damping), one(stiffness), vec![0.0])

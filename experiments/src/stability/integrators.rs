@@ -1,0 +1,57 @@
+//! Spectral radius, period error and numerical damping of every scheme over ω Δt.
+
+use dynamics::integrators::{Amplification, Scheme, amplification, closed_form};
+
+use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+
+/// ω Δt from 10^−1.5 to 10^1.5.
+const POINTS: i32 = 90;
+
+/// ω Δt at which schemes are compared in the table: 63 and 6 steps in a period, and beyond what is resolved.
+const TABLED: [f64; 3] = [0.1, 1.0, 10.0];
+
+type Quantity = (&'static str, fn(&Amplification) -> Option<f64>);
+
+const QUANTITIES: [Quantity; 3] = [
+    ("spectral radius", |a| Some(a.spectral_radius)),
+    ("period error", |a| a.period_error),
+    ("numerical damping ratio", |a| a.damping_ratio),
+];
+
+pub(super) fn map() -> Result<StabilityMap, MapError> {
+    let mut map = empty(MapName::Integrators, "one undamped oscillator", "ω Δt");
+    for scheme in Scheme::ALL {
+        for (name, of) in QUANTITIES {
+            let mut curves = [Vec::new(), Vec::new()];
+            for k in 0..=POINTS {
+                let omega_h = 10f64.powf(-1.5 + 3.0 * f64::from(k) / f64::from(POINTS));
+                let both =
+                    [amplification(&scheme, omega_h, 0.0)?, closed_form(&scheme, omega_h, 0.0)];
+                for (curve, at) in curves.iter_mut().zip(&both) {
+                    // Beyond its limit the explicit scheme leaves the figure.
+                    let value = of(at).filter(|y| y.abs() < 2.0);
+                    curve.extend(value.map(|y| (omega_h.log10(), y)));
+                }
+            }
+            for (points, is_theory) in curves.into_iter().zip([false, true]) {
+                map.curves.push(MapCurve {
+                    panel: name.into(),
+                    name: scheme.label(),
+                    is_theory,
+                    is_points: !is_theory,
+                    points,
+                });
+            }
+            for omega_h in TABLED {
+                let measured = of(&amplification(&scheme, omega_h, 0.0)?);
+                let theory = of(&closed_form(&scheme, omega_h, 0.0));
+                let tiny = |x: f64| if x.abs() < 1e-12 { 0.0 } else { x };
+                let quantity = format!("{name} at ω Δt = {omega_h}");
+                let [measured, theory] = [measured, theory].map(|x| x.map(tiny));
+                map.borders.push(Border::new(scheme.label(), quantity, "", measured, theory));
+            }
+        }
+    }
+    map.x_axis = "log₁₀ ω Δt".into();
+    Ok(map)
+}

@@ -1,0 +1,177 @@
+//! What a stability map is, and which there are.
+
+use gearset::Scene;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::{bouncing_bar, explicit_step, integrators, mode_types, parametric};
+
+/// The maps.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum MapName {
+    /// Spectral radius, period error and numerical damping over ω Δt.
+    Integrators,
+    /// Central difference at Δt·ω_max = 2.
+    ExplicitStep,
+    /// A bar that bounces on rigid ground.
+    BouncingBar,
+    /// Tongues of parametric instability.
+    Parametric,
+    /// Types of modes with one planet heavier.
+    ModeTypes,
+}
+
+impl MapName {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Integrators,
+        Self::ExplicitStep,
+        Self::BouncingBar,
+        Self::Parametric,
+        Self::ModeTypes,
+    ];
+
+    /// As on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Integrators => "integrators",
+            Self::ExplicitStep => "explicit-step",
+            Self::BouncingBar => "bouncing-bar",
+            Self::Parametric => "parametric",
+            Self::ModeTypes => "mode-types",
+        }
+    }
+
+    /// What its border means.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Integrators => {
+                "what one time step does to an oscillation: above a spectral radius of 1 it grows without cause, and below 1 it \
+                 is damped without cause"
+            }
+            Self::ExplicitStep => {
+                "beyond Δt·ω_max = 2 the explicit central difference grows without bound, however small the motion at the \
+                 highest frequency"
+            }
+            Self::BouncingBar => {
+                "a scheme that is stable for every linear motion may still gain energy each time a contact opens"
+            }
+            Self::Parametric => {
+                "between the borders of a tongue the varying mesh stiffness feeds a vibration that grows from nothing"
+            }
+            Self::ModeTypes => {
+                "with one planet heavier than this a mode has lost its type: it is listed as mixed, and further on it is \
+                 shared by kinds"
+            }
+        }
+    }
+
+    /// Whether it is computed for a scene.
+    pub fn is_of_a_scene(self) -> bool {
+        matches!(self, Self::ExplicitStep | Self::Parametric | Self::ModeTypes)
+    }
+}
+
+/// One border, or one number along it.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Border {
+    /// Of what: scheme, modes or tongue.
+    pub of: String,
+    /// What was measured.
+    pub quantity: String,
+    /// Unit; empty for a ratio.
+    pub unit: String,
+    /// From the program's own steps or solutions; absent where nothing could be found.
+    pub measured: Option<f64>,
+    /// From theory; absent where there is none.
+    pub theory: Option<f64>,
+    /// 100 (measured − theory)/theory; absent without both, or where theory is 0.
+    pub difference_percent: Option<f64>,
+}
+
+impl Border {
+    pub(super) fn new(
+        of: impl Into<String>,
+        quantity: impl Into<String>,
+        unit: &str,
+        measured: Option<f64>,
+        theory: Option<f64>,
+    ) -> Self {
+        let difference_percent =
+            measured.zip(theory).filter(|(_, t)| *t != 0.0).map(|(m, t)| 100.0 * (m - t) / t);
+        let (of, quantity, unit) = (of.into(), quantity.into(), unit.into());
+        Self { of, quantity, unit, measured, theory, difference_percent }
+    }
+}
+
+/// A curve of the map's figure.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct MapCurve {
+    /// Panel of the figure it belongs to.
+    pub panel: String,
+    /// What it shows.
+    pub name: String,
+    /// Whether it is theory rather than measured.
+    pub is_theory: bool,
+    /// Whether it is drawn as unconnected points.
+    pub is_points: bool,
+    /// (x, y).
+    pub points: Vec<(f64, f64)>,
+}
+
+/// A map: its borders and the curves of its figure.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct StabilityMap {
+    /// Name as on the command line.
+    pub map: String,
+    /// One sentence: what the border means.
+    pub meaning: String,
+    /// System it was computed for.
+    pub system: String,
+    /// Title of the x axis.
+    pub x_axis: String,
+    /// Borders.
+    pub borders: Vec<Border>,
+    /// Curves.
+    pub curves: Vec<MapCurve>,
+}
+
+/// Why a map cannot be drawn.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MapError {
+    /// A step in time.
+    #[error(transparent)]
+    Integrator(#[from] dynamics::integrators::IntegratorError),
+    /// The lumped set of the scene.
+    #[error(transparent)]
+    Lumped(#[from] lumped::LumpedError),
+    /// A scene without operating point.
+    #[error("[operation] is absent: steps per mesh cycle need a mesh frequency")]
+    NoOperation,
+}
+
+/// Computes a map; `scene` is used by those for which [`MapName::is_of_a_scene`] holds.
+///
+/// # Errors
+/// If the scene lacks what the map needs, or a step or an eigenproblem fails.
+pub fn stability_map(which: MapName, scene: &Scene) -> Result<StabilityMap, MapError> {
+    match which {
+        MapName::Integrators => integrators::map(),
+        MapName::ExplicitStep => explicit_step::map(scene),
+        MapName::BouncingBar => bouncing_bar::map(),
+        MapName::Parametric => parametric::map(scene),
+        MapName::ModeTypes => mode_types::map(scene),
+    }
+}
+
+/// A map without borders and curves.
+pub(super) fn empty(which: MapName, system: impl Into<String>, x_axis: &str) -> StabilityMap {
+    StabilityMap {
+        map: which.name().into(),
+        meaning: which.meaning().into(),
+        system: system.into(),
+        x_axis: x_axis.into(),
+        borders: Vec::new(),
+        curves: Vec::new(),
+    }
+}
