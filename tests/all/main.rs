@@ -5,6 +5,7 @@
 mod command;
 mod impulse_command;
 mod mutated_scenes;
+mod readings;
 mod refusals;
 mod scene_check;
 mod scene_schema;

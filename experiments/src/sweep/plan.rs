@@ -50,7 +50,7 @@ pub enum PlanError {
     Speed(f64),
     /// No speed between the ends.
     #[error(
-        "speeds from {from:?} to {to:?} rpm: the range is empty, the first must not exceed the last"
+        "speeds from {from} to {to} rpm: the range is empty, the first must not exceed the last"
     )]
     Empty {
         /// First, rpm.
@@ -59,7 +59,7 @@ pub enum PlanError {
         to: f64,
     },
     /// A step that leads nowhere.
-    #[error("a step of {0:?} rpm: it must be finite and above 0")]
+    #[error("a step of {0} rpm: it must be finite and above 0")]
     Step(f64),
     /// More speeds than anyone could want.
     #[error("{0:.0} speeds: at most 100,000")]
