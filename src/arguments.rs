@@ -200,7 +200,7 @@ impl Static {
 
 #[derive(Debug, Args)]
 pub struct Impulse {
-    /// Scene file of a whole set.
+    /// Scene file of a whole set, or a sun–planet gear pair.
     pub scene: PathBuf,
     /// Torque on the sun, N·m; negative is clockwise. If left out, what the operating point loads the sun with.
     #[arg(long, value_name = "NM", allow_negative_numbers = true)]
@@ -247,7 +247,7 @@ pub enum SteadyMethod {
 
 #[derive(Debug, Args)]
 pub struct Sweep {
-    /// Scene file of a whole set; its `[dynamics]` gives fidelity and steps per mesh cycle.
+    /// Scene file of a whole set, or a sun–planet gear pair; its `[dynamics]` gives fidelity and steps per mesh cycle.
     pub scene: PathBuf,
     /// Speeds of the input member: first, last and step, rpm.
     #[arg(long, value_name = "FROM:TO:STEP", default_value = "100:2500:25", value_parser = range,
@@ -303,7 +303,7 @@ pub enum Over {
 
 #[derive(Debug, Args)]
 pub struct Branches {
-    /// Scene file of a whole set; its `[dynamics]` gives fidelity and steps per mesh cycle.
+    /// Scene file of a whole set, or a sun–planet gear pair; its `[dynamics]` gives fidelity and steps per mesh cycle.
     pub scene: PathBuf,
     /// What is varied along the branch.
     #[arg(long, value_enum, default_value_t = Over::Speed)]
