@@ -299,6 +299,10 @@ pub struct Sweep {
 pub enum Over {
     /// Speed of the input member.
     Speed,
+    /// Torque on the sun.
+    Torque,
+    /// Factor on every damping of the scene.
+    Damping,
 }
 
 #[derive(Debug, Args)]
@@ -308,22 +312,37 @@ pub struct Branches {
     /// What is varied along the branch.
     #[arg(long, value_enum, default_value_t = Over::Speed)]
     pub over: Over,
-    /// Least and greatest speed of the input member, rpm.
-    #[arg(long, value_name = "FROM:TO", value_parser = speeds, allow_negative_numbers = true)]
-    pub speeds_rpm: [f64; 2],
-    /// Speed at which the branch begins, with the motion found from rest, rpm; the greatest if left out.
-    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    /// Least and greatest speed of the input member, rpm; with --over speed, which needs it.
+    #[arg(long, value_name = "FROM:TO", value_parser = span, allow_negative_numbers = true)]
+    pub speeds_rpm: Option<[f64; 2]>,
+    /// Least and greatest torque on the sun, N·m, both of one sign; with --over torque, which needs it.
+    #[arg(long, value_name = "FROM:TO", value_parser = span, allow_negative_numbers = true,
+          allow_hyphen_values = true)]
+    pub torques_nm: Option<[f64; 2]>,
+    /// Least and greatest factor on every damping of the scene; with --over damping, which needs it.
+    #[arg(long, value_name = "FROM:TO", value_parser = span, allow_negative_numbers = true)]
+    pub damping_factors: Option<[f64; 2]>,
+    /// Speed (rpm), torque (N·m) or factor at which the branch begins, with the motion found from rest; the greatest if
+    /// left out.
+    #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
     pub start: Option<f64>,
-    /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out.
+    /// Speed of the input member, rpm, with --over torque and damping. The operating speed if left out.
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    pub rpm: Option<f64>,
+    /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out. With --over torque the one under
+    /// which the model is set up, the middle of the range if left out.
     #[arg(long, value_name = "NM", allow_negative_numbers = true)]
     pub sun_torque_nm: Option<f64>,
     /// Model whose motion is followed.
     #[arg(long, value_enum, default_value_t = Model::FeContact)]
     pub model: Model,
-    /// Factor on every damping of the scene.
+    /// Factor on every damping of the scene, with --over speed and torque.
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = tolerance,
           allow_negative_numbers = true)]
     pub damping_factor: f64,
+    /// Also follow the branches that leave at period doublings and branch points.
+    #[arg(long)]
+    pub switch: bool,
     /// Most points each way from the start.
     #[arg(long, value_name = "N", default_value_t = 500,
           value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
@@ -442,8 +461,8 @@ fn two(text: &str) -> Result<[f64; 2], String> {
     }
 }
 
-fn speeds(text: &str) -> Result<[f64; 2], String> {
-    two(text).map_err(|_| "two speeds as FROM:TO, in rpm".into())
+fn span(text: &str) -> Result<[f64; 2], String> {
+    two(text).map_err(|_| "two numbers as FROM:TO".into())
 }
 
 fn range(text: &str) -> Result<[f64; 3], String> {

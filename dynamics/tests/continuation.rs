@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use dynamics::continuation::{
     BranchPoint, ContinuationError, ContinuationOptions, Deflation, Direction, End, Evaluation,
-    Family, Judgement, PointKind, Scales, deflated_solution, trace, trace_both,
+    Family, Judgement, PointKind, Scales, branch_off, deflated_solution, trace, trace_both,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -144,4 +144,50 @@ fn what_cannot_be_followed_is_named() {
     assert_eq!(branch.ends, [End::Bound, End::Bound]);
     let ends = [branch.points.first().unwrap().y[0], branch.points.last().unwrap().y[0]];
     assert!((ends[0] * ends[1] + 2.0).abs() < 1e-12, "{ends:?}");
+}
+
+/// |y| + λ − 1 = 0 in coordinates scaled so that both halves are almost parallel: the branch turns back at the kink
+/// (0, 1) by more than a right angle.
+#[test]
+fn a_branch_goes_on_beyond_a_kink_at_which_it_turns_back() {
+    for slope in [0.3, 1.0, 3.0, 30.0] {
+        let mut tent = Scalar(
+            |y: f64, l: f64| [slope * y.abs() + l - 1.0, slope * y.signum(), 1.0],
+            |_, _| -1.0,
+        );
+        let options = ContinuationOptions::within([-2.0, 2.0]);
+        let branch = trace_both(&mut tent, &[0.5 / slope], 0.5, &one(), &options).unwrap();
+        assert_eq!(branch.ends, [End::Bound, End::Bound], "{slope}");
+        let ends = [0, branch.points.len() - 1].map(|i| &branch.points[i]);
+        assert!(ends.iter().all(|p| (p.lambda + 2.0).abs() < 1e-12));
+        assert!((ends[0].y[0] * ends[1].y[0] + 9.0 / slope / slope).abs() < 1e-9, "{slope}");
+        let folds: Vec<f64> = branch.folds().map(|p| p.lambda).collect();
+        println!("{slope}: {} points, folds {folds:?}", branch.points.len());
+        assert_eq!(folds.len(), 1);
+        assert!((folds[0] - 1.0).abs() < 1e-5, "{folds:?}");
+    }
+}
+
+/// y (λ − y²) = 0: at λ = 0 the branch y = 0 loses its stability, and y = ±√λ branch off.
+#[test]
+fn both_sides_of_a_pitchfork_are_followed_off_its_branch_point() {
+    let mut fork = Scalar(|y: f64, l: f64| [y * (l - y * y), l - 3.0 * y * y, y], |_, l| l);
+    let options = ContinuationOptions::within([-1.0, 1.0]);
+    let trunk = trace_both(&mut fork, &[0.0], -0.5, &one(), &options).unwrap();
+    let found: Vec<BranchPoint> = trunk.bifurcations().cloned().collect();
+    assert_eq!(found.len(), 1);
+    for side in [1.0, -1.0] {
+        let branch = branch_off(&mut fork, &found[0], &[side], &one(), &options).unwrap();
+        assert_eq!(branch.ends, [End::Start, End::Bound]);
+        assert!(branch.points.len() > 3);
+        for p in &branch.points {
+            assert!((p.y[0] - side * p.lambda.sqrt()).abs() < 1e-9 && p.lambda > 0.0);
+        }
+        assert!((branch.points[branch.points.len() - 1].lambda - 1.0).abs() < 1e-12);
+    }
+    // Along the branch itself there is no direction off it; and sizes are checked.
+    let error = branch_off(&mut fork, &found[0], &[0.0], &one(), &options).unwrap_err();
+    assert!(matches!(error, ContinuationError::NoTangent { .. }), "{error}");
+    let error = branch_off(&mut fork, &found[0], &[1.0, 2.0], &one(), &options).unwrap_err();
+    assert!(matches!(error, ContinuationError::Size { .. }), "{error}");
 }

@@ -44,6 +44,16 @@ pub enum ExperimentError {
     /// A speed of a sweep at which no steady state could be computed.
     #[error(transparent)]
     Failed(Box<crate::sweep::FailedPoint>),
+    /// A torque whose sense is not that of the torque a model was made for.
+    #[error(
+        "{torque_nm} N·m on the sun: the model was made under {own_nm} N·m, and a torque in the other sense presses the other flanks"
+    )]
+    OtherFlanks {
+        /// Torque asked for, N m.
+        torque_nm: f64,
+        /// Torque of the model, N m.
+        own_nm: f64,
+    },
     /// A branch of periodic motions that could not be begun.
     #[error(transparent)]
     Branch(#[from] crate::branches::BranchError),

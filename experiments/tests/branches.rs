@@ -5,8 +5,8 @@ use dynamics::continuation::{
 };
 use experiments::ExperimentError;
 use experiments::branches::{
-    Branch, BranchEnd, BranchError, BranchPoint, BranchPointKind, BranchSettings, PeriodicFamily,
-    branch,
+    Branch, BranchEnd, BranchError, BranchParameter, BranchPoint, BranchPointKind, BranchSettings,
+    PeriodicFamily, branch,
 };
 use experiments::sweep::{
     Coordinate, Direction, FeModel, Memory, MeshLawModel, Part, Plan, SteadyMethod, SteadySettings,
@@ -69,7 +69,7 @@ fn both_folds_are_traced_and_marching_jumps_there() {
     let bodies = Bodies::new(&scene).unwrap();
     let model = law(&scene, &bodies, 50.0);
     let fine = BranchSettings {
-        start_rpm: 2950.0,
+        start: 2950.0,
         longest_step: 0.05,
         most_points: 2000,
         ..BranchSettings::over([2790.0, 2960.0])
@@ -98,7 +98,7 @@ fn both_folds_are_traced_and_marching_jumps_there() {
     assert!(found.points.iter().filter(lost).count() > 10);
 
     // From the other side, and in other scales, the same folds are found.
-    let other = branch(&model, &BranchSettings { start_rpm: 2800.0, ..fine.clone() }).unwrap();
+    let other = branch(&model, &BranchSettings { start: 2800.0, ..fine.clone() }).unwrap();
     let again: Vec<f64> = other.folds().map(speed).collect();
     assert_eq!(again.len(), 2);
     for (a, b) in again.iter().zip([up, down]) {
@@ -195,7 +195,7 @@ fn a_period_doubling_is_located_where_marching_doubles_its_period() {
     let scene = scene("oh58_3p", 0.1, 70);
     let bodies = Bodies::new(&scene).unwrap();
     let model = law(&scene, &bodies, 100.0);
-    let settings = BranchSettings { start_rpm: 4300.0, ..BranchSettings::over([4140.0, 4310.0]) };
+    let settings = BranchSettings { start: 4300.0, ..BranchSettings::over([4140.0, 4310.0]) };
     let found = branch(&model, &settings).unwrap();
     assert_eq!(found.ends, [BranchEnd::Bound, BranchEnd::Bound]);
     let all: Vec<&BranchPoint> = found.bifurcations().collect();
@@ -275,7 +275,8 @@ fn a_wrong_entry_of_the_jacobian_shows_in_the_iterations() {
         ..ContinuationOptions::within([1450.0, 1550.0])
     };
     let count = |share: f64| -> Result<[usize; 2], ContinuationError<ExperimentError>> {
-        let (own, scales) = (PeriodicFamily::new(&model, 0, n), scales.clone());
+        let (own, scales) =
+            (PeriodicFamily::new(&model, BranchParameter::Speed, 0, n), scales.clone());
         let mut family = Off { own, share, scales: scales.unknowns.clone(), evaluations: 0 };
         let found = trace_both(&mut family, &start, 1500.0, &scales, &options)?;
         assert!(found.ends.iter().all(|end| matches!(end, End::Bound)));
@@ -302,8 +303,8 @@ fn what_makes_no_branch_is_refused() {
         ([800.0, f64::NAN], 850.0),
         ([800.0, 900.0], 950.0),
     ] {
-        let settings = BranchSettings { start_rpm: start, ..BranchSettings::over(range) };
-        assert!(matches!(refused(settings), BranchError::Speeds { .. }));
+        let settings = BranchSettings { start: start, ..BranchSettings::over(range) };
+        assert!(matches!(refused(settings), BranchError::Range { .. }));
     }
     let few = BranchSettings { most_points: 1, ..BranchSettings::over([800.0, 900.0]) };
     assert_eq!(refused(few), BranchError::Points(1));

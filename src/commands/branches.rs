@@ -1,9 +1,11 @@
-//! `branches SCENE`: periodic motions over speed, stable or not.
+//! `branches SCENE`: periodic motions over speed, torque or damping, stable or not.
 
 use std::io::Write;
 
 use experiments::ExperimentError;
-use experiments::branches::{BranchError, BranchSettings, branch};
+use experiments::branches::{
+    BranchError, BranchParameter, BranchSettings, Branches as Found, branch, branches,
+};
 use experiments::sweep::{FeModel, MeshLawModel, SteadySettings, SweepModel};
 use fe_contact::statics::{Bodies, Imperfections};
 use gearset::{Fidelity, LoadCase, Scene, Verb};
@@ -12,7 +14,7 @@ use crate::arguments::{Branches, Model, Over, TableFormat};
 use crate::error::CommandError;
 use crate::output;
 
-use super::branches_output::BranchesOutput;
+use super::branches_output::{BranchesOutput, Fixed};
 use super::working::Working;
 use super::{fe_refused, loads, needs, read_scene, refused, unfit};
 
@@ -26,7 +28,7 @@ pub(super) fn run(
     let mut scene = read_scene(path)?;
     let settings = settings(arguments)?;
     needs::not_ring_pair(path, &scene)?;
-    let case = case(arguments, &scene, err)?;
+    let case = case(arguments, &scene, &settings, err)?;
     let steps = scene.dynamics.steps_per_cycle as usize;
     let harmonics = SteadySettings { harmonics: settings.harmonics, ..SteadySettings::default() };
     harmonics.check(steps).map_err(|e| unfit(path, e.to_string()))?;
@@ -49,7 +51,12 @@ pub(super) fn run(
         (Model::Lumped, _) => Box::new(MeshLawModel::new(&scene, &bodies, case)?.lumped()),
     };
     working.now("following the branch");
-    let found = branch(model.as_ref(), &settings).map_err(|e| match e {
+    let found = match arguments.switch {
+        true => branches(model.as_ref(), &settings),
+        false => branch(model.as_ref(), &settings)
+            .map(|trunk| Found { branches: vec![trunk], not_followed: Vec::new() }),
+    };
+    let found = found.map_err(|e| match e {
         ExperimentError::Fe(e) => unfit(path, e.to_string()),
         ExperimentError::Branch(e @ BranchError::NoDerivative(_)) => unfit(path, e.to_string()),
         ExperimentError::Branch(e @ BranchError::NoStart { .. }) => {
@@ -58,37 +65,80 @@ pub(super) fn run(
         other => other.into(),
     })?;
     drop(working);
+    let fixed = Fixed { case, damping_factor: arguments.damping_factor };
     #[cfg(feature = "charts")]
     if let Some(folder) = &arguments.figures {
-        use crate::figures::{of_branch, save};
-        let title = format!("{}: {} N·m on the sun", scene.title, case.sun_torque_nm);
-        save(&of_branch(&found, &title, settings.harmonics), folder)?;
+        use crate::figures::{of_branches, save};
+        let title = format!("{}: {}", scene.title, fixed.words(settings.over));
+        save(&of_branches(&found, &title, settings.harmonics), folder)?;
     }
-    let (torque, factor) = (case.sun_torque_nm, arguments.damping_factor);
-    let result = BranchesOutput::new(&scene, torque, factor, &settings, found);
+    let result = BranchesOutput::new(&scene, &fixed, &settings, found);
     match arguments.format {
         TableFormat::Json => output::json(out, &result),
         TableFormat::Csv => result.write_csv(out),
-        TableFormat::Text => result.text(out),
+        TableFormat::Text => result.text(&fixed, out),
     }
 }
 
-/// Range and start, checked before anything is computed.
+/// The option that gives the range of a parameter.
+fn option(over: Over) -> &'static str {
+    match over {
+        Over::Speed => "--speeds-rpm",
+        Over::Torque => "--torques-nm",
+        Over::Damping => "--damping-factors",
+    }
+}
+
+/// Range and start, checked before anything is computed; options that belong to another parameter are refused.
 fn settings(arguments: &Branches) -> Result<BranchSettings, CommandError> {
-    let Over::Speed = arguments.over;
-    let [from, to] = arguments.speeds_rpm;
+    let own = arguments.over;
+    let name = |over: Over| match over {
+        Over::Speed => "speed",
+        Over::Torque => "torque",
+        Over::Damping => "damping",
+    };
+    let ranges = [
+        (Over::Speed, arguments.speeds_rpm),
+        (Over::Torque, arguments.torques_nm),
+        (Over::Damping, arguments.damping_factors),
+    ];
+    let other = ranges.iter().find(|(over, range)| *over != own && range.is_some());
+    if let Some((other, _)) = other {
+        let reason = format!("the range for --over {}; this is --over {}", name(*other), name(own));
+        return Err(refused(option(*other), reason));
+    }
+    if own == Over::Speed && arguments.rpm.is_some() {
+        let reason = "one speed, for --over torque and damping; this is --over speed".to_owned();
+        return Err(refused("--rpm", reason));
+    }
+    if own == Over::Damping && arguments.damping_factor != 1.0 {
+        let reason = "one factor, for --over speed and torque; --over damping takes its factors from --damping-factors";
+        return Err(refused("--damping-factor", reason.to_owned()));
+    }
+    let given = ranges.iter().find(|(over, _)| *over == own).and_then(|(_, range)| *range);
+    let Some([from, to]) = given else {
+        let reason = format!("missing: --over {} needs its range as FROM:TO", name(own));
+        return Err(refused(option(own), reason));
+    };
+    let over = match own {
+        Over::Speed => BranchParameter::Speed,
+        Over::Torque => BranchParameter::Torque,
+        Over::Damping => BranchParameter::Damping,
+    };
     let most_points = arguments.max_points as usize;
-    let whole = BranchSettings { start_rpm: to, most_points, ..BranchSettings::over([from, to]) };
-    whole.check().map_err(|e| refused("--speeds-rpm", e.to_string()))?;
-    let own = BranchSettings { start_rpm: arguments.start.unwrap_or(to), ..whole };
+    let whole =
+        BranchSettings { start: to, most_points, ..BranchSettings::along(over, [from, to]) };
+    whole.check().map_err(|e| refused(option(own), e.to_string()))?;
+    let own = BranchSettings { start: arguments.start.unwrap_or(to), ..whole };
     own.check().map_err(|e| refused("--start", e.to_string()))?;
     Ok(own)
 }
 
-/// Torque and driven member.
+/// Speed, torque and driven member; over torque, the torque under which the model is set up.
 fn case(
     arguments: &Branches,
     scene: &Scene,
+    settings: &BranchSettings,
     err: &mut dyn Write,
 ) -> Result<LoadCase, CommandError> {
     let path = &arguments.scene;
@@ -96,9 +146,31 @@ fn case(
         Model::Lumped => Fidelity::QuasiStatic,
         Model::FeContact => scene.dynamics.fidelity,
     });
-    let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
+    let over_torque = settings.over == BranchParameter::Torque;
+    let is_given =
+        |a: &str| a == "--sun-torque-nm" && (over_torque || arguments.sun_torque_nm.is_some());
     needs::require(path, scene, verb, is_given)?;
-    let torque_nm = loads::sun_torque(arguments.sun_torque_nm, path, scene, err)?;
-    let missing = || unfit(path, "[operation] is absent: it says which member's speed is varied");
-    Ok(LoadCase::of_scene(scene).map_err(|_| missing())?.with_sun_torque(torque_nm))
+    let [low, high] = settings.range;
+    let torque_nm = match arguments.sun_torque_nm {
+        Some(t) if over_torque && !(t.is_finite() && t * low > 0.0) => {
+            let reason = format!(
+                "{t:?}: allowed is a finite torque of the sign of --torques-nm, under which the model is set up"
+            );
+            return Err(refused("--sun-torque-nm", reason));
+        }
+        None if over_torque => loads::sun_torque(Some(0.5 * (low + high)), path, scene, err)?,
+        given => loads::sun_torque(given, path, scene, err)?,
+    };
+    let missing = || unfit(path, "[operation] is absent: it says which member is driven");
+    let case = LoadCase::of_scene(scene).map_err(|_| missing())?.with_sun_torque(torque_nm);
+    match arguments.rpm {
+        Some(rpm) if gearset::is_speed(rpm) => Ok(case.at_speed(rpm)),
+        Some(rpm) => {
+            Err(refused("--rpm", format!("{rpm:?}: allowed are speeds from 0.001 to 1e7 rpm")))
+        }
+        None if settings.over != BranchParameter::Speed && case.speed_rpm == 0.0 => {
+            Err(refused("--rpm", "missing: the scene's operating speed is 0".to_owned()))
+        }
+        None => Ok(case.at_speed(case.speed_rpm.abs())),
+    }
 }

@@ -2,78 +2,157 @@
 
 use std::io::Write;
 
-use experiments::branches::{Branch, BranchEnd, BranchPointKind, BranchSettings};
+use experiments::branches::{
+    Branch, BranchEnd, BranchOrigin, BranchParameter, BranchPointKind, BranchSettings, Branches,
+};
 use experiments::sweep::{Part, Response};
-use gearset::Scene;
+use gearset::{LoadCase, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::CommandError;
 use crate::output;
 
-/// A branch as JSON.
+/// What is held fixed along branches, apart from the parameter.
+pub(super) struct Fixed {
+    /// Speed and torque; over torque, the torque under which the model is set up.
+    pub(super) case: LoadCase,
+    /// Factor on every damping of the scene.
+    pub(super) damping_factor: f64,
+}
+
+impl Fixed {
+    /// As titles say it.
+    pub(super) fn words(&self, over: BranchParameter) -> String {
+        let (torque, speed) = (self.case.sun_torque_nm, self.case.speed_rpm);
+        let damping = match self.damping_factor {
+            1.0 => String::new(),
+            factor => format!(", damping × {factor}"),
+        };
+        match over {
+            BranchParameter::Speed => format!("{torque} N·m on the sun{damping}"),
+            BranchParameter::Torque => {
+                format!("{speed} rpm, set up under {torque} N·m on the sun{damping}")
+            }
+            BranchParameter::Damping => format!("{speed} rpm, {torque} N·m on the sun"),
+        }
+    }
+}
+
+/// Branches as JSON.
 #[derive(Debug, Serialize, JsonSchema)]
 pub struct BranchesOutput {
     /// Scene.
     scene: String,
     /// Version of the program.
     version: String,
-    /// Torque on the sun, N·m.
+    /// Fidelity or model.
+    fidelity: String,
+    /// What is varied.
+    over: BranchParameter,
+    /// Its least and greatest value: rpm, N·m, or the factor on the damping.
+    range: [f64; 2],
+    /// Its value at which the first branch was begun.
+    start: f64,
+    /// Torque on the sun, N·m; over torque, the one about whose loaded configuration the model is set up.
     sun_torque_nm: f64,
-    /// Factor on every damping of the scene.
-    damping_factor: f64,
+    /// Speed of the input member, rpm; absent over speed.
+    speed_rpm: Option<f64>,
+    /// Factor on every damping of the scene; absent over damping.
+    damping_factor: Option<f64>,
     /// Steps in a mesh cycle.
     steps_per_cycle: u32,
-    /// Least and greatest speed, rpm.
-    speeds_rpm: [f64; 2],
-    /// Speed at which the branch was begun, rpm.
-    start_rpm: f64,
     /// Highest harmonic.
     harmonics: usize,
-    /// Speeds of the folds in order along the branch, rpm.
-    folds_rpm: Vec<f64>,
+    /// Values of the parameter at the folds of the first branch in order along it.
+    folds: Vec<f64>,
+    /// Ranges of the parameter in which more than one stable motion was found.
+    coexisting: Vec<[f64; 2]>,
     #[serde(flatten)]
-    branch: Branch,
+    found: Branches,
 }
 
 impl BranchesOutput {
     pub(super) fn new(
         scene: &Scene,
-        sun_torque_nm: f64,
-        damping_factor: f64,
+        fixed: &Fixed,
         settings: &BranchSettings,
-        branch: Branch,
+        found: Branches,
     ) -> Self {
+        let first = found.branches.first();
+        let unless = |over, value| (settings.over != over).then_some(value);
         Self {
             scene: scene.title.clone(),
             version: env!("CARGO_PKG_VERSION").into(),
-            sun_torque_nm,
-            damping_factor,
+            fidelity: first.map(|b| b.fidelity.clone()).unwrap_or_default(),
+            over: settings.over,
+            range: settings.range,
+            start: settings.start,
+            sun_torque_nm: fixed.case.sun_torque_nm,
+            speed_rpm: unless(BranchParameter::Speed, fixed.case.speed_rpm),
+            damping_factor: unless(BranchParameter::Damping, fixed.damping_factor),
             steps_per_cycle: scene.dynamics.steps_per_cycle,
-            speeds_rpm: settings.speeds_rpm,
-            start_rpm: settings.start_rpm,
             harmonics: settings.harmonics,
-            folds_rpm: branch.folds().map(|p| p.state.case.speed_rpm).collect(),
-            branch,
+            folds: first.into_iter().flat_map(|b| b.folds().map(|p| p.parameter)).collect(),
+            coexisting: found.coexisting(),
+            found,
         }
     }
 
     /// The tidy table.
     pub(super) fn write_csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
         let mut writer = csv::Writer::from_writer(out);
-        for row in self.branch.rows(&self.scene) {
-            writer.serialize(row)?;
+        for (index, branch) in self.found.branches.iter().enumerate() {
+            for row in branch.rows(&self.scene, index) {
+                writer.serialize(row)?;
+            }
         }
         Ok(writer.flush()?)
     }
 
-    /// One line per point in order along the branch, then a legend and why it ends.
-    pub(super) fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
-        let (scene, fidelity) = (&self.scene, &self.branch.fidelity);
-        let torque = self.sun_torque_nm;
-        writeln!(out, "{scene}: {fidelity}, {torque} N·m on the sun\n")?;
+    /// One line per point in order along each branch, then why it ends; then a legend.
+    pub(super) fn text(&self, fixed: &Fixed, out: &mut dyn Write) -> Result<(), CommandError> {
+        let (scene, fidelity) = (&self.scene, &self.fidelity);
+        writeln!(out, "{scene}: {fidelity}, {}\n", fixed.words(self.over))?;
+        for branch in &self.found.branches {
+            self.write_branch(branch, out)?;
+        }
+        writeln!(out, "{LEGEND}")?;
+        let unit = self.over.unit();
+        for [from, to] in &self.coexisting {
+            writeln!(
+                out,
+                "More than one stable motion was found from {from:.4} to {to:.4}{unit}."
+            )?;
+        }
+        for lost in &self.found.not_followed {
+            let (at, kind, reason) = (lost.parameter, lost.kind.name(), &lost.reason);
+            let kind = kind.replace('_', " ");
+            writeln!(out, "No branch was found off the {kind} at {at:.4}{unit}: {reason}.")?;
+        }
+        Ok(())
+    }
+
+    fn write_branch(&self, branch: &Branch, out: &mut dyn Write) -> Result<(), CommandError> {
+        let unit = self.over.unit();
+        let origin = match branch.origin {
+            BranchOrigin::Start(_) => None,
+            BranchOrigin::PeriodDoubling(at) => Some(("period doubling", at)),
+            BranchOrigin::BranchPoint(at) => Some(("branch point", at)),
+        };
+        if let Some((kind, at)) = origin {
+            let cycles = match branch.repeats_after {
+                1 => "every mesh cycle".to_owned(),
+                cycles => format!("after {cycles} mesh cycles"),
+            };
+            writeln!(out, "Off the {kind} at {at:.4}{unit}, repeating {cycles}:")?;
+        }
         let header = [
-            "rpm",
+            match self.over {
+                BranchParameter::Speed => "rpm",
+                BranchParameter::Torque => "N·m",
+                BranchParameter::Damping => "damping",
+            },
             "point",
             "stable",
             "μ",
@@ -87,11 +166,16 @@ impl BranchesOutput {
             "residual",
         ];
         let mut table = output::table(&header, &[0, 3, 4, 5, 6, 7, 8, 9, 10, 11]);
-        for p in &self.branch.points {
+        for p in &branch.points {
             let rotation = Response::Rotation(Part::Sun).strongest(&p.state, self.harmonics);
             let translation = Response::Translation(Part::Sun).strongest(&p.state, self.harmonics);
             table.add_row([
-                format!("{:.3}", p.state.case.speed_rpm),
+                match self.over {
+                    BranchParameter::Speed => format!("{:.3}", p.parameter),
+                    BranchParameter::Torque | BranchParameter::Damping => {
+                        format!("{:.5}", p.parameter)
+                    }
+                },
                 match p.kind {
                     BranchPointKind::Regular => String::new(),
                     other => other.name().replace('_', " "),
@@ -109,10 +193,9 @@ impl BranchesOutput {
             ]);
         }
         writeln!(out, "{table}")?;
-        writeln!(out, "{LEGEND}")?;
-        for (end, words) in self.branch.ends.iter().zip(["first", "last"]) {
+        for (end, words) in branch.ends.iter().zip(["first", "last"]) {
             match end {
-                BranchEnd::Bound => {}
+                BranchEnd::Bound | BranchEnd::Origin => {}
                 BranchEnd::Closed => writeln!(out, "The branch is closed.")?,
                 BranchEnd::MostPoints => {
                     writeln!(
@@ -125,13 +208,14 @@ impl BranchesOutput {
                 }
             }
         }
+        writeln!(out)?;
         Ok(())
     }
 }
 
 /// Below the table: what each column is.
 const LEGEND: &str = "\
-points are in order along the branch, which turns back in speed at folds
+points are in order along each branch, which turns back at folds
 μ: size of the largest Floquet multiplier, below 1 if the motion is stable
 rotation, translation: the sun's strongest harmonic, and its number l as a multiple of the mesh frequency
 lowest N: lowest force of any mesh during a cycle, N

@@ -1,6 +1,6 @@
-//! Figures of a branch of periodic motions: stable parts solid, unstable ones dashed.
+//! Figures of branches of periodic motions: stable parts solid, unstable ones dashed.
 
-use experiments::branches::{Branch, BranchPoint, BranchPointKind};
+use experiments::branches::{Branch, BranchParameter, BranchPoint, BranchPointKind, Branches};
 use experiments::sweep::{Part, Response, SteadyState};
 
 use super::Figure;
@@ -27,19 +27,23 @@ const QUANTITIES: [Quantity; 2] = [
 /// A quantity whose largest amplitude is below this, in µrad or µm, is not drawn.
 const NOTHING: f64 = 1e-6;
 
-/// `branch_sun_rotation` and `branch_sun_translation` over speed, each in the harmonic that is the strongest anywhere
+/// `branch_sun_rotation` and `branch_sun_translation` over the parameter, each in the harmonic that is the strongest anywhere
 /// on the branch; one that vanishes is left out.
-pub fn of_branch(branch: &Branch, title: &str, harmonics: usize) -> Vec<Figure> {
+pub fn of_branches(found: &Branches, title: &str, harmonics: usize) -> Vec<Figure> {
+    let Some(first) = found.branches.first() else { return Vec::new() };
+    let points = || found.branches.iter().flat_map(|b| &b.points);
     let all = QUANTITIES.iter().filter_map(|(name, axis, of)| {
-        let largest = |l: usize| branch.points.iter().map(|p| of(&p.state, l)).fold(0.0, f64::max);
+        let largest = |l: usize| points().map(|p| of(&p.state, l)).fold(0.0, f64::max);
         let strongest = (1..=harmonics).max_by(|a, b| largest(*a).total_cmp(&largest(*b)))?;
         if largest(strongest) <= NOTHING {
             return None;
         }
-        let spot = |p: &BranchPoint| (p.state.case.speed_rpm, of(&p.state, strongest));
-        let mut curves = parts(branch, &spot);
+        let spot = |p: &BranchPoint| (p.parameter, of(&p.state, strongest));
+        let mut is_named = [false; 2];
+        let mut curves: Vec<Curve> =
+            found.branches.iter().flat_map(|b| parts(b, &spot, &mut is_named)).collect();
         let dots = |kinds: &dyn Fn(BranchPointKind) -> bool| -> Vec<(f64, f64)> {
-            branch.points.iter().filter(|p| kinds(p.kind)).map(spot).collect()
+            points().filter(|p| kinds(p.kind)).map(spot).collect()
         };
         let is_other = |k| !matches!(k, BranchPointKind::Regular | BranchPointKind::Fold);
         for (name, points, colour) in [
@@ -52,8 +56,12 @@ pub fn of_branch(branch: &Branch, title: &str, harmonics: usize) -> Vec<Figure> 
         }
         let labels = Labels {
             title,
-            subtitle: format!("{}, harmonic {strongest} of the mesh frequency", branch.fidelity),
-            x: "speed of the input member, rpm",
+            subtitle: format!("{}, harmonic {strongest} of the mesh frequency", first.fidelity),
+            x: match first.over {
+                BranchParameter::Speed => "speed of the input member, rpm",
+                BranchParameter::Torque => "torque on the sun, N·m",
+                BranchParameter::Damping => "factor on the damping",
+            },
             y: axis,
         };
         Some(Figure::new(*name, chart(&labels, &curves)))
@@ -62,9 +70,13 @@ pub fn of_branch(branch: &Branch, title: &str, harmonics: usize) -> Vec<Figure> 
 }
 
 /// Parts of one stability, each ending where the next begins.
-fn parts(branch: &Branch, spot: &dyn Fn(&BranchPoint) -> (f64, f64)) -> Vec<Curve> {
+/// `is_named`: whether unstable and stable parts are in the legend already.
+fn parts(
+    branch: &Branch,
+    spot: &dyn Fn(&BranchPoint) -> (f64, f64),
+    is_named: &mut [bool; 2],
+) -> Vec<Curve> {
     let mut curves = Vec::new();
-    let mut is_named = [false; 2];
     let mut points: Vec<(f64, f64)> = Vec::new();
     for (i, pair) in branch.points.windows(2).enumerate() {
         if points.is_empty() {
@@ -95,7 +107,7 @@ fn parts(branch: &Branch, spot: &dyn Fn(&BranchPoint) -> (f64, f64)) -> Vec<Curv
 
 #[cfg(test)]
 mod tests {
-    use experiments::branches::BranchEnd;
+    use experiments::branches::{BranchEnd, BranchOrigin};
     use gearset::LoadCase;
 
     use super::*;
@@ -104,9 +116,12 @@ mod tests {
     fn parts_end_where_stability_changes() {
         let point = |rpm: f64, kind, is_stable| BranchPoint {
             state: SteadyState { case: LoadCase::turning(50.0, rpm, rpm), lines: Vec::new() },
+            parameter: rpm,
+            damping_factor: 1.0,
             kind,
             is_stable,
             multipliers: Vec::new(),
+            between: None,
             residual: 0.0,
             arc: rpm,
             iterations: 3,
@@ -125,8 +140,10 @@ mod tests {
             point(2.5, Regular, true),
         ];
         let ends = [BranchEnd::Bound, BranchEnd::Bound];
-        let branch = Branch { fidelity: "mesh-law".into(), points, ends };
-        let found = parts(&branch, &|p| (p.state.case.speed_rpm, 0.0));
+        let (over, origin) = (BranchParameter::Speed, BranchOrigin::Start(1.0));
+        let fidelity = "mesh-law".into();
+        let branch = Branch { fidelity, over, origin, repeats_after: 1, points, ends };
+        let found = parts(&branch, &|p| (p.state.case.speed_rpm, 0.0), &mut [false; 2]);
         let speeds: Vec<Vec<f64>> =
             found.iter().map(|c| c.points.iter().map(|p| p.0).collect()).collect();
         assert_eq!(speeds, [vec![1.0, 2.0, 3.0], vec![3.0, 2.5, 2.0], vec![2.0, 2.5]]);

@@ -22,7 +22,7 @@ mod torque_map;
 mod torque_peaks;
 mod waterfall;
 
-pub use branches::of_branch;
+pub use branches::of_branches;
 pub use campbell::campbell;
 pub use cost::cost;
 pub use drawing::{FigureError, Picture};

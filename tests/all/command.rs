@@ -76,7 +76,21 @@ fn every_verb(folder: &Path) -> Vec<(&'static str, bool, Vec<String>)> {
         (
             "branches",
             true,
-            words(&format!("branches {plain} --speeds-rpm 990:1000 --model lumped")),
+            words(&format!("branches {plain} --speeds-rpm 990:1000 --model lumped --switch")),
+        ),
+        (
+            "branches",
+            true,
+            words(&format!(
+                "branches {plain} --over torque --torques-nm 1100:1130 --rpm 990 --model lumped"
+            )),
+        ),
+        (
+            "branches",
+            true,
+            words(&format!(
+                "branches {plain} --over damping --damping-factors 0.9:1 --rpm 990 --model lumped"
+            )),
         ),
         ("stability", true, words("stability explicit-step")),
         ("stability", true, words("stability integrators")),
@@ -175,7 +189,25 @@ fn a_branch_without_speeds_or_start_is_refused() {
         (format!("branches {plain} --speeds-rpm 800:900 --start 1000"), "--start"),
         (format!("branches {plain} --speeds-rpm 800:900 --sun-torque-nm 0"), "--sun-torque-nm"),
         (format!("branches {plain} --speeds-rpm 800:900 --damping-factor 0"), "--damping-factor"),
-        (format!("branches {plain} --speeds-rpm 800:900 --over torque"), "--over"),
+        (format!("branches {plain} --speeds-rpm 800:900 --over torque"), "--speeds-rpm"),
+        (format!("branches {plain} --speeds-rpm 800:900 --over noise"), "--over"),
+        (format!("branches {plain} --speeds-rpm 800:900 --torques-nm 5:9"), "--torques-nm"),
+        (format!("branches {plain} --speeds-rpm 800:900 --rpm 850"), "--rpm"),
+        (format!("branches {plain} --over torque"), "--torques-nm"),
+        (format!("branches {plain} --over torque --torques-nm -5:9"), "--torques-nm"),
+        (format!("branches {plain} --over torque --torques-nm 0:9"), "--torques-nm"),
+        (format!("branches {plain} --over torque --torques-nm 5:9 --start 10"), "--start"),
+        (format!("branches {plain} --over torque --torques-nm 5:9 --rpm 0"), "--rpm"),
+        (
+            format!("branches {plain} --over torque --torques-nm 5:9 --sun-torque-nm -7"),
+            "--sun-torque-nm",
+        ),
+        (format!("branches {plain} --over damping"), "--damping-factors"),
+        (format!("branches {plain} --over damping --damping-factors 0:1"), "--damping-factors"),
+        (
+            format!("branches {plain} --over damping --damping-factors 0.5:1 --damping-factor 2"),
+            "--damping-factor",
+        ),
         (format!("branches {pair} --speeds-rpm 800:900"), "`kind`"),
         (format!("branches {full} --speeds-rpm 800:900"), "dynamics.fidelity"),
     ] {

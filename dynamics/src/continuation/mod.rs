@@ -11,15 +11,18 @@
 //! turn between tangents. A fold is where the λ-component of the tangent changes sign, any other bifurcation where a
 //! test function of the family does; both are located along the arc by a bracketed secant iteration.
 //!
+//! Equations with kinks are followed too: where the branch turns by less than a right angle as anywhere else, where it
+//! turns back along the tangent of the piece beyond (`kink.rs`).
+//!
 //! **What is missed.** Two sign changes of one function within a step cancel. At a branch point the tangent is not
-//! unique: the branch is followed straight across, and others are reached from a perturbed start or by
-//! [`deflated_solution`].
+//! unique: the branch is followed straight across, and others are reached by [`branch_off`] or [`deflated_solution`].
 
 mod branch;
 mod deflation;
 mod error;
 mod family;
 mod judged;
+mod kink;
 mod locate;
 mod options;
 mod space;
@@ -31,4 +34,4 @@ pub use error::ContinuationError;
 pub use family::{Evaluation, Family, Judgement};
 pub use judged::JudgedBy;
 pub use options::{ContinuationOptions, Scales};
-pub use trace::{Direction, trace, trace_both};
+pub use trace::{Direction, branch_off, trace, trace_both};

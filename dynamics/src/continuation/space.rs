@@ -2,6 +2,7 @@
 
 use faer::Mat;
 use faer::prelude::Solve;
+use nalgebra::DMatrix;
 
 use super::error::ContinuationError;
 use super::family::{Evaluation, Family};
@@ -90,13 +91,31 @@ impl<'a, F: Family> Space<'a, F> {
         Ok(found)
     }
 
-    /// Solves [∂F/∂u; borderᵀ] x = right for both right sides; rows of F are scaled to a largest entry of one.
-    fn bordered(
-        &self,
-        found: &Evaluation,
-        border: &[f64],
-        right: [&dyn Fn(usize) -> f64; 2],
-    ) -> [Vec<f64>; 2] {
+    /// Sign of det [∂F/∂u; tᵀ] at u, 0 if it cannot be told.
+    ///
+    /// Along a branch of piecewise smooth equations it stays the same, through folds and wherever the branch crosses a
+    /// kink at which only one of the smooth pieces changes (Eaves & Scarf, Math. Oper. Res. 1 (1976) 1–27); at a simple
+    /// branch point it changes.
+    pub(super) fn orientation(
+        &mut self,
+        u: &[f64],
+        t: &[f64],
+    ) -> Result<f64, ContinuationError<F::Error>> {
+        let found = self.evaluate(u)?;
+        let (matrix, _) = self.bordered_matrix(&found, t);
+        let own = DMatrix::from_fn(t.len(), t.len(), |i, j| matrix[(i, j)]);
+        let lu = own.lu();
+        let signs = lu
+            .u()
+            .diagonal()
+            .iter()
+            .map(|d| if *d == 0.0 { 0.0 } else { d.signum() })
+            .product::<f64>();
+        Ok(signs * lu.p().determinant::<f64>())
+    }
+
+    /// [∂F/∂u; borderᵀ] with rows of F scaled to a largest entry of one, and these scales.
+    fn bordered_matrix(&self, found: &Evaluation, border: &[f64]) -> (Mat<f64>, Vec<f64>) {
         let n = self.scales.unknowns.len();
         let entry = |i: usize, j: usize| match j < n {
             true => found.jacobian[(i, j)] * self.scales.unknowns[j],
@@ -109,6 +128,18 @@ impl<'a, F: Family> Space<'a, F> {
             true => rows[i] * entry(i, j),
             false => border[j],
         });
+        (matrix, rows)
+    }
+
+    /// Solves [∂F/∂u; borderᵀ] x = right for both right sides; rows of F are scaled to a largest entry of one.
+    fn bordered(
+        &self,
+        found: &Evaluation,
+        border: &[f64],
+        right: [&dyn Fn(usize) -> f64; 2],
+    ) -> [Vec<f64>; 2] {
+        let n = self.scales.unknowns.len();
+        let (matrix, rows) = self.bordered_matrix(found, border);
         let sides = Mat::from_fn(n + 1, 2, |i, k| right[k](i) * if i < n { rows[i] } else { 1.0 });
         let solved = matrix.partial_piv_lu().solve(sides);
         [0, 1].map(|k| (0..=n).map(|i| solved[(i, k)]).collect())
@@ -125,6 +156,26 @@ impl<'a, F: Family> Space<'a, F> {
         let unit = |i: usize| if i == n { 1.0 } else { 0.0 };
         let [t, _] = self.bordered(&found, border, [&unit, &unit]);
         self.unit(u, t)
+    }
+
+    /// Unit tangent at u in either sense, from that of some borders to which it is the least inclined.
+    pub(super) fn any_tangent(
+        &mut self,
+        u: &[f64],
+        border: &[f64],
+    ) -> Result<Vec<f64>, ContinuationError<F::Error>> {
+        let found = self.evaluate(u)?;
+        let n = border.len() - 1;
+        let unit = |i: usize| if i == n { 1.0 } else { 0.0 };
+        let even = vec![((n + 1) as f64).sqrt().recip(); n + 1];
+        // For a border of unit length at the angle φ to the tangent the solution has the length 1/cos φ.
+        let all = [border.to_vec(), self.fixed_parameter(), even].map(|border| {
+            let [t, _] = self.bordered(&found, &border, [&unit, &unit]);
+            (norm(&t), t)
+        });
+        let finite = all.into_iter().filter(|(length, _)| length.is_finite());
+        let shortest = finite.min_by(|a, b| a.0.total_cmp(&b.0));
+        self.unit(u, shortest.map(|(_, t)| t).unwrap_or_default())
     }
 
     fn unit(&self, u: &[f64], t: Vec<f64>) -> Result<Vec<f64>, ContinuationError<F::Error>> {

@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::branch::{Branch, BranchPoint, End, PointKind};
 use super::error::ContinuationError;
 use super::family::Family;
+use super::kink::past_kink;
 use super::locate::{Judged, crossed, locate};
 use super::options::{ContinuationOptions, Scales};
 use super::space::{Corrected, Space, Stop, dot, norm};
@@ -24,6 +25,9 @@ const GROWTH: f64 = 1.6;
 /// A turn that shrinks to no less than this share when the step is halved is a kink of the branch, as equations with
 /// kinks have them: no shorter step would avoid it.
 const KINK: f64 = 0.75;
+
+/// Least steps before a kink at which the sense of the branch is taken: nearer to it a point may be beyond it already.
+const FAR: f64 = 100.0;
 
 /// Follows a branch from a solution near `start` at λ = `lambda`.
 ///
@@ -75,6 +79,56 @@ pub fn trace_both<F: Family>(
     let (further, up) = follow(&mut space, first, options)?;
     points.extend(further.into_iter().skip(1));
     Ok(Branch { points, ends: [down, up] })
+}
+
+/// Factors on the first step at which a solution beside a branch point is sought.
+const BESIDE: [f64; 6] = [1.0, 0.3, 0.1, 0.03, 0.01, 0.003];
+
+/// Follows the branch that crosses another one at `from`, one way: to the side of `direction`, a null vector of ∂F/∂y
+/// there (n entries). Its first point is the first step away from `from`.
+///
+/// # Errors
+/// As [`trace`], if there is no solution off the known branch to that side.
+pub fn branch_off<F: Family>(
+    family: &mut F,
+    from: &BranchPoint,
+    direction: &[f64],
+    scales: &Scales,
+    options: &ContinuationOptions,
+) -> Result<Branch<F::Error>, ContinuationError<F::Error>> {
+    options.check()?;
+    let mut space = Space::new(family, scales)?;
+    let wanted = scales.unknowns.len();
+    for (what, got) in [("the direction", direction.len()), ("the branch point", from.y.len())] {
+        if got != wanted {
+            return Err(ContinuationError::Size { what, got, wanted });
+        }
+    }
+    let (u, t) = (space.scaled(&from.y, from.lambda), &from.tangent);
+    let off = space.scaled(direction, 0.0);
+    // Across the known branch, so that it meets the hyperplane of the first step at the branch point alone.
+    let along = dot(&off, t);
+    let off: Vec<f64> = off.iter().zip(t).map(|(o, t)| o - along * t).collect();
+    let length = norm(&off);
+    if !(length > 0.0 && length.is_finite()) {
+        return Err(ContinuationError::NoTangent { lambda: from.lambda });
+    }
+    let off: Vec<f64> = off.iter().map(|o| o / length).collect();
+    let mut last = ContinuationError::NoTangent { lambda: from.lambda };
+    for share in BESIDE {
+        let h = share * options.first_step;
+        let predicted: Vec<f64> = u.iter().zip(&off).map(|(u, o)| u + h * o).collect();
+        match space.correct(&predicted, &off, stop(options)) {
+            Ok(mut first) if distance(&first.u, &predicted) <= h => {
+                first.tangent = space.tangent(&first.u, &off)?;
+                let (points, end) = follow(&mut space, first, options)?;
+                return Ok(Branch { points, ends: [End::Start, end] });
+            }
+            Ok(_) => {}
+            Err(error) => last = error,
+        }
+    }
+    Err(last)
 }
 
 /// First point of a branch, its tangent towards greater λ.
@@ -152,21 +206,40 @@ fn follow<F: Family>(
                 (refused, h) = (f64::INFINITY, (0.5 * h).max(options.steps[0]));
                 continue;
             }
-            Ok(Step::TooLong(turn)) => {
+            refused => {
                 let lambda = space.lambda(&last.at.u);
-                break End::Stuck(ContinuationError::Turn { lambda, turn });
+                let why = match refused {
+                    Err(error) => error,
+                    Ok(Step::TooLong(turn)) => ContinuationError::Turn { lambda, turn },
+                    Ok(_) => ContinuationError::NoTangent { lambda },
+                };
+                let reach = [options.steps[0], options.first_step.min(options.steps[1])];
+                let sense = sense_before(space, &points, arc - FAR * options.steps[0]);
+                match past_kink(space, &last.at, sense, reach, stop) {
+                    Some(next) if is_within(space, &next.u, options) => match judge(space, next) {
+                        Ok(next) => (next, false),
+                        Err(error) => break End::Stuck(error),
+                    },
+                    _ => break End::Stuck(why),
+                }
             }
-            Err(error) => break End::Stuck(error),
         };
         (refused, most_turn) = (f64::INFINITY, options.most_turn);
         let turn = dot(&next.at.tangent, &last.at.tangent).clamp(-1.0, 1.0).acos();
         let whole = distance(&next.at.u, &last.at.u);
         let mut between = Vec::new();
         for kind in crossed(&last, &next) {
-            // A located point that fails leaves its neighbours, whose signs still tell of it.
-            if let Ok((found, along)) = locate(space, (&last, &next), kind, options.location, stop)
-            {
-                between.push((along, point(space, &found, kind, arc + along.abs().min(whole))));
+            match locate(space, (&last, &next), kind, options.location, stop) {
+                Ok((found, along)) => {
+                    let at = arc + along.abs().min(whole);
+                    between.push((along, point(space, &found, kind, at)));
+                }
+                // At a kink the last point is as near to the fold as steps lead.
+                Err(_) if kind == PointKind::Fold => {
+                    between.push((0.0, point(space, &last, kind, arc)));
+                }
+                // One that cannot be located leaves its neighbours, whose signs still tell of it.
+                Err(_) => {}
             }
         }
         between.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -191,6 +264,14 @@ fn follow<F: Family>(
             .clamp(options.steps[0], options.steps[1]);
     };
     Ok((points, end))
+}
+
+/// Sign of det [∂F/∂u; tᵀ] at the last regular point up to an arc length, or at the first point; 0 if it cannot be told.
+fn sense_before<F: Family>(space: &mut Space<'_, F>, points: &[BranchPoint], arc: f64) -> f64 {
+    let is_before = |p: &&BranchPoint| p.kind == PointKind::Regular && p.arc <= arc;
+    let Some(p) = points.iter().rev().find(is_before).or(points.first()) else { return 0.0 };
+    let u = space.scaled(&p.y, p.lambda);
+    space.orientation(&u, &p.tangent).unwrap_or(0.0)
 }
 
 /// One step.
@@ -223,7 +304,7 @@ fn advance<F: Family>(
     }
     let [low, high] = options.bounds;
     let lambda = space.lambda(&next.u);
-    if low <= lambda && lambda <= high {
+    if is_within(space, &next.u, options) {
         return Ok(Step::To(judge(space, next)?));
     }
     // The point at the bound, from the chord to the one beyond it.
@@ -260,6 +341,11 @@ fn point<F: Family>(space: &Space<'_, F>, of: &Judged, kind: PointKind, arc: f64
     let (y, lambda) = space.plain(&of.at.u);
     let (tangent, iterations) = (of.at.tangent.clone(), of.at.iterations);
     BranchPoint { y, lambda, tangent, arc, kind, judgement: of.judgement.clone(), iterations }
+}
+
+fn is_within<F: Family>(space: &Space<'_, F>, u: &[f64], options: &ContinuationOptions) -> bool {
+    let [low, high] = options.bounds;
+    (low..=high).contains(&space.lambda(u))
 }
 
 fn minus(a: &[f64], b: &[f64]) -> Vec<f64> {

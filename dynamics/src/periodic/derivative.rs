@@ -26,6 +26,12 @@ pub struct Correction {
 }
 
 impl MapDerivative {
+    /// Derivative of two periods in a row: this one after `first`.
+    pub fn after(&self, first: &Self) -> Self {
+        let columns = &self.columns * first.columns.select_rows(&self.active);
+        Self { active: first.active.clone(), columns, scales: first.scales.clone() }
+    }
+
     /// The rows and columns of the active coordinates, scaled: S⁻¹ DΦ S.
     pub(super) fn scaled(&self) -> Mat<f64> {
         let (active, s) = (&self.active, &self.scales);

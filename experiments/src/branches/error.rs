@@ -1,5 +1,7 @@
 //! Errors of branches.
 
+use super::parameter::BranchParameter;
+
 /// Why a branch of periodic motions could not be begun.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BranchError {
@@ -9,21 +11,25 @@ pub enum BranchError {
     )]
     NoDerivative(String),
     /// No periodic motion was found to begin with.
-    #[error("no periodic motion at {speed_rpm} rpm to begin with: {reason}")]
+    #[error("no periodic motion to begin with at {start}{}: {reason}", .over.unit())]
     NoStart {
-        /// Speed of the input member, rpm.
-        speed_rpm: f64,
+        /// What is varied.
+        over: BranchParameter,
+        /// Its value at the first point.
+        start: f64,
         /// What shooting or continuation say.
         reason: String,
     },
-    /// Speeds that bound nothing, or a start outside.
-    #[error("speeds from {from:?} to {to:?} rpm, starting at {start:?} rpm: {allowed}")]
-    Speeds {
-        /// Least speed, rpm.
+    /// Values that bound nothing, or a start outside.
+    #[error("{} from {from:?} to {to:?}{}, starting at {start:?}: {allowed}", .over.name(), .over.unit())]
+    Range {
+        /// What is varied.
+        over: BranchParameter,
+        /// Least value.
         from: f64,
-        /// Greatest speed, rpm.
+        /// Greatest value.
         to: f64,
-        /// Speed of the first point, rpm.
+        /// Value at the first point.
         start: f64,
         /// What is allowed.
         allowed: &'static str,

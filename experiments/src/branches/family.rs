@@ -1,43 +1,99 @@
-//! Periodic motions of a set as a family of equations over speed.
+//! Periodic motions of a set as a family of equations over speed, torque or damping.
 
 use dynamics::continuation::{Evaluation, Family, Judgement};
-use dynamics::{Multiplier, PeriodMap, multipliers};
+use dynamics::{MapDerivative, Multiplier, PeriodMap, multipliers};
 use nalgebra::{DMatrix, DVector};
 
+use super::parameter::BranchParameter;
 use crate::error::ExperimentError;
 use crate::sweep::{Marching, Record, RecordedCycles, SMALL, SweepModel};
 
-/// Share of the speed by which it is changed to either side for the derivative in speed.
-const SPEED_CHANGE: f64 = 1e-6;
+/// Share of the parameter by which it is changed to either side for the derivative in it.
+pub const PARAMETER_CHANGE: f64 = 1e-6;
 
-/// F(y; n) = Φ(y; n) − y: y the coordinates at the start of a mesh cycle (as
-/// [`CycleDerivative::coordinates`](crate::sweep::CycleDerivative::coordinates)), n the speed of the input member
-/// in rpm. ∂F/∂y is the derivative of the steps, ∂F/∂n a central difference.
+/// F(y; λ) = Φᵖ(y; λ) − y for motions that repeat after p mesh cycles: y the coordinates at the start of a mesh cycle (as
+/// [`CycleDerivative::coordinates`](crate::sweep::CycleDerivative::coordinates)), λ the speed of the input member in
+/// rpm, the torque on the sun in N·m or the factor on the damping. ∂F/∂y is the derivative of the steps, ∂F/∂λ a
+/// central difference over λ (1 ± [`PARAMETER_CHANGE`]).
 pub struct PeriodicFamily<'m> {
     model: &'m dyn SweepModel,
+    over: BranchParameter,
+    /// Share of the parameter for its differences.
+    change: f64,
+    /// Mesh cycles after which the motions repeat.
+    repeats_after: usize,
     size: usize,
     dimension: usize,
     /// Solutions that were judged.
     pub(super) judged: Vec<Judged>,
 }
 
-/// A periodic motion with its last cycle.
+/// Number of the test function that is zero where stability changes.
+pub(super) const STABILITY: usize = 0;
+
+/// Number of that which is zero at a period doubling; the last one is at folds and branch points.
+pub(super) const PERIOD_DOUBLING: usize = 1;
+
+/// A periodic motion with one period of it.
 pub(super) struct Judged {
     pub(super) y: Vec<f64>,
-    pub(super) speed_rpm: f64,
+    pub(super) lambda: f64,
     pub(super) multipliers: Vec<Multiplier>,
     pub(super) residual: f64,
     pub(super) record: Record,
 }
 
 impl<'m> PeriodicFamily<'m> {
-    /// Of a model whose coordinates number `dimension`; `size` as in [`SweepModel::turning`].
-    pub fn new(model: &'m dyn SweepModel, size: usize, dimension: usize) -> Self {
-        Self { model, size, dimension, judged: Vec::new() }
+    /// Motions that repeat with the mesh cycle, of a model whose coordinates number `dimension`; `size` as in [`SweepModel::turning`].
+    pub fn new(
+        model: &'m dyn SweepModel,
+        over: BranchParameter,
+        size: usize,
+        dimension: usize,
+    ) -> Self {
+        let change = PARAMETER_CHANGE;
+        Self { model, over, change, repeats_after: 1, size, dimension, judged: Vec::new() }
     }
 
-    fn set(&self, speed_rpm: f64) -> Result<Box<dyn Marching + '_>, ExperimentError> {
-        let mut set = self.model.turning(&self.model.case().at_speed(speed_rpm), self.size)?;
+    /// The same with another share of the parameter for its differences.
+    pub fn with_change(self, change: f64) -> Self {
+        Self { change, ..self }
+    }
+
+    /// The same for motions that repeat after some mesh cycles.
+    pub fn repeating_after(self, cycles: usize) -> Self {
+        Self { repeats_after: cycles, ..self }
+    }
+
+    /// DΦᵖ(y; λ).
+    ///
+    /// # Errors
+    /// If the set cannot be built or stepped.
+    pub fn map_derivative(&self, y: &[f64], lambda: f64) -> Result<MapDerivative, ExperimentError> {
+        let mut set = self.set(lambda)?;
+        let mut cycles = self.cycles(set.as_mut());
+        cycles.set_coordinates(y)?;
+        self.advance(&mut cycles, &mut |_| ())
+    }
+
+    /// One period with its derivative; `each` hears of every mesh cycle.
+    fn advance(
+        &self,
+        cycles: &mut RecordedCycles<'_>,
+        each: &mut dyn FnMut(&Record),
+    ) -> Result<MapDerivative, ExperimentError> {
+        let mut whole = cycles.advance(true)?.ok_or(LOST)?;
+        each(cycles.last());
+        for _ in 1..self.repeats_after {
+            whole = cycles.advance(true)?.ok_or(LOST)?.after(&whole);
+            each(cycles.last());
+        }
+        Ok(whole)
+    }
+
+    fn set(&self, lambda: f64) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+        let (case, damping) = self.over.at(&self.model.case(), lambda);
+        let mut set = self.model.turning_damped(&case, damping, self.size)?;
         // The load belongs to the set, not to its coordinates.
         set.rest()?;
         Ok(set)
@@ -48,12 +104,14 @@ impl<'m> PeriodicFamily<'m> {
         RecordedCycles::new(set, shape, self.model.first_planet_rad(), steps)
     }
 
-    /// Φ(y; n).
-    fn end(&self, y: &[f64], speed_rpm: f64) -> Result<Vec<f64>, ExperimentError> {
-        let mut set = self.set(speed_rpm)?;
+    /// Φᵖ(y; λ).
+    fn end(&self, y: &[f64], lambda: f64) -> Result<Vec<f64>, ExperimentError> {
+        let mut set = self.set(lambda)?;
         let mut cycles = self.cycles(set.as_mut());
         cycles.set_coordinates(y)?;
-        cycles.advance(false)?;
+        for _ in 0..self.repeats_after {
+            cycles.advance(false)?;
+        }
         Ok(cycles.coordinates())
     }
 }
@@ -65,11 +123,11 @@ impl Family for PeriodicFamily<'_> {
         self.dimension
     }
 
-    fn evaluate(&mut self, y: &[f64], speed_rpm: f64) -> Result<Evaluation, ExperimentError> {
-        let mut set = self.set(speed_rpm)?;
+    fn evaluate(&mut self, y: &[f64], lambda: f64) -> Result<Evaluation, ExperimentError> {
+        let mut set = self.set(lambda)?;
         let mut cycles = self.cycles(set.as_mut());
         cycles.set_coordinates(y)?;
-        let map = cycles.advance(true)?.ok_or(LOST)?;
+        let map = self.advance(&mut cycles, &mut |_| ())?;
         let end = cycles.coordinates();
         let n = y.len();
         let mut jacobian = -DMatrix::<f64>::identity(n, n);
@@ -77,9 +135,9 @@ impl Family for PeriodicFamily<'_> {
             let mut column = jacobian.column_mut(*active);
             column += map.columns.column(k);
         }
-        let change = SPEED_CHANGE * speed_rpm;
-        let above = DVector::from_vec(self.end(y, speed_rpm + change)?);
-        let below = DVector::from_vec(self.end(y, speed_rpm - change)?);
+        let change = self.change * lambda.abs();
+        let above = DVector::from_vec(self.end(y, lambda + change)?);
+        let below = DVector::from_vec(self.end(y, lambda - change)?);
         Ok(Evaluation {
             residual: DVector::from_vec(end) - DVector::from_column_slice(y),
             jacobian,
@@ -87,23 +145,43 @@ impl Family for PeriodicFamily<'_> {
         })
     }
 
-    /// Stable if all multipliers are smaller than 1. One test function: the size of the largest less 1.
-    fn judge(&mut self, y: &[f64], speed_rpm: f64) -> Result<Judgement, ExperimentError> {
-        let mut set = self.set(speed_rpm)?;
+    /// Stable if all multipliers are smaller than 1. Test functions: the size of the largest less 1; Π (1 + μ), zero
+    /// at a period doubling; Π (1 − μ), zero at a fold or branch point.
+    fn judge(&mut self, y: &[f64], lambda: f64) -> Result<Judgement, ExperimentError> {
+        let mut record: Option<Record> = None;
+        let mut set = self.set(lambda)?;
         let mut cycles = self.cycles(set.as_mut());
         cycles.set_coordinates(y)?;
-        let map = cycles.advance(true)?.ok_or(LOST)?;
+        let map = self.advance(&mut cycles, &mut |last| match &mut record {
+            None => record = Some(last.clone()),
+            Some(whole) => whole.append(last.clone()),
+        })?;
+        let record = record.ok_or(LOST)?;
         let off: Vec<f64> = cycles.coordinates().iter().zip(y).map(|(e, s)| e - s).collect();
         let residual = cycles.relative(&off);
-        let record = cycles.into_record();
         drop(set);
-        let mut found = multipliers(&map)?;
-        found.retain(|m| m.size() >= SMALL);
-        let largest = found.first().map_or(0.0, |m| m.size());
+        let all = multipliers(&map)?;
+        let tests = vec![
+            all.first().map_or(0.0, |m| m.size()) - 1.0,
+            product(&all, 1.0),
+            product(&all, -1.0),
+        ];
+        let is_stable = Some(tests[0] < 0.0);
+        let multipliers = all.into_iter().filter(|m| m.size() >= SMALL).collect();
         let y = y.to_vec();
-        self.judged.push(Judged { y, speed_rpm, multipliers: found, residual, record });
-        Ok(Judgement { is_stable: Some(largest < 1.0), tests: vec![largest - 1.0] })
+        self.judged.push(Judged { y, lambda, multipliers, residual, record });
+        Ok(Judgement { is_stable, tests })
     }
+}
+
+/// Π (1 + s μ), real as complex multipliers are pairs.
+fn product(all: &[Multiplier], s: f64) -> f64 {
+    let (mut re, mut im) = (1.0, 0.0);
+    for m in all {
+        let (a, b) = (1.0 + s * m.re, s * m.im);
+        (re, im) = (re * a - im * b, re * b + im * a);
+    }
+    re
 }
 
 /// A model that has lost its derivative.

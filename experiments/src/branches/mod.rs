@@ -1,22 +1,27 @@
-//! Branches of periodic motions over speed: stable or not, through folds, where sweeps jump.
+//! Branches of periodic motions over speed, torque or damping: stable or not, through folds, where sweeps jump.
 //!
 //! ```text
-//! F(y; n) = Φ(y; n) − y = 0,   ∂F/∂y = DΦ − I
+//! F(y; λ) = Φ(y; λ) − y = 0,   ∂F/∂y = DΦ − I
 //! ```
 //!
-//! with Φ the time steps of one mesh cycle at speed n of the input member, the very steps that sweeps march. The
-//! solutions are followed by pseudo-arclength continuation ([`dynamics::continuation`]).
+//! with Φ the time steps of one mesh cycle, the very steps that sweeps march, and λ the speed of the input member, the
+//! torque on the sun or the factor on the damping. The solutions are followed by pseudo-arclength continuation ([`dynamics::continuation`]).
 
 mod branch;
+mod direction;
 mod error;
 mod family;
+mod first;
 mod follow;
+mod judged_point;
+mod parameter;
 mod point;
 mod settings;
 
-pub use branch::{Branch, BranchEnd};
+pub use branch::{Branch, BranchEnd, BranchOrigin, Branches, NotFollowed};
 pub use error::BranchError;
-pub use family::PeriodicFamily;
-pub use follow::branch;
+pub use family::{PARAMETER_CHANGE, PeriodicFamily};
+pub use follow::{branch, branches};
+pub use parameter::BranchParameter;
 pub use point::{BranchPoint, BranchPointKind, BranchRow};
 pub use settings::BranchSettings;

@@ -11,14 +11,16 @@ use crate::sweep::SteadyState;
 pub enum BranchPointKind {
     /// Any point.
     Regular,
-    /// The branch turns back in speed: a multiplier is +1.
+    /// The branch turns back in the parameter: a multiplier is +1.
     Fold,
-    /// Stability changes at a multiplier of +1 without a fold: another branch crosses.
+    /// A multiplier is +1 without a fold: another branch crosses.
     BranchPoint,
-    /// Stability changes at a multiplier of −1: motions that repeat after two mesh cycles branch off.
+    /// A multiplier is −1: motions that repeat after twice as many mesh cycles branch off.
     PeriodDoubling,
     /// Stability changes at a complex pair of multipliers on the unit circle.
     NeimarkSacker,
+    /// Multipliers jump across ±1 or the unit circle, where flanks meet or part.
+    Kink,
 }
 
 impl BranchPointKind {
@@ -30,6 +32,7 @@ impl BranchPointKind {
             Self::BranchPoint => "branch_point",
             Self::PeriodDoubling => "period_doubling",
             Self::NeimarkSacker => "neimark_sacker",
+            Self::Kink => "kink",
         }
     }
 }
@@ -40,16 +43,23 @@ pub struct BranchPoint {
     /// Harmonics of everything, with speed and load.
     #[serde(flatten)]
     pub state: SteadyState,
+    /// Value of what is varied along the branch: speed in rpm, torque on the sun in N m, or the factor on the damping.
+    pub parameter: f64,
+    /// Factor on every damping of the scene that is varied along the branch; 1 where it is not.
+    pub damping_factor: f64,
     /// What the point is.
     pub kind: BranchPointKind,
     /// Whether all multipliers are smaller than 1.
     pub is_stable: bool,
     /// Floquet multipliers of size 1e-3 and above (real and imaginary part) by descending size.
     pub multipliers: Vec<[f64; 2]>,
+    /// Energy between harmonics of the mesh frequency over all vibration; absent for motions that repeat with the mesh
+    /// cycle.
+    pub between: Option<f64>,
     /// Deviation from periodicity over the largest peak-to-peak vibration.
     pub residual: f64,
     /// Length along the branch from its start, negative before it: 1 is a change of the motion by its peak-to-peak
-    /// vibration at the start, or of the speed by 2 % of the middle of the range.
+    /// vibration at the start, of the speed by 2 % of the middle of the range, or of torque or damping by 20 % of it.
     pub arc: f64,
     /// Newton iterations.
     pub iterations: usize,
@@ -85,6 +95,12 @@ pub struct BranchRow {
     pub speed_rpm: f64,
     /// f_m, Hz.
     pub mesh_frequency_hz: f64,
+    /// Factor on every damping of the scene that is varied along the branch.
+    pub damping_factor: f64,
+    /// Number of the branch, from 0.
+    pub branch: usize,
+    /// Mesh cycles after which the motions of the branch repeat.
+    pub repeats_after: usize,
     /// Number of the point along the branch, from 0.
     pub point: usize,
     /// What the point is.

@@ -10,7 +10,7 @@ use lumped::TimeVarying;
 use super::marching::{Effort, Marching};
 use super::set_shape::SetShape;
 use super::shooting::CycleDerivative;
-use super::sweep_model::{SweepModel, fidelity_name, scaling_rate};
+use super::sweep_model::{SweepModel, check_sense, damped, fidelity_name, scaling_rate};
 use crate::error::ExperimentError;
 
 /// Name of the lumped model, as tables print it.
@@ -80,17 +80,20 @@ impl SweepModel for MeshLawModel<'_> {
         self.law.steps()
     }
 
-    fn turning(
+    fn turning_damped(
         &self,
         case: &LoadCase,
+        damping_factor: f64,
         _: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
-        let (law, torque) = (self.law.clone(), self.case.sun_load_nm());
+        check_sense(&self.case, case)?;
+        let scene = damped(&self.scene, damping_factor);
+        let (law, torque) = (self.law.clone(), case.sun_load_nm());
         let has_backside = law.has_backside();
         let (sense, mesh_frequency) = (self.case.sense(), case.mesh_frequency_hz);
         let rate = scaling_rate(mesh_frequency);
         let Some(loaded) = &self.loaded else {
-            let set = TimeVarying::new(&self.scene, sense, law, mesh_frequency)?;
+            let set = TimeVarying::new(&scene, sense, law, mesh_frequency)?;
             return Ok(Box::new(LumpedMarching {
                 set,
                 torque,
@@ -99,7 +102,7 @@ impl SweepModel for MeshLawModel<'_> {
                 derivative: None,
             }));
         };
-        let set = MeshLawSet::on(&self.scene, loaded, mesh_frequency, law)?;
+        let set = MeshLawSet::on(&scene, loaded, mesh_frequency, law)?;
         Ok(Box::new(LawMarching { set, torque, has_backside, rate, derivative: None }))
     }
 }

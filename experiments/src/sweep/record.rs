@@ -122,8 +122,21 @@ impl Record {
         Ok(())
     }
 
+    /// Mean of the `cycles` mesh cycles of a record, sample by sample: its harmonics are those of the whole record at
+    /// multiples of the mesh frequency.
+    pub(crate) fn mean_cycle(&self, cycles: usize) -> Self {
+        let length = self.samples.len() / cycles.max(1);
+        let mut mean = Self { samples: vec![0.0; length], ..self.clone() };
+        for cycle in self.samples.chunks(length.max(1)).take(cycles) {
+            let sums = mean.samples.iter_mut().zip(cycle);
+            sums.for_each(|(sum, x)| *sum += x / cycles as f64);
+        }
+        mean.backside.truncate(self.backside.len() / cycles.max(1));
+        mean
+    }
+
     /// Appends the samples of a record of the same set that follows this one in time.
-    pub(super) fn append(&mut self, next: Record) {
+    pub(crate) fn append(&mut self, next: Record) {
         self.samples.extend(next.samples);
         self.backside.extend(next.backside);
         self.has_backside = next.has_backside;

@@ -70,8 +70,8 @@ impl<'m> RecordedCycles<'m> {
     }
 
     /// The last cycle.
-    pub(crate) fn into_record(self) -> Record {
-        self.now
+    pub(crate) fn last(&self) -> &Record {
+        &self.now
     }
 }
 

@@ -87,21 +87,34 @@ impl Steady {
         self.further.as_ref().unwrap_or(&self.record)
     }
 
-    /// A periodic motion of which one cycle was recorded.
-    pub(crate) fn periodic(record: Record, multipliers: Vec<Multiplier>, residual: f64) -> Self {
-        Self {
+    /// A periodic motion of which one period of `cycles` mesh cycles was recorded. Its harmonics are those of the mean
+    /// cycle.
+    ///
+    /// # Errors
+    /// If the record is not finite.
+    pub(crate) fn periodic(
+        whole: Record,
+        cycles: usize,
+        multipliers: Vec<Multiplier>,
+        residual: f64,
+    ) -> Result<Self, ExperimentError> {
+        let (record, between, further) = match cycles {
+            1 => (whole, None, None),
+            _ => (whole.mean_cycle(cycles), Some(whole.between_harmonics(cycles)?), Some(whole)),
+        };
+        Ok(Self {
             method: SteadyMethod::Shooting,
             why_marched: None,
             derivatives: 1,
             multipliers,
             record,
-            cycles: 1,
+            cycles,
             residual,
-            between: None,
+            between,
             rest: None,
-            repeats_after: Some(1),
-            further: None,
-        }
+            repeats_after: Some(cycles),
+            further,
+        })
     }
 }
 

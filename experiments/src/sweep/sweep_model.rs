@@ -42,16 +42,51 @@ pub trait SweepModel: Sync {
         Ok(())
     }
 
-    /// The set turning at the speed of a load case. `size`: how often its tables were found too small
-    /// and are to be laid out for twice the load.
+    /// The set turning at the speed and under the torque of a load case. `size`: how often its tables were found too
+    /// small and are to be laid out for twice the load.
+    ///
+    /// What a model computes once it computes under the torque of its own [`case`](Self::case): the loaded configuration
+    /// that the set is linearised about, contact tables or the law of the meshes. It stays the same under another torque.
     ///
     /// # Errors
-    /// If the set cannot be built.
+    /// If the set cannot be built, or the torque presses the other flanks than the model's own.
     fn turning(
         &self,
         case: &LoadCase,
         size: usize,
+    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+        self.turning_damped(case, 1.0, size)
+    }
+
+    /// The same with every damping of the scene multiplied by `damping_factor`.
+    ///
+    /// # Errors
+    /// As [`turning`](Self::turning), or if the factor is negative or not finite.
+    fn turning_damped(
+        &self,
+        case: &LoadCase,
+        damping_factor: f64,
+        size: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError>;
+}
+
+/// Refuses a torque that presses other flanks than those a model was made for.
+pub(super) fn check_sense(own: &LoadCase, other: &LoadCase) -> Result<(), ExperimentError> {
+    if own.sense() == other.sense() {
+        return Ok(());
+    }
+    let (torque_nm, own_nm) = (other.sun_torque_nm, own.sun_torque_nm);
+    Err(ExperimentError::OtherFlanks { torque_nm, own_nm })
+}
+
+/// A scene with every damping multiplied by a factor.
+pub(super) fn damped(scene: &Scene, factor: f64) -> Scene {
+    let mut scene = scene.clone();
+    let damping = &mut scene.damping;
+    damping.mass_proportional_per_s *= factor;
+    damping.stiffness_proportional_s *= factor;
+    damping.bearing_s *= factor;
+    scene
 }
 
 /// Name of a fidelity of the FE/contact model, as tables print it.
@@ -157,15 +192,18 @@ impl SweepModel for FeModel<'_> {
         self.shared(0).map(|_| ())
     }
 
-    fn turning(
+    fn turning_damped(
         &self,
         case: &LoadCase,
+        damping_factor: f64,
         size: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+        check_sense(&self.case, case)?;
         let (steps_per_cycle, mesh_frequency) = (self.steps_per_cycle(), case.mesh_frequency_hz);
         let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle };
-        let torque_nm = self.case.sun_load_nm();
-        let set = VibratingSet::on(&self.scene, self.shared(size)?, rotation)?;
+        let torque_nm = case.sun_load_nm();
+        let scene = damped(&self.scene, damping_factor);
+        let set = VibratingSet::on(&scene, self.shared(size)?, rotation)?;
         let rate = scaling_rate(mesh_frequency);
         Ok(Box::new(FeMarching { set, torque_nm, rate, derivative: None }))
     }

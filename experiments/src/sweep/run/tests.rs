@@ -144,9 +144,10 @@ impl SweepModel for Prescribed {
         STEPS
     }
 
-    fn turning(
+    fn turning_damped(
         &self,
         case: &LoadCase,
+        _: f64,
         size: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
         let own = self.fates.iter().find(|(speed, _)| *speed == case.speed_rpm);
