@@ -313,14 +313,13 @@ pub struct Branches {
     #[arg(long, value_enum, default_value_t = Over::Speed)]
     pub over: Over,
     /// Least and greatest speed of the input member, rpm; with --over speed, which needs it.
-    #[arg(long, value_name = "FROM:TO", value_parser = span, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FROM:TO", value_parser = span, allow_hyphen_values = true)]
     pub speeds_rpm: Option<[f64; 2]>,
     /// Least and greatest torque on the sun, N·m, both of one sign; with --over torque, which needs it.
-    #[arg(long, value_name = "FROM:TO", value_parser = span, allow_negative_numbers = true,
-          allow_hyphen_values = true)]
+    #[arg(long, value_name = "FROM:TO", value_parser = span, allow_hyphen_values = true)]
     pub torques_nm: Option<[f64; 2]>,
     /// Least and greatest factor on every damping of the scene; with --over damping, which needs it.
-    #[arg(long, value_name = "FROM:TO", value_parser = span, allow_negative_numbers = true)]
+    #[arg(long, value_name = "FROM:TO", value_parser = span, allow_hyphen_values = true)]
     pub damping_factors: Option<[f64; 2]>,
     /// Speed (rpm), torque (N·m) or factor at which the branch begins, with the motion found from rest; the greatest if
     /// left out.

@@ -4,10 +4,9 @@ use std::fmt;
 
 use crate::estimates::{self, BODIES};
 use crate::geometry::Geometry;
-use crate::kinematics::Kinematics;
 use crate::load_case::LoadCase;
 use crate::load_size::LARGE_MODULES;
-use crate::scene::{Freedom, PerBody, Scene, Support, Torsional};
+use crate::scene::{PerBody, Scene, Support, Torsional};
 
 /// Mass and inertia of a body against its disc of the same width and density: webs, hubs and shafts change them by
 /// less than this factor, a slip of unit or of size by more.

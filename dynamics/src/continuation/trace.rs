@@ -180,7 +180,7 @@ fn follow<F: Family>(
     let stop = stop(options);
     let mut last = judge(space, first)?;
     let mut points = vec![point(space, &last, PointKind::Regular, 0.0)];
-    let first = last.at.u.clone();
+    let (first, first_tangent) = (last.at.u.clone(), last.at.tangent.clone());
     let mut arc = 0.0;
     let mut h = options.first_step.clamp(options.steps[0], options.steps[1]);
     let mut was_away = false;
@@ -254,7 +254,9 @@ fn follow<F: Family>(
             break End::Bound;
         }
         was_away |= near > 4.0 * options.steps[1].min(whole.max(options.first_step));
-        if was_away && near <= whole && crossed_first {
+        // Beyond a sharp turn the branch may pass its first point closely, in the other sense.
+        let is_along_first = dot(&last.at.tangent, &first_tangent) > 0.0;
+        if was_away && near <= whole && crossed_first && is_along_first {
             break End::Closed;
         }
         // Longer where Newton's method is quick and the branch straight.
