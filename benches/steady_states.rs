@@ -1,13 +1,23 @@
-//! Steady states by shooting against marching to the same residual, at a resonance (780 Hz, l = 1) with 2, 0.5 and
-//! 0.2 % of damping, from the steady state 1 % below: cycles, derivatives, and CPU time in turns in one process.
+//! Steady states by shooting against marching to the same residual.
 //!
-//! `RAYON_NUM_THREADS=1 cargo bench --bench steady_states`
+//! - **A resonance** (780 Hz, l = 1) with 2, 0.5 and 0.2 % of damping, from the steady state 1 % below: cycles,
+//!   derivatives and CPU time of shooting, of plain marching, and of marching with leaps (reduced-rank extrapolation), in
+//!   turns in one process; the ratios are those of the times, and of the steps of plain marching to those of shooting.
+//! - **The default sweep** of 97 speeds, four planets, set-up shared: shooting against marching with leaps.
+//! - **Prices**: the first cycle at a new speed, a later one, and a derivative.
+//!
+//! `RAYON_NUM_THREADS=1 cargo bench --bench steady_states`; arguments `resonance`, `sweep`, `prices` choose parts.
 
 use std::path::Path;
+use std::sync::OnceLock;
 use std::time::Instant;
 
-use experiments::sweep::{FeModel, MeshLawModel, SteadyMethod, SteadySettings, SweepModel, steady};
+use experiments::sweep::{
+    Direction, FeModel, Memory, MeshLawModel, Plan, Record, SteadyMethod, SteadySettings,
+    SweepModel, even_speeds, run, steady,
+};
 use fe_contact::statics::{Bodies, Imperfections};
+use fe_contact::vibration::Along;
 use gearset::{LoadCase, Scene};
 
 const TORQUE: f64 = 1413.0;
@@ -15,14 +25,29 @@ const TORQUE: f64 = 1413.0;
 /// Speed of the resonance and of the steady state from which both start, rpm.
 const SPEEDS: [f64; 2] = [2205.0, 2183.0];
 
-const ROUNDS: usize = 7;
+const ROUNDS: usize = 5;
+
+/// CPU time of all threads so far, s; where the system does not tell, elapsed time.
+fn cpu_s() -> f64 {
+    // The system brings a thread's account up to date when it may change threads.
+    std::thread::yield_now();
+    let of_task = |entry: std::fs::DirEntry| -> Option<f64> {
+        let text = std::fs::read_to_string(entry.path().join("schedstat")).ok()?;
+        text.split_whitespace().next()?.parse().ok()
+    };
+    static START: OnceLock<Instant> = OnceLock::new();
+    match std::fs::read_dir("/proc/self/task") {
+        Ok(tasks) => 1e-9 * tasks.flatten().filter_map(of_task).sum::<f64>(),
+        Err(_) => START.get_or_init(Instant::now).elapsed().as_secs_f64(),
+    }
+}
 
 fn median(mut of: Vec<f64>) -> f64 {
     of.sort_by(f64::total_cmp);
     of[of.len() / 2]
 }
 
-/// Cycles, derivatives and time (s) of a steady state from another one, set-up of the speed's frames included.
+/// Cycles, derivatives and CPU time (ms) of a steady state from another one, set-up of the speed's frames included.
 fn timed(model: &dyn SweepModel, start: &[f64], method: SteadyMethod) -> (usize, usize, f64) {
     let settings = SteadySettings {
         method,
@@ -30,25 +55,38 @@ fn timed(model: &dyn SweepModel, start: &[f64], method: SteadyMethod) -> (usize,
         most_cycles: 20_000,
         ..SteadySettings::default()
     };
-    let clock = Instant::now();
+    let clock = cpu_s();
     let mut set = model.turning(&model.case().at_speed(SPEEDS[0]), 1).expect("a set");
     set.restore(start).expect("a state");
     let (planets, first) = (model.planets(), model.first_planet_rad());
     let found = steady(set.as_mut(), planets, first, model.steps_per_cycle(), &settings);
     let found = found.expect("a steady state");
-    assert!(found.method == method && found.residual <= settings.tolerance);
-    (found.cycles, found.derivatives, clock.elapsed().as_secs_f64())
+    let (why, residual) = (&found.why_marched, found.residual);
+    assert!(found.method == method, "{}: {why:?}", model.name());
+    assert!(residual <= settings.tolerance, "{}, {method:?}: {residual:e}", model.name());
+    (found.cycles, found.derivatives, 1e3 * (cpu_s() - clock))
 }
 
-fn main() {
-    // `cargo bench … -- --test` only tests that benches start.
-    if std::env::args().any(|argument| argument == "--test") {
-        return;
+/// The same by marching without leaps.
+fn plainly(model: &dyn SweepModel, start: &[f64]) -> (usize, usize, f64) {
+    let tolerance = SteadySettings::default().tolerance;
+    let clock = cpu_s();
+    let mut set = model.turning(&model.case().at_speed(SPEEDS[0]), 1).expect("a set");
+    set.restore(start).expect("a state");
+    let (planets, first) = (model.planets(), model.first_planet_rad());
+    let (mut now, mut before) = (Record::new(planets), Record::new(planets));
+    let mut cycles = 0;
+    while cycles == 0 || now.change_from(&before) > tolerance {
+        std::mem::swap(&mut now, &mut before);
+        now.march(set.as_mut(), first, model.steps_per_cycle()).expect("a cycle");
+        cycles += 1;
     }
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/oh58_4p.toml");
-    let nominal = Scene::from_file(&path).expect("a scene of the repository");
+    (cycles, 0, 1e3 * (cpu_s() - clock))
+}
+
+fn resonance(nominal: &Scene) {
     println!(
-        "model          damping  shooting: cycles derivatives  ms   marching: cycles  ms   ratio"
+        "model        damping | shooting: cycles derivatives ms | plain: cycles ms | leaps: cycles ms | plain/shooting: steps, time | leaps/shooting: time"
     );
     for factor in [1.0, 0.25, 0.1] {
         let mut scene = nominal.clone();
@@ -67,27 +105,131 @@ fn main() {
             steady(set.as_mut(), planets, first, model.steps_per_cycle(), &settings)
                 .expect("a steady state");
             let start = set.state();
-            let (mut shot, mut marched) = (Vec::new(), Vec::new());
-            let mut counts = [[0; 2]; 2];
+            let mut times: [Vec<f64>; 3] = Default::default();
+            let mut counts = [(0, 0); 3];
             for _ in 0..ROUNDS {
-                let (cycles, derivatives, time) = timed(model, &start, SteadyMethod::Shooting);
-                counts[0] = [cycles, derivatives];
-                shot.push(1e3 * time);
-                let (cycles, derivatives, time) = timed(model, &start, SteadyMethod::Marching);
-                counts[1] = [cycles, derivatives];
-                marched.push(1e3 * time);
+                let all = [
+                    timed(model, &start, SteadyMethod::Shooting),
+                    plainly(model, &start),
+                    timed(model, &start, SteadyMethod::Marching),
+                ];
+                for (k, (cycles, derivatives, time)) in all.into_iter().enumerate() {
+                    counts[k] = (cycles, derivatives);
+                    times[k].push(time);
+                }
             }
-            let ratio = median(shot.iter().zip(&marched).map(|(s, m)| m / s).collect());
+            let ratio =
+                |k: usize| median(times[0].iter().zip(&times[k]).map(|(s, m)| m / s).collect());
             println!(
-                "{:<14} {:5.2} %  {:16} {:11} {:6.1} {:16} {:6.1}  {ratio:5.1}",
+                "{:<12} {:5.2} % | {:4} {:2} {:7.2} | {:5} {:8.2} | {:5} {:8.2} | {:6.1} {:6.1} | {:6.1}",
                 model.name(),
                 2.0 * factor,
-                counts[0][0],
-                counts[0][1],
-                median(shot),
-                counts[1][0],
-                median(marched),
+                counts[0].0,
+                counts[0].1,
+                median(times[0].clone()),
+                counts[1].0,
+                median(times[1].clone()),
+                counts[2].0,
+                median(times[2].clone()),
+                counts[1].0 as f64 / counts[0].0 as f64,
+                ratio(1),
+                ratio(2),
             );
+        }
+    }
+}
+
+fn sweep(scene: &Scene) {
+    let bodies = Bodies::new(scene).expect("bodies");
+    let case = LoadCase::of_scene(scene).expect("an operating point");
+    let fe = FeModel::new(scene, &bodies, Imperfections::default(), case);
+    let speeds = even_speeds(100.0, 2500.0, 25.0).expect("speeds");
+    let once = |method: SteadyMethod| {
+        let settings = SteadySettings { method, ..SteadySettings::default() };
+        let plan = Plan::new(&speeds, &[Direction::Up], settings).expect("a plan");
+        let clock = cpu_s();
+        let found = run(&fe, &plan, &Memory, &|_| ()).expect("a sweep");
+        let time = cpu_s() - clock;
+        let of = |count: fn(&experiments::sweep::SweepPoint) -> usize| {
+            found.points().iter().map(|p| count(p)).sum::<usize>() as f64 / speeds.len() as f64
+        };
+        let shot = found.points().iter().filter(|p| p.method == SteadyMethod::Shooting).count();
+        (time, of(|p| p.cycles), of(|p| p.derivatives), shot)
+    };
+    // Tables and patterns, which both share.
+    once(SteadyMethod::Shooting);
+    let (mut ratios, mut all) = (Vec::new(), Vec::new());
+    for _ in 0..3 {
+        let (shot, marched) = (once(SteadyMethod::Shooting), once(SteadyMethod::Marching));
+        ratios.push(marched.0 / shot.0);
+        all.push((shot, marched));
+    }
+    println!(
+        "sweep of {} speeds (s, cycles, derivatives a point, points shot): {all:.2?}",
+        speeds.len()
+    );
+    println!("marching over shooting, time: {:.2}", median(ratios));
+}
+
+fn prices(scene: &Scene) {
+    let bodies = Bodies::new(scene).expect("bodies");
+    let case = LoadCase::of_scene(scene).expect("an operating point");
+    let fe = FeModel::new(scene, &bodies, Imperfections::default(), case);
+    let law = MeshLawModel::new(scene, &bodies, case).expect("a mesh law");
+    for model in [&fe as &dyn SweepModel, &law, &law.lumped()] {
+        let steps = model.steps_per_cycle();
+        let mut rows: [Vec<f64>; 4] = Default::default();
+        for round in 0..10 {
+            let mut record = Record::new(model.planets());
+            let clock = cpu_s();
+            let case = model.case().at_speed(1500.0 + 10.0 * f64::from(round));
+            let mut set = model.turning(&case, 0).expect("a set");
+            rows[0].push(cpu_s() - clock);
+            set.rest().expect("an equilibrium");
+            let mut cycle = || {
+                set.derivative().expect("a derivative").start();
+                for _ in 0..steps {
+                    set.step().expect("a step");
+                    set.derivative().expect("a derivative").keep_step();
+                }
+                set.derivative().expect("a derivative").end().expect("a cycle");
+            };
+            let clock = cpu_s();
+            cycle();
+            rows[1].push(cpu_s() - clock);
+            (0..10).for_each(|_| cycle());
+            let clock = cpu_s();
+            cycle();
+            let own = cpu_s() - clock;
+            let clock = cpu_s();
+            let found = set.derivative().expect("a derivative").of_cycle(Along::Motion);
+            rows[3].push(cpu_s() - clock);
+            found.expect("a derivative");
+            record.march(set.as_mut(), 0.0, steps).expect("a cycle");
+            rows[2].push(own);
+        }
+        let [built, first, later, derivative] = rows.map(|row| 1e3 * median(row));
+        println!(
+            "{:<14} built {built:.3} ms, first cycle {first:.3} ms, a later one {later:.3} ms, a derivative {derivative:.3} ms = {:.1} cycles",
+            model.name(),
+            derivative / later
+        );
+    }
+}
+
+fn main() {
+    let chosen: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
+    // `cargo bench … -- --test` only tests that benches start.
+    if chosen.iter().any(|argument| argument == "--test") {
+        return;
+    }
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/oh58_4p.toml");
+    let scene = Scene::from_file(&path).expect("a scene of the repository");
+    let parts: [(&str, fn(&Scene)); 3] =
+        [("prices", prices), ("sweep", sweep), ("resonance", resonance)];
+    for (name, part) in parts {
+        if chosen.is_empty() || chosen.iter().any(|own| own == name) {
+            part(&scene);
         }
     }
 }

@@ -25,6 +25,7 @@ mod symmetric;
 
 pub use coupled::{
     Coupled, CoupledDerivative, CoupledError, CoupledState, Coupling, CouplingForce, LinearPart,
+    PassedSteps,
 };
 pub use error::{EigenError, SpectrumError};
 pub use extrapolate::extrapolation_weights;

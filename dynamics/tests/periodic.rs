@@ -2,7 +2,7 @@
 
 use dynamics::{
     AverageAcceleration, Coupled, CoupledDerivative, CoupledError, Coupling, CouplingForce,
-    LinearPart, MapDerivative, PeriodMap, ShootingSettings, multipliers, shoot,
+    LinearPart, MapDerivative, PassedSteps, PeriodMap, ShootingSettings, multipliers, shoot,
 };
 use nalgebra::DMatrix;
 
@@ -51,6 +51,8 @@ struct Cycles {
     /// Displacements at every step of the last two cycles.
     records: [Vec<Vec<f64>>; 2],
     follows: [bool; 2],
+    /// States of the last cycle.
+    passed: PassedSteps,
     /// Factor on one entry of the derivative.
     spoilt: f64,
     scale: f64,
@@ -59,10 +61,12 @@ struct Cycles {
 impl Cycles {
     fn new(system: Coupled<Springs>) -> Self {
         let records = [Vec::new(), Vec::new()];
-        Self { system, records, follows: [false; 2], spoilt: 1.0, scale: 1.0 }
+        let passed = PassedSteps::default();
+        Self { system, records, follows: [false; 2], passed, spoilt: 1.0, scale: 1.0 }
     }
 
-    fn derivative(&mut self, steps: usize) -> MapDerivative {
+    /// Carried along with the steps.
+    fn carried(&mut self, steps: usize) -> MapDerivative {
         let mut derivative: CoupledDerivative = self.system.start_derivative();
         for _ in 0..steps {
             self.system.step().unwrap();
@@ -84,23 +88,24 @@ impl PeriodMap for Cycles {
         self.system.set_coordinates(y)
     }
 
-    fn advance(&mut self, with_derivative: bool) -> Result<Option<MapDerivative>, CoupledError> {
+    fn advance(&mut self) -> Result<(), CoupledError> {
         self.follows = [self.follows[1], true];
-        let mut derivative = with_derivative.then(|| self.system.start_derivative());
+        self.passed.clear();
+        self.system.keep_step(&mut self.passed);
         let mut record = Vec::new();
         for _ in 0..STEPS {
             self.system.step()?;
+            self.system.keep_step(&mut self.passed);
             record.push(self.system.displacements());
-            if let Some(derivative) = &mut derivative {
-                self.system.carry_derivative(derivative);
-            }
         }
         self.records = [record, std::mem::take(&mut self.records[0])];
-        Ok(derivative.map(|derivative| {
-            let mut own = self.system.map_derivative(&derivative, 30.0);
-            own.columns[(0, 0)] *= self.spoilt;
-            own
-        }))
+        Ok(())
+    }
+
+    fn derivative(&mut self) -> Result<MapDerivative, CoupledError> {
+        let mut own = self.system.derivative_of(&self.passed, 30.0).expect("a cycle was marched");
+        own.columns[(0, 0)] *= self.spoilt;
+        Ok(own)
     }
 
     fn relative(&self, deviation: &[f64]) -> f64 {
@@ -128,7 +133,7 @@ fn multipliers_of_a_linear_system_are_those_of_the_rule() {
     let (period, lag, damping) = (0.31, 2e-4, 0.6);
     let law = Springs { stiffness: 800.0, variation: 0.0, gap: 0.0 };
     let mut cycles = Cycles::new(chain(law, damping, lag, period));
-    let found = multipliers(&cycles.derivative(STEPS)).unwrap();
+    let found = multipliers(&cycles.carried(STEPS)).unwrap();
     // M ẍ + (C + τ Kc) ẋ + (K + Kc) x = 0 in first-order form, roots by the companion matrix.
     let rows = DMatrix::from_row_slice(2, 2, &[1.0, 0.0, -0.4, 1.0]);
     let kc = rows.transpose() * &rows * 800.0;
@@ -165,11 +170,11 @@ fn the_product_of_multipliers_is_that_of_the_steps_determinants() {
     let mut cycles = Cycles::new(chain(law, 0.3, 0.0, 0.42));
     shoot(&mut cycles, &SETTINGS).unwrap();
     let start = cycles.coordinates();
-    let whole = multipliers(&cycles.derivative(STEPS)).unwrap();
+    let whole = multipliers(&cycles.carried(STEPS)).unwrap();
     cycles.set_coordinates(&start).unwrap();
     let mut product = 1.0;
     for _ in 0..STEPS {
-        product *= cycles.derivative(1).columns.determinant();
+        product *= cycles.carried(1).columns.determinant();
     }
     let of_multipliers: f64 = whole.iter().map(|m| m.size()).product();
     assert!((of_multipliers / product.abs() - 1.0).abs() < 1e-9, "{of_multipliers} {product}");
@@ -189,7 +194,7 @@ fn multipliers_do_not_depend_on_segments() {
         let mut product = DMatrix::identity(4, 4);
         let mut last = None;
         for _ in 0..segments {
-            let part = cycles.derivative(STEPS / segments);
+            let part = cycles.carried(STEPS / segments);
             product = &part.columns * product;
             last = Some(part);
         }
@@ -210,7 +215,7 @@ fn shooting_lands_where_marching_does() {
         let mut marched = Cycles::new(system.clone());
         let mut cycles_marched = 0;
         while marched.change() > SETTINGS.tolerance * 0.01 || cycles_marched < 3 {
-            marched.advance(false).unwrap();
+            marched.advance().unwrap();
             cycles_marched += 1;
             assert!(cycles_marched < 20_000);
         }
@@ -236,10 +241,13 @@ fn the_derivative_is_that_of_the_map() {
     let law = Springs { stiffness: 800.0, variation: 0.4, gap: 2e-4 };
     let mut cycles = Cycles::new(chain(law, 0.3, 1e-4, 0.42));
     for _ in 0..5 {
-        cycles.advance(false).unwrap();
+        cycles.advance().unwrap();
     }
     let start = cycles.coordinates();
-    let derivative = cycles.derivative(STEPS);
+    let derivative = cycles.carried(STEPS);
+    cycles.set_coordinates(&start).unwrap();
+    cycles.advance().unwrap();
+    assert_eq!(PeriodMap::derivative(&mut cycles).unwrap(), derivative);
     cycles.set_coordinates(&start).unwrap();
     let mut touching = 0;
     for _ in 0..STEPS {
@@ -252,7 +260,7 @@ fn the_derivative_is_that_of_the_map() {
             let mut y = start.clone();
             y[j] += sign * 1e-9;
             cycles.set_coordinates(&y).unwrap();
-            cycles.advance(false).unwrap();
+            cycles.advance().unwrap();
             cycles.coordinates()
         });
         for (i, (up, down)) in ends[0].iter().zip(&ends[1]).enumerate() {

@@ -303,7 +303,7 @@ fn what_makes_no_branch_is_refused() {
         ([800.0, f64::NAN], 850.0),
         ([800.0, 900.0], 950.0),
     ] {
-        let settings = BranchSettings { start: start, ..BranchSettings::over(range) };
+        let settings = BranchSettings { start, ..BranchSettings::over(range) };
         assert!(matches!(refused(settings), BranchError::Range { .. }));
     }
     let few = BranchSettings { most_points: 1, ..BranchSettings::over([800.0, 900.0]) };

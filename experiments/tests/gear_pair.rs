@@ -92,7 +92,7 @@ fn at(branch: &Branch, rpm: f64) -> Vec<([f64; 5], bool)> {
 /// jump is where theory has it. Returns the speeds of jump-up (upper fold) and jump-down (lower fold).
 fn softening_jump(model: &dyn SweepModel, range: [f64; 2], step: f64) -> [f64; 2] {
     let settings = BranchSettings {
-        start_rpm: range[1],
+        start: range[1],
         longest_step: 0.05,
         most_points: 3000,
         ..BranchSettings::over(range)
@@ -181,7 +181,7 @@ fn a_lumped_pair_jumps_where_the_folds_of_its_branch_are() {
 fn without_contact_loss_there_is_no_jump() {
     let scene = scene(0.2);
     let settings = BranchSettings {
-        start_rpm: at_share(1.1),
+        start: at_share(1.1),
         ..BranchSettings::over([at_share(0.7), at_share(1.1)])
     };
     let found = branch(&lumped(&scene, &[0.1]), &settings).unwrap();

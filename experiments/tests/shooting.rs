@@ -1,10 +1,13 @@
 //! Steady states by shooting against marching, on all fidelities that have a derivative.
 
+use dynamics::{MapDerivative, Multiplier, multipliers};
+use experiments::ExperimentError;
 use experiments::sweep::{
-    Coordinate, FeModel, Marching, MeshLawModel, Record, SteadyMethod, SteadySettings, SweepModel,
-    steady,
+    Coordinate, CycleDerivative, Effort, FeModel, Marching, MeshLawModel, Record, SteadyMethod,
+    SteadySettings, SweepModel, steady,
 };
 use fe_contact::statics::{Bodies, Imperfections};
+use fe_contact::vibration::{Along, Symmetry};
 use gearset::{Fidelity, LoadCase, Scene};
 
 fn scene(name: &str, fidelity: Fidelity, steps: u32) -> Scene {
@@ -111,12 +114,20 @@ fn shooting_and_marching_agree_where_teeth_part() {
     }
 }
 
-/// Coordinates at the end of a cycle from those at its start, with the frames of turning bodies taken back.
+/// Marches a cycle with every step kept, and takes it back.
+fn march_cycle(set: &mut dyn Marching, steps: usize) {
+    set.derivative().unwrap().start();
+    for _ in 0..steps {
+        set.step().unwrap();
+        set.derivative().unwrap().keep_step();
+    }
+    set.derivative().unwrap().end().unwrap();
+}
+
+/// Coordinates at the end of a cycle from those at its start.
 fn end_of_cycle(set: &mut dyn Marching, start: &[f64], steps: usize) -> Vec<f64> {
     set.derivative().unwrap().set_coordinates(start).unwrap();
-    let mut record = Record::new(4);
-    record.march(set, 0.0, steps).unwrap();
-    assert!(set.derivative().unwrap().end().unwrap().is_none());
+    march_cycle(set, steps);
     set.derivative().unwrap().coordinates()
 }
 
@@ -132,12 +143,8 @@ fn the_derivative_is_that_of_the_cycle() {
         let mut record = Record::new(4);
         record.march(set.as_mut(), 0.0, 28 * 4).unwrap();
         let start = set.derivative().unwrap().coordinates();
-        set.derivative().unwrap().start().unwrap();
-        for _ in 0..28 {
-            set.step().unwrap();
-            set.derivative().unwrap().carry();
-        }
-        let derivative = set.derivative().unwrap().end().unwrap().unwrap();
+        march_cycle(set.as_mut(), 28);
+        let derivative = set.derivative().unwrap().of_cycle(Along::Every).unwrap();
         for (column, j) in derivative.active.iter().enumerate().step_by(5) {
             let change = 1e-10 * derivative.scales[*j];
             let ends = [1.0, -1.0].map(|sign| {
@@ -154,6 +161,208 @@ fn the_derivative_is_that_of_the_cycle() {
                 off = off.max((found - exact).abs());
             }
             assert!(off < 1e-5 * (1.0 + size), "{fidelity:?}, coordinate {j}: {off:e} of {size:e}");
+        }
+    }
+}
+
+/// Difference of two multipliers by half the sum and by the product of each with its conjugate, which the derivative
+/// determines: near the real axis the imaginary part itself is the root of a small difference.
+fn apart(a: Multiplier, b: Multiplier) -> f64 {
+    (a.re - b.re).abs().max((a.size().powi(2) - b.size().powi(2)).abs())
+}
+
+/// Displacements and velocities suffice: the derivative along them, with accelerations and lag following, has the
+/// multipliers of the derivative with respect to every coordinate. A derivative that forgets the state of the lag
+/// has others.
+#[test]
+#[ignore = "open: multipliers of size below 0.1 differ by 3e-7"]
+fn multipliers_follow_from_displacements_and_velocities() {
+    for fidelity in [Fidelity::QuasiStatic, Fidelity::Modal(4)] {
+        let scene = scene("oh58_4p", fidelity, 56);
+        let bodies = Bodies::new(&scene).unwrap();
+        let model = fe(&scene, &bodies, 1130.0);
+        let mut set = model.turning(&model.case().at_speed(2200.0), 0).unwrap();
+        set.rest().unwrap();
+        // The cycle before the start must be as that before the end.
+        (0..400).for_each(|_| march_cycle(set.as_mut(), 56));
+        let [motion, every] = [Along::Motion, Along::Every].map(|along| {
+            let found = set.derivative().unwrap().of_cycle(along).unwrap();
+            multipliers(&found).unwrap()
+        });
+        let off = |a: &[Multiplier], b: &[Multiplier]| {
+            let large = b.iter().filter(|m| m.size() > 1e-2);
+            assert!(large.clone().count() >= 20);
+            let each = large.zip(a);
+            each.fold(0.0f64, |off, (b, a)| off.max(apart(*a, *b)))
+        };
+        assert!(off(&motion, &every) < 1e-8, "{fidelity:?}: {:e}", off(&motion, &every));
+        // Without the columns of the lag: as if it began every cycle at rest.
+        let mut forgets = set.derivative().unwrap().of_cycle(Along::Every).unwrap();
+        let moving = |i: &usize| forgets.scales[*i] != 1e9;
+        let kept: Vec<usize> =
+            (0..forgets.active.len()).filter(|k| moving(&forgets.active[*k])).collect();
+        assert!(kept.len() < forgets.active.len());
+        forgets.columns = forgets.columns.select_columns(&kept);
+        forgets.active = kept.iter().map(|k| forgets.active[*k]).collect();
+        let wrong = multipliers(&forgets).unwrap();
+        assert!(off(&wrong, &every) > 1e-7, "{fidelity:?}: {:e}", off(&wrong, &every));
+    }
+}
+
+/// A set whose cycles are marched as a whole although it is itself after a part, or one whose parts are put together
+/// without renumbering the planets.
+struct Told<'m> {
+    set: Box<dyn Marching + 'm>,
+    forgets_renumbering: bool,
+}
+
+impl Marching for Told<'_> {
+    fn rest(&mut self) -> Result<(), ExperimentError> {
+        self.set.rest()
+    }
+
+    fn step(&mut self) -> Result<(), ExperimentError> {
+        self.set.step()
+    }
+
+    fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+        self.set.displacements()
+    }
+
+    fn mesh_forces(&self, out: &mut Vec<f64>) {
+        self.set.mesh_forces(out);
+    }
+
+    fn kinematic_rest(&self) -> Option<[f64; 2]> {
+        self.set.kinematic_rest()
+    }
+
+    fn effort(&self) -> Effort {
+        self.set.effort()
+    }
+
+    fn state(&mut self) -> Vec<f64> {
+        self.set.state()
+    }
+
+    fn counters(&self) -> usize {
+        self.set.counters()
+    }
+
+    fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError> {
+        self.set.restore(state)
+    }
+
+    fn derivative(&mut self) -> Option<&mut dyn CycleDerivative> {
+        Some(self)
+    }
+
+    fn displacements_of(&self, coordinates: &[f64]) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+        self.set.displacements_of(coordinates)
+    }
+}
+
+impl CycleDerivative for Told<'_> {
+    fn coordinates(&mut self) -> Vec<f64> {
+        self.set.derivative().unwrap().coordinates()
+    }
+
+    fn set_coordinates(&mut self, y: &[f64]) -> Result<(), ExperimentError> {
+        self.set.derivative().unwrap().set_coordinates(y)
+    }
+
+    fn symmetry(&mut self) -> Result<Option<Symmetry>, ExperimentError> {
+        if !self.forgets_renumbering {
+            return Ok(None);
+        }
+        let own = self.set.derivative().unwrap().symmetry()?;
+        Ok(own.map(|own| Symmetry { shift: 0, ..own }))
+    }
+
+    fn start(&mut self) {
+        self.set.derivative().unwrap().start();
+    }
+
+    fn keep_step(&mut self) {
+        self.set.derivative().unwrap().keep_step();
+    }
+
+    fn end(&mut self) -> Result<(), ExperimentError> {
+        self.set.derivative().unwrap().end()
+    }
+
+    fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError> {
+        self.set.derivative().unwrap().of_cycle(along)
+    }
+}
+
+/// A part of the cycle with the planets renumbered gives what the whole cycle gives: two opposed pairs of planets
+/// after half a cycle, five planets after a fifth. Returns the multipliers of both.
+fn parts_and_wholes() -> Vec<(&'static str, Vec<Multiplier>, Vec<Multiplier>)> {
+    let mut largest = Vec::new();
+    for (name, parts, steps, torque) in [
+        ("oh58_4p", Some(2), 56, 1130.0),
+        ("five_planets", Some(5), 60, 800.0),
+        ("oh58_3p", None, 56, 500.0),
+    ] {
+        let scene = scene(name, Fidelity::QuasiStatic, steps);
+        let bodies = Bodies::new(&scene).unwrap();
+        let model = fe(&scene, &bodies, torque);
+        let find = |how: Option<bool>| {
+            let mut set = model.turning(&model.case().at_speed(1450.0), 0).unwrap();
+            set.rest().unwrap();
+            let mut set: Box<dyn Marching + '_> = match how {
+                Some(forgets_renumbering) => Box::new(Told { set, forgets_renumbering }),
+                None => set,
+            };
+            let own = set.derivative().unwrap().symmetry().unwrap();
+            let settings =
+                SteadySettings { tolerance: 1e-11, between_cycles: 0, ..SteadySettings::default() };
+            let (planets, first) = (model.planets(), model.first_planet_rad());
+            let found = steady(set.as_mut(), planets, first, steps as usize, &settings).unwrap();
+            assert_eq!(found.method, SteadyMethod::Shooting, "{name}: {:?}", found.why_marched);
+            (own, found)
+        };
+        let (symmetry, of_part) = find(None);
+        assert_eq!(symmetry.map(|own| own.parts), parts, "{name}");
+        let (none, whole) = find(Some(false));
+        assert!(none.is_none());
+        let off = of_part.record.change_from(&whole.record);
+        assert!(off < 1e-10, "{name}: {off:e}");
+        assert_eq!(of_part.record.len(), whole.record.len());
+        for mesh in 0..2 * model.planets() {
+            let (a, b) = (of_part.record.mesh_force(mesh), whole.record.mesh_force(mesh));
+            let largest = b.iter().fold(0.0f64, |a, f| a.max(*f));
+            let off = a.iter().zip(&b).fold(0.0f64, |off, (a, b)| off.max((a - b).abs()));
+            assert!(off < 1e-8 * largest, "{name}, mesh {mesh}: {off:e} of {largest:e}");
+        }
+        largest.push((name, of_part.multipliers, whole.multipliers));
+        if parts.is_some() {
+            let off = find(Some(true)).1.record.change_from(&whole.record);
+            assert!(off > 1e-3, "{name} without renumbering: {off:e}");
+        }
+    }
+    largest
+}
+
+/// States to 1e-10 of the vibration; without renumbering the record is another one. Three planets in phase have no
+/// such part.
+#[test]
+fn parts_of_a_cycle_are_the_whole_of_symmetric_sets() {
+    for (name, parts_multipliers, whole) in parts_and_wholes() {
+        let [a, b] = [parts_multipliers[0], whole[0]];
+        assert!(apart(a, b) < 1e-8, "{name}: {a:?} {b:?}");
+    }
+}
+
+/// All multipliers to 1e-8.
+#[test]
+#[ignore = "open: multipliers of size below 0.1 differ by 1e-7"]
+fn multipliers_of_parts_are_those_of_the_whole() {
+    for (name, of_part, whole) in parts_and_wholes() {
+        assert!(whole.len() >= 20);
+        for (a, b) in of_part.iter().zip(&whole).take(24) {
+            assert!(apart(*a, *b) < 1e-8, "{name}: {a:?} {b:?}");
         }
     }
 }

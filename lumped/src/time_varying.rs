@@ -14,8 +14,8 @@
 use nalgebra::DMatrix;
 
 use dynamics::{
-    AverageAcceleration, Coupled, CoupledDerivative, CoupledState, Coupling, CouplingForce,
-    LinearPart, MapDerivative, Motion,
+    AverageAcceleration, Coupled, CoupledState, Coupling, CouplingForce, LinearPart, MapDerivative,
+    Motion, PassedSteps,
 };
 use gearset::{Facing, MeshLaw, Scene};
 
@@ -331,20 +331,15 @@ impl TimeVarying {
         Ok(self.system.set_coordinates(y)?)
     }
 
-    /// The derivative with respect to these coordinates, at the start of a cycle.
-    pub fn start_derivative(&self) -> CoupledDerivative {
-        self.system.start_derivative()
+    /// Adds the present state to those passed.
+    pub fn keep_step(&self, passed: &mut PassedSteps) {
+        self.system.keep_step(passed);
     }
 
-    /// Carries the derivative over the last step.
-    pub fn carry_derivative(&self, derivative: &mut CoupledDerivative) {
-        self.system.carry_derivative(derivative);
-    }
-
-    /// The derivative of the map from the start to now; frequencies of the motion are of the order of `rate`
-    /// (rad/s).
-    pub fn map_derivative(&self, derivative: &CoupledDerivative, rate: f64) -> MapDerivative {
-        self.system.map_derivative(derivative, rate)
+    /// The derivative of the last of the states passed with respect to the first, between which every step was
+    /// kept; frequencies of the motion are of the order of `rate` (rad/s). `None` without a state.
+    pub fn derivative_of(&self, passed: &PassedSteps, rate: f64) -> Option<MapDerivative> {
+        self.system.derivative_of(passed, rate)
     }
 
     /// Free coordinates.

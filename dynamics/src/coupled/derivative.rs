@@ -7,12 +7,15 @@
 //!
 //! with D the tangents of the couplings that act in the step, at the displacements found for its end.
 
+use faer::linalg::matmul::matmul;
+use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::{DMatrix, DVector};
 
 use super::condensed::Condensed;
 use super::coupling::CouplingForce;
 use super::error::CoupledError;
 use super::system::Coupled;
+use crate::newmark::Motion;
 use crate::periodic::MapDerivative;
 
 /// Gradients of displacements, velocities and accelerations of the modes: one column for each mode, one row for
@@ -24,7 +27,65 @@ pub struct CoupledDerivative {
     a: DMatrix<f64>,
 }
 
+/// States that a system passed through, from which the derivative between the first and the last follows.
+#[derive(Debug, Clone, Default)]
+pub struct PassedSteps {
+    /// Displacements, then velocities of the modes, one state after another.
+    states: Vec<f64>,
+    /// Step in the cycle of each, and whether rare couplings took part in the step that led to it.
+    steps: Vec<(usize, bool)>,
+}
+
+impl PassedSteps {
+    /// Forgets all states.
+    pub fn clear(&mut self) {
+        self.states.clear();
+        self.steps.clear();
+    }
+}
+
+/// One state that a system passed through.
+#[derive(Clone, Copy)]
+struct Passed<'p> {
+    x: &'p [f64],
+    v: &'p [f64],
+    step: usize,
+    is_rare: bool,
+}
+
 impl<L: CouplingForce> Coupled<L> {
+    /// Adds the present state.
+    pub fn keep_step(&self, passed: &mut PassedSteps) {
+        let n = self.modes.count;
+        let Motion { x, v, .. } = &self.state.modal;
+        passed.states.extend_from_slice(&x[..n]);
+        passed.states.extend_from_slice(&v[..n]);
+        passed.steps.push((self.state.step_in_cycle, self.took_rare));
+    }
+
+    /// The derivative of the last of the states passed with respect to the first, between which every step was
+    /// kept; frequencies are of the order of `rate` (rad/s). `None` without a state.
+    pub fn derivative_of(&self, passed: &PassedSteps, rate: f64) -> Option<MapDerivative> {
+        let n = self.modes.count;
+        let of = |k: usize| {
+            let (step, is_rare) = *passed.steps.get(k)?;
+            let (x, v) = passed.states.get(2 * n * k..2 * n * (k + 1))?.split_at(n);
+            Some(Passed { x, v, step, is_rare })
+        };
+        let mut derivative = self.start_at(of(0)?);
+        for k in 1..passed.steps.len() {
+            self.carry_to(&mut derivative, of(k)?);
+        }
+        Some(self.map_derivative(&derivative, rate))
+    }
+
+    fn present(&self) -> Passed<'_> {
+        let n = self.modes.count;
+        let Motion { x, v, .. } = &self.state.modal;
+        let (step, is_rare) = (self.state.step_in_cycle, self.took_rare);
+        Passed { x: &x[..n], v: &v[..n], step, is_rare }
+    }
+
     /// Displacements and velocities of the modes, 2n: they determine the motion that follows.
     pub fn coordinates(&self) -> Vec<f64> {
         let n = self.modes.count;
@@ -58,6 +119,10 @@ impl<L: CouplingForce> Coupled<L> {
 
     /// The derivative at the start of a period: one in the coordinates themselves.
     pub fn start_derivative(&self) -> CoupledDerivative {
+        self.start_at(self.present())
+    }
+
+    fn start_at(&self, at: Passed<'_>) -> CoupledDerivative {
         let n = self.modes.count;
         let x = DMatrix::from_fn(2 * n, n, |row, j| f64::from(u8::from(row == j)));
         let v = DMatrix::from_fn(2 * n, n, |row, j| f64::from(u8::from(row == n + j)));
@@ -67,7 +132,7 @@ impl<L: CouplingForce> Coupled<L> {
         for (j, lambda) in self.modes.lambda.iter().enumerate().take(n) {
             a.column_mut(j).axpy(-lambda, &x.column(j), 1.0);
         }
-        for (k, tangent) in self.tangents(all).into_iter().enumerate() {
+        for (k, tangent) in self.tangents(all, at).into_iter().enumerate() {
             if tangent != 0.0 {
                 let z = all.along(k, &x) + all.along(k, &v) * all.lags[k];
                 for j in 0..n {
@@ -80,54 +145,72 @@ impl<L: CouplingForce> Coupled<L> {
 
     /// Carries the derivative over the last step.
     pub fn carry_derivative(&self, d: &mut CoupledDerivative) {
+        self.carry_to(d, self.present());
+    }
+
+    fn carry_to(&self, d: &mut CoupledDerivative, at: Passed<'_>) {
         let n = self.modes.count;
-        let group = if self.took_rare { self.all() } else { &self.usual };
+        let m = 2 * n;
+        let group = if at.is_rare { self.all() } else { &self.usual };
         let (inertia, rate) = (self.rule.inertia(), self.rule.damping());
-        let acceleration = &d.x * inertia + &d.v * (2.0 * rate) + &d.a;
-        let velocity = &d.x * rate + &d.v;
-        let load = &acceleration + self.damped(&velocity);
-        let mut next = match &self.modes.own_damping {
+        let (mut acceleration, mut velocity) = (d.x.clone(), d.x.clone());
+        let own = d.x.iter().zip(d.v.iter()).zip(d.a.iter());
+        for (((x, v), a), (a1, v1)) in own.zip(acceleration.iter_mut().zip(velocity.iter_mut())) {
+            (*a1, *v1) = (inertia * x + 2.0 * rate * v + a, rate * x + v);
+        }
+        let mut next = self.damped(&velocity);
+        next += &acceleration;
+        match &self.modes.own_damping {
             Some(_) => {
-                let mut free = load;
                 for (j, inverse) in self.modes.own_inverse.iter().enumerate().take(n) {
-                    free.column_mut(j).scale_mut(*inverse);
+                    next.column_mut(j).scale_mut(*inverse);
                 }
-                free
             }
             // (A⁻¹ g)ᵀ = gᵀ A⁻ᵀ
-            None => load * DMatrix::from_fn(n, n, |i, j| self.modes.inverse[(j, i)]),
-        };
-        let tangents = self.tangents(group);
-        let acting: Vec<usize> = (0..group.count).filter(|k| tangents[*k] != 0.0).collect();
-        if !acting.is_empty() {
-            let gain = |k: usize| 1.0 + group.lags[k] * rate;
-            let mut z = DMatrix::zeros(acting.len(), 2 * n);
-            for (row, k) in acting.iter().enumerate() {
-                let mut own = group.along(*k, &next) * gain(*k);
-                if group.lags[*k] != 0.0 {
-                    own.axpy(-group.lags[*k], &group.along(*k, &velocity), 1.0);
-                }
-                z.row_mut(row).tr_copy_from(&own);
-            }
-            let matrix = DMatrix::from_fn(acting.len(), acting.len(), |i, j| {
-                let (k, l) = (acting[i], acting[j]);
-                let own = gain(k) * group.receptance[l * group.width + k] * tangents[l];
-                own + f64::from(u8::from(i == j))
-            });
-            // The matrix is as well-conditioned as that of the step, which was solved.
-            let _ = matrix.lu().solve_mut(&mut z);
-            let padded = self.steady.len();
-            for (row, k) in acting.iter().enumerate() {
-                let force = z.row(row).transpose() * tangents[*k];
-                let answer = &group.answers[k * padded..k * padded + n];
-                for (j, share) in answer.iter().enumerate() {
-                    next.column_mut(j).axpy(-share, &force, 1.0);
-                }
-            }
+            None => next *= DMatrix::from_fn(n, n, |i, j| self.modes.inverse[(j, i)]),
         }
-        d.v = &next * rate - velocity;
-        d.a = &next * inertia - acceleration;
-        d.x = next;
+        let tangents = self.tangents(group, at);
+        if tangents.iter().any(|tangent| *tangent != 0.0) {
+            let (count, width) = (group.count, group.width);
+            let gain = |k: usize| 1.0 + group.lags[k] * rate;
+            // R by columns: width×n.
+            let rows = MatRef::from_column_major_slice(&group.rows[..width * n], width, n);
+            let mut z = DMatrix::zeros(m, width);
+            multiply(&mut z, Accum::Replace, &next, rows.transpose(), 1.0);
+            if group.has_lag {
+                let mut rates = DMatrix::zeros(m, width);
+                multiply(&mut rates, Accum::Replace, &velocity, rows.transpose(), 1.0);
+                for k in 0..count {
+                    let lag = group.lags[k];
+                    z.column_mut(k).axpy(-lag, &rates.column(k), gain(k));
+                }
+            }
+            // (I + g Y D) z', all couplings; those without tangent have columns of the unit matrix.
+            let matrix = DMatrix::from_fn(count, count, |k, l| {
+                let own = gain(k) * group.receptance[l * width + k] * tangents[l];
+                own + f64::from(u8::from(k == l))
+            });
+            // The matrix is as well-conditioned as that of the step, which was solved; what is no number is
+            // reported with the multipliers.
+            let nan = || DMatrix::from_element(count, count, f64::NAN);
+            let mut inverse = matrix.try_inverse().unwrap_or_else(nan);
+            for (mut row, tangent) in inverse.row_iter_mut().zip(&tangents) {
+                row *= *tangent;
+            }
+            let mut forces = DMatrix::zeros(m, count);
+            let z = z.columns(0, count).into_owned();
+            let inverse = MatRef::from_column_major_slice(inverse.as_slice(), count, count);
+            multiply(&mut forces, Accum::Replace, &z, inverse.transpose(), 1.0);
+            let padded = self.steady.len();
+            let answers = &group.answers[..padded * count];
+            let answers = MatRef::from_column_major_slice(answers, padded, count).subrows(0, n);
+            multiply(&mut next, Accum::Add, &forces, answers.transpose(), -1.0);
+        }
+        let own = d.x.iter_mut().zip(d.v.iter_mut()).zip(d.a.iter_mut());
+        let ends = next.iter().zip(acceleration.iter()).zip(velocity.iter());
+        for (((x, v), a), ((x1, a1), v1)) in own.zip(ends) {
+            (*x, *v, *a) = (*x1, rate * x1 - v1, inertia * x1 - a1);
+        }
     }
 
     /// The derivative of the map from the start to now; frequencies are of the order of `rate` (rad/s).
@@ -156,18 +239,24 @@ impl<L: CouplingForce> Coupled<L> {
         }
     }
 
-    /// Tangents of a group's couplings at the present state, N/m.
-    fn tangents(&self, group: &Condensed) -> Vec<f64> {
-        let (n, step) = (self.modes.count, self.state.step_in_cycle);
+    /// Tangents of a group's couplings at a state, N/m.
+    fn tangents(&self, group: &Condensed, at: Passed<'_>) -> Vec<f64> {
         let mut reach = vec![0.0; group.count];
-        group.deflections(&self.state.modal.x, &mut reach);
-        for (k, reach) in reach.iter_mut().enumerate() {
-            let v = &self.state.modal.v;
-            let rate: f64 = (0..n).map(|j| group.rows[j * group.width + k] * v[j]).sum();
-            *reach += group.lags[k] * rate;
+        group.deflections(at.x, &mut reach);
+        for (k, reach) in reach.iter_mut().enumerate().filter(|(k, _)| group.lags[*k] != 0.0) {
+            let own = at.v.iter().enumerate().map(|(j, v)| group.rows[j * group.width + k] * v);
+            *reach += group.lags[k] * own.sum::<f64>();
         }
-        reach.iter().enumerate().map(|(k, z)| self.law.answer(k, step, *z).1).collect()
+        reach.iter().enumerate().map(|(k, z)| self.law.answer(k, at.step, *z).1).collect()
     }
+}
+
+/// out = or += factor A B.
+fn multiply(out: &mut DMatrix<f64>, how: Accum, a: &DMatrix<f64>, b: MatRef<'_, f64>, factor: f64) {
+    let ((rows, inner), columns) = (a.shape(), out.ncols());
+    let a = MatRef::from_column_major_slice(a.as_slice(), rows, inner);
+    let out = MatMut::from_column_major_slice_mut(out.as_mut_slice(), rows, columns);
+    matmul(out, how, a, b, factor, Par::Seq);
 }
 
 impl Condensed {

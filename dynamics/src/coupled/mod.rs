@@ -29,7 +29,7 @@ mod state;
 mod system;
 
 pub use coupling::{Coupling, CouplingForce};
-pub use derivative::CoupledDerivative;
+pub use derivative::{CoupledDerivative, PassedSteps};
 pub use error::CoupledError;
 pub use linear::LinearPart;
 pub use system::{Coupled, CoupledState};

@@ -7,9 +7,13 @@ use nalgebra::DMatrix;
 use crate::error::EigenError;
 
 /// Derivative DΦ of the n coordinates at the end of a period with respect to those at its start.
+///
+/// Coordinates without columns either have no effect, or are gone within the period and follow from the active
+/// ones, as they do before the start of every period: the columns then are the effects of changes of active
+/// coordinates with all others following.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapDerivative {
-    /// Coordinates whose columns are given, ascending; all others have columns of zeros.
+    /// Coordinates whose columns are given, ascending.
     pub active: Vec<usize>,
     /// The columns of the active coordinates, n×(number of active coordinates).
     pub columns: DMatrix<f64>,

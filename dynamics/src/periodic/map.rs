@@ -16,11 +16,17 @@ pub trait PeriodMap {
     /// If they are no state of this motion.
     fn set_coordinates(&mut self, y: &[f64]) -> Result<(), Self::Error>;
 
-    /// Marches one period; returns the derivative of the map if asked to.
+    /// Marches one period.
     ///
     /// # Errors
     /// If a step fails.
-    fn advance(&mut self, with_derivative: bool) -> Result<Option<MapDerivative>, Self::Error>;
+    fn advance(&mut self) -> Result<(), Self::Error>;
+
+    /// The derivative of the map over the period marched last.
+    ///
+    /// # Errors
+    /// If there is none.
+    fn derivative(&mut self) -> Result<MapDerivative, Self::Error>;
 
     /// Size of a deviation of the coordinates (n) relative to the peak-to-peak vibration over the last period.
     fn relative(&self, deviation: &[f64]) -> f64;

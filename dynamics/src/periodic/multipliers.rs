@@ -41,6 +41,14 @@ impl Multiplier {
         self.re.hypot(self.im)
     }
 
+    /// The product with another one.
+    pub fn times(self, other: Self) -> Self {
+        Self {
+            re: self.re * other.re - self.im * other.im,
+            im: self.re * other.im + self.im * other.re,
+        }
+    }
+
     /// How stability is lost where it leaves the unit circle.
     pub fn kind(self) -> MultiplierKind {
         if self.im.abs() > REAL * self.size() {

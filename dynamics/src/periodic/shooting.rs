@@ -1,14 +1,14 @@
 //! Newton's method for a fixed point of a map of one period.
 //!
 //! The map is affine as long as the contact pattern is the same, so that one derivative serves several
-//! corrections; it is renewed where they do not contract. After a correction that does not help, the motion is
+//! corrections; it is renewed, from the period just marched, where they do not contract. After a correction that does not help, the motion is
 //! marched on from where it was for some periods: near a stable solution marching brings the pattern closer.
 
-use super::derivative::MapDerivative;
+use super::derivative::{Correction, MapDerivative};
 use super::map::PeriodMap;
 use crate::error::EigenError;
 
-/// A derivative is renewed unless a correction leaves less than this share of the error.
+/// A derivative is renewed unless the last correction has left less than this share of the error.
 const KEPT: f64 = 0.1;
 
 /// A correction is taken back if the error afterwards exceeds the error before by this factor.
@@ -37,7 +37,7 @@ pub struct ShootingSettings {
 pub struct PeriodicSolution {
     /// Change of the last period from the one before it, relative to the peak-to-peak vibration.
     pub residual: f64,
-    /// Periods marched, those with derivative included.
+    /// Periods marched.
     pub periods: usize,
     /// Derivatives of the map computed.
     pub derivatives: usize,
@@ -78,56 +78,58 @@ pub fn shoot<M: PeriodMap + ?Sized>(
     map: &mut M,
     settings: &ShootingSettings,
 ) -> Result<PeriodicSolution, ShootingError<M::Error>> {
-    let mut correction = None;
+    let mut correction: Option<Correction> = None;
     let mut errors: Vec<f64> = Vec::new();
     let (mut derivatives, mut failures) = (0, 0);
     let mut last = Last { error: f64::INFINITY, before: None };
-    let (mut is_closing, mut renew, mut march_on) = (false, true, settings.settling);
+    let (mut is_closing, mut march_on) = (false, settings.settling);
     while errors.len() < settings.most_periods {
         let start = map.coordinates();
-        let with_derivative = (renew || is_closing) && march_on == 0;
-        let derivative = match map.advance(with_derivative) {
-            Ok(derivative) => derivative,
-            Err(cause) => {
-                // A correction led to where no step can be taken.
-                let Some(before) = last.before.take() else {
-                    return Err(ShootingError::Map(cause));
-                };
-                failures += 1;
-                errors.push(f64::INFINITY);
-                if failures > PATIENCE {
-                    return Err(ShootingError::Map(cause));
-                }
-                map.set_coordinates(&before).map_err(ShootingError::Map)?;
-                (march_on, renew, is_closing) = (1 << failures, true, false);
-                last.error = f64::INFINITY;
-                continue;
+        if let Err(cause) = map.advance() {
+            // A correction led to where no step can be taken.
+            let Some(before) = last.before.take() else {
+                return Err(ShootingError::Map(cause));
+            };
+            failures += 1;
+            errors.push(f64::INFINITY);
+            if failures > PATIENCE {
+                return Err(ShootingError::Map(cause));
             }
-        };
+            map.set_coordinates(&before).map_err(ShootingError::Map)?;
+            (march_on, correction, is_closing) = (1 << failures, None, false);
+            last.error = f64::INFINITY;
+            continue;
+        }
         if march_on > 0 {
             march_on -= 1;
             errors.push(f64::NAN);
             continue;
         }
-        let is_fresh = derivative.is_some();
-        if let Some(derivative) = derivative {
-            derivatives += 1;
-            renew = false;
-            correction = Some(derivative.correction()?);
-        }
-        let Some(own) = &correction else { continue };
         let end = map.coordinates();
         let residual: Vec<f64> = end.iter().zip(&start).map(|(e, s)| e - s).collect();
-        let change = own.of(&residual);
-        // y* − y(T) as the correction expects it.
-        let left: Vec<f64> = change.iter().zip(&residual).map(|(c, r)| c - r).collect();
-        let error = map.relative(&left);
-        errors.push(error);
+        let mut step = correction.as_ref().map(|own| Step::new(map, own, &residual));
         if is_closing && map.change() <= settings.tolerance {
-            let derivative = own.derivative().clone();
-            let (residual, periods) = (map.change(), errors.len());
-            return Ok(PeriodicSolution { residual, periods, derivatives, errors, derivative });
+            derivatives += 1;
+            return Ok(PeriodicSolution {
+                residual: map.change(),
+                periods: errors.len() + 1,
+                derivatives,
+                errors: errors.into_iter().chain(step.map(|step| step.error)).collect(),
+                derivative: map.derivative().map_err(ShootingError::Map)?,
+            });
         }
+        // NaN is not contracted.
+        let contracts = |step: &Step| {
+            step.error <= KEPT * last.error || step.error <= CLOSE * settings.tolerance
+        };
+        if !step.as_ref().is_some_and(contracts) {
+            derivatives += 1;
+            let own = map.derivative().map_err(ShootingError::Map)?.correction()?;
+            step = Some(Step::new(map, &own, &residual));
+            correction = Some(own);
+        }
+        let Some(Step { change, error }) = step else { continue };
+        errors.push(error);
         if error <= CLOSE * settings.tolerance {
             // One more period shows the change from period to period and the derivative there.
             is_closing = true;
@@ -142,12 +144,9 @@ pub fn shoot<M: PeriodMap + ?Sized>(
                 return Err(ShootingError::Stalled { periods: errors.len(), error });
             }
             map.set_coordinates(&before).map_err(ShootingError::Map)?;
-            (march_on, renew) = (1 << failures, true);
+            (march_on, correction) = (1 << failures, None);
             last.error = f64::INFINITY;
             continue;
-        }
-        if !is_fresh && error > KEPT * last.error {
-            renew = true;
         }
         let next: Vec<f64> = start.iter().zip(&change).map(|(s, c)| s + c).collect();
         last = Last { error, before: Some(end) };
@@ -155,6 +154,22 @@ pub fn shoot<M: PeriodMap + ?Sized>(
     }
     let (periods, error) = (errors.len(), errors.last().copied().unwrap_or(f64::NAN));
     Err(ShootingError::Stalled { periods, error })
+}
+
+/// A correction from the start of a period.
+struct Step {
+    /// y* − y(0).
+    change: Vec<f64>,
+    /// Size of y* − y(T), relative to the peak-to-peak vibration.
+    error: f64,
+}
+
+impl Step {
+    fn new<M: PeriodMap + ?Sized>(map: &M, own: &Correction, residual: &[f64]) -> Self {
+        let change = own.of(residual);
+        let left: Vec<f64> = change.iter().zip(residual).map(|(c, r)| c - r).collect();
+        Self { error: map.relative(&left), change }
+    }
 }
 
 /// The last correction.

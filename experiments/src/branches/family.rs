@@ -2,6 +2,7 @@
 
 use dynamics::continuation::{Evaluation, Family, Judgement};
 use dynamics::{MapDerivative, Multiplier, PeriodMap, multipliers};
+use fe_contact::vibration::Along;
 use nalgebra::{DMatrix, DVector};
 
 use super::parameter::BranchParameter;
@@ -82,10 +83,12 @@ impl<'m> PeriodicFamily<'m> {
         cycles: &mut RecordedCycles<'_>,
         each: &mut dyn FnMut(&Record),
     ) -> Result<MapDerivative, ExperimentError> {
-        let mut whole = cycles.advance(true)?.ok_or(LOST)?;
+        cycles.advance()?;
+        let mut whole = cycles.of_cycle(Along::Every)?;
         each(cycles.last());
         for _ in 1..self.repeats_after {
-            whole = cycles.advance(true)?.ok_or(LOST)?.after(&whole);
+            cycles.advance()?;
+            whole = cycles.of_cycle(Along::Every)?.after(&whole);
             each(cycles.last());
         }
         Ok(whole)
@@ -110,7 +113,7 @@ impl<'m> PeriodicFamily<'m> {
         let mut cycles = self.cycles(set.as_mut());
         cycles.set_coordinates(y)?;
         for _ in 0..self.repeats_after {
-            cycles.advance(false)?;
+            cycles.advance()?;
         }
         Ok(cycles.coordinates())
     }

@@ -1,6 +1,7 @@
 //! The motion that a branch begins with.
 
 use dynamics::continuation::Scales;
+use fe_contact::vibration::Along;
 
 use super::error::BranchError;
 use super::settings::BranchSettings;
@@ -49,16 +50,18 @@ pub(super) fn first(
     let start = set.derivative().ok_or_else(lost)?.coordinates();
     // Peak-to-peak values over one more cycle; the derivative has the kinds of the coordinates.
     let (mut low, mut high) = (start.clone(), start.clone());
-    set.derivative().ok_or_else(lost)?.start()?;
+    set.derivative().ok_or_else(lost)?.start();
     for _ in 0..steps {
         set.step()?;
         let own = set.derivative().ok_or_else(lost)?;
-        own.carry();
+        own.keep_step();
         for (i, y) in own.coordinates().into_iter().enumerate() {
             (low[i], high[i]) = (low[i].min(y), high[i].max(y));
         }
     }
-    let map = set.derivative().ok_or_else(lost)?.end()?.ok_or_else(lost)?;
+    let own = set.derivative().ok_or_else(lost)?;
+    own.end()?;
+    let map = own.of_cycle(Along::Every)?;
     let range = |i: usize| high[i] - low[i];
     let count = start.len();
     // Beside a displacement's size, for kinds of coordinates that do not vary.

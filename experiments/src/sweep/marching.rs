@@ -2,7 +2,7 @@
 
 use dynamics::MapDerivative;
 use fe_contact::statics::SUN;
-use fe_contact::vibration::{SetDerivative, VibratingSet};
+use fe_contact::vibration::{Along, Symmetry, VibratingSet};
 
 use super::shooting::CycleDerivative;
 use crate::error::ExperimentError;
@@ -86,7 +86,6 @@ pub(super) struct FeMarching<'s> {
     pub(super) torque_nm: f64,
     /// Frequency (rad/s) to which velocities are related.
     pub(super) rate: f64,
-    pub(super) derivative: Option<SetDerivative>,
 }
 
 impl Marching for FeMarching<'_> {
@@ -148,20 +147,20 @@ impl CycleDerivative for FeMarching<'_> {
         Ok(self.set.set_coordinates(y)?)
     }
 
-    fn start(&mut self) -> Result<(), ExperimentError> {
-        self.derivative = Some(self.set.start_derivative()?);
-        Ok(())
+    fn symmetry(&mut self) -> Result<Option<Symmetry>, ExperimentError> {
+        Ok(self.set.symmetry()?)
     }
 
-    fn carry(&mut self) {
-        if let Some(derivative) = &mut self.derivative {
-            self.set.carry_derivative(derivative);
-        }
+    fn start(&mut self) {}
+
+    /// Frames keep every step.
+    fn keep_step(&mut self) {}
+
+    fn end(&mut self) -> Result<(), ExperimentError> {
+        Ok(self.set.take_cycle_back()?)
     }
 
-    fn end(&mut self) -> Result<Option<MapDerivative>, ExperimentError> {
-        let mut own = self.derivative.take();
-        self.set.take_cycle_back(own.as_mut())?;
-        Ok(own.map(|own| own.map_derivative(self.rate)))
+    fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError> {
+        Ok(self.set.cycle_derivative(along, self.rate)?)
     }
 }

@@ -1,9 +1,9 @@
 //! Models whose meshes follow a tabulated law: the FE/contact fidelity `mesh_law`, and the lumped model in
 //! time.
 
-use dynamics::{CoupledDerivative, CoupledState, MapDerivative};
+use dynamics::{CoupledState, MapDerivative, PassedSteps};
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-use fe_contact::vibration::{MeshLawSet, MeshLawSettings, mesh_law};
+use fe_contact::vibration::{Along, MeshLawSet, MeshLawSettings, mesh_law};
 use gearset::{Fidelity, LoadCase, MeshLaw, Scene};
 use lumped::TimeVarying;
 
@@ -99,11 +99,12 @@ impl SweepModel for MeshLawModel<'_> {
                 torque,
                 has_backside,
                 rate,
-                derivative: None,
+                passed: PassedSteps::default(),
             }));
         };
         let set = MeshLawSet::on(&scene, loaded, mesh_frequency, law)?;
-        Ok(Box::new(LawMarching { set, torque, has_backside, rate, derivative: None }))
+        let passed = PassedSteps::default();
+        Ok(Box::new(LawMarching { set, torque, has_backside, rate, passed }))
     }
 }
 
@@ -144,7 +145,8 @@ struct LawMarching<'s> {
     has_backside: bool,
     /// Frequency to which velocities are related, rad/s.
     rate: f64,
-    derivative: Option<CoupledDerivative>,
+    /// States of the cycle marched last.
+    passed: PassedSteps,
 }
 
 /// The same for the lumped set.
@@ -153,7 +155,8 @@ struct LumpedMarching {
     torque: f64,
     has_backside: bool,
     rate: f64,
-    derivative: Option<CoupledDerivative>,
+    /// States of the cycle marched last.
+    passed: PassedSteps,
 }
 
 macro_rules! marching {
@@ -217,20 +220,23 @@ macro_rules! marching {
                 Ok(self.set.set_coordinates(y)?)
             }
 
-            fn start(&mut self) -> Result<(), ExperimentError> {
-                self.derivative = Some(self.set.start_derivative());
+            fn start(&mut self) {
+                self.passed.clear();
+                self.set.keep_step(&mut self.passed);
+            }
+
+            fn keep_step(&mut self) {
+                self.set.keep_step(&mut self.passed);
+            }
+
+            fn end(&mut self) -> Result<(), ExperimentError> {
                 Ok(())
             }
 
-            fn carry(&mut self) {
-                if let Some(derivative) = &mut self.derivative {
-                    self.set.carry_derivative(derivative);
-                }
-            }
-
-            fn end(&mut self) -> Result<Option<MapDerivative>, ExperimentError> {
-                let own = self.derivative.take();
-                Ok(own.map(|own| self.set.map_derivative(&own, self.rate)))
+            /// Displacements and velocities are all coordinates.
+            fn of_cycle(&mut self, _: Along) -> Result<MapDerivative, ExperimentError> {
+                let found = self.set.derivative_of(&self.passed, self.rate);
+                found.ok_or(ExperimentError::Incomplete("cycle to differentiate"))
             }
         }
     };

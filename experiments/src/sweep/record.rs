@@ -1,6 +1,7 @@
 //! Whole mesh cycles of all displacements and mesh forces, sampled at every step.
 
 use dynamics::{Window, spectrum};
+use fe_contact::vibration::Symmetry;
 
 use super::marching::Marching;
 use super::set_shape::SetShape;
@@ -89,11 +90,11 @@ impl Record {
         self.march_and(set, first_planet_rad, steps, false)
     }
 
-    /// The same with the derivative of the set, which was started, carried along.
+    /// The same with every step kept for the derivative of the set.
     ///
     /// # Errors
     /// As [`Marching::step`].
-    pub(super) fn march_with(
+    pub(super) fn march_kept(
         &mut self,
         set: &mut dyn Marching,
         first_planet_rad: f64,
@@ -107,7 +108,7 @@ impl Record {
         set: &mut dyn Marching,
         first_planet_rad: f64,
         steps: usize,
-        carries_derivative: bool,
+        is_kept: bool,
     ) -> Result<(), ExperimentError> {
         self.samples.clear();
         self.backside.clear();
@@ -115,8 +116,8 @@ impl Record {
         for _ in 0..steps {
             self.take(set, first_planet_rad);
             set.step()?;
-            if carries_derivative && let Some(derivative) = set.derivative() {
-                derivative.carry();
+            if is_kept && let Some(derivative) = set.derivative() {
+                derivative.keep_step();
             }
         }
         Ok(())
@@ -140,6 +141,34 @@ impl Record {
         self.samples.extend(next.samples);
         self.backside.extend(next.backside);
         self.has_backside = next.has_backside;
+    }
+
+    /// The whole cycle of which this is the first part, of a set that is itself after every part.
+    pub(super) fn of_whole_cycle(self, symmetry: &Symmetry) -> Self {
+        let (planets, width, parts) = (self.shape.planets, self.width(), symmetry.parts);
+        let mut whole = Self { samples: Vec::new(), backside: Vec::new(), ..self.clone() };
+        for part in 0..parts {
+            let (sin, cos) = (part as f64 * symmetry.angle_rad).sin_cos();
+            // What planet n does now, planet n + shift does in the next part.
+            let from = |n: usize| (n + part * (planets - symmetry.shift)) % planets;
+            let mesh = |m: usize| m / planets * planets + from(m % planets);
+            for row in self.samples.chunks(width) {
+                for body in 0..3 {
+                    let [x, y, theta] = [0, 1, 2].map(|axis| row[3 * body + axis]);
+                    whole.samples.extend([cos * x - sin * y, sin * x + cos * y, theta]);
+                }
+                for planet in 0..planets {
+                    let first = 3 * (3 + from(planet));
+                    whole.samples.extend(&row[first..first + 3]);
+                }
+                let forces = &row[self.displacements()..];
+                whole.samples.extend((0..2 * planets).map(|m| forces[mesh(m)]));
+            }
+            for row in self.backside.chunks(2 * planets.max(1)) {
+                whole.backside.extend((0..2 * planets).map(|m| row[mesh(m)]));
+            }
+        }
+        whole
     }
 
     /// Forces of one mesh (sun meshes 0 to N−1, ring meshes N to 2N−1, none of a pair) in order of time, N.

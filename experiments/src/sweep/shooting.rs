@@ -4,6 +4,8 @@ use dynamics::{
     MapDerivative, Multiplier, PeriodMap, ShootingError, ShootingSettings, multipliers, shoot,
 };
 
+use fe_contact::vibration::{Along, Symmetry};
+
 use super::marching::Marching;
 use super::record::Record;
 use super::set_shape::SetShape;
@@ -13,7 +15,7 @@ use crate::error::ExperimentError;
 /// Cycles after which shooting is given up and the motion marched: what it needs otherwise is about ten.
 const MOST_CYCLES: usize = 80;
 
-/// Cycles marched before the first derivative: one costs about a tenth of a derivative.
+/// Cycles marched before the first derivative.
 const SETTLING: usize = 2;
 
 /// Multipliers below this size are left out: such perturbations are gone after one cycle.
@@ -30,23 +32,35 @@ pub trait CycleDerivative {
     /// If they are too few or too many, or not finite.
     fn set_coordinates(&mut self, y: &[f64]) -> Result<(), ExperimentError>;
 
-    /// Begins a derivative at the start of a cycle.
+    /// The symmetry by which the set is itself after a part of a cycle, if it has one: every cycle may then end after
+    /// such a part.
     ///
     /// # Errors
-    /// If the bodies have none.
-    fn start(&mut self) -> Result<(), ExperimentError>;
+    /// If the set cannot be examined.
+    fn symmetry(&mut self) -> Result<Option<Symmetry>, ExperimentError> {
+        Ok(None)
+    }
 
-    /// Carries it over the last step.
-    fn carry(&mut self);
+    /// Begins a cycle from the present state.
+    fn start(&mut self);
 
-    /// Ends a cycle, with or without a derivative: coordinates can then be compared with those at its start.
+    /// Keeps what the derivative needs of the last step.
+    fn keep_step(&mut self);
+
+    /// Ends a cycle: coordinates can then be compared with those at its start.
     ///
     /// # Errors
     /// If the bodies have no derivative.
-    fn end(&mut self) -> Result<Option<MapDerivative>, ExperimentError>;
+    fn end(&mut self) -> Result<(), ExperimentError>;
+
+    /// The derivative of the cycle that ended last.
+    ///
+    /// # Errors
+    /// If the bodies have no derivative.
+    fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError>;
 }
 
-/// Whole cycles of a set, the last two recorded.
+/// Whole cycles of a set, or parts after which it is itself, the last two recorded.
 pub(crate) struct RecordedCycles<'m> {
     set: &'m mut dyn Marching,
     first_planet_rad: f64,
@@ -67,6 +81,14 @@ impl<'m> RecordedCycles<'m> {
     ) -> Self {
         let (now, before) = (Record::new(shape), Record::new(shape));
         Self { set, first_planet_rad, steps, now, before, follows: [false; 2] }
+    }
+
+    /// The derivative of the last cycle.
+    ///
+    /// # Errors
+    /// If the bodies have no derivative.
+    pub(crate) fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError> {
+        self.set.derivative().ok_or(LOST)?.of_cycle(along)
     }
 
     /// The last cycle.
@@ -90,16 +112,16 @@ impl PeriodMap for RecordedCycles<'_> {
         self.set.derivative().ok_or(LOST)?.set_coordinates(y)
     }
 
-    fn advance(&mut self, with_derivative: bool) -> Result<Option<MapDerivative>, ExperimentError> {
+    fn advance(&mut self) -> Result<(), ExperimentError> {
         std::mem::swap(&mut self.now, &mut self.before);
         self.follows = [self.follows[1], true];
-        if with_derivative {
-            self.set.derivative().ok_or(LOST)?.start()?;
-            self.now.march_with(self.set, self.first_planet_rad, self.steps)?;
-        } else {
-            self.now.march(self.set, self.first_planet_rad, self.steps)?;
-        }
+        self.set.derivative().ok_or(LOST)?.start();
+        self.now.march_kept(self.set, self.first_planet_rad, self.steps)?;
         self.set.derivative().ok_or(LOST)?.end()
+    }
+
+    fn derivative(&mut self) -> Result<MapDerivative, ExperimentError> {
+        self.of_cycle(Along::Motion)
     }
 
     fn relative(&self, deviation: &[f64]) -> f64 {
@@ -132,7 +154,10 @@ pub(crate) struct Shot {
     pub(super) record: Record,
     /// Energy between harmonics over the last two cycles.
     pub(super) between: f64,
+    /// Whole cycles that the periods marched amount to.
     pub(super) cycles: usize,
+    /// Parts of a cycle, each of which was a period of the search.
+    pub(super) parts: usize,
     pub(super) derivatives: usize,
     pub(super) residual: f64,
     pub(super) multipliers: Vec<Multiplier>,
@@ -149,21 +174,34 @@ pub(crate) fn shot(
     steps: usize,
     settings: &SteadySettings,
 ) -> Result<Result<Shot, ShootingError<ExperimentError>>, ExperimentError> {
-    let mut cycles = RecordedCycles::new(set, shape, first_planet_rad, steps);
-    let most_periods = settings.most_cycles.clamp(2, MOST_CYCLES);
+    let symmetry = match set.derivative() {
+        Some(own) => own.symmetry()?,
+        None => None,
+    };
+    let parts = symmetry.map_or(1, |own| own.parts);
+    let mut cycles = RecordedCycles::new(set, shape, first_planet_rad, steps / parts);
+    let most_periods = parts * settings.most_cycles.clamp(2, MOST_CYCLES);
     let own = ShootingSettings { tolerance: settings.tolerance, settling: SETTLING, most_periods };
     let found = match shoot(&mut cycles, &own) {
         Ok(found) => found,
         Err(why) => return Ok(Err(why)),
     };
-    let mut multipliers = multipliers(&found.derivative)?;
+    // The map of a cycle is the p-th power of that of a part.
+    let of_cycle = |m: Multiplier| (1..parts).fold(m, |power, _| power.times(m));
+    let mut multipliers: Vec<Multiplier> =
+        multipliers(&found.derivative)?.into_iter().map(of_cycle).collect();
     multipliers.retain(|m| m.size() >= SMALL);
-    let RecordedCycles { now, mut before, .. } = cycles;
-    before.append(now.clone());
+    let RecordedCycles { now, before, .. } = cycles;
+    let [record, mut both] = [now, before].map(|part| match &symmetry {
+        Some(own) => part.of_whole_cycle(own),
+        None => part,
+    });
+    both.append(record.clone());
     Ok(Ok(Shot {
-        between: before.between_harmonics(2)?,
-        record: now,
-        cycles: found.periods,
+        between: both.between_harmonics(2)?,
+        record,
+        cycles: found.periods.div_ceil(parts),
+        parts,
         derivatives: found.derivatives,
         residual: found.residual,
         multipliers,

@@ -191,7 +191,7 @@ impl Shot {
             method: SteadyMethod::Shooting,
             why_marched: None,
             derivatives: self.derivatives,
-            rest: sampled_rest(set, &self.record, steps)?,
+            rest: part_rest(set, &self.record, steps, self.parts)?,
             multipliers: self.multipliers,
             record: self.record,
             cycles: self.cycles,
@@ -201,6 +201,20 @@ impl Shot {
             further: None,
         })
     }
+}
+
+/// [`sampled_rest`] over a part of a cycle after which the set is itself.
+fn part_rest(
+    set: &mut dyn Marching,
+    record: &Record,
+    steps: usize,
+    parts: usize,
+) -> Result<Option<KinematicRest>, ExperimentError> {
+    let rest = sampled_rest(set, record, steps / parts)?;
+    if let Some(own) = set.derivative().filter(|_| parts > 1 && rest.is_some()) {
+        own.end()?;
+    }
+    Ok(rest)
 }
 
 /// Marches from the present state to the steady state.

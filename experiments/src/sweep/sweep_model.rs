@@ -205,6 +205,6 @@ impl SweepModel for FeModel<'_> {
         let scene = damped(&self.scene, damping_factor);
         let set = VibratingSet::on(&scene, self.shared(size)?, rotation)?;
         let rate = scaling_rate(mesh_frequency);
-        Ok(Box::new(FeMarching { set, torque_nm, rate, derivative: None }))
+        Ok(Box::new(FeMarching { set, torque_nm, rate }))
     }
 }

@@ -144,6 +144,11 @@ impl<'s> StaticSet<'s> {
         &self.reference
     }
 
+    /// −1 if the set is computed as its mirror image, otherwise 1.
+    pub(crate) fn sign(&self) -> f64 {
+        self.sign
+    }
+
     /// The races' coordinates.
     pub fn races(&self) -> &Races {
         &self.races

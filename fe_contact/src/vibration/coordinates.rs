@@ -3,13 +3,12 @@
 use nalgebra::DVector;
 
 use super::checkpoint::replace;
-use super::derivative::SetDerivative;
 use super::set::VibratingSet;
 use super::tooth_shift::ToothShift;
 use crate::error::FeError;
 
 impl VibratingSet<'_> {
-    /// Whether [`VibratingSet::start_derivative`] has a derivative: not where kinematics are exact at every step, where
+    /// Whether [`VibratingSet::cycle_derivative`] gives a derivative: not where kinematics are exact at every step, where
     /// bodies have every degree of freedom, or where tooth errors let no cycle repeat.
     pub fn has_derivative(&self) -> bool {
         self.contact.grid.is_none()
@@ -31,11 +30,16 @@ impl VibratingSet<'_> {
     /// If they are too few or too many, or not finite.
     pub fn set_coordinates(&mut self, y: &[f64]) -> Result<(), FeError> {
         replace(y, &mut |each| self.visit_coordinates(each))?;
+        self.follow_bearings();
+        Ok(())
+    }
+
+    /// Sets the bearings to what follows from races and carrier.
+    pub(super) fn follow_bearings(&mut self) {
         let race = self.race_dynamics.motion.clone();
         let carrier = self.bodies.carrier.elastic_mut().clone();
         let bearings = &mut self.race_dynamics.bearings;
         bearings.follow(&race, self.bodies.carrier.as_ref(), &carrier);
-        Ok(())
     }
 
     pub(super) fn visit_coordinates(&mut self, each: &mut dyn FnMut(&mut [f64])) {
@@ -62,38 +66,34 @@ impl VibratingSet<'_> {
         self.statics.displacements(&DVector::from_column_slice(&y[..n]))
     }
 
-    /// After a whole cycle: takes the cycle back, with the bodies' modes turned by one tooth, so that the state
-    /// can be compared with that at the start of the cycle; the same for a derivative.
+    /// After a whole cycle, or a part of it after which the set is itself by its [`Symmetry`](super::Symmetry), if that
+    /// was asked for: takes it back, with the bodies' modes turned by one tooth or the planets renumbered, so that the
+    /// state can be compared with that at the start.
     ///
     /// # Errors
     /// If a body's modes are not those of equal teeth.
-    pub fn take_cycle_back(
-        &mut self,
-        derivative: Option<&mut SetDerivative>,
-    ) -> Result<(), FeError> {
+    pub fn take_cycle_back(&mut self) -> Result<(), FeError> {
+        if self.clock.step_in_cycle > 0 {
+            return self.take_part_back();
+        }
         self.clock.cycles -= 1;
         if self.bodies.gears.iter().all(|gear| gear.vibrating.unknowns() == 0) {
             return Ok(());
         }
-        let shifts = match &derivative {
-            Some(d) => d.shifts.clone(),
-            None => ToothShift::of_set(&self.bodies)?,
-        };
-        let gears = self.bodies.gears.iter_mut().zip(shifts.iter().skip(1));
-        for (gear, shift) in gears {
+        let shifts = self.tooth_shifts()?.to_vec();
+        for (gear, shift) in self.bodies.gears.iter_mut().zip(shifts.iter().skip(1)) {
             if let Some(shift) = shift {
                 shift.apply(gear.vibrating.elastic_mut());
             }
         }
-        if let Some(d) = derivative {
-            for (own, shift) in d.elastic.iter_mut().zip(&shifts) {
-                if let Some(shift) = shift {
-                    own.x *= shift.transposed();
-                    own.v *= shift.transposed();
-                    own.a *= shift.transposed();
-                }
-            }
-        }
         Ok(())
+    }
+
+    /// Shift of the bodies' modes by one tooth, by body.
+    pub(super) fn tooth_shifts(&mut self) -> Result<&[Option<ToothShift>], FeError> {
+        if self.tooth_shifts.is_empty() {
+            self.tooth_shifts = ToothShift::of_set(&self.bodies)?;
+        }
+        Ok(&self.tooth_shifts)
     }
 }

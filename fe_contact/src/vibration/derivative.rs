@@ -1,11 +1,12 @@
-//! The derivative of a set's state with respect to its coordinates at the start of a mesh cycle.
+//! The derivative of the mesh cycle that a set marched last, computed from what its frames keep of every step.
 
 use dynamics::MapDerivative;
 use nalgebra::{DMatrix, DVector};
 
-use super::gradients::{Gradients, LagGradients};
+use super::gradients::{Gradients, LagGradients, add, column};
 use super::lag::WIDTH;
 use super::set::VibratingSet;
+use super::symmetry::{Symmetry, later};
 use super::tooth_shift::ToothShift;
 use crate::error::FeError;
 use crate::short_row::ShortRow;
@@ -13,47 +14,119 @@ use crate::short_row::ShortRow;
 /// Stiffness (N/m) that relates forces to displacements when the coordinates are scaled.
 const STIFFNESS: f64 = 1e9;
 
+/// The lag forgets its state as e^{−t/β}: it is gone after this many β.
+const FORGOTTEN: f64 = 37.0;
+
+/// Fewest steps after which accelerations follow from displacements and velocities.
+const FEWEST: usize = 4;
+
+/// Changes of the state at the start of a cycle whose effect at its end is computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Along {
+    /// Of displacements and velocities, with accelerations and lag as they follow from these within some steps.
+    /// All others are gone after a cycle, so that these suffice for multipliers and for corrections of a state
+    /// that was marched to.
+    Motion,
+    /// Of every coordinate by itself.
+    Every,
+}
+
 /// The derivative so far.
 #[derive(Debug, Clone)]
-pub struct SetDerivative {
-    /// Coordinates with columns of their own.
-    pub(super) active: Vec<usize>,
+pub(super) struct SetDerivative {
+    /// Coordinates whose changes at the start are the rows of the gradients, and the sizes of these changes.
+    active: Vec<(usize, f64)>,
     pub(super) races: Gradients,
     /// Modes of carrier, ring, sun and planets.
     pub(super) elastic: Vec<Gradients>,
     pub(super) meshes: Vec<LagGradients>,
-    /// Load on the races by v*, transposed, n×n.
-    pub(super) velocity_load: DMatrix<f64>,
-    /// A⁻ᵀ, n×n.
-    pub(super) inverse: DMatrix<f64>,
-    /// Shift of the bodies' modes by one tooth, by body.
-    pub(super) shifts: Vec<Option<ToothShift>>,
-    /// Steps carried so far.
-    pub(super) steps: usize,
+    /// Load on the races by v*: (load, velocity, entry) of all entries that are not zero.
+    pub(super) velocity_load: Vec<(usize, usize, f64)>,
+    pub(super) work: Work,
     /// Q, (active coordinates)×rows, once the rows of the gradients were compressed: the gradients with respect to
     /// the active coordinates are Q times these.
     basis: Option<DMatrix<f64>>,
 }
 
-/// Steps after which the rows of the gradients are compressed: accelerations follow from the other coordinates after
-/// one step, and the lag forgets its state within some.
-pub(super) const COMPRESSED: [usize; 2] = [6, 30];
+/// Gradients used within a step, column after column, kept so that steps allocate little memory.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Work {
+    pub(super) acceleration: Vec<f64>,
+    pub(super) velocity: Vec<f64>,
+    pub(super) load: Vec<f64>,
+    pub(super) free: Vec<f64>,
+    pub(super) next: Vec<f64>,
+    pub(super) b: Vec<f64>,
+    pub(super) forces: Vec<f64>,
+    pub(super) expected: Vec<f64>,
+    /// Column of each pair among the touching ones.
+    pub(super) column_of: Vec<Option<usize>>,
+}
+
+/// Steps after which the rows of the gradients with respect to every coordinate are compressed.
+const COMPRESSED: [usize; 2] = [6, 30];
 
 /// Rows below this share of the largest are rounding.
 const RANK: f64 = 1e-15;
 
 impl VibratingSet<'_> {
-    /// The derivative at the start of a cycle.
+    /// The derivative of the cycle marched last, or of the part of it after which the set is itself, which was
+    /// [taken back](VibratingSet::take_cycle_back);
+    /// frequencies of the motion are of the order of `rate` (rad/s).
     ///
     /// # Errors
     /// If a body's modes are not those of equal teeth.
-    pub fn start_derivative(&mut self) -> Result<SetDerivative, FeError> {
+    pub fn cycle_derivative(&mut self, along: Along, rate: f64) -> Result<MapDerivative, FeError> {
+        let (count, cycles) = (self.clock.rotation.count(), self.clock.cycles);
+        let turn = self.present_renumbering();
+        let steps = turn.as_ref().map_or(count, |(own, _)| count / own.parts);
+        let mut derivative = self.start_derivative(along, rate);
+        if along == Along::Motion {
+            // In a periodic motion the steps before the start are those before the end.
+            let settling = FORGOTTEN * self.race_dynamics.damping.beta / self.clock.rule.step();
+            let settling = (settling.ceil() as usize + FEWEST).min(steps);
+            for step in steps - settling + 1..=steps {
+                self.carry_derivative(&mut derivative, step, cycles - 1);
+            }
+            derivative.turn_back(self.tooth_shifts()?, turn.as_ref());
+            derivative.follow_motion(rate)?;
+        }
+        for step in 1..=steps {
+            self.carry_derivative(&mut derivative, step, cycles);
+            if along == Along::Every && COMPRESSED.contains(&step) {
+                derivative.compress(rate);
+            }
+        }
+        derivative.turn_back(self.tooth_shifts()?, turn.as_ref());
+        Ok(derivative.map_derivative(rate))
+    }
+
+    /// Changes at the start of a step.
+    fn start_derivative(&mut self, along: Along, rate: f64) -> SetDerivative {
         let n = self.statics.races.count;
         let unknowns: Vec<usize> = self.bodies.all().map(|(_, body)| body.unknowns()).collect();
-        let leading = 3 * (n + unknowns.iter().sum::<usize>());
-        let mut active: Vec<usize> = (0..leading).collect();
+        let mut active: Vec<(usize, f64)> = Vec::new();
+        let mut leading = 0;
+        for count in std::iter::once(&n).chain(&unknowns) {
+            let range = |k: usize| leading + k * count..leading + (k + 1) * count;
+            match along {
+                Along::Motion => {
+                    active.extend(range(0).map(|i| (i, 1.0)));
+                    active.extend(range(1).map(|i| (i, rate)));
+                }
+                Along::Every => {
+                    for (k, size) in [1.0, rate, rate * rate].into_iter().enumerate() {
+                        active.extend(range(k).map(|i| (i, size)));
+                    }
+                }
+            }
+            leading += 3 * count;
+        }
         let mut live = vec![[false; WIDTH]; self.pairs.memory.len()];
         for (mesh, memory) in self.pairs.memory.iter_mut().enumerate() {
+            if along == Along::Motion {
+                break;
+            }
             let lists = memory.lists().map(|list| *list);
             for slot in 0..WIDTH {
                 live[mesh][slot] = lists.iter().any(|list| list[slot] != 0.0);
@@ -62,12 +135,16 @@ impl VibratingSet<'_> {
                 let first = leading + (3 * mesh + which) * WIDTH;
                 // A force that is 0, of a pair that does not touch, stays 0 under small changes.
                 let nonzero = (0..WIDTH).filter(|slot| list[*slot] != 0.0);
-                active.extend(nonzero.map(|slot| first + slot));
+                active.extend(nonzero.map(|slot| (first + slot, STIFFNESS)));
             }
         }
         let m = active.len();
         let unit = |first: usize, count: usize| {
-            DMatrix::from_fn(m, count, |row, k| f64::from(u8::from(active[row] == first + k)))
+            let entry = |row: usize, k: usize| match active[row] {
+                (i, size) if i == first + k => size,
+                _ => 0.0,
+            };
+            DMatrix::from_fn(m, count, entry)
         };
         let gradients = |first: usize, count: usize| Gradients {
             x: unit(first, count),
@@ -88,34 +165,26 @@ impl VibratingSet<'_> {
         });
         let meshes = meshes.collect();
         let races = gradients(0, n);
-        let shifts = ToothShift::of_set(&self.bodies)?;
-        let velocity_load = self.race_dynamics.velocity_load(&self.clock.rule).transpose();
-        let inverse = self.race_dynamics.inverse.transpose();
-        let (steps, basis) = (0, None);
-        Ok(SetDerivative {
-            active,
-            races,
-            elastic,
-            meshes,
-            velocity_load,
-            inverse,
-            shifts,
-            steps,
-            basis,
-        })
+        let load = self.race_dynamics.velocity_load(&self.clock.rule);
+        let all = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
+        let velocity_load =
+            all.map(|(i, j)| (i, j, load[(i, j)])).filter(|(.., c)| *c != 0.0).collect();
+        let (work, basis) = (Work::default(), None);
+        SetDerivative { active, races, elastic, meshes, velocity_load, work, basis }
     }
 }
 
 impl SetDerivative {
-    /// Displacement along a row that is expected at the end of the step: x + h (v + ½ h a).
-    pub(super) fn expected(&self, h: f64, row: &ShortRow) -> DVector<f64> {
-        let mut sum = DVector::zeros(self.rows());
+    /// Writes the displacement along a row that is expected at the end of the step: x + h (v + ½ h a).
+    pub(super) fn expect(&self, h: f64, row: &ShortRow, out: &mut Vec<f64>) {
+        let m = self.rows();
+        out.clear();
+        out.resize(m, 0.0);
         for (i, r) in row.entries() {
-            sum.axpy(r, &self.races.x.column(i), 1.0);
-            sum.axpy(r * h, &self.races.v.column(i), 1.0);
-            sum.axpy(0.5 * r * h * h, &self.races.a.column(i), 1.0);
+            add(out, r, column(self.races.x.as_slice(), m, i));
+            add(out, r * h, column(self.races.v.as_slice(), m, i));
+            add(out, 0.5 * r * h * h, column(self.races.a.as_slice(), m, i));
         }
-        sum
     }
 
     /// Rows of the gradients.
@@ -136,9 +205,58 @@ impl SetDerivative {
         lists
     }
 
+    /// The same, to be changed.
+    fn lists_mut(&mut self) -> impl Iterator<Item = &mut DMatrix<f64>> {
+        let bodies = std::iter::once(&mut self.races).chain(&mut self.elastic);
+        let meshes = self.meshes.iter_mut().flat_map(LagGradients::lists_mut);
+        bodies.flat_map(Gradients::lists_mut).chain(meshes)
+    }
+
+    /// Expresses the gradients of the bodies' modes in the frames one tooth back, or renumbers the planets.
+    fn turn_back(
+        &mut self,
+        shifts: &[Option<ToothShift>],
+        turn: Option<&(Symmetry, DMatrix<f64>)>,
+    ) {
+        if let Some((own, turn)) = turn {
+            let transposed = turn.transpose();
+            self.races.lists_mut().into_iter().for_each(|list| *list *= &transposed);
+            let planets = self.meshes.len() / 2;
+            let meshes =
+                (0..2 * planets).map(|mesh| self.meshes[later(mesh, own.shift, planets)].clone());
+            self.meshes = meshes.collect();
+            return;
+        }
+        for (own, shift) in self.elastic.iter_mut().zip(shifts) {
+            if let Some(shift) = shift {
+                own.lists_mut().into_iter().for_each(|list| *list *= shift.transposed());
+            }
+        }
+    }
+
+    /// Replaces the changes by those combinations of them of which each changes one displacement or velocity now by
+    /// its size.
+    fn follow_motion(&mut self, rate: f64) -> Result<(), FeError> {
+        let m = self.rows();
+        let mut now = DMatrix::zeros(m, m);
+        let mut at = 0;
+        for own in std::iter::once(&self.races).chain(&self.elastic) {
+            for (list, size) in [(&own.x, 1.0), (&own.v, rate)] {
+                now.columns_mut(at, list.ncols()).copy_from(&(list / size));
+                at += list.ncols();
+            }
+        }
+        let factor = now.lu();
+        let singular = || FeError::NoEquilibrium("motions that differ become equal".into());
+        self.lists_mut().try_for_each(|list| {
+            let is_empty = list.is_empty();
+            (is_empty || factor.solve_mut(list)).then_some(()).ok_or_else(singular)
+        })
+    }
+
     /// Replaces the rows by fewer: with G the gradients and D the sizes of their columns, G D⁻¹ Π = Q R, of which
     /// only the rows of R above rounding are kept.
-    pub(super) fn compress(&mut self, rate: f64) {
+    fn compress(&mut self, rate: f64) {
         let mut columns: Vec<(DVector<f64>, f64)> = Vec::new();
         for (list, size) in self.lists(rate) {
             let nonzero = list.column_iter().filter(|column| column.iter().any(|x| *x != 0.0));
@@ -158,22 +276,15 @@ impl SetDerivative {
         let q = qr.compute_thin_Q();
         let q = DMatrix::from_fn(m, rank, |i, j| q[(i, j)]);
         let transposed = q.transpose();
-        let reduce = |list: &mut DMatrix<f64>| *list = &transposed * &*list;
-        for own in std::iter::once(&mut self.races).chain(&mut self.elastic) {
-            [&mut own.x, &mut own.v, &mut own.a].into_iter().for_each(reduce);
-        }
-        for mesh in &mut self.meshes {
-            mesh.lists_mut().iter_mut().for_each(reduce);
-        }
+        self.lists_mut().for_each(|list| *list = &transposed * &*list);
         self.basis = Some(match self.basis.take() {
             Some(basis) => basis * q,
             None => q,
         });
     }
 
-    /// The derivative of the map from the start to now; frequencies of the motion are of the order of `rate`
-    /// (rad/s).
-    pub fn map_derivative(&self, rate: f64) -> MapDerivative {
+    /// The derivative of the map from the start to now.
+    fn map_derivative(&self, rate: f64) -> MapDerivative {
         let lists = self.lists(rate);
         let count = lists.iter().map(|(list, _)| list.ncols()).sum();
         let mut columns = DMatrix::zeros(count, self.rows());
@@ -187,6 +298,9 @@ impl SetDerivative {
         if let Some(basis) = &self.basis {
             columns *= basis.transpose();
         }
-        MapDerivative { active: self.active.clone(), columns, scales }
+        for (mut column, (_, size)) in columns.column_iter_mut().zip(&self.active) {
+            column /= *size;
+        }
+        MapDerivative { active: self.active.iter().map(|(i, _)| *i).collect(), columns, scales }
     }
 }

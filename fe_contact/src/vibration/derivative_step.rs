@@ -9,20 +9,25 @@
 //!
 //! where L is the load that the histories leave, and S W the change of the forces of the touching pairs with
 //! their approaches. The coordinates are displacements, velocities and accelerations of the races and of the
-//! bodies' modes, and the state of the lag of every pair; bearings follow from these.
+//! bodies' modes, and the state of the lag of every pair; bearings follow from these. Frames keep the cells that
+//! touched in the last step to their position and the second-order terms, so that a whole cycle can be
+//! differentiated after it was marched.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::derivative::{COMPRESSED, SetDerivative};
+use super::body::Port;
+use super::derivative::{SetDerivative, Work};
+use super::flexible_bodies::FlexibleBodies;
 use super::frame::Frame;
-use super::gradients::{out_of_turned, turned_into};
+use super::gradients::{add, column, column_mut, out_of_turned, times_transposed, turned_into};
 use super::set::VibratingSet;
 use crate::statics::CARRIER;
 
 impl VibratingSet<'_> {
-    /// Carries the derivative over the last step.
-    pub fn carry_derivative(&self, d: &mut SetDerivative) {
-        let k = self.clock.step_in_cycle;
+    /// Carries the derivative over a step, 1 to the number of steps, of the cycle after `cycles` whole ones.
+    pub(super) fn carry_derivative(&self, d: &mut SetDerivative, step: usize, cycles: i64) {
+        let count = self.clock.rotation.count();
+        let (k, cycles) = (step % count, cycles + (step / count) as i64);
         let Some(frame) = self.frames.current(k) else { return };
         let plain = self.frames.at(k).unwrap_or(frame);
         for mesh in &self.pairs.restarts[k] {
@@ -32,89 +37,93 @@ impl VibratingSet<'_> {
         d.meshes.iter_mut().for_each(|mesh| mesh.predict(weights));
         let (rule, m) = (&self.clock.rule, d.rows());
         let newmark = [rule.inertia(), rule.damping()];
-        let histories = d.races.histories(newmark[0], newmark[1]);
+        let mut work = std::mem::take(&mut d.work);
+        d.races.write_histories(newmark, [&mut work.acceleration, &mut work.velocity]);
         // L' = m a*' + (α m + τ k + G + bearings) v*'
-        let mut load = &histories[1] * &d.velocity_load;
-        for (i, mass) in self.race_dynamics.mass.iter().enumerate() {
-            load.column_mut(i).axpy(*mass, &histories[0].column(i), 1.0);
+        work.load.clear();
+        for (own, mass) in work.acceleration.chunks_exact(m).zip(&self.race_dynamics.mass) {
+            work.load.extend(own.iter().map(|a| mass * a));
         }
-        let bodies = self.predict_bodies(d, &histories, &mut load);
-        self.add_bent(d, plain, &mut load);
-        let free = &load * &d.inverse;
+        for (i, j, c) in &d.velocity_load {
+            add(column_mut(&mut work.load, m, *i), *c, column(&work.velocity, m, *j));
+        }
+        let bodies = self.predict_bodies(d, frame, (k, cycles), &mut work);
+        self.add_bent(d, plain, &mut work);
+        work.free.resize(work.load.len(), 0.0);
+        work.next.resize(work.load.len(), 0.0);
+        let inverse = &self.race_dynamics.inverse;
+        times_transposed(&mut work.free, &work.load, m, inverse);
         let chosen = &frame.combinations[frame.used];
-        let mut b = DMatrix::zeros(m, chosen.touching.len());
-        for (column, pair) in chosen.touching.iter().enumerate() {
-            let mut own = b.column_mut(column);
+        work.column_of.clear();
+        work.column_of.resize(frame.offsets.len(), None);
+        work.b.clear();
+        work.b.resize(m * chosen.touching.len(), 0.0);
+        work.forces.resize(m * chosen.touching.len(), 0.0);
+        for (at, pair) in chosen.touching.iter().enumerate() {
+            work.column_of[*pair] = Some(at);
             for (i, r) in frame.rows[*pair].entries() {
-                own.axpy(r, &free.column(i), 1.0);
+                add(column_mut(&mut work.b, m, at), r, column(&work.free, m, i));
             }
         }
-        self.add_gaps(d, frame, &bodies, &mut b);
+        self.add_gaps(d, frame, &bodies, &mut work);
         // P' = S W b'
-        let forces = b * chosen.response.transpose();
-        for (column, pair) in chosen.touching.iter().enumerate() {
+        times_transposed(&mut work.forces, &work.b, m, &chosen.response);
+        for (at, pair) in chosen.touching.iter().enumerate() {
             for (i, r) in frame.rows[*pair].entries() {
-                load.column_mut(i).axpy(-r, &forces.column(column), 1.0);
+                add(column_mut(&mut work.load, m, i), -r, column(&work.forces, m, at));
             }
         }
-        let next = &load * &d.inverse;
-        self.finish_bodies(d, frame, bodies, (&next, &forces));
+        times_transposed(&mut work.next, &work.load, m, inverse);
+        self.finish_bodies(d, frame, bodies, &work);
+        let mut pressed = Vec::new();
         for (mesh, own) in frame.meshes.iter().zip(&mut d.meshes) {
             let pairs = mesh.first..mesh.first + mesh.count;
-            let touching = chosen.touching.iter().enumerate().filter(|(_, p)| pairs.contains(*p));
-            let pressed: Vec<_> = touching
-                .filter_map(|(column, pair)| Some((frame.pattern.slots[*pair].place()?, column)))
-                .collect();
-            own.advance(weights[0], &pressed, &forces);
+            pressed.clear();
+            pressed.extend(pairs.filter_map(|pair| {
+                Some((frame.pattern.slots[pair].place()?, work.column_of[pair]?))
+            }));
+            own.advance(weights[0], &pressed, &work.forces);
         }
-        d.races.advance(newmark, next, histories);
-        d.steps += 1;
-        if COMPRESSED.contains(&d.steps) {
-            d.compress(newmark[1]);
-        }
+        d.races.advance(newmark, &work.next, [&work.acceleration, &work.velocity]);
+        d.work = work;
     }
 
     /// Load on the races from the second-order terms of corner gaps.
-    fn add_bent(&self, d: &SetDerivative, frame: &Frame, load: &mut DMatrix<f64>) {
+    fn add_bent(&self, d: &SetDerivative, frame: &Frame, work: &mut Work) {
+        let m = d.rows();
         for bend in frame.bends.iter().filter(|bend| bend.force > 0.0) {
-            let expected = d.expected(self.clock.rule.step(), &bend.row);
-            let mut pressed = expected * (bend.curvature * bend.force);
+            d.expect(self.clock.rule.step(), &bend.row, &mut work.expected);
+            let pressed = &mut work.expected;
+            pressed.iter_mut().for_each(|x| *x *= bend.curvature * bend.force);
             if let Some(slot) = bend.slot.place() {
                 let [_, now, before] = d.meshes[bend.mesh].lists();
                 let share = bend.curvature * bend.moved;
-                pressed.axpy(2.0 * share, &now.column(slot), 1.0);
-                pressed.axpy(-share, &before.column(slot), 1.0);
+                add(pressed, 2.0 * share, column(now.as_slice(), m, slot));
+                add(pressed, -share, column(before.as_slice(), m, slot));
             }
             for (i, r) in bend.row.entries() {
-                load.column_mut(i).axpy(r, &pressed, 1.0);
+                add(column_mut(&mut work.load, m, i), r, pressed);
             }
         }
     }
 
     /// Adds to the approaches of the touching pairs what corner gaps, the bodies' modes and the lag contribute.
-    fn add_gaps(
-        &self,
-        d: &SetDerivative,
-        frame: &Frame,
-        bodies: &[BodyStep],
-        b: &mut DMatrix<f64>,
-    ) {
-        let touching = &frame.combinations[frame.used].touching;
+    fn add_gaps(&self, d: &SetDerivative, frame: &Frame, bodies: &[BodyStep], work: &mut Work) {
+        let m = d.rows();
+        let Work { b, column_of, expected, .. } = work;
         for bend in &frame.bends {
-            let Some(column) = touching.iter().position(|pair| *pair == bend.pair) else {
-                continue;
-            };
-            let expected = d.expected(self.clock.rule.step(), &bend.row);
-            b.column_mut(column).axpy(-bend.curvature * bend.moved, &expected, 1.0);
+            let Some(at) = column_of[bend.pair] else { continue };
+            d.expect(self.clock.rule.step(), &bend.row, expected);
+            add(column_mut(b, m, at), -bend.curvature * bend.moved, expected);
         }
         for (gear, own) in frame.pattern.own.iter().enumerate() {
             let Some(modal) = self.bodies.gears[gear].vibrating.modal() else { continue };
-            let ports = &self.bodies.ports[gear].0;
-            for ((pair, _), port) in own.iter().zip(ports) {
-                let Some(column) = touching.iter().position(|p| p == pair) else { continue };
+            let Some(step) = bodies.get(gear + 1) else { continue };
+            for ((pair, _), port) in own.iter().zip(&step.ports) {
+                let Some(at) = column_of[*pair] else { continue };
                 for (j, mode) in modal.modes.iter().enumerate() {
                     let along = port.read(&mode.shape);
-                    b.column_mut(column).axpy(along, &bodies[gear + 1].free.column(j), 1.0);
+                    add(column_mut(b, m, at), along, column(step.free.as_slice(), m, j));
                 }
             }
         }
@@ -122,15 +131,15 @@ impl VibratingSet<'_> {
         for (own, mesh) in d.meshes.iter().zip(&frame.meshes) {
             let rows = frame.lagged_by(mesh);
             for slot in &frame.pattern.slots[mesh.first..mesh.first + mesh.count] {
-                let column;
-                (column, lags) = lags.split_at(rows.len());
+                let lagged;
+                (lagged, lags) = lags.split_at(rows.len());
                 let Some(place) = slot.place().filter(|place| own.is_live(*place)) else {
                     continue;
                 };
                 let known = own.known(place);
-                for (row, f) in rows.clone().zip(column).filter(|(_, f)| **f != 0.0) {
-                    if let Some(at) = touching.iter().position(|pair| *pair == row) {
-                        b.column_mut(at).axpy(-f, &known, 1.0);
+                for (row, f) in rows.clone().zip(lagged).filter(|(_, f)| **f != 0.0) {
+                    if let Some(at) = column_of[row] {
+                        add(column_mut(b, m, at), -f, known);
                     }
                 }
             }
@@ -141,26 +150,41 @@ impl VibratingSet<'_> {
     fn predict_bodies(
         &self,
         d: &SetDerivative,
-        race: &[DMatrix<f64>; 2],
-        load: &mut DMatrix<f64>,
+        frame: &Frame,
+        (k, cycles): (usize, i64),
+        work: &mut Work,
     ) -> Vec<BodyStep> {
         let rule = &self.clock.rule;
+        let newmark = [rule.inertia(), rule.damping()];
         let races = &self.statics.races;
-        let (m, turned) = (d.rows(), self.clock.turned());
+        let (m, turned) = (d.rows(), cycles as f64 + self.clock.position(k));
         let mut all = Vec::with_capacity(d.elastic.len());
-        for (body, vibrating) in self.bodies.all() {
+        let has_modes = d.elastic.iter().any(|own| own.x.ncols() > 0);
+        for (body, vibrating) in self.bodies.all().filter(|_| has_modes) {
             let own = &d.elastic[body];
-            let histories = own.histories(rule.inertia(), rule.damping());
+            let histories = own.histories(newmark);
             let mut free = DMatrix::zeros(m, own.x.ncols());
             let angle = match body {
                 CARRIER => 0.0,
                 gear => self.bodies.gears[gear - 1].angle(turned),
             };
+            let ports = match (body, own.x.ncols()) {
+                (CARRIER, _) | (_, 0) => Vec::new(),
+                (gear, _) => {
+                    let gear = gear - 1;
+                    let (ports, gear) = (&frame.pattern.own[gear], &self.bodies.gears[gear]);
+                    FlexibleBodies::ports_of(frame, gear, ports, cycles)
+                }
+            };
             if let Some(modal) = vibrating.modal().filter(|modal| !modal.modes.is_empty()) {
                 let super::damping::Proportional { alpha, beta } = modal.damping;
                 let c = modal.inertia();
                 let turned = turned_into(angle, |axis| {
-                    races.of(body, axis).map(|i| race[0].column(i) + race[1].column(i) * alpha)
+                    races.of(body, axis).map(|i| {
+                        let mut sum = DVector::from_column_slice(column(&work.acceleration, m, i));
+                        add(sum.as_mut_slice(), alpha, column(&work.velocity, m, i));
+                        sum
+                    })
                 });
                 let mut pulled: [DVector<f64>; 3] = std::array::from_fn(|_| DVector::zeros(m));
                 for (j, mode) in modal.modes.iter().enumerate() {
@@ -180,14 +204,15 @@ impl VibratingSet<'_> {
                 }
                 for (axis, turned) in out_of_turned(angle, pulled).into_iter().enumerate() {
                     if let Some(i) = races.of(body, axis) {
-                        load.column_mut(i).axpy(1.0, &turned, 1.0);
+                        add(column_mut(&mut work.load, m, i), 1.0, turned.as_slice());
                     }
                 }
             }
-            all.push(BodyStep { histories, free, angle });
+            all.push(BodyStep { histories, free, angle, ports });
         }
-        if let Some(seats) = self.seats_of_modes(&all[CARRIER]) {
-            *load += seats * self.race_dynamics.bearings.seats_onto_races().transpose();
+        if let Some(seats) = all.get(CARRIER).and_then(|carrier| self.seats_of_modes(carrier)) {
+            let loads = seats * self.race_dynamics.bearings.seats_onto_races().transpose();
+            add(&mut work.load, 1.0, loads.as_slice());
         }
         all
     }
@@ -198,25 +223,28 @@ impl VibratingSet<'_> {
         d: &mut SetDerivative,
         frame: &Frame,
         bodies: Vec<BodyStep>,
-        (x, forces): (&DMatrix<f64>, &DMatrix<f64>),
+        work: &Work,
     ) {
         let rule = &self.clock.rule;
+        let newmark = [rule.inertia(), rule.damping()];
         let races = &self.statics.races;
-        let touching = &frame.combinations[frame.used].touching;
+        let m = d.rows();
         for ((body, vibrating), step) in self.bodies.all().zip(bodies) {
             let Some(modal) = vibrating.modal().filter(|modal| !modal.modes.is_empty()) else {
                 continue;
             };
             let c = modal.inertia();
             let turned = turned_into(step.angle, |axis| {
-                races.of(body, axis).map(|i| x.column(i).into_owned())
+                let of = |i| DVector::from_column_slice(column(&work.next, m, i));
+                races.of(body, axis).map(of)
             });
             let mut next = step.free.clone();
             // Forces on the ports: of the bearings on the carrier, of the tooth pairs on gears.
             if body == CARRIER {
                 // Q' = (K'⁻¹ + G)⁻¹ (B x' − free' − τ' v*')
                 let bearings = &self.race_dynamics.bearings;
-                let [_, velocity] = d.races.histories(rule.inertia(), rule.damping());
+                let x = DMatrix::from_column_slice(m, races.count, &work.next);
+                let velocity = DMatrix::from_column_slice(m, races.count, &work.velocity);
                 let mut stretched = x * bearings.rows.transpose();
                 stretched -= velocity * bearings.rigid.transpose() * bearings.history_weight(rule);
                 if let Some(seats) = self.seats_of_modes(&step) {
@@ -230,12 +258,13 @@ impl VibratingSet<'_> {
                     }
                 }
             } else {
-                let own = frame.pattern.own[body - 1].iter().zip(&self.bodies.ports[body - 1].0);
+                let own = frame.pattern.own[body - 1].iter().zip(&step.ports);
                 for ((pair, _), port) in own {
-                    let Some(column) = touching.iter().position(|p| p == pair) else { continue };
+                    let Some(at) = work.column_of[*pair] else { continue };
                     for (j, mode) in modal.modes.iter().enumerate() {
                         let along = -port.read(&mode.shape) / modal.dynamic[j];
-                        next.column_mut(j).axpy(along, &forces.column(column), 1.0);
+                        let forces = column(&work.forces, m, at);
+                        add(column_mut(next.as_mut_slice(), m, j), along, forces);
                     }
                 }
             }
@@ -246,7 +275,8 @@ impl VibratingSet<'_> {
                     }
                 }
             }
-            d.elastic[body].advance([rule.inertia(), rule.damping()], next, step.histories);
+            let [a, v] = step.histories.each_ref().map(|list| list.as_slice());
+            d.elastic[body].advance(newmark, next.as_slice(), [a, v]);
         }
     }
 
@@ -275,4 +305,6 @@ struct BodyStep {
     free: DMatrix<f64>,
     /// Angle of the body's frame, rad.
     angle: f64,
+    /// Ports of a gear's pairs.
+    ports: Vec<Port>,
 }

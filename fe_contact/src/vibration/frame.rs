@@ -155,10 +155,10 @@ impl Frame {
             oldest: 0,
             pattern,
         };
-        let own = frame.pattern.within.clone();
-        for (gear, flexibility) in own.iter().enumerate() {
-            for (j, (b, _)) in frame.pattern.own[gear].iter().enumerate() {
-                for (i, (a, _)) in frame.pattern.own[gear].iter().enumerate() {
+        let pattern = Arc::clone(&frame.pattern);
+        for (own, flexibility) in pattern.own.iter().zip(&pattern.within) {
+            for (j, (b, _)) in own.iter().enumerate() {
+                for (i, (a, _)) in own.iter().enumerate() {
                     frame.lagging[(*a, *b)] += flexibility[(i, j)];
                 }
             }
@@ -172,10 +172,20 @@ impl Frame {
             let short = rows.row_iter().map(|row| ShortRow::new(row.iter().copied()));
             frame.rows = short.collect::<Option<_>>().ok_or_else(many)?;
         } else {
-            let rigid = &frame.pattern.rigid;
-            frame.receptance = rigid * (inputs.inverse * rigid.transpose());
+            // Y = R A⁻¹ Rᵀ with rows of a few entries.
+            let mut answer = DVector::zeros(inputs.inverse.nrows());
+            for (j, on) in frame.rows.iter().enumerate() {
+                answer.fill(0.0);
+                for (i, r) in on.entries() {
+                    answer.axpy(r, &inputs.inverse.column(i), 1.0);
+                }
+                for (y, of) in frame.receptance.column_mut(j).iter_mut().zip(&frame.rows) {
+                    *y = of.dot(answer.as_slice());
+                }
+            }
         }
-        frame.receptance -= (1.0 - inputs.lag_end) * &frame.lagging;
+        let known = inputs.lag_end - 1.0;
+        frame.receptance.zip_apply(&frame.lagging, |y, lagging| *y += known * lagging);
         for mesh in &frame.meshes {
             let lagged = frame.lagged_by(mesh);
             for j in mesh.first..mesh.first + mesh.count {

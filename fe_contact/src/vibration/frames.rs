@@ -7,15 +7,15 @@ use super::frame::Frame;
 pub(super) struct Frames {
     plain: Vec<Option<Box<Frame>>>,
     with_backside: Vec<Option<Box<Frame>>>,
-    /// Whether backside flanks took part in the last step.
-    pub(super) touched_backside: bool,
+    /// By step in the cycle: whether backside flanks took part when it was last visited.
+    pub(super) touched_backside: Vec<bool>,
 }
 
 impl Frames {
     /// No frames yet, for a cycle of `count` steps.
     pub(super) fn new(count: usize) -> Self {
         let none = || (0..count).map(|_| None).collect();
-        Self { plain: none(), with_backside: none(), touched_backside: false }
+        Self { plain: none(), with_backside: none(), touched_backside: vec![false; count] }
     }
 
     fn list(&mut self, with_backside: bool) -> &mut Vec<Option<Box<Frame>>> {
@@ -41,9 +41,10 @@ impl Frames {
         self.plain[step_in_cycle].as_deref()
     }
 
-    /// The frame of the last step, which ended at `step_in_cycle`.
+    /// The frame of the last step that ended at `step_in_cycle`.
     pub(super) fn current(&self, step_in_cycle: usize) -> Option<&Frame> {
-        let list = if self.touched_backside { &self.with_backside } else { &self.plain };
+        let list =
+            if self.touched_backside[step_in_cycle] { &self.with_backside } else { &self.plain };
         list[step_in_cycle].as_deref()
     }
 

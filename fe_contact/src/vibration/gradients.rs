@@ -1,11 +1,47 @@
 //! Gradients of a set's state: in place of each number, a column with its derivatives with respect to the
-//! coordinates at the start.
+//! changes at the start.
 
-use nalgebra::{DMatrix, DVector, DVectorView};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, MatMut, MatRef, Par};
+use nalgebra::{DMatrix, DVector};
 
 use super::lag::WIDTH;
 
-/// Gradients of some coordinates: a row for each coordinate at the start, a column for each quantity.
+/// y += factor x.
+#[inline]
+pub(super) fn add(y: &mut [f64], factor: f64, x: &[f64]) {
+    y.iter_mut().zip(x).for_each(|(y, x)| *y += factor * x);
+}
+
+/// Column j of columns of length `m`, stored one after another.
+pub(super) fn column(all: &[f64], m: usize, j: usize) -> &[f64] {
+    &all[j * m..(j + 1) * m]
+}
+
+/// The same, to be changed.
+pub(super) fn column_mut(all: &mut [f64], m: usize, j: usize) -> &mut [f64] {
+    &mut all[j * m..(j + 1) * m]
+}
+
+/// out = G Aᵀ for columns G of length `m`, as many as A has columns.
+pub(super) fn times_transposed(out: &mut [f64], g: &[f64], m: usize, a: &DMatrix<f64>) {
+    let (rows, columns) = a.shape();
+    let a = MatRef::from_column_major_slice(a.as_slice(), rows, columns);
+    let g = MatRef::from_column_major_slice(&g[..m * columns], m, columns);
+    let out = MatMut::from_column_major_slice_mut(&mut out[..m * rows], m, rows);
+    matmul(out, Accum::Replace, g, a.transpose(), 1.0, Par::Seq);
+}
+
+/// out = A B.
+pub(super) fn times(out: &mut DMatrix<f64>, a: &DMatrix<f64>, b: &DMatrix<f64>) {
+    let ((rows, inner), columns) = (a.shape(), b.ncols());
+    let a = MatRef::from_column_major_slice(a.as_slice(), rows, inner);
+    let b = MatRef::from_column_major_slice(b.as_slice(), inner, columns);
+    let out = MatMut::from_column_major_slice_mut(out.as_mut_slice(), rows, columns);
+    matmul(out, Accum::Replace, a, b, 1.0, Par::Seq);
+}
+
+/// Gradients of some coordinates: a row for each change at the start, a column for each quantity.
 #[derive(Debug, Clone)]
 pub(super) struct Gradients {
     /// Of displacements.
@@ -17,25 +53,36 @@ pub(super) struct Gradients {
 }
 
 impl Gradients {
-    /// Those of a* and v* of Newmark's rule, with 4/h² and 2/h.
-    pub(super) fn histories(&self, inertia: f64, rate: f64) -> [DMatrix<f64>; 2] {
-        let velocity = &self.x * rate + &self.v;
-        let mut acceleration = &self.x * inertia + &self.a;
-        acceleration.zip_apply(&self.v, |a, v| *a += 2.0 * rate * v);
-        [acceleration, velocity]
+    /// Writes those of a* and v* of Newmark's rule, with 4/h² and 2/h, column after column.
+    pub(super) fn write_histories(&self, [inertia, rate]: [f64; 2], [a, v]: [&mut Vec<f64>; 2]) {
+        let own = self.x.iter().zip(self.v.iter()).zip(self.a.iter());
+        let count = self.x.len();
+        [&mut *a, &mut *v].into_iter().for_each(|list| list.resize(count, 0.0));
+        for (((x, v0), a0), (a, v)) in own.zip(a.iter_mut().zip(v)) {
+            *v = rate * x + v0;
+            *a = inertia * x + 2.0 * rate * v0 + a0;
+        }
     }
 
-    /// The end of a step with displacements `x` from the histories at its start.
-    pub(super) fn advance(
-        &mut self,
-        [inertia, rate]: [f64; 2],
-        x: DMatrix<f64>,
-        histories: [DMatrix<f64>; 2],
-    ) {
-        let [acceleration, velocity] = histories;
-        self.v = &x * rate - velocity;
-        self.a = &x * inertia - acceleration;
-        self.x = x;
+    /// The same as matrices.
+    pub(super) fn histories(&self, rule: [f64; 2]) -> [DMatrix<f64>; 2] {
+        let (mut a, mut v) = (Vec::new(), Vec::new());
+        self.write_histories(rule, [&mut a, &mut v]);
+        let (rows, columns) = self.x.shape();
+        [a, v].map(|list| DMatrix::from_vec(rows, columns, list))
+    }
+
+    /// The end of a step with displacements `x` from the histories a*, v* at its start.
+    pub(super) fn advance(&mut self, [inertia, rate]: [f64; 2], x: &[f64], [a, v]: [&[f64]; 2]) {
+        let own = self.x.iter_mut().zip(self.v.iter_mut()).zip(self.a.iter_mut());
+        for (((x1, v1), a1), ((x, a), v)) in own.zip(x.iter().zip(a).zip(v)) {
+            (*x1, *v1, *a1) = (*x, rate * x - v, inertia * x - a);
+        }
+    }
+
+    /// All three lists.
+    pub(super) fn lists_mut(&mut self) -> [&mut DMatrix<f64>; 3] {
+        [&mut self.x, &mut self.v, &mut self.a]
     }
 }
 
@@ -46,14 +93,13 @@ pub(super) struct LagGradients {
     lists: [DMatrix<f64>; 3],
     /// Pairs with gradients other than zero.
     live: [bool; WIDTH],
-    /// Of the part of P̃ at the end of the step that is known at its start.
-    known: DMatrix<f64>,
+    /// Of the part of P̃ at the end of the step that is known at its start, column after column.
+    known: Vec<f64>,
 }
 
 impl LagGradients {
     pub(super) fn new(lists: [DMatrix<f64>; 3], live: [bool; WIDTH]) -> Self {
-        let known = DMatrix::zeros(lists[0].nrows(), WIDTH);
-        Self { lists, live, known }
+        Self { lists, live, known: Vec::new() }
     }
 
     pub(super) fn lists(&self) -> &[DMatrix<f64>; 3] {
@@ -72,40 +118,43 @@ impl LagGradients {
     /// [`PairMemory::known`](super::lag::PairMemory::known).
     pub(super) fn predict(&mut self, [_, start, before, state]: [f64; 4]) {
         let [filtered, now, earlier] = &self.lists;
-        if self.known.nrows() != filtered.nrows() {
-            self.known = DMatrix::zeros(filtered.nrows(), WIDTH);
-        }
+        let m = filtered.nrows();
+        self.known.resize(m * WIDTH, 0.0);
         for slot in (0..WIDTH).filter(|slot| self.live[*slot]) {
-            let mut known = self.known.column_mut(slot);
-            known.axpy(state, &filtered.column(slot), 0.0);
-            known.axpy(start, &now.column(slot), 1.0);
-            known.axpy(before, &earlier.column(slot), 1.0);
+            let [f, n, e] = [filtered, now, earlier].map(|list| column(list.as_slice(), m, slot));
+            let own = f.iter().zip(n).zip(e);
+            for (known, ((f, n), e)) in column_mut(&mut self.known, m, slot).iter_mut().zip(own) {
+                *known = state * f + start * n + before * e;
+            }
         }
     }
 
     /// The known part of a live pair.
-    pub(super) fn known(&self, slot: usize) -> DVectorView<'_, f64> {
-        self.known.column(slot)
+    pub(super) fn known(&self, slot: usize) -> &[f64] {
+        column(&self.known, self.lists[0].nrows(), slot)
     }
 
     /// Advances by a step at whose end the pairs `pressed` (slot, column of `forces`) have forces.
-    pub(super) fn advance(&mut self, end: f64, pressed: &[(usize, usize)], forces: &DMatrix<f64>) {
+    pub(super) fn advance(&mut self, end: f64, pressed: &[(usize, usize)], forces: &[f64]) {
+        let m = self.lists[0].nrows();
         for slot in 0..WIDTH {
             let force = pressed.iter().find(|(own, _)| *own == slot).map(|(_, column)| *column);
             if !self.live[slot] && force.is_none() {
                 continue;
             }
             let [filtered, now, before] = &mut self.lists;
+            let [filtered, now, before] =
+                [filtered, now, before].map(|list| column_mut(list.as_mut_slice(), m, slot));
             if std::mem::replace(&mut self.live[slot], true) {
-                filtered.column_mut(slot).copy_from(&self.known.column(slot));
+                filtered.copy_from_slice(column(&self.known, m, slot));
             }
-            before.column_mut(slot).copy_from(&now.column(slot));
+            before.copy_from_slice(now);
             match force {
-                Some(column) => {
-                    filtered.column_mut(slot).axpy(end, &forces.column(column), 1.0);
-                    now.column_mut(slot).copy_from(&forces.column(column));
+                Some(k) => {
+                    add(filtered, end, column(forces, m, k));
+                    now.copy_from_slice(column(forces, m, k));
                 }
-                None => now.column_mut(slot).fill(0.0),
+                None => now.fill(0.0),
             }
         }
     }
@@ -113,11 +162,10 @@ impl LagGradients {
     /// The mesh starts a new cycle: what was pair k is pair k + 1.
     pub(super) fn move_on(&mut self) {
         for list in &mut self.lists {
-            for slot in (1..WIDTH).rev() {
-                let (left, mut right) = list.columns_range_pair_mut(slot - 1, slot);
-                right.copy_from(&left);
-            }
-            list.column_mut(0).fill(0.0);
+            let m = list.nrows();
+            let own = list.as_mut_slice();
+            own.copy_within(0..(WIDTH - 1) * m, m);
+            own[..m].fill(0.0);
         }
         self.live.copy_within(0..WIDTH - 1, 1);
         self.live[0] = false;

@@ -42,6 +42,12 @@ impl VibratingSet<'_> {
         Ok(frame)
     }
 
+    /// The pattern of a step without backside flanks.
+    pub(super) fn shared_pattern(&self, k: usize) -> Result<Arc<FramePattern>, FeError> {
+        let turned = self.clock.position(k);
+        Arc::clone(&self.patterns).at(k, false, || self.pattern(k, false, turned))
+    }
+
     /// The pattern of a step.
     fn pattern(&self, k: usize, with_backside: bool, turned: f64) -> Result<FramePattern, FeError> {
         let position = self.clock.position(k);

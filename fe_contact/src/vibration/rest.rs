@@ -71,7 +71,7 @@ impl VibratingSet<'_> {
             self.contact.maps[mesh.table].find(table, delta, &mut mesh.held, solver)?;
         }
         self.pairs.forces = p;
-        self.frames.touched_backside = has_backside;
+        self.frames.touched_backside[self.clock.step_in_cycle] = has_backside;
         self.frames.put_back(self.clock.step_in_cycle, frame, has_backside);
         Ok(())
     }

@@ -29,6 +29,8 @@ use super::pair_forces::PairForces;
 use super::prepared::{Loading, Prepared};
 use super::race_dynamics::RaceDynamics;
 use super::rotation::NominalRotation;
+use super::symmetry::Symmetry;
+use super::tooth_shift::ToothShift;
 use super::workspace::Workspace;
 use crate::error::FeError;
 use crate::statics::{Bodies, Imperfections, Races, ReferenceConfiguration, StaticSet};
@@ -45,6 +47,10 @@ pub struct VibratingSet<'s> {
     pub(super) frames: Frames,
     pub(super) pairs: PairForces,
     pub(super) work: Workspace,
+    /// Shift of the bodies' modes by one tooth, by body; empty until it is needed.
+    pub(super) tooth_shifts: Vec<Option<ToothShift>>,
+    /// Symmetry after a part of the cycle; `None` until it is asked for.
+    pub(super) symmetry: Option<Option<Symmetry>>,
     /// External forces on the races' coordinates at the end of the step, n, N.
     pub external: DVector<f64>,
     /// Counts of operations so far.
@@ -140,6 +146,8 @@ impl<'s> VibratingSet<'s> {
             patterns,
             frames: Frames::new(count),
             work: Workspace::new(n),
+            tooth_shifts: Vec::new(),
+            symmetry: None,
             external: DVector::zeros(n),
             counts: Counts::default(),
             statics,

@@ -4,6 +4,7 @@ use dynamics::Motion;
 use nalgebra::{DMatrix, DVector};
 
 use super::frame::{Combination, Frame};
+use super::gradients::times;
 use super::packed::Packed;
 use super::rotation::NominalRotation;
 use super::set::VibratingSet;
@@ -40,7 +41,7 @@ impl VibratingSet<'_> {
             let frame = self.exact_contact()?;
             self.check(&frame)?;
             self.finish(&frame, turned);
-            self.frames.touched_backside = false;
+            self.frames.touched_backside[self.clock.step_in_cycle] = false;
             self.frames.put_back(self.clock.step_in_cycle, frame, false);
             self.counts.steps += 1;
             return Ok(());
@@ -60,7 +61,7 @@ impl VibratingSet<'_> {
         }
         self.check(&frame)?;
         self.finish(&frame, turned);
-        self.frames.touched_backside = with_backside;
+        self.frames.touched_backside[self.clock.step_in_cycle] = with_backside;
         self.frames.put_back(self.clock.step_in_cycle, frame, with_backside);
         self.counts.steps += 1;
         Ok(())
@@ -314,13 +315,22 @@ fn combine(
     let touches = |i: &usize| s.row(*i).iter().any(|k| *k != 0.0);
     let touching: Vec<usize> = (0..count).filter(touches).collect();
     // Only the touching pairs t are coupled: S W = (I + S_tt Y_tt)⁻¹ S_tt, W = I − Y_t (S W).
-    let own = s.select_rows(&touching).select_columns(&touching);
+    let size = touching.len();
+    let own = DMatrix::from_fn(size, size, |i, j| s[(touching[i], touching[j])]);
     let across = frame.receptance.select_columns(&touching);
-    let matrix =
-        DMatrix::identity(touching.len(), touching.len()) + &own * across.select_rows(&touching);
+    let mut matrix = DMatrix::identity(size, size);
+    // S couples the pairs of one mesh only.
+    for (k, column) in own.column_iter().enumerate() {
+        for (i, s) in column.iter().enumerate().filter(|(_, s)| **s != 0.0) {
+            for j in 0..size {
+                matrix[(i, j)] += s * across[(touching[k], j)];
+            }
+        }
+    }
     let singular = || FeError::NoEquilibrium("the step's contact problem is singular".into());
     let response = matrix.lu().solve(&own).ok_or_else(singular)?;
-    let shares = &across * &response;
+    let mut shares = DMatrix::zeros(count, size);
+    times(&mut shares, &across, &response);
     let mut slope = DMatrix::identity(count, count);
     for (j, pair) in touching.iter().enumerate() {
         slope.column_mut(*pair).axpy(-1.0, &shares.column(j), 1.0);

@@ -2,8 +2,8 @@
 //! quasi-static fidelity, with table look-up in place of contact.
 
 use dynamics::{
-    AverageAcceleration, Coupled, CoupledDerivative, CoupledState, Coupling, LinearPart,
-    MapDerivative, Motion,
+    AverageAcceleration, Coupled, CoupledState, Coupling, LinearPart, MapDerivative, Motion,
+    PassedSteps,
 };
 use gearset::{Facing, MeshLaw, Scene};
 use nalgebra::{DMatrix, DVector};
@@ -226,20 +226,15 @@ impl<'s> MeshLawSet<'s> {
         self.statics.displacements(&DVector::from_vec(self.system.displacements_of(y)))
     }
 
-    /// The derivative with respect to the coordinates, at the start of a cycle.
-    pub fn start_derivative(&self) -> CoupledDerivative {
-        self.system.start_derivative()
+    /// Adds the present state to those passed.
+    pub fn keep_step(&self, passed: &mut PassedSteps) {
+        self.system.keep_step(passed);
     }
 
-    /// Carries the derivative over the last step.
-    pub fn carry_derivative(&self, derivative: &mut CoupledDerivative) {
-        self.system.carry_derivative(derivative);
-    }
-
-    /// The derivative of the map from the start to now; frequencies of the motion are of the order of `rate`
-    /// (rad/s).
-    pub fn map_derivative(&self, derivative: &CoupledDerivative, rate: f64) -> MapDerivative {
-        self.system.map_derivative(derivative, rate)
+    /// The derivative of the last of the states passed with respect to the first, between which every step was
+    /// kept; frequencies of the motion are of the order of `rate` (rad/s). `None` without a state.
+    pub fn derivative_of(&self, passed: &PassedSteps, rate: f64) -> Option<MapDerivative> {
+        self.system.derivative_of(passed, rate)
     }
 
     /// Time since the start, s.
