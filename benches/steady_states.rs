@@ -217,6 +217,9 @@ fn prices(scene: &Scene) {
     }
 }
 
+/// A part of the bench, run on its own by its name.
+type Part = fn(&Scene);
+
 fn main() {
     let chosen: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
     // `cargo bench … -- --test` only tests that benches start.
@@ -225,8 +228,7 @@ fn main() {
     }
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/oh58_4p.toml");
     let scene = Scene::from_file(&path).expect("a scene of the repository");
-    let parts: [(&str, fn(&Scene)); 3] =
-        [("prices", prices), ("sweep", sweep), ("resonance", resonance)];
+    let parts: [(&str, Part); 3] = [("prices", prices), ("sweep", sweep), ("resonance", resonance)];
     for (name, part) in parts {
         if chosen.is_empty() || chosen.iter().any(|own| own == name) {
             part(&scene);

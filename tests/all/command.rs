@@ -180,7 +180,7 @@ fn a_branch_without_speeds_or_start_is_refused() {
     let text = std::fs::read_to_string(&plain).unwrap() + "[dynamics]\nfidelity = \"full\"\n";
     std::fs::write(&full, text).unwrap();
     let full = full.to_str().unwrap();
-    let pair = scene("oh58_sun_planet_pair.toml");
+    let [pair, ring] = ["oh58_sun_planet_pair.toml", "oh58_ring_planet_pair.toml"].map(scene);
     for (line, named) in [
         (format!("branches {plain}"), "--speeds-rpm"),
         (format!("branches {plain} --speeds-rpm 900"), "FROM:TO"),
@@ -208,7 +208,8 @@ fn a_branch_without_speeds_or_start_is_refused() {
             format!("branches {plain} --over damping --damping-factors 0.5:1 --damping-factor 2"),
             "--damping-factor",
         ),
-        (format!("branches {pair} --speeds-rpm 800:900"), "`kind`"),
+        (format!("branches {pair} --speeds-rpm 800:900"), "`operation`"),
+        (format!("branches {ring} --speeds-rpm 800:900"), "`mesh`"),
         (format!("branches {full} --speeds-rpm 800:900"), "dynamics.fidelity"),
     ] {
         let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
@@ -367,7 +368,8 @@ fn bad_tables_of_modes_name_line_and_column() {
 #[test]
 fn scenes_that_do_not_fit_a_verb_are_refused_with_the_key() {
     let cases = [
-        (vec!["modes", "oh58_sun_planet_pair.toml"], "kind"),
+        (vec!["modes", "oh58_sun_planet_pair.toml"], "[lumped]"),
+        (vec!["modes", "oh58_ring_planet_pair.toml"], "mesh"),
         (vec!["rules", "oh58_ring_planet_pair.toml"], "kind"),
         (vec!["rules", "lin_parker_1999_4p.toml"], "teeth"),
     ];
