@@ -1,16 +1,21 @@
 //! Branches of periodic motions over speed: folds, bifurcations, and what marching makes of them.
 
+mod amplitudes;
+mod crossings;
+
+use amplitudes::{off, rotation};
+use crossings::{at, speed};
 use dynamics::continuation::{
     ContinuationError, ContinuationOptions, End, Evaluation, Family, Scales, trace_both,
 };
 use experiments::ExperimentError;
 use experiments::branches::{
-    Branch, BranchEnd, BranchError, BranchParameter, BranchPoint, BranchPointKind, BranchSettings,
+    BranchEnd, BranchError, BranchParameter, BranchPoint, BranchPointKind, BranchSettings,
     PeriodicFamily, branch,
 };
 use experiments::sweep::{
-    Coordinate, Direction, FeModel, Memory, MeshLawModel, Part, Plan, SteadyMethod, SteadySettings,
-    SteadyState, SweepModel, even_speeds, run, steady,
+    Direction, FeModel, Memory, MeshLawModel, Plan, SteadyMethod, SteadySettings, SweepModel,
+    even_speeds, run, steady,
 };
 use fe_contact::statics::{Bodies, Imperfections};
 use gearset::{Fidelity, LoadCase, Scene};
@@ -28,36 +33,6 @@ fn scene(name: &str, damping: f64, steps: u32) -> Scene {
 fn law<'b>(scene: &Scene, bodies: &'b Bodies, torque_nm: f64) -> MeshLawModel<'b> {
     let case = LoadCase::of_scene(scene).unwrap().with_sun_torque(torque_nm);
     MeshLawModel::new(scene, bodies, case).unwrap()
-}
-
-/// Amplitudes of the sun's rotation, harmonics 1 to 5, rad.
-fn rotation(state: &SteadyState) -> [f64; 5] {
-    [1, 2, 3, 4, 5].map(|l| state.amplitude(Part::Sun, Coordinate::Rotation, l))
-}
-
-/// Largest difference of two motions relative to the larger amplitude of the first.
-fn off(a: &[f64; 5], b: &[f64; 5]) -> f64 {
-    let size = a.iter().fold(0.0f64, |s, x| s.max(*x));
-    a.iter().zip(b).fold(0.0f64, |s, (a, b)| s.max((a - b).abs())) / size
-}
-
-fn speed(p: &BranchPoint) -> f64 {
-    p.state.case.speed_rpm
-}
-
-/// The motions of a branch at one speed, with their stability, between neighbouring points.
-fn at(branch: &Branch, rpm: f64) -> Vec<([f64; 5], bool)> {
-    let crossing = |pair: &[BranchPoint]| {
-        let [a, b] = [speed(&pair[0]), speed(&pair[1])];
-        let share = (rpm - a) / (b - a);
-        (0.0..1.0).contains(&share).then(|| {
-            let [from, to] = [rotation(&pair[0].state), rotation(&pair[1].state)];
-            let mut between = from;
-            between.iter_mut().zip(to).for_each(|(f, t)| *f += share * (t - *f));
-            (between, pair[0].is_stable && pair[1].is_stable)
-        })
-    };
-    branch.points.windows(2).filter_map(crossing).collect()
 }
 
 /// OH-58 with three planets under a twenty-fourth of its torque and with a fifth of its damping: where teeth begin to part

@@ -1,5 +1,8 @@
 //! Branches over torque and damping, what they hold fixed, and branches that leave others.
 
+mod amplitudes;
+
+use amplitudes::{off, rotation};
 use dynamics::continuation::Family;
 use experiments::ExperimentError;
 use experiments::branches::{
@@ -7,8 +10,7 @@ use experiments::branches::{
     BranchSettings, PARAMETER_CHANGE, PeriodicFamily, branch, branches,
 };
 use experiments::sweep::{
-    Coordinate, MeshLawModel, Part, SteadyMethod, SteadySettings, SteadyState, SweepModel,
-    SweepPoint, steady,
+    MeshLawModel, SteadyMethod, SteadySettings, SweepModel, SweepPoint, steady,
 };
 use fe_contact::statics::Bodies;
 use gearset::{LoadCase, Scene};
@@ -29,17 +31,6 @@ fn scene(damping: f64) -> Scene {
 fn law<'b>(scene: &Scene, bodies: &'b Bodies, torque_nm: f64, rpm: f64) -> MeshLawModel<'b> {
     let case = LoadCase::of_scene(scene).unwrap().with_sun_torque(torque_nm).at_speed(rpm);
     MeshLawModel::new(scene, bodies, case).unwrap()
-}
-
-/// Harmonics 1 to 5 of the sun's rotation, rad.
-fn rotation(state: &SteadyState) -> [f64; 5] {
-    [1, 2, 3, 4, 5].map(|l| state.amplitude(Part::Sun, Coordinate::Rotation, l))
-}
-
-/// Largest difference of two motions relative to the largest amplitude of the first.
-fn off(a: &[f64; 5], b: &[f64; 5]) -> f64 {
-    let size = a.iter().fold(0.0f64, |s, x| s.max(*x));
-    a.iter().zip(b).fold(0.0f64, |s, (a, b)| s.max((a - b).abs())) / size
 }
 
 /// The motion that a march from rest arrives at.

@@ -1,12 +1,17 @@
 //! Gear pairs in time: the jump of a pair with backlash on lumped and finite-element models, by three tools that share
 //! no code but the time step: marching up and down, shooting with continuation, and Floquet multipliers.
 
+mod amplitudes;
+mod crossings;
+
 use std::f64::consts::TAU;
 
-use experiments::branches::{Branch, BranchEnd, BranchPoint, BranchSettings, branch};
+use amplitudes::{off, rotation};
+use crossings::{at, speed};
+use experiments::branches::{BranchEnd, BranchPoint, BranchSettings, branch};
 use experiments::sweep::{
     Coordinate, Direction, FeModel, Memory, MeshLawModel, Part, Plan, SteadyMethod, SteadySettings,
-    SteadyState, SweepModel, even_speeds, run, steady,
+    SweepModel, even_speeds, run, steady,
 };
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, pair_cycle};
@@ -57,35 +62,6 @@ fn lumped(scene: &Scene, epsilon: &[f64]) -> MeshLawModel<'static> {
 /// Speed (rpm) at a share of the natural frequency.
 fn at_share(share: f64) -> f64 {
     share * NATURAL_HZ * 60.0 / 50.0
-}
-
-/// Amplitudes of the sun's rotation, harmonics 1 to 5, rad.
-fn rotation(state: &SteadyState) -> [f64; 5] {
-    [1, 2, 3, 4, 5].map(|l| state.amplitude(Part::Sun, Coordinate::Rotation, l))
-}
-
-fn off(a: &[f64; 5], b: &[f64; 5]) -> f64 {
-    let size = a.iter().fold(0.0f64, |s, x| s.max(*x));
-    a.iter().zip(b).fold(0.0f64, |s, (a, b)| s.max((a - b).abs())) / size
-}
-
-fn speed(p: &BranchPoint) -> f64 {
-    p.state.case.speed_rpm
-}
-
-/// The motions of a branch at one speed, with their stability, between neighbouring points.
-fn at(branch: &Branch, rpm: f64) -> Vec<([f64; 5], bool)> {
-    let crossing = |pair: &[BranchPoint]| {
-        let [a, b] = [speed(&pair[0]), speed(&pair[1])];
-        let share = (rpm - a) / (b - a);
-        (0.0..1.0).contains(&share).then(|| {
-            let [from, to] = [rotation(&pair[0].state), rotation(&pair[1].state)];
-            let mut between = from;
-            between.iter_mut().zip(to).for_each(|(f, t)| *f += share * (t - *f));
-            (between, pair[0].is_stable && pair[1].is_stable)
-        })
-    };
-    branch.points.windows(2).filter_map(crossing).collect()
 }
 
 /// Traces the branch through the primary resonance and marches along it in both directions; checks that a softening
