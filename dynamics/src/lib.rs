@@ -24,8 +24,8 @@ mod subspace;
 mod symmetric;
 
 pub use coupled::{
-    Coupled, CoupledDerivative, CoupledError, CoupledState, Coupling, CouplingForce, LinearPart,
-    PassedSteps,
+    Coupled, CoupledDerivative, CoupledError, CoupledState, Coupling, CouplingForce, CyclePart,
+    LinearPart, PassedSteps, Renumbering,
 };
 pub use error::{EigenError, SpectrumError};
 pub use extrapolate::extrapolation_weights;

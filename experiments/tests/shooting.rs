@@ -7,8 +7,8 @@ use experiments::sweep::{
     SteadySettings, SweepModel, steady,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use fe_contact::vibration::{Along, Symmetry};
-use gearset::{Fidelity, LoadCase, Scene};
+use fe_contact::vibration::Along;
+use gearset::{Fidelity, LoadCase, Scene, Symmetry};
 
 fn scene(name: &str, fidelity: Fidelity, steps: u32) -> Scene {
     let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -306,75 +306,108 @@ impl CycleDerivative for Told<'_> {
     }
 }
 
-/// A part of the cycle with the planets renumbered gives what the whole cycle gives: two opposed pairs of planets
-/// after half a cycle, five planets after a fifth. Returns the multipliers of both.
-fn parts_and_wholes() -> Vec<(&'static str, Vec<Multiplier>, Vec<Multiplier>)> {
-    let mut largest = Vec::new();
-    for (name, parts, steps, torque) in [
-        ("oh58_4p", Some(2), 56, 1130.0),
-        ("five_planets", Some(5), 60, 800.0),
-        ("oh58_3p", None, 56, 500.0),
-    ] {
-        let scene = scene(name, Fidelity::QuasiStatic, steps);
-        let bodies = Bodies::new(&scene).unwrap();
-        let model = fe(&scene, &bodies, torque);
-        let find = |how: Option<bool>| {
-            let mut set = model.turning(&model.case().at_speed(1450.0), 0).unwrap();
-            set.rest().unwrap();
-            let mut set: Box<dyn Marching + '_> = match how {
-                Some(forgets_renumbering) => Box::new(Told { set, forgets_renumbering }),
-                None => set,
-            };
-            let own = set.derivative().unwrap().symmetry().unwrap();
-            let settings =
-                SteadySettings { tolerance: 1e-11, between_cycles: 0, ..SteadySettings::default() };
-            let (planets, first) = (model.planets(), model.first_planet_rad());
-            let found = steady(set.as_mut(), planets, first, steps as usize, &settings).unwrap();
-            assert_eq!(found.method, SteadyMethod::Shooting, "{name}: {:?}", found.why_marched);
-            (own, found)
-        };
-        let (symmetry, of_part) = find(None);
-        assert_eq!(symmetry.map(|own| own.parts), parts, "{name}");
-        let (none, whole) = find(Some(false));
-        assert!(none.is_none());
-        let off = of_part.record.change_from(&whole.record);
-        assert!(off < 1e-10, "{name}: {off:e}");
-        assert_eq!(of_part.record.len(), whole.record.len());
-        for mesh in 0..2 * model.planets() {
-            let (a, b) = (of_part.record.mesh_force(mesh), whole.record.mesh_force(mesh));
-            let largest = b.iter().fold(0.0f64, |a, f| a.max(*f));
-            let off = a.iter().zip(&b).fold(0.0f64, |off, (a, b)| off.max((a - b).abs()));
-            assert!(off < 1e-8 * largest, "{name}, mesh {mesh}: {off:e} of {largest:e}");
-        }
-        largest.push((name, of_part.multipliers, whole.multipliers));
-        if parts.is_some() {
-            let off = find(Some(true)).1.record.change_from(&whole.record);
-            assert!(off > 1e-3, "{name} without renumbering: {off:e}");
-        }
-    }
-    largest
+/// Multipliers by the part of a cycle and by the whole.
+struct Compared {
+    name: String,
+    of_part: Vec<Multiplier>,
+    of_whole: Vec<Multiplier>,
 }
 
-/// States to 1e-10 of the vibration; without renumbering the record is another one. Three planets in phase have no
-/// such part.
+/// The scenes with the parts of a cycle after which they are themselves: two opposed pairs of planets after half a
+/// cycle, five planets after a fifth; three planets in phase have no such part. Steps per cycle, torque on the sun (N m).
+const SYMMETRIC: [(&str, Option<usize>, u32, f64); 3] = [
+    ("oh58_4p", Some(2), 56, 1130.0),
+    ("five_planets", Some(5), 60, 800.0),
+    ("oh58_3p", None, 56, 500.0),
+];
+
+/// The set without a symmetry, and if told so with one that forgets to renumber the planets.
+fn found(
+    model: &dyn SweepModel,
+    how: Option<bool>,
+) -> (Option<Symmetry>, experiments::sweep::Steady) {
+    let mut set = model.turning(&model.case().at_speed(1450.0), 0).unwrap();
+    set.rest().unwrap();
+    let mut set: Box<dyn Marching + '_> = match how {
+        Some(forgets_renumbering) => Box::new(Told { set, forgets_renumbering }),
+        None => set,
+    };
+    let own = set.derivative().unwrap().symmetry().unwrap();
+    let settings =
+        SteadySettings { tolerance: 1e-11, between_cycles: 0, ..SteadySettings::default() };
+    let (planets, first) = (model.planets(), model.first_planet_rad());
+    let found = steady(set.as_mut(), planets, first, model.steps_per_cycle(), &settings).unwrap();
+    assert_eq!(found.method, SteadyMethod::Shooting, "{}: {:?}", model.name(), found.why_marched);
+    (own, found)
+}
+
+/// A part of the cycle with the planets renumbered gives what the whole cycle gives: states to 1e-10 of the vibration.
+/// Without renumbering the record is another one.
+fn part_and_whole(name: &str, model: &dyn SweepModel, parts: Option<usize>) -> Compared {
+    let name = format!("{name}, {}", model.name());
+    let (symmetry, of_part) = found(model, None);
+    assert_eq!(symmetry.map(|own| own.parts), parts, "{name}");
+    let (none, whole) = found(model, Some(false));
+    assert!(none.is_none());
+    let off = of_part.record.change_from(&whole.record);
+    assert!(off < 1e-10, "{name}: {off:e}");
+    assert_eq!(of_part.record.len(), whole.record.len());
+    for mesh in 0..2 * model.planets() {
+        let (a, b) = (of_part.record.mesh_force(mesh), whole.record.mesh_force(mesh));
+        let largest = b.iter().fold(0.0f64, |a, f| a.max(*f));
+        let off = a.iter().zip(&b).fold(0.0f64, |off, (a, b)| off.max((a - b).abs()));
+        assert!(off < 1e-8 * largest, "{name}, mesh {mesh}: {off:e} of {largest:e}");
+    }
+    if parts.is_some() {
+        let off = found(model, Some(true)).1.record.change_from(&whole.record);
+        assert!(off > 1e-3, "{name} without renumbering: {off:e}");
+    }
+    Compared { name, of_part: of_part.multipliers, of_whole: whole.multipliers }
+}
+
+fn with_quasi_static_bodies() -> Vec<Compared> {
+    let each = SYMMETRIC.iter().map(|(name, parts, steps, torque)| {
+        let scene = scene(name, Fidelity::QuasiStatic, *steps);
+        let bodies = Bodies::new(&scene).unwrap();
+        part_and_whole(name, &fe(&scene, &bodies, *torque), *parts)
+    });
+    each.collect()
+}
+
 #[test]
 fn parts_of_a_cycle_are_the_whole_of_symmetric_sets() {
-    for (name, parts_multipliers, whole) in parts_and_wholes() {
-        let [a, b] = [parts_multipliers[0], whole[0]];
+    for Compared { name, of_part, of_whole } in with_quasi_static_bodies() {
+        let [a, b] = [of_part[0], of_whole[0]];
         assert!(apart(a, b) < 1e-8, "{name}: {a:?} {b:?}");
     }
 }
 
 /// All multipliers to 1e-8.
+fn all_agree(Compared { name, of_part, of_whole }: &Compared) {
+    assert!(of_whole.len() >= 20, "{name}");
+    for (a, b) in of_part.iter().zip(of_whole).take(24) {
+        assert!(apart(*a, *b) < 1e-8, "{name}: {a:?} {b:?}");
+    }
+}
+
+/// Where meshes follow a law, and of the lumped model: states to 1e-10, all multipliers to 1e-8.
+#[test]
+fn parts_of_a_cycle_are_the_whole_where_meshes_follow_a_law() {
+    for (name, parts, steps, torque) in SYMMETRIC {
+        let scene = scene(name, Fidelity::MeshLaw, steps);
+        let bodies = Bodies::new(&scene).unwrap();
+        let case = LoadCase::of_scene(&scene).unwrap().with_sun_torque(torque);
+        let law = MeshLawModel::new(&scene, &bodies, case).unwrap();
+        for model in [&law as &dyn SweepModel, &law.lumped()] {
+            all_agree(&part_and_whole(name, model, parts));
+        }
+    }
+}
+
 #[test]
 #[ignore = "open: multipliers of size below 0.1 differ by 1e-7"]
 fn multipliers_of_parts_are_those_of_the_whole() {
-    for (name, of_part, whole) in parts_and_wholes() {
-        assert!(whole.len() >= 20);
-        for (a, b) in of_part.iter().zip(&whole).take(24) {
-            assert!(apart(*a, *b) < 1e-8, "{name}: {a:?} {b:?}");
-        }
-    }
+    with_quasi_static_bodies().iter().for_each(all_agree);
 }
 
 /// A kept harmonic of a shot sweep point is that of a marched one.

@@ -312,6 +312,16 @@ impl MeshLaw {
         self.curve(flank, step_in_cycle).map_or((0.0, 0.0), |curve| curve.force(deflection))
     }
 
+    /// Whether two flanks, numbered as in [`curve`](Self::curve), each at a step, share a curve: they do where the
+    /// phases of equal meshes are equal.
+    pub fn is_same(&self, first: (usize, usize), second: (usize, usize)) -> bool {
+        let place = |(flank, step): (usize, usize)| match flank.checked_sub(self.meshes) {
+            None => self.front.get(step * self.meshes + flank),
+            Some(mesh) => self.backside.get(step * self.meshes + mesh),
+        };
+        place(first).is_some() && place(first) == place(second)
+    }
+
     /// Deflection up to which a flank, numbered as in [`curve`](Self::curve), touches at no step, m.
     pub fn silent_up_to_m(&self, flank: usize) -> f64 {
         let (mesh, side) = match flank.checked_sub(self.meshes) {

@@ -14,10 +14,10 @@
 use nalgebra::DMatrix;
 
 use dynamics::{
-    AverageAcceleration, Coupled, CoupledState, Coupling, CouplingForce, LinearPart, MapDerivative,
-    Motion, PassedSteps,
+    AverageAcceleration, Coupled, CoupledState, Coupling, CouplingForce, CyclePart, LinearPart,
+    MapDerivative, Motion, PassedSteps, Renumbering,
 };
-use gearset::{Facing, MeshLaw, Scene};
+use gearset::{Facing, MeshLaw, Scene, Symmetry};
 
 use crate::coordinates::{Axis, Body, Coordinates};
 use crate::error::LumpedError;
@@ -38,6 +38,10 @@ impl CouplingForce for MeshLawCouplings {
     fn silent_up_to(&self, coupling: usize) -> f64 {
         self.0.silent_up_to_m(coupling)
     }
+
+    fn is_same(&self, first: (usize, usize), second: (usize, usize)) -> bool {
+        self.0.is_same(first, second)
+    }
 }
 
 /// A lumped set in time, its mesh forces given by a mesh law.
@@ -52,6 +56,8 @@ pub struct TimeVarying {
     relative: Option<RelativeRotation>,
     sign: f64,
     planets: usize,
+    /// Angles of the planets, of a set mirrored to counter-clockwise torque on the sun, rad.
+    psi_rad: Vec<f64>,
 }
 
 /// What a set consists of, in the coordinates of counter-clockwise torque on the sun.
@@ -73,6 +79,8 @@ pub(crate) struct Parts {
     pub(crate) relative: Option<RelativeRotation>,
     sign: f64,
     planets: usize,
+    /// Angles of the planets, rad.
+    psi_rad: Vec<f64>,
 }
 
 impl Parts {
@@ -152,7 +160,7 @@ impl Parts {
             side_loads.iter_mut().for_each(|load| *load = relative.reduced(load));
             by_torque = relative.reduced(&by_torque);
         }
-        let coordinates = model.coordinates;
+        let (coordinates, psi_rad) = (model.coordinates, model.psi);
         Ok(Self {
             coordinates,
             linear,
@@ -164,6 +172,7 @@ impl Parts {
             relative,
             sign,
             planets,
+            psi_rad,
         })
     }
 }
@@ -199,13 +208,14 @@ impl TimeVarying {
             relative,
             sign,
             planets,
+            psi_rad,
         } = parts;
         let mut system =
             Coupled::new(&linear, &front, &backside, MeshLawCouplings(law), rule, steps)?;
         for (step, load) in side_loads.iter().enumerate() {
             system.add_in_cycle(step, load)?;
         }
-        Ok(Self { coordinates, system, radii, by_torque, relative, sign, planets })
+        Ok(Self { coordinates, system, radii, by_torque, relative, sign, planets, psi_rad })
     }
 
     /// Puts the set to rest under a torque on the sun (N m, magnitude) at its current step.
@@ -329,6 +339,32 @@ impl TimeVarying {
     /// If they are too few or too many, or not finite.
     pub fn set_coordinates(&mut self, y: &[f64]) -> Result<(), LumpedError> {
         Ok(self.system.set_coordinates(y)?)
+    }
+
+    /// The symmetry after a part of the mesh cycle that the set has, with the most parts.
+    pub fn symmetry(&self) -> Option<(Symmetry, CyclePart)> {
+        let couplings = self.system.forces().len();
+        let place = |body: usize, axis: usize| {
+            let body = Body::all(self.planets).nth(body)?;
+            self.coordinates.of(body, *Axis::ALL.get(axis)?)
+        };
+        // The planets' angles are those of the set mirrored to counter-clockwise torque.
+        Symmetry::candidates(&self.psi_rad, self.system.law().0.steps()).into_iter().find_map(
+            |own| {
+                let renumbering = Renumbering {
+                    parts: own.parts,
+                    coordinates: own.renumbering(self.planets, place)?,
+                    couplings: (0..couplings).map(|k| own.later(k, self.planets)).collect(),
+                };
+                let part = self.system.part_of_cycle(&renumbering)?;
+                Some((Symmetry { angle_rad: self.sign * own.angle_rad, ..own }, part))
+            },
+        )
+    }
+
+    /// Ends such a part that began at step 0: the set stands at step 0 again, its planets renumbered.
+    pub fn take_part_back(&mut self, part: &CyclePart) {
+        self.system.take_part_back(part);
     }
 
     /// Adds the present state to those passed.

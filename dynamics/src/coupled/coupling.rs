@@ -11,6 +11,12 @@ pub trait CouplingForce {
         let _ = coupling;
         f64::NEG_INFINITY
     }
+
+    /// Whether two couplings, each at a step of the cycle, have the same force over deflection. A law that cannot
+    /// tell says so of a coupling and itself only.
+    fn is_same(&self, first: (usize, usize), second: (usize, usize)) -> bool {
+        first == second
+    }
 }
 
 /// One coupling: δ = rᵀx − o.

@@ -7,25 +7,20 @@
 //!
 //! with D the tangents of the couplings that act in the step, at the displacements found for its end.
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::{DMatrix, DVector};
 
 use super::condensed::Condensed;
 use super::coupling::CouplingForce;
 use super::error::CoupledError;
+use super::gradients::{Gradients, StepGradient};
 use super::system::Coupled;
 use crate::newmark::Motion;
 use crate::periodic::MapDerivative;
 
-/// Gradients of displacements, velocities and accelerations of the modes: one column for each mode, one row for
-/// each of the 2n coordinates (displacements, velocities) at the start.
+/// Gradients of displacements, velocities and accelerations of the modes with respect to the 2n coordinates
+/// (displacements, velocities) at the start of a period.
 #[derive(Debug, Clone)]
-pub struct CoupledDerivative {
-    x: DMatrix<f64>,
-    v: DMatrix<f64>,
-    a: DMatrix<f64>,
-}
+pub struct CoupledDerivative(Gradients);
 
 /// States that a system passed through, from which the derivative between the first and the last follows.
 #[derive(Debug, Clone, Default)]
@@ -37,6 +32,11 @@ pub struct PassedSteps {
 }
 
 impl PassedSteps {
+    /// Whether the last state is at another step of the cycle than the first: only a part of a cycle was passed.
+    pub fn ends_within_cycle(&self) -> bool {
+        self.steps.first().map(|(step, _)| step) != self.steps.last().map(|(step, _)| step)
+    }
+
     /// Forgets all states.
     pub fn clear(&mut self) {
         self.states.clear();
@@ -140,7 +140,7 @@ impl<L: CouplingForce> Coupled<L> {
                 }
             }
         }
-        CoupledDerivative { x, v, a }
+        CoupledDerivative(Gradients::new([&x, &v, &a]))
     }
 
     /// Carries the derivative over the last step.
@@ -149,77 +149,19 @@ impl<L: CouplingForce> Coupled<L> {
     }
 
     fn carry_to(&self, d: &mut CoupledDerivative, at: Passed<'_>) {
-        let n = self.modes.count;
-        let m = 2 * n;
         let group = if at.is_rare { self.all() } else { &self.usual };
-        let (inertia, rate) = (self.rule.inertia(), self.rule.damping());
-        let (mut acceleration, mut velocity) = (d.x.clone(), d.x.clone());
-        let own = d.x.iter().zip(d.v.iter()).zip(d.a.iter());
-        for (((x, v), a), (a1, v1)) in own.zip(acceleration.iter_mut().zip(velocity.iter_mut())) {
-            (*a1, *v1) = (inertia * x + 2.0 * rate * v + a, rate * x + v);
-        }
-        let mut next = self.damped(&velocity);
-        next += &acceleration;
-        match &self.modes.own_damping {
-            Some(_) => {
-                for (j, inverse) in self.modes.own_inverse.iter().enumerate().take(n) {
-                    next.column_mut(j).scale_mut(*inverse);
-                }
-            }
-            // (A⁻¹ g)ᵀ = gᵀ A⁻ᵀ
-            None => next *= DMatrix::from_fn(n, n, |i, j| self.modes.inverse[(j, i)]),
-        }
         let tangents = self.tangents(group, at);
-        if tangents.iter().any(|tangent| *tangent != 0.0) {
-            let (count, width) = (group.count, group.width);
-            let gain = |k: usize| 1.0 + group.lags[k] * rate;
-            // R by columns: width×n.
-            let rows = MatRef::from_column_major_slice(&group.rows[..width * n], width, n);
-            let mut z = DMatrix::zeros(m, width);
-            multiply(&mut z, Accum::Replace, &next, rows.transpose(), 1.0);
-            if group.has_lag {
-                let mut rates = DMatrix::zeros(m, width);
-                multiply(&mut rates, Accum::Replace, &velocity, rows.transpose(), 1.0);
-                for k in 0..count {
-                    let lag = group.lags[k];
-                    z.column_mut(k).axpy(-lag, &rates.column(k), gain(k));
-                }
-            }
-            // (I + g Y D) z', all couplings; those without tangent have columns of the unit matrix.
-            let matrix = DMatrix::from_fn(count, count, |k, l| {
-                let own = gain(k) * group.receptance[l * width + k] * tangents[l];
-                own + f64::from(u8::from(k == l))
-            });
-            // The matrix is as well-conditioned as that of the step, which was solved; what is no number is
-            // reported with the multipliers.
-            let nan = || DMatrix::from_element(count, count, f64::NAN);
-            let mut inverse = matrix.try_inverse().unwrap_or_else(nan);
-            for (mut row, tangent) in inverse.row_iter_mut().zip(&tangents) {
-                row *= *tangent;
-            }
-            let mut forces = DMatrix::zeros(m, count);
-            let z = z.columns(0, count).into_owned();
-            let inverse = MatRef::from_column_major_slice(inverse.as_slice(), count, count);
-            multiply(&mut forces, Accum::Replace, &z, inverse.transpose(), 1.0);
-            let padded = self.steady.len();
-            let answers = &group.answers[..padded * count];
-            let answers = MatRef::from_column_major_slice(answers, padded, count).subrows(0, n);
-            multiply(&mut next, Accum::Add, &forces, answers.transpose(), -1.0);
-        }
-        let own = d.x.iter_mut().zip(d.v.iter_mut()).zip(d.a.iter_mut());
-        let ends = next.iter().zip(acceleration.iter()).zip(velocity.iter());
-        for (((x, v), a), ((x1, a1), v1)) in own.zip(ends) {
-            (*x, *v, *a) = (*x1, rate * x1 - v1, inertia * x1 - a1);
-        }
+        let step =
+            StepGradient { modes: &self.modes, rule: &self.rule, group, tangents: &tangents };
+        d.0.carry(&step);
     }
 
     /// The derivative of the map from the start to now; frequencies are of the order of `rate` (rad/s).
     pub fn map_derivative(&self, d: &CoupledDerivative, rate: f64) -> MapDerivative {
         let n = self.modes.count;
-        let of = |i: usize, j: usize| if i < n { d.x[(j, i)] } else { d.v[(j, i - n)] };
         MapDerivative {
             active: (0..2 * n).collect(),
-            columns: DMatrix::from_fn(2 * n, 2 * n, of),
+            columns: d.0.end_by_start(),
             scales: (0..2 * n).map(|i| if i < n { 1.0 } else { rate }).collect(),
         }
     }
@@ -249,14 +191,6 @@ impl<L: CouplingForce> Coupled<L> {
         }
         reach.iter().enumerate().map(|(k, z)| self.law.answer(k, at.step, *z).1).collect()
     }
-}
-
-/// out = or += factor A B.
-fn multiply(out: &mut DMatrix<f64>, how: Accum, a: &DMatrix<f64>, b: MatRef<'_, f64>, factor: f64) {
-    let ((rows, inner), columns) = (a.shape(), out.ncols());
-    let a = MatRef::from_column_major_slice(a.as_slice(), rows, inner);
-    let out = MatMut::from_column_major_slice_mut(out.as_mut_slice(), rows, columns);
-    matmul(out, how, a, b, factor, Par::Seq);
 }
 
 impl Condensed {

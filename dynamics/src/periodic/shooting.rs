@@ -1,8 +1,9 @@
 //! Newton's method for a fixed point of a map of one period.
 //!
 //! The map is affine as long as the contact pattern is the same, so that one derivative serves several
-//! corrections; it is renewed, from the period just marched, where they do not contract. After a correction that does not help, the motion is
-//! marched on from where it was for some periods: near a stable solution marching brings the pattern closer.
+//! corrections; it is renewed, from the period just marched, where they do not contract. A correction that makes
+//! the error larger is taken in part; where no part helps, the motion is marched on
+//! from where it was for some periods: near a stable solution marching brings the pattern closer.
 
 use super::derivative::{Correction, MapDerivative};
 use super::map::PeriodMap;
@@ -14,7 +15,13 @@ const KEPT: f64 = 0.1;
 /// A correction is taken back if the error afterwards exceeds the error before by this factor.
 const WORSE: f64 = 1.5;
 
-/// Corrections taken back, after each of which twice as many periods are marched, until shooting is given up.
+/// A correction that was taken back is divided by this; the next one after it may be longer by this factor.
+const LONGER: f64 = 4.0;
+
+/// Least part of a correction that is taken before it is given up.
+const LEAST: f64 = 1.0 / 64.0;
+
+/// Corrections given up, after each of which twice as many periods are marched, until shooting is given up.
 const PATIENCE: usize = 4;
 
 /// The error to the periodic solution that is asked for, beside the tolerance on the change from period to
@@ -81,23 +88,17 @@ pub fn shoot<M: PeriodMap + ?Sized>(
     let mut correction: Option<Correction> = None;
     let mut errors: Vec<f64> = Vec::new();
     let (mut derivatives, mut failures) = (0, 0);
-    let mut last = Last { error: f64::INFINITY, before: None };
+    let mut last: Option<Taken> = None;
     let (mut is_closing, mut march_on) = (false, settings.settling);
     while errors.len() < settings.most_periods {
         let start = map.coordinates();
         if let Err(cause) = map.advance() {
             // A correction led to where no step can be taken.
-            let Some(before) = last.before.take() else {
-                return Err(ShootingError::Map(cause));
-            };
-            failures += 1;
             errors.push(f64::INFINITY);
-            if failures > PATIENCE {
-                return Err(ShootingError::Map(cause));
-            }
-            map.set_coordinates(&before).map_err(ShootingError::Map)?;
-            (march_on, correction, is_closing) = (1 << failures, None, false);
-            last.error = f64::INFINITY;
+            let Some(taken) = last.take() else { return Err(ShootingError::Map(cause)) };
+            last = retry(map, taken, &mut failures, &mut march_on)
+                .map_err(|other| ShootingError::Map(other.unwrap_or(cause)))?;
+            (correction, is_closing) = (None, false);
             continue;
         }
         if march_on > 0 {
@@ -107,7 +108,7 @@ pub fn shoot<M: PeriodMap + ?Sized>(
         }
         let end = map.coordinates();
         let residual: Vec<f64> = end.iter().zip(&start).map(|(e, s)| e - s).collect();
-        let mut step = correction.as_ref().map(|own| Step::new(map, own, &residual));
+        let step = correction.as_ref().map(|own| Step::new(map, own, &residual));
         if is_closing && map.change() <= settings.tolerance {
             derivatives += 1;
             return Ok(PeriodicSolution {
@@ -119,47 +120,84 @@ pub fn shoot<M: PeriodMap + ?Sized>(
             });
         }
         // NaN is not contracted.
+        let before = last.as_ref().map_or(f64::INFINITY, |taken| taken.error_by(map));
+        let is_whole = last.as_ref().is_none_or(|taken| taken.fraction == 1.0);
         let contracts = |step: &Step| {
-            step.error <= KEPT * last.error || step.error <= CLOSE * settings.tolerance
+            (is_whole && step.error <= KEPT * before) || step.error <= CLOSE * settings.tolerance
         };
-        if !step.as_ref().is_some_and(contracts) {
-            derivatives += 1;
-            let own = map.derivative().map_err(ShootingError::Map)?.correction()?;
-            step = Some(Step::new(map, &own, &residual));
-            correction = Some(own);
-        }
-        let Some(Step { change, error }) = step else { continue };
-        errors.push(error);
-        if error <= CLOSE * settings.tolerance {
-            // One more period shows the change from period to period and the derivative there.
-            is_closing = true;
-            last = Last { error, before: None };
-            continue;
-        }
-        is_closing = false;
-        let is_worse = error.is_nan() || error > WORSE * last.error;
-        if let Some(before) = last.before.take().filter(|_| is_worse) {
-            failures += 1;
-            if failures > PATIENCE {
-                return Err(ShootingError::Stalled { periods: errors.len(), error });
+        let step = match step.filter(contracts) {
+            Some(step) => step,
+            None => {
+                derivatives += 1;
+                let own = map.derivative().map_err(ShootingError::Map)?.correction()?;
+                let step = Step::new(map, &own, &residual);
+                correction = Some(own);
+                step
             }
-            map.set_coordinates(&before).map_err(ShootingError::Map)?;
-            (march_on, correction) = (1 << failures, None);
-            last.error = f64::INFINITY;
+        };
+        errors.push(step.error);
+        is_closing = step.error <= CLOSE * settings.tolerance;
+        if is_closing {
+            // One more period shows the change from period to period and the derivative there.
+            last = None;
             continue;
         }
-        let next: Vec<f64> = start.iter().zip(&change).map(|(s, c)| s + c).collect();
-        last = Last { error, before: Some(end) };
-        map.set_coordinates(&next).map_err(ShootingError::Map)?;
+        let is_worse = step.error.is_nan() || step.error > WORSE * before;
+        let fraction = match last.take() {
+            Some(taken) if is_worse => {
+                let error = step.error;
+                last = retry(map, taken, &mut failures, &mut march_on).map_err(
+                    |cause| match cause {
+                        Some(cause) => ShootingError::Map(cause),
+                        None => ShootingError::Stalled { periods: errors.len(), error },
+                    },
+                )?;
+                correction = None;
+                continue;
+            }
+            Some(taken) => (LONGER * taken.fraction).min(1.0),
+            None => 1.0,
+        };
+        let Step { change, left, .. } = step;
+        let taken = Taken { start, end, change, left, fraction };
+        map.set_coordinates(&taken.next()).map_err(ShootingError::Map)?;
+        last = Some(taken);
     }
     let (periods, error) = (errors.len(), errors.last().copied().unwrap_or(f64::NAN));
     Err(ShootingError::Stalled { periods, error })
+}
+
+/// After a correction that did not help: a smaller part of it, if that is not too small; otherwise the state before
+/// it, from which some periods are marched.
+///
+/// # Errors
+/// If the map refuses the coordinates; `None` if patience is at its end.
+fn retry<M: PeriodMap + ?Sized>(
+    map: &mut M,
+    taken: Taken,
+    failures: &mut usize,
+    march_on: &mut usize,
+) -> Result<Option<Taken>, Option<M::Error>> {
+    let shorter = Taken { fraction: taken.fraction / LONGER, ..taken };
+    if shorter.fraction >= LEAST {
+        map.set_coordinates(&shorter.next()).map_err(Some)?;
+        return Ok(Some(shorter));
+    }
+    *failures += 1;
+    if *failures > PATIENCE {
+        return Err(None);
+    }
+    map.set_coordinates(&shorter.end).map_err(Some)?;
+    *march_on = 1 << *failures;
+    Ok(None)
 }
 
 /// A correction from the start of a period.
 struct Step {
     /// y* − y(0).
     change: Vec<f64>,
+    /// y* − y(T).
+    left: Vec<f64>,
     /// Size of y* − y(T), relative to the peak-to-peak vibration.
     error: f64,
 }
@@ -168,14 +206,31 @@ impl Step {
     fn new<M: PeriodMap + ?Sized>(map: &M, own: &Correction, residual: &[f64]) -> Self {
         let change = own.of(residual);
         let left: Vec<f64> = change.iter().zip(residual).map(|(c, r)| c - r).collect();
-        Self { error: map.relative(&left), change }
+        Self { error: map.relative(&left), change, left }
     }
 }
 
-/// The last correction.
-struct Last {
-    /// Error before it.
-    error: f64,
-    /// Coordinates at the end of the period before it, if they were replaced.
-    before: Option<Vec<f64>>,
+/// A correction, or a part of it, that was taken.
+struct Taken {
+    /// Start and end of the period from which it was made.
+    start: Vec<f64>,
+    end: Vec<f64>,
+    /// The whole correction y* − y(0).
+    change: Vec<f64>,
+    /// y* − y(T).
+    left: Vec<f64>,
+    /// The part of it that was taken.
+    fraction: f64,
+}
+
+impl Taken {
+    /// Coordinates after it.
+    fn next(&self) -> Vec<f64> {
+        self.start.iter().zip(&self.change).map(|(s, c)| s + self.fraction * c).collect()
+    }
+
+    /// The error before it, relative to the vibration over the period marched since.
+    fn error_by<M: PeriodMap + ?Sized>(&self, map: &M) -> f64 {
+        map.relative(&self.left)
+    }
 }

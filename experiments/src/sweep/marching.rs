@@ -2,7 +2,8 @@
 
 use dynamics::MapDerivative;
 use fe_contact::statics::SUN;
-use fe_contact::vibration::{Along, Symmetry, VibratingSet};
+use fe_contact::vibration::{Along, VibratingSet};
+use gearset::Symmetry;
 
 use super::shooting::CycleDerivative;
 use crate::error::ExperimentError;

@@ -1,10 +1,10 @@
 //! Models whose meshes follow a tabulated law: the FE/contact fidelity `mesh_law`, and the lumped model in
 //! time.
 
-use dynamics::{CoupledState, MapDerivative, PassedSteps};
+use dynamics::{CoupledState, CyclePart, MapDerivative, PassedSteps};
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use fe_contact::vibration::{Along, MeshLawSet, MeshLawSettings, mesh_law};
-use gearset::{Fidelity, LoadCase, MeshLaw, Scene};
+use gearset::{Fidelity, LoadCase, MeshLaw, Scene, Symmetry};
 use lumped::TimeVarying;
 
 use super::marching::{Effort, Marching};
@@ -100,11 +100,12 @@ impl SweepModel for MeshLawModel<'_> {
                 has_backside,
                 rate,
                 passed: PassedSteps::default(),
+                part: None,
             }));
         };
         let set = MeshLawSet::on(&scene, loaded, mesh_frequency, law)?;
         let passed = PassedSteps::default();
-        Ok(Box::new(LawMarching { set, torque, has_backside, rate, passed }))
+        Ok(Box::new(LawMarching { set, torque, has_backside, rate, passed, part: None }))
     }
 }
 
@@ -145,8 +146,10 @@ struct LawMarching<'s> {
     has_backside: bool,
     /// Frequency to which velocities are related, rad/s.
     rate: f64,
-    /// States of the cycle marched last.
+    /// States of the cycle marched last, or of the part of it after which the set is itself.
     passed: PassedSteps,
+    /// Symmetry after a part of the cycle; `None` until it is asked for.
+    part: Option<Option<(Symmetry, CyclePart)>>,
 }
 
 /// The same for the lumped set.
@@ -155,8 +158,8 @@ struct LumpedMarching {
     torque: f64,
     has_backside: bool,
     rate: f64,
-    /// States of the cycle marched last.
     passed: PassedSteps,
+    part: Option<Option<(Symmetry, CyclePart)>>,
 }
 
 macro_rules! marching {
@@ -220,6 +223,11 @@ macro_rules! marching {
                 Ok(self.set.set_coordinates(y)?)
             }
 
+            fn symmetry(&mut self) -> Result<Option<Symmetry>, ExperimentError> {
+                let part = self.part.get_or_insert_with(|| self.set.symmetry());
+                Ok(part.as_ref().map(|(own, _)| *own))
+            }
+
             fn start(&mut self) {
                 self.passed.clear();
                 self.set.keep_step(&mut self.passed);
@@ -230,13 +238,22 @@ macro_rules! marching {
             }
 
             fn end(&mut self) -> Result<(), ExperimentError> {
+                if let Some((_, part)) = self.part.iter().flatten().next() {
+                    if self.set.state().step_in_cycle > 0 {
+                        self.set.take_part_back(part);
+                    }
+                }
                 Ok(())
             }
 
             /// Displacements and velocities are all coordinates.
             fn of_cycle(&mut self, _: Along) -> Result<MapDerivative, ExperimentError> {
                 let found = self.set.derivative_of(&self.passed, self.rate);
-                found.ok_or(ExperimentError::Incomplete("cycle to differentiate"))
+                let found = found.ok_or(ExperimentError::Incomplete("cycle to differentiate"))?;
+                Ok(match self.part.iter().flatten().next() {
+                    Some((_, part)) if self.passed.ends_within_cycle() => part.renumbered(found),
+                    _ => found,
+                })
             }
         }
     };

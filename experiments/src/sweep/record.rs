@@ -1,7 +1,7 @@
 //! Whole mesh cycles of all displacements and mesh forces, sampled at every step.
 
 use dynamics::{Window, spectrum};
-use fe_contact::vibration::Symmetry;
+use gearset::Symmetry;
 
 use super::marching::Marching;
 use super::set_shape::SetShape;

@@ -4,7 +4,8 @@ use dynamics::{
     MapDerivative, Multiplier, PeriodMap, ShootingError, ShootingSettings, multipliers, shoot,
 };
 
-use fe_contact::vibration::{Along, Symmetry};
+use fe_contact::vibration::Along;
+use gearset::Symmetry;
 
 use super::marching::Marching;
 use super::record::Record;

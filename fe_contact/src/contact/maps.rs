@@ -11,7 +11,7 @@
 
 use std::sync::{Arc, PoisonError, RwLock};
 
-use nalgebra::{Cholesky, DMatrix};
+use nalgebra::{Cholesky, DMatrix, Dyn};
 
 use super::table::{CellSettings, MeshTable};
 use crate::complementarity::{ComplementaritySolver, Problem};
@@ -159,20 +159,26 @@ impl ContactMap {
         table: &MeshTable,
         owner: &[usize],
         active: Vec<bool>,
+        factor: Option<Cholesky<f64, Dyn>>,
         scale: (f64, f64),
     ) -> Option<Self> {
         let k = table.pairs.len();
         let n = table.gaps.len();
         let set: Vec<usize> = (0..n).filter(|i| active[*i]).collect();
-        let block =
-            DMatrix::from_fn(set.len(), set.len(), |i, j| table.compliance[(set[i], set[j])]);
         // Columns: −g_A, then E_A.
         let mut right = DMatrix::from_fn(set.len(), k + 1, |i, c| match c {
             0 => -table.gaps[set[i]],
             c => f64::from(u8::from(owner[set[i]] == c - 1)),
         });
         if !set.is_empty() {
-            Cholesky::new(block)?.solve_mut(&mut right);
+            let block = || {
+                DMatrix::from_fn(set.len(), set.len(), |i, j| table.compliance[(set[i], set[j])])
+            };
+            let factor = match factor {
+                Some(known) => known,
+                None => Cholesky::new(block())?,
+            };
+            factor.solve_mut(&mut right);
         }
         let mut cells = vec![0.0; n * (k + 1)];
         for i in 0..n {
@@ -328,24 +334,28 @@ impl ContactMaps {
         }
         let owner = table.pair_of_cells();
         let gaps: Vec<f64> = table.gaps.iter().zip(&owner).map(|(g, k)| g - delta[*k]).collect();
+        let mut factor = None;
         let active = if gaps.iter().all(|g| *g >= 0.0) {
             vec![false; gaps.len()]
         } else {
             let problem = Problem { compliance: &table.compliance, gaps: &gaps };
             let before = self.held(held);
             let warm = before.map(|m| m.active.as_slice());
-            let solution = solver
-                .solve(&problem, warm)
+            let (solution, of_active) = solver
+                .solve_with_factor(&problem, warm)
                 .map_err(|cause| FeError::Contact { phase: table.phase, cause })?;
             // A touching cell without force belongs to either set.
-            solution.active.iter().zip(&solution.forces).map(|(a, p)| *a && *p > 0.0).collect()
+            let touching: Vec<bool> =
+                solution.active.iter().zip(&solution.forces).map(|(a, p)| *a && *p > 0.0).collect();
+            factor = of_active.filter(|_| touching == solution.active);
+            touching
         };
         if let Some(place) = self.maps.iter().position(|own| own.map.active == active) {
             // Known, and at the border of what it holds for.
             *held = Held { place: Some(place), id: self.maps[place].id, within: -1.0, ..*held };
             return Ok(());
         }
-        let map = ContactMap::new(table, &owner, active, self.scale).ok_or_else(|| {
+        let map = ContactMap::new(table, &owner, active, factor, self.scale).ok_or_else(|| {
             let cause = crate::complementarity::ComplementarityError::Inaccurate {
                 residual: f64::INFINITY,
             };

@@ -66,7 +66,7 @@ impl VibratingSet<'_> {
         self.statics.displacements(&DVector::from_column_slice(&y[..n]))
     }
 
-    /// After a whole cycle, or a part of it after which the set is itself by its [`Symmetry`](super::Symmetry), if that
+    /// After a whole cycle, or a part of it after which the set is itself by its [`Symmetry`](gearset::Symmetry), if that
     /// was asked for: takes it back, with the bodies' modes turned by one tooth or the planets renumbered, so that the
     /// state can be compared with that at the start.
     ///

@@ -1,12 +1,12 @@
 //! The derivative of the mesh cycle that a set marched last, computed from what its frames keep of every step.
 
 use dynamics::MapDerivative;
+use gearset::Symmetry;
 use nalgebra::{DMatrix, DVector};
 
 use super::gradients::{Gradients, LagGradients, add, column};
 use super::lag::WIDTH;
 use super::set::VibratingSet;
-use super::symmetry::{Symmetry, later};
 use super::tooth_shift::ToothShift;
 use crate::error::FeError;
 use crate::short_row::ShortRow;
@@ -222,8 +222,7 @@ impl SetDerivative {
             let transposed = turn.transpose();
             self.races.lists_mut().into_iter().for_each(|list| *list *= &transposed);
             let planets = self.meshes.len() / 2;
-            let meshes =
-                (0..2 * planets).map(|mesh| self.meshes[later(mesh, own.shift, planets)].clone());
+            let meshes = (0..2 * planets).map(|mesh| self.meshes[own.later(mesh, planets)].clone());
             self.meshes = meshes.collect();
             return;
         }

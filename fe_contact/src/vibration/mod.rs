@@ -54,4 +54,3 @@ pub use modal_body::ModalBody;
 pub use prepared::{Loading, Prepared};
 pub use rotation::NominalRotation;
 pub use set::{Counts, VibratingSet};
-pub use symmetry::Symmetry;

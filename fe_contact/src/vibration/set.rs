@@ -13,7 +13,7 @@
 use std::sync::Arc;
 
 use dynamics::Motion;
-use gearset::{Facing, Scene};
+use gearset::{Facing, Scene, Symmetry};
 use nalgebra::DVector;
 
 use super::build;
@@ -29,7 +29,6 @@ use super::pair_forces::PairForces;
 use super::prepared::{Loading, Prepared};
 use super::race_dynamics::RaceDynamics;
 use super::rotation::NominalRotation;
-use super::symmetry::Symmetry;
 use super::tooth_shift::ToothShift;
 use super::workspace::Workspace;
 use crate::error::FeError;

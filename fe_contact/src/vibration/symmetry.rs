@@ -1,37 +1,18 @@
-//! Sets that are themselves again after a part of a mesh cycle, turned about their axis with the planets renumbered.
+//! The [symmetry](Symmetry) after a part of a mesh cycle, found in the equations of a set: frames, loads and the matrix
+//! of a step must be equal under the renumbering.
 //!
-//! Of N equally spaced planets with phases that advance evenly, planet n + s stands after T/N as planet n stood
-//! before; of two opposed pairs of planets each planet after T/2 as its opposite. A motion of the period T that is
-//! excited so repeats, if it is stable, after that part already:
-//!
-//! ```text
-//! x_{n+s}(t + T/p) = x_n(t),   X(t + T/p) = Rot(φ) X(t) of the central members
-//! ```
-//!
-//! so that the map of a part, with the renumbering, has the same periodic motion as that of the whole cycle, and the
-//! map of the whole cycle is the p-th power of it. The symmetry is not read from the scene but found in the equations
-//! of the set: frames, loads and the matrix of a step must be equal under the renumbering.
+//! The map of a part, with the renumbering, then has the same periodic motion as that of the whole cycle, and the map of
+//! the whole cycle is the p-th power of it.
 
+use gearset::Symmetry;
 use nalgebra::{DMatrix, DVector};
 
 use super::set::VibratingSet;
 use crate::error::FeError;
-use crate::statics::PLANETS;
 
 /// Largest difference of equal quantities, relative to the largest of their kind: they come from equilibria that are
 /// iterated to about 1e-12.
 const EQUAL: f64 = 1e-9;
-
-/// The renumbering after which a set is itself.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Symmetry {
-    /// Parts of the mesh cycle p, at least 2.
-    pub parts: usize,
-    /// Planet n + shift (modulo N) stands after a part as planet n stood before.
-    pub shift: usize,
-    /// Angle from planet n to planet n + shift, counter-clockwise, rad.
-    pub angle_rad: f64,
-}
 
 impl VibratingSet<'_> {
     /// The symmetry with the most parts, if the set has one and no modes: these turn with the gears.
@@ -52,44 +33,33 @@ impl VibratingSet<'_> {
         if !self.has_derivative() || self.elastic_unknowns() > 0 {
             return Ok(None);
         }
-        let (planets, count) = (self.statics.races.planets(), self.clock.rotation.count());
+        let (sign, races) = (self.statics.sign(), &self.statics.races);
+        let count = self.clock.rotation.count();
         let mut patterns = Vec::new();
-        for parts in (2..=planets).rev().filter(|p| planets % p == 0 && count.is_multiple_of(*p)) {
-            for shift in (1..planets).filter(|s| s * parts % planets == 0) {
-                let Some(angle_rad) = self.angle_of(shift) else { continue };
-                let own = Symmetry { parts, shift, angle_rad };
-                if !self.phases_fit(&own) {
-                    continue;
+        // The races are those of counter-clockwise torque: mirrored, if that on the sun is clockwise.
+        for internal in Symmetry::candidates(&races.psi, count) {
+            let own = Symmetry { angle_rad: sign * internal.angle_rad, ..internal };
+            if !self.phases_fit(&own) {
+                continue;
+            }
+            if patterns.is_empty() {
+                for k in 0..count {
+                    patterns.push(self.shared_pattern(k)?);
                 }
-                if patterns.is_empty() {
-                    for k in 0..count {
-                        patterns.push(self.shared_pattern(k)?);
-                    }
-                }
-                let internal = Symmetry { angle_rad: self.statics.sign() * angle_rad, ..own };
-                let turn = self.renumbering(&internal);
-                if turn.is_some_and(|turn| self.is_itself(&own, &turn, &patterns)) {
-                    return Ok(Some(own));
-                }
+            }
+            let turn = self.renumbering(&internal);
+            if turn.is_some_and(|turn| self.is_itself(&own, &turn, &patterns)) {
+                return Ok(Some(own));
             }
         }
         Ok(None)
-    }
-
-    /// Angle (counter-clockwise) by which every planet is ahead of the one `shift` numbers before it, rad.
-    fn angle_of(&self, shift: usize) -> Option<f64> {
-        let psi = &self.statics.races.psi;
-        let of = |n: usize| psi[(n + shift) % psi.len()] - psi[n];
-        let turns = |n: usize| (of(n) - of(0)) / std::f64::consts::TAU;
-        let is_even = (1..psi.len()).all(|n| (turns(n) - turns(n).round()).abs() < EQUAL);
-        is_even.then(|| self.statics.sign() * of(0))
     }
 
     /// Whether after a part the meshes of the planets `shift` further on have the phases of these at its start.
     fn phases_fit(&self, own: &Symmetry) -> bool {
         let (planets, count) = (self.statics.races.planets(), self.clock.rotation.count());
         let part = count / own.parts;
-        let later = |mesh: usize| later(mesh, own.shift, planets);
+        let later = |mesh: usize| own.later(mesh, planets);
         (0..count).all(|k| {
             let after = (k + part) % count;
             let restarts = |k: usize, mesh: usize| self.pairs.restarts[k].contains(&mesh);
@@ -103,37 +73,12 @@ impl VibratingSet<'_> {
         })
     }
 
-    /// P of x(start of the next part) = P x(end of a part): planets take the numbers of those `shift` before them,
-    /// central members turn back by the angle (of the internal, possibly mirrored frame). `None` if a central member
-    /// is held in one direction only.
-    fn renumbering(&self, own: &Symmetry) -> Option<DMatrix<f64>> {
+    /// P of x(start of the next part) = P x(end of a part), for the internal, possibly mirrored frame.
+    fn renumbering(&self, internal: &Symmetry) -> Option<DMatrix<f64>> {
         let races = &self.statics.races;
-        let (n, planets) = (races.count, races.planets());
-        let mut turn = DMatrix::zeros(n, n);
-        let (sin, cos) = own.angle_rad.sin_cos();
-        for body in 0..PLANETS {
-            match (races.of(body, 0), races.of(body, 1)) {
-                (Some(x), Some(y)) => {
-                    (turn[(x, x)], turn[(x, y)]) = (cos, sin);
-                    (turn[(y, x)], turn[(y, y)]) = (-sin, cos);
-                }
-                (None, None) => {}
-                _ => return None,
-            }
-            if let Some(u) = races.of(body, 2) {
-                turn[(u, u)] = 1.0;
-            }
-        }
-        for planet in 0..planets {
-            for axis in 0..3 {
-                let of = |planet: usize| races.of(PLANETS + planet, axis);
-                match (of(planet), of((planet + own.shift) % planets)) {
-                    (Some(to), Some(from)) => turn[(to, from)] = 1.0,
-                    (None, None) => {}
-                    _ => return None,
-                }
-            }
-        }
+        let entries = internal.renumbering(races.planets(), |body, axis| races.of(body, axis))?;
+        let mut turn = DMatrix::zeros(races.count, races.count);
+        entries.into_iter().for_each(|(i, j, value)| turn[(i, j)] = value);
         Some(turn)
     }
 
@@ -165,8 +110,7 @@ impl VibratingSet<'_> {
             let [now, then] = [k, after].map(|k| &self.contact.leaning[k].load);
             (turn * then - now).amax() <= EQUAL * heaviest
                 && (0..2 * planets).all(|mesh| {
-                    let (a, b) =
-                        (&here.meshes[mesh], &there.meshes[later(mesh, own.shift, planets)]);
+                    let (a, b) = (&here.meshes[mesh], &there.meshes[own.later(mesh, planets)]);
                     a.count == b.count
                         && (0..a.count).all(|pair| {
                             let (i, j) = (a.first + pair, b.first + pair);
@@ -204,7 +148,7 @@ impl VibratingSet<'_> {
         }
         let planets = self.statics.races.planets();
         let memory = (0..self.pairs.memory.len())
-            .map(|mesh| self.pairs.memory[later(mesh, own.shift, planets)].clone());
+            .map(|mesh| self.pairs.memory[own.later(mesh, planets)].clone());
         self.pairs.memory = memory.collect();
         self.follow_bearings();
         Ok(())
@@ -216,7 +160,7 @@ impl VibratingSet<'_> {
         let Some(frame) = self.frames.current(end) else { return Ok(()) };
         let planets = self.statics.races.planets();
         let ranges: Vec<_> = (0..frame.meshes.len())
-            .map(|mesh| &frame.meshes[later(mesh, own.shift, planets)])
+            .map(|mesh| &frame.meshes[own.later(mesh, planets)])
             .map(|mesh| mesh.first..mesh.first + mesh.count)
             .collect();
         for list in [&mut self.pairs.forces, &mut self.pairs.approaches] {
@@ -230,9 +174,4 @@ impl VibratingSet<'_> {
         self.frames.put_back(0, frame, with_backside);
         Ok(())
     }
-}
-
-/// The same mesh, sun or ring, of the planet `shift` numbers further on.
-pub(super) fn later(mesh: usize, shift: usize, planets: usize) -> usize {
-    mesh / planets * planets + (mesh % planets + shift) % planets
 }

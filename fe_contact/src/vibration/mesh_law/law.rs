@@ -15,4 +15,8 @@ impl CouplingForce for MeshLawCouplings {
     fn silent_up_to(&self, coupling: usize) -> f64 {
         self.0.silent_up_to_m(coupling)
     }
+
+    fn is_same(&self, first: (usize, usize), second: (usize, usize)) -> bool {
+        self.0.is_same(first, second)
+    }
 }

@@ -2,10 +2,10 @@
 //! quasi-static fidelity, with table look-up in place of contact.
 
 use dynamics::{
-    AverageAcceleration, Coupled, CoupledState, Coupling, LinearPart, MapDerivative, Motion,
-    PassedSteps,
+    AverageAcceleration, Coupled, CoupledState, Coupling, CyclePart, LinearPart, MapDerivative,
+    Motion, PassedSteps, Renumbering,
 };
-use gearset::{Facing, MeshLaw, Scene};
+use gearset::{Facing, MeshLaw, Scene, Symmetry};
 use nalgebra::{DMatrix, DVector};
 
 use super::super::build::body_mass;
@@ -224,6 +224,27 @@ impl<'s> MeshLawSet<'s> {
     /// Displacements as [`MeshLawSet::displacements`] in coordinates `y`.
     pub fn displacements_of(&self, y: &[f64]) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
         self.statics.displacements(&DVector::from_vec(self.system.displacements_of(y)))
+    }
+
+    /// The symmetry after a part of the mesh cycle that the set has, with the most parts.
+    pub fn symmetry(&self) -> Option<(Symmetry, CyclePart)> {
+        let (sign, races) = (self.statics.sign(), &self.statics.races);
+        let (planets, couplings) = (races.planets(), self.system.forces().len());
+        let place = |body, axis| races.of(body, axis);
+        Symmetry::candidates(&races.psi, self.system.law().0.steps()).into_iter().find_map(|own| {
+            let renumbering = Renumbering {
+                parts: own.parts,
+                coordinates: own.renumbering(planets, place)?,
+                couplings: (0..couplings).map(|k| own.later(k, planets)).collect(),
+            };
+            let part = self.system.part_of_cycle(&renumbering)?;
+            Some((Symmetry { angle_rad: sign * own.angle_rad, ..own }, part))
+        })
+    }
+
+    /// Ends such a part that began at step 0: the set stands at step 0 again, its planets renumbered.
+    pub fn take_part_back(&mut self, part: &CyclePart) {
+        self.system.take_part_back(part);
     }
 
     /// Adds the present state to those passed.
