@@ -23,8 +23,12 @@ pub fn campbell(scene: &Scene, modes: &NaturalModes) -> Option<Picture> {
         let reach = (TOP_FREQUENCY_HZ / (f64::from(l) * top_mesh_hz)).min(1.0);
         let end = (reach * TOP_SPEED_RPM, reach * f64::from(l) * top_mesh_hz);
         curves.push(Curve::new("", vec![(0.0, 0.0), end]).thin("#9aa0a6"));
-        // Below the upper end of the line, to its right.
-        words.push((format!("l = {l}"), 0.93 * end.0 + 90.0, 0.92 * end.1));
+        // Beyond the end of the line, where natural frequencies and dots end too.
+        let (x, y) = match reach < 1.0 {
+            true => end,
+            false => (1.026 * end.0, end.1 - 0.023 * TOP_FREQUENCY_HZ),
+        };
+        words.push((format!("l = {l}"), x, y));
     }
     for mode_type in [ModeType::Translational, ModeType::Rotational, ModeType::Planet] {
         let (mut can, mut cannot) = (Vec::new(), Vec::new());

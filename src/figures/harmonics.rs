@@ -21,7 +21,7 @@ const DOWN: Pen = Pen::new("#d55e00", 1.2).dashed("6 3");
 /// All harmonics of a quantity.
 pub(super) fn picture(subject: &Subject, quantity: &Quantity) -> Picture {
     let count = quantity.harmonics.len() as f64;
-    let mut canvas = Canvas::new([WIDTH, HEAD + count * (PANEL + LABELS) + 56.0]);
+    let mut canvas = Canvas::new([WIDTH, HEAD + count * (PANEL + LABELS) + 70.0]);
     canvas.head(&format!("{}: {}", subject.title, quantity.title), &subject.caption);
     key_of_types(&mut canvas, subject, [0.5 * WIDTH, 66.0]);
     let is_double = quantity.harmonics.first().is_some_and(|h| h.len() > 1);
@@ -50,7 +50,7 @@ pub(super) fn picture(subject: &Subject, quantity: &Quantity) -> Picture {
             let rings = if subject.is_settled { "" } else { "; ringed: not settled" };
             let note = format!("own scale each{double}{rings}");
             let kind = Type::new(11, Anchor::End).colour("#444444");
-            canvas.text([axes.right(), axes.bottom() + 36.0], kind, note);
+            canvas.text([axes.right(), axes.bottom() + 54.0], kind, note);
         }
     }
     canvas.picture()

@@ -39,6 +39,17 @@ fn transmission_error(cycle: &SetCycle, radius: f64, about: &str) -> Picture {
     chart(&labels, &[Curve::new("", over(cycle, |s| s.transmission_error(radius) * 1e6))])
 }
 
+/// Width of curve i of so many, px. Planets in phase carry the same force: a curve that lies below others is wider and shows
+/// at their sides, and curves on top stay thin enough for their dashes to be seen.
+fn width(i: usize, count: usize) -> f64 {
+    const THINNEST: f64 = 1.2;
+    const STEP: f64 = 0.6;
+    const WIDEST: f64 = 7.0;
+    let below = count.saturating_sub(1);
+    let step = STEP.min((WIDEST - THINNEST) / below.max(1) as f64);
+    THINNEST + step * below.saturating_sub(i) as f64
+}
+
 fn load_sharing(cycle: &SetCycle, about: &str) -> Picture {
     let meshes = cycle.states[0].meshes.iter().enumerate();
     let count = cycle.states[0].meshes.len();
@@ -46,8 +57,7 @@ fn load_sharing(cycle: &SetCycle, about: &str) -> Picture {
         .map(|(i, m)| {
             let forces = over(cycle, |s| s.meshes[i].force * 1e-3);
             let curve = Curve::new(format!("{} {}", m.kind.name(), m.planet), forces);
-            // Planets in phase carry the same: what lies below shows at the sides of what lies on top.
-            let curve = curve.wide(1.2 + 1.1 * (count - 1 - i) as f64);
+            let curve = curve.wide(width(i, count));
             if m.kind == MeshKind::RingPlanet { curve.dashed() } else { curve }
         })
         .collect();
@@ -90,4 +100,18 @@ fn rms_against_torque(title: &str, cycles: &[SetCycle]) -> Picture {
         Curve::new("translation", over(&|c| c.sun_rms().1 / t0)).dashed(),
     ];
     chart(&labels, &curves)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_curve_is_wider_than_the_next_and_none_is_a_band() {
+        for count in [1, 2, 6, 8, 24] {
+            let widths: Vec<f64> = (0..count).map(|i| width(i, count)).collect();
+            assert!(widths.windows(2).all(|pair| pair[0] > pair[1] + 0.2), "{widths:?}");
+            assert!(widths[0] <= 7.0 && widths[count - 1] == 1.2, "{widths:?}");
+        }
+    }
 }

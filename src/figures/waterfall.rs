@@ -14,7 +14,7 @@ const MARGINS: [f64; 3] = [70.0, 62.0, 34.0];
 
 /// Room below it, px: for speeds, and for the names of natural frequencies.
 const FOOT: f64 = 62.0;
-const NAMES: f64 = 128.0;
+const NAMES: f64 = 140.0;
 
 /// Parts of the drawing's width and height that its depth takes.
 const DEPTH: [f64; 2] = [0.16, 0.42];
@@ -230,7 +230,7 @@ pub(super) fn over_frequency(subject: &Subject, list: &[Quantity]) -> Picture {
             let at = [cell[0] + CELL[0] - 46.0, cell[1] + 42.0 + 17.0 * i as f64];
             canvas.text(at, kind, format!("l = {}", i + 1));
         }
-        view.labels(canvas, quantity, "frequency l f_m, Hz", 118.0);
+        view.labels(canvas, quantity, "frequency l f_m, Hz", 132.0);
     })
 }
 

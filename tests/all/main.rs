@@ -3,6 +3,7 @@
 //! `cargo test --release --test all snapshots` runs the tests of one module.
 
 mod command;
+mod figures;
 mod impulse_command;
 mod mutated_scenes;
 mod readings;

@@ -188,6 +188,24 @@ mod tests {
         );
     }
 
+    /// Powers of ten beside plain numbers (`1e-3`, `0.01`, `1`) would be read as different axes.
+    #[test]
+    fn labels_of_a_logarithmic_axis_have_one_form() {
+        let labels = |values: [f64; 2]| -> Vec<String> {
+            Scale::log(values.into_iter()).ticks(5).into_iter().map(|(_, label)| label).collect()
+        };
+        assert_eq!(labels([0.02, 30.0]), ["0.1", "1", "10"]);
+        assert_eq!(labels([0.5, 3.0]), ["0.5", "1", "2"]);
+        for values in [[1e-5, 1.0], [3e-2, 4e7], [1.0, 2e5]] {
+            let powers = labels(values);
+            assert!(powers.len() > 1 && powers.iter().all(|l| l.contains('e')), "{powers:?}");
+        }
+        for values in [[1e-2, 1.0], [1.0, 3000.0], [0.3, 2.0]] {
+            let plain = labels(values);
+            assert!(plain.len() > 1 && plain.iter().all(|l| !l.contains('e')), "{plain:?}");
+        }
+    }
+
     #[test]
     fn crowded_labels_keep_apart() {
         assert_eq!(spread(&[10.0, 11.0, 40.0], 5.0, 100.0), [8.0, 13.0, 40.0]);

@@ -159,3 +159,41 @@ fn layout(labels: &Labels<'_>, plots: &[Plot]) -> Layout {
         .with_x_label(labels.x)
         .with_y_label(labels.y)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The words of a text element behind its opening `<text`.
+    fn words(part: &str) -> Option<&str> {
+        let (_, rest) = part.split_once('>')?;
+        rest.split_once('<').map(|(words, _)| words.trim())
+    }
+
+    /// Texts of an SVG file, in its order.
+    fn texts(svg: &str) -> Vec<&str> {
+        svg.split("<text").skip(1).filter_map(words).filter(|words| !words.is_empty()).collect()
+    }
+
+    /// Powers of ten beside plain numbers (`1e-1`, `1`, `10`) would be read as different axes.
+    #[test]
+    fn labels_of_a_logarithmic_chart_have_one_form() {
+        for (low, high) in [(1e-4f64, 30.0f64), (0.02, 300.0), (1e-9, 1e-7)] {
+            let panel = Panel {
+                labels: Labels { title: "", subtitle: String::new(), x: "", y: "" },
+                curves: vec![Curve::new("", vec![(100.0, low), (200.0, high)])],
+                marks: Vec::new(),
+                x_range: Some((100.0, 200.0)),
+                is_log: true,
+            };
+            let svg = panels("", 1, (500.0, 400.0), &[panel]).svg();
+            // Labels of x, from 100 to 200, have no power of ten; those of y are the others.
+            let on_x = |label: &str| label.parse().is_ok_and(|x: f64| (100.0..=200.0).contains(&x));
+            let (powers, others): (Vec<&str>, Vec<&str>) =
+                texts(&svg).into_iter().partition(|t| t.contains('e'));
+            assert!(powers.len() > 2 && others.iter().all(|t| on_x(t)), "{powers:?} {others:?}");
+            let decades = (high / low).log10() as usize;
+            assert!(powers.len() >= decades, "{powers:?}");
+        }
+    }
+}
