@@ -112,8 +112,8 @@ pub enum TableFormat {
     Text,
     /// Stable keys for programs; schemas in `schemas/`.
     Json,
-    /// One row per position and tooth pair (`static`), mode (`impulse`), harmonic (`sweep`, `branches`) or
-    /// border (`stability`).
+    /// One row per position and tooth pair (`static`), mode (`impulse`), speed, quantity and harmonic (`sweep`),
+    /// point, quantity and harmonic (`branches`), or border (`stability`; without a map, one row per map).
     Csv,
 }
 
@@ -145,7 +145,8 @@ pub struct Static {
     /// Solver of the contact problem.
     #[arg(long, value_enum, default_value_t = ContactSolver::ActiveSet)]
     pub solver: ContactSolver,
-    /// Also draw figures into this folder (SVG, PNG).
+    /// Also draw figures into this folder (SVG, PNG): transmission_error, load_sharing, mesh_stiffness; of one mesh
+    /// pressure, of several torques rms_against_torque. Not with --approach-um.
     #[cfg(feature = "charts")]
     #[arg(long, value_name = "DIR", conflicts_with = "approach_um")]
     pub figures: Option<PathBuf>,
@@ -221,7 +222,7 @@ pub struct Impulse {
     /// Also linearise over the mesh cycle at half, once and one and a half times the torque.
     #[arg(long)]
     pub band: bool,
-    /// Also draw figures into this folder (SVG, PNG).
+    /// Also draw figures into this folder (SVG, PNG): spectrum, stabilisation, mode_shapes; with --band also band.
     #[cfg(feature = "charts")]
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
@@ -287,7 +288,7 @@ pub struct Sweep {
     /// the points in it. A folder with anything else that would be overwritten is refused.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Also draw figures into this folder (SVG, PNG): waterfalls and the harmonics of each quantity.
+    /// Also draw figures into this folder (SVG, PNG): waterfalls, frequencies and harmonics_* of each quantity.
     #[cfg(feature = "charts")]
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
@@ -336,7 +337,7 @@ pub struct Branches {
     #[arg(long, value_enum, default_value_t = Model::FeContact)]
     pub model: Model,
     /// Factor on every damping of the scene, with --over speed and torque.
-    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = tolerance,
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = damping_factor,
           allow_negative_numbers = true)]
     pub damping_factor: f64,
     /// Also follow the branches that leave at period doublings and branch points.
@@ -346,7 +347,8 @@ pub struct Branches {
     #[arg(long, value_name = "N", default_value_t = 500,
           value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
     pub max_points: u32,
-    /// Also draw the strongest motions of the sun into this folder (SVG, PNG): stable solid, unstable dashed.
+    /// Also draw the strongest motions of the sun into this folder (SVG, PNG), stable solid, unstable dashed:
+    /// branch_sun_rotation, branch_sun_translation.
     #[cfg(feature = "charts")]
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
@@ -476,6 +478,16 @@ fn small(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(x) if f64::is_finite(x) && (1e-12..=0.1).contains(&x) => Ok(x),
         _ => Err("a number from 1e-12 to 0.1".into()),
+    }
+}
+
+/// Least and greatest factor on every damping of a scene: with a millionth of it a set is undamped for all purposes.
+pub const DAMPING_FACTORS: [f64; 2] = [1e-6, 100.0];
+
+fn damping_factor(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if (DAMPING_FACTORS[0]..=DAMPING_FACTORS[1]).contains(&x) => Ok(x),
+        _ => Err("a number from 1e-6 to 100".into()),
     }
 }
 

@@ -4,7 +4,7 @@ use crate::estimates;
 use crate::geometry::Geometry;
 use crate::load_size::MOST_MODULES;
 use crate::reader::Document;
-use crate::scene::Scene;
+use crate::scene::{Scene, SceneKind};
 
 /// Refuses a torque under which the set gives way by more than a module.
 pub(crate) fn deflection(document: &Document<'_>, scene: &Scene) {
@@ -19,10 +19,17 @@ pub(crate) fn deflection(document: &Document<'_>, scene: &Scene) {
     let Some(module) = estimates::module(&geometry) else { return };
     if length > MOST_MODULES * module {
         let torque = scene.operation.map_or(0.0, |operation| operation.torque_nm.abs());
-        let allowed =
-            format!("a magnitude below {:.3e} N·m, or stiffer bearings", torque * module / length);
+        let (or, of, and) = match scene.kind {
+            SceneKind::Planetary => (
+                ", or stiffer bearings",
+                "meshes of E b/13, planet bearing and torsional supports in series",
+                ", `planet.bearing_n_per_m`",
+            ),
+            SceneKind::GearPair => ("", "a mesh of E b/13", ""),
+        };
+        let allowed = format!("a magnitude below {:.3e} N·m{or}", torque * module / length);
         let why = format!(
-            "by estimate (meshes of E b/13, planet bearing and torsional supports in series) the teeth give way by {:.3e} mm, more than the module {:.3} mm: displacements are no longer linear in the load; look at the units of `operation.torque_nm`, `planet.bearing_n_per_m` and `material.young_modulus_pa`",
+            "by estimate ({of}) the teeth give way by {:.3e} mm, more than the module {:.3} mm: displacements are no longer linear in the load; look at the units of `operation.torque_nm`{and} and `material.young_modulus_pa`",
             1e3 * length,
             1e3 * module
         );

@@ -79,16 +79,20 @@ pub(crate) fn mesh_force(scene: &Scene, geometry: &Geometry) -> Option<f64> {
 }
 
 /// How far the sun's teeth give way at the operating point, m: both meshes, the planet bearing and the torsional
-/// supports of ring and carrier in series. `None` without a torque, or where it has no path through the meshes.
+/// supports of ring and carrier in series; of a pair, its mesh. `None` without a torque, or where it has no path through the
+/// meshes.
 pub(crate) fn deflection(scene: &Scene, geometry: &Geometry) -> Option<f64> {
-    if scene.kind != SceneKind::Planetary || scene.torque_path().is_err() {
-        return None;
-    }
     way_under(scene, geometry, mesh_force(scene, geometry)?)
 }
 
-/// The same under a mean force of one mesh, N, whatever the scene's torque; `None` without a ring.
+/// The same under a mean force of one mesh, N, whatever the scene's torque; `None` of a set without a ring.
 pub(crate) fn way_under(scene: &Scene, geometry: &Geometry, force: f64) -> Option<f64> {
+    if scene.kind == SceneKind::GearPair {
+        return Some(force / pair_stiffness(scene)?);
+    }
+    if scene.torque_path().is_err() {
+        return None;
+    }
     let planets = scene.planets.count() as f64;
     // A pin carries the forces of both meshes.
     let mut length =

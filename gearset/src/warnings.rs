@@ -6,7 +6,7 @@ use crate::estimates::{self, BODIES};
 use crate::geometry::Geometry;
 use crate::load_case::LoadCase;
 use crate::load_size::LARGE_MODULES;
-use crate::scene::{PerBody, Scene, Support, Torsional};
+use crate::scene::{PerBody, Scene, SceneKind, Support, Torsional};
 
 /// Mass and inertia of a body against its disc of the same width and density: webs, hubs and shafts change them by
 /// less than this factor, a slip of unit or of size by more.
@@ -173,7 +173,12 @@ fn load(scene: &Scene, geometry: &Geometry, found: &mut Found) {
             shown(1e3 * length),
             shown(length / module)
         );
-        let likely = "likely the torque is in N·mm, or `planet.bearing_n_per_m` is not in N/m";
+        let likely = match scene.kind {
+            SceneKind::Planetary => {
+                "likely the torque is in N·mm, or `planet.bearing_n_per_m` is not in N/m"
+            }
+            SceneKind::GearPair => "likely the torque is in N·mm",
+        };
         found.add("operation.torque_nm", o.torque_nm, what, likely);
     }
 }

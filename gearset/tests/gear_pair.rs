@@ -70,6 +70,7 @@ fn what_a_pair_cannot_have_is_refused_by_its_key() {
             "stand still",
         ),
         ("[operation]\ninput = \"ring\"\nspeed_rpm = 1\ntorque_nm = 1", "operation.input", "sun"),
+        ("[operation]\nspeed_rpm = 1\ntorque_nm = 1e8", "operation.torque_nm", "than the module"),
         ("[dynamics]\ngyroscopic = \"on\"", "dynamics.gyroscopic", "no turning carrier"),
         (
             "[lumped]\ninertia_kg_m2 = { sun = 1, planet = 1 }\n\

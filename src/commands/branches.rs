@@ -10,7 +10,7 @@ use experiments::sweep::{FeModel, MeshLawModel, SteadySettings, SweepModel};
 use fe_contact::statics::{Bodies, Imperfections};
 use gearset::{Fidelity, LoadCase, Scene, Verb};
 
-use crate::arguments::{Branches, Model, Over, TableFormat};
+use crate::arguments::{Branches, DAMPING_FACTORS, Model, Over, TableFormat};
 use crate::error::CommandError;
 use crate::output;
 
@@ -120,6 +120,11 @@ fn settings(arguments: &Branches) -> Result<BranchSettings, CommandError> {
         let reason = format!("missing: --over {} needs its range as FROM:TO", name(own));
         return Err(refused(option(own), reason));
     };
+    let is_factor = |x: &f64| (DAMPING_FACTORS[0]..=DAMPING_FACTORS[1]).contains(x);
+    if own == Over::Damping && ![from, to].iter().all(is_factor) {
+        let reason = format!("{from:?} to {to:?}: allowed are factors from 1e-6 to 100");
+        return Err(refused(option(own), reason));
+    }
     let over = match own {
         Over::Speed => BranchParameter::Speed,
         Over::Torque => BranchParameter::Torque,
@@ -151,6 +156,9 @@ fn case(
         |a: &str| a == "--sun-torque-nm" && (over_torque || arguments.sun_torque_nm.is_some());
     needs::require(path, scene, verb, is_given)?;
     let [low, high] = settings.range;
+    if over_torque {
+        loads::torque_range("--torques-nm", [low, high], scene, err)?;
+    }
     let torque_nm = match arguments.sun_torque_nm {
         Some(t) if over_torque && !(t.is_finite() && t * low > 0.0) => {
             let reason = format!(

@@ -25,7 +25,7 @@ pub(super) fn text(
         out,
         "{} N·m on the sun at position {} of the mesh cycle; decays of {} ms in steps of {} µs",
         plain(result.sun_torque_nm),
-        result.position,
+        plain(result.position),
         plain(result.duration_ms),
         plain(result.step_us)
     )?;

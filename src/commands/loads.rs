@@ -16,7 +16,17 @@ pub(super) fn sun_torque(
     scene: &Scene,
     err: &mut dyn Write,
 ) -> Result<f64, CommandError> {
-    let Some(torque) = asked else { return operating_torque(path, scene) };
+    let Some(torque) = asked else {
+        let torque = operating_torque(path, scene)?;
+        // A scene with more than the linear theory can bear is refused when it is read, and one that comes near it warned of.
+        return match scene.size_of_sun_torque(torque) {
+            Some(size) if size.is_too_small() => {
+                let reason = too_small(torque, "N·m on the sun", &size);
+                Err(unfit(path, format!("`operation.torque_nm` gives {reason}")))
+            }
+            _ => Ok(torque),
+        };
+    };
     if !torque.is_finite() || torque == 0.0 {
         let reason = format!(
             "{torque} N·m: allowed is a finite torque other than 0 N·m, at which nothing touches"
@@ -25,6 +35,17 @@ pub(super) fn sun_torque(
     }
     sized("--sun-torque-nm", torque, "N·m", scene.size_of_sun_torque(torque), err)?;
     Ok(torque)
+}
+
+/// Refuses a range of torques on the sun, N·m, whose ends are of no size that a model can bear.
+pub(super) fn torque_range(
+    argument: &'static str,
+    ends: [f64; 2],
+    scene: &Scene,
+    err: &mut dyn Write,
+) -> Result<(), CommandError> {
+    ends.into_iter()
+        .try_for_each(|end| sized(argument, end, "N·m", scene.size_of_sun_torque(end), err))
 }
 
 /// Normal force of a gear pair, N.
@@ -60,8 +81,26 @@ pub(super) fn approach(
     Ok(asked_um)
 }
 
-/// Refuses a load under which teeth give way by more than a module, and warns from a quarter of a module on, as the scene's
-/// own `operation.torque_nm` is refused and warned of.
+/// How far teeth give way under a load.
+fn way(size: &LoadSize) -> String {
+    format!(
+        "by estimate the teeth give way by {:.3e} mm, {:.3e} of the module",
+        1e3 * size.deflection,
+        size.deflection / size.module
+    )
+}
+
+/// A load that is too small, what is allowed, and why.
+fn too_small(load: f64, unit: &str, size: &LoadSize) -> String {
+    format!(
+        "{load:e} {unit}: allowed is a magnitude above {:.3e} {unit}; {}, so little that rounding shows in what is computed",
+        size.least(load),
+        way(size)
+    )
+}
+
+/// Refuses a load under which teeth give way by more than a module or less than a millionth of one, and warns from a quarter
+/// of a module on, as the scene's own `operation.torque_nm` is refused and warned of.
 fn sized(
     argument: &'static str,
     load: f64,
@@ -70,11 +109,10 @@ fn sized(
     err: &mut dyn Write,
 ) -> Result<(), CommandError> {
     let Some(size) = size else { return Ok(()) };
-    let modules = size.deflection / size.module;
-    let way = format!(
-        "by estimate the teeth give way by {:.3e} mm, {modules:.3e} of the module",
-        1e3 * size.deflection
-    );
+    let way = way(&size);
+    if size.is_too_small() {
+        return Err(refused(argument, too_small(load, unit, &size)));
+    }
     if size.is_too_large() {
         let most = size.most(load);
         let reason = format!(

@@ -206,7 +206,11 @@ fn write_text(result: &ModesOutput, details: bool, out: &mut dyn Write) -> std::
     for c in &result.campbell {
         let both = c.frequency_hz.iter().zip(&c.uncertainty_hz);
         let list: Vec<_> = both.map(|(f, u)| shown_hz(*f, *u)).collect();
-        writeln!(out, "carrier at {} rpm: {} Hz", c.carrier_speed_rpm, list.join(", "))?;
+        let rpm = match c.carrier_speed_rpm {
+            tiny if tiny != 0.0 && tiny.abs() < 1e-3 => format!("{tiny:e}"),
+            rpm => format!("{rpm}"),
+        };
+        writeln!(out, "carrier at {rpm} rpm: {} Hz", list.join(", "))?;
         if c.is_unstable {
             let growth = c.largest_growth_per_s;
             writeln!(out, "  unstable: a mode grows by e every {:.3} s", 1.0 / growth)?;

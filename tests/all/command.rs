@@ -46,7 +46,7 @@ fn modes_of_oh58_as_json() {
 }
 
 /// A scene of the repository with a coarse mesh.
-fn coarse(folder: &Path, name: &str) -> String {
+pub(crate) fn coarse(folder: &Path, name: &str) -> String {
     let text = std::fs::read_to_string(scene(name)).unwrap();
     let path = folder.join(name);
     std::fs::write(&path, text + "\n[fe_contact]\nflank_elements = 8\n").unwrap();

@@ -1,7 +1,9 @@
 //! Values of arguments that no gear set has, and places that cannot be written: one message that names the argument, exit
 //! code 2, and no work before.
 
-use crate::command::{run, scene};
+use serde_json::Value;
+
+use crate::command::{coarse, run, scene};
 
 /// A torque, force or approach on the command line is judged as the scene's own torque is: beyond a module of deflection it is
 /// refused, with the largest that is allowed, and from a quarter of one it is warned of.
@@ -28,6 +30,134 @@ fn loads_of_another_size_are_refused_or_warned_of() {
     assert!(err.contains("warning: --normal-force-n is 400000 N"), "{err}");
     let (_, _, err) = run(&["static", &pair, "--normal-force-n", "1e4", "--positions", "1"]);
     assert!(err.is_empty(), "{err}");
+}
+
+/// Under a load so small that rounding shows in the deflections, numbers would be wrong without a word: below a millionth of a
+/// module it is refused, with the least that is allowed.
+#[test]
+fn loads_too_small_to_be_told_from_rounding_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let with_torque = |name: &str, torque: &str| {
+        let text = std::fs::read_to_string(scene(name)).unwrap();
+        let other = |l: &str| {
+            if l.starts_with("torque_nm") { format!("torque_nm = {torque}") } else { l.to_owned() }
+        };
+        let path = folder.path().join(name);
+        std::fs::write(&path, text.lines().map(|l| other(l) + "\n").collect::<String>()).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let (set, pair) = (scene("oh58_4p.toml"), scene("oh58_sun_planet_pair.toml"));
+    let turning = scene("pair_50_50.toml");
+    let [faint, faint_pair] = ["oh58_4p.toml", "pair_50_50.toml"].map(|n| with_torque(n, "1e-9"));
+    for (line, named) in [
+        (format!("static {set} --sun-torque-nm 1e-300"), "--sun-torque-nm"),
+        (format!("static {set} --sun-torque-nm 500,-1e-6"), "--sun-torque-nm"),
+        (format!("impulse {set} --sun-torque-nm 1e-300"), "--sun-torque-nm"),
+        (format!("impulse {turning} --sun-torque-nm 1e-9"), "--sun-torque-nm"),
+        (format!("sweep {set} --speeds-rpm 800:900:10 --sun-torque-nm 1e-300"), "--sun-torque-nm"),
+        (format!("branches {set} --speeds-rpm 800:900 --sun-torque-nm 1e-9"), "--sun-torque-nm"),
+        (format!("branches {set} --over torque --torques-nm 1e-9:900"), "--torques-nm"),
+        (format!("branches {set} --over torque --torques-nm -900:-1e-9"), "--torques-nm"),
+        (format!("static {pair} --normal-force-n 1e-300"), "--normal-force-n"),
+        (format!("static {pair} --approach-um 1e-300"), "--approach-um"),
+        (format!("static {faint}"), "`operation.torque_nm`"),
+        (format!("impulse {faint}"), "`operation.torque_nm`"),
+        (format!("sweep {faint} --speeds-rpm 800:900:10"), "`operation.torque_nm`"),
+        (format!("sweep {faint_pair} --speeds-rpm 800:900:10"), "`operation.torque_nm`"),
+    ] {
+        let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!((code, out.as_str()), (2, ""), "{line}");
+        let words = [named, "allowed is a magnitude above", "of the module", "rounding"];
+        assert!(words.iter().all(|word| err.contains(word)), "{line}: {err}");
+    }
+}
+
+/// A contact's compliance falls in proportion to the logarithm of its load, so that over loads in equal ratios the compliances
+/// of a mesh are evenly spaced: down to the least torque that is accepted, where rounding would show first.
+#[test]
+fn the_least_torque_that_is_accepted_is_computed_to_three_digits() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = coarse(folder.path(), "oh58_4p.toml");
+    let refusal = run(&["static", &set, "--sun-torque-nm", "1e-9"]).2;
+    let (_, least) = refusal.split_once("magnitude above ").unwrap();
+    let least: f64 = least.split(' ').next().unwrap().parse().unwrap();
+    let torques = [1.01, 10.1, 101.0].map(|factor| factor * least);
+    let list = torques.map(|torque| format!("{torque:e}")).join(",");
+    let line = format!("static {set} --positions 1 --format json --sun-torque-nm {list}");
+    let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
+    assert_eq!(code, 0, "{err}");
+    let result: Value = serde_json::from_str(&out).unwrap();
+    let cycles = result["torques"].as_array().unwrap();
+    for mesh in 0..8 {
+        let compliance = |cycle: &Value| {
+            1.0 / cycle["meshes"][mesh]["mean_secant_stiffness_n_per_m"].as_f64().unwrap()
+        };
+        let [light, middle, heavy] = [0, 1, 2].map(|i| compliance(&cycles[i]));
+        assert!(light > 1.01 * middle && middle > 1.01 * heavy, "{light} {middle} {heavy}");
+        let off = (light - 2.0 * middle + heavy) / middle;
+        assert!(off.abs() < 2e-3, "mesh {mesh}: {off:e}");
+    }
+}
+
+/// A load of another size on a gear pair with moving shafts is refused as on a set.
+#[test]
+fn loads_of_turning_pairs_are_of_a_size() {
+    let pair = scene("pair_50_50.toml");
+    for line in [
+        format!("impulse {pair} --sun-torque-nm 1e7"),
+        format!("sweep {pair} --speeds-rpm 800:900:10 --sun-torque-nm 1e300"),
+        format!("branches {pair} --speeds-rpm 800:900 --sun-torque-nm -1e7"),
+        format!("branches {pair} --over torque --torques-nm 10:1e7"),
+    ] {
+        let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!((code, out.as_str()), (2, ""), "{line}");
+        assert!(err.contains("allowed is a magnitude below"), "{line}: {err}");
+    }
+}
+
+/// Counts of nothing, steps that lead nowhere, and factors that print as 0.
+#[test]
+fn counts_of_nothing_are_refused_by_their_argument() {
+    let (set, pair) = (scene("oh58_4p.toml"), scene("oh58_sun_planet_pair.toml"));
+    let deck = format!("static {pair} --approach-um 20 --export-inp deck.inp");
+    for (line, argument, allowed) in [
+        (format!("sweep {set} --harmonics 0"), "--harmonics", "at least 1"),
+        (format!("rules {set} --harmonics 0"), "--harmonics", "1..=1000"),
+        (format!("static {set} --positions 0"), "--positions", "1..=100000"),
+        (format!("sweep {set} --most-cycles 0"), "--most-cycles", "2..=1000000"),
+        (format!("sweep {set} --speeds-rpm 800:900:0"), "--speeds-rpm", "above 0"),
+        (format!("sweep {set} --speeds-rpm 800:900:1e-300"), "--speeds-rpm", "1e302 speeds"),
+        (format!("sweep {set} --tolerance 0"), "--tolerance", "1e-12 to 0.1"),
+        (
+            format!("branches {set} --speeds-rpm 800:900 --max-points 0"),
+            "--max-points",
+            "2..=100000",
+        ),
+        (
+            format!("branches {set} --speeds-rpm 800:900 --damping-factor 1e-300"),
+            "--damping-factor",
+            "1e-6 to 100",
+        ),
+        (
+            format!("branches {set} --over damping --damping-factors 1e-300:1"),
+            "--damping-factors",
+            "1e-6 to 100",
+        ),
+        (
+            format!("compare modes.csv --scene {set} --tolerance-percent 0"),
+            "--tolerance-percent",
+            "above 0",
+        ),
+        (format!("{deck} --export-per-half-width 0"), "--export-per-half-width", "1 to 100"),
+        (format!("{deck} --export-flank-elements 0"), "--export-flank-elements", "3..=64"),
+        (format!("impulse {set} --duration-ms 0"), "--duration-ms", "at least"),
+        (format!("impulse {set} --step-us 1e-300"), "--duration-ms", "100000 steps"),
+    ] {
+        let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!((code, out.as_str()), (2, ""), "{line}");
+        assert!(err.contains(argument) && err.contains(allowed), "{line}: {err}");
+        assert!(!err.contains("0 % off") && err.len() < 300, "{line}: {err}");
+    }
 }
 
 #[test]

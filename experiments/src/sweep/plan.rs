@@ -62,11 +62,14 @@ pub enum PlanError {
     #[error("a step of {0} rpm: it must be finite and above 0")]
     Step(f64),
     /// More speeds than anyone could want.
-    #[error("{0:.0} speeds: at most 100,000")]
+    #[error("the step is too small: it makes {} speeds, at most 100,000 are allowed", count(.0))]
     TooMany(f64),
+    /// No harmonic at all.
+    #[error("0 harmonics: at least 1, at most 5 or, with at least 560 steps in a mesh cycle, 10")]
+    NoHarmonic,
     /// Harmonics that the steps of a cycle do not resolve.
     #[error(
-        "{harmonics} harmonics with {steps} steps in a mesh cycle: up to 5 with any, up to 10 with at least 560, none above; at least one (at a resonance of the highest Newmark's method is {percent:.0} % off)"
+        "{harmonics} harmonics with {steps} steps in a mesh cycle: up to 5 with any, up to 10 with at least 560, none above (at a resonance of the highest Newmark's method is {percent:.0} % off)"
     )]
     Harmonics {
         /// Harmonics asked for.
@@ -82,17 +85,24 @@ impl SteadySettings {
     /// Refuses harmonics that the steps of a cycle do not resolve.
     ///
     /// # Errors
-    /// [`PlanError::Harmonics`].
+    /// [`PlanError::NoHarmonic`] for none, [`PlanError::Harmonics`] for too many.
     pub fn check(&self, steps: usize) -> Result<(), PlanError> {
         let harmonics = self.harmonics;
-        let is_sound = (1..=5).contains(&harmonics) || (harmonics <= 10 && steps >= 560);
-        if harmonics > 0 && is_sound {
+        if harmonics == 0 {
+            return Err(PlanError::NoHarmonic);
+        }
+        if harmonics <= 5 || (harmonics <= 10 && steps >= 560) {
             return Ok(());
         }
         // Newmark turns ω into (2/h) atan(ωh/2): −(ωh)²/12 of it.
         let angle = std::f64::consts::TAU * harmonics as f64 / steps.max(1) as f64;
         Err(PlanError::Harmonics { harmonics, steps, percent: 100.0 * angle * angle / 12.0 })
     }
+}
+
+/// A number of speeds, which may be beyond any integer.
+fn count(count: &f64) -> String {
+    if *count < 1e9 { format!("{count:.0}") } else { format!("{count:.0e}") }
 }
 
 /// Even speeds from `from` to `to` (rpm), both included where the step meets them.
