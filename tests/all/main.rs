@@ -4,8 +4,10 @@
 
 mod command;
 mod figures;
+mod help;
 mod impulse_command;
 mod mutated_scenes;
+mod progress;
 mod readings;
 mod refusals;
 mod scene_check;
