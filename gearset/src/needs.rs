@@ -98,7 +98,7 @@ impl Scene {
                 if self.lumped.is_none() {
                     lacks.push(lack(
                         "lumped",
-                        "masses, inertias and mesh stiffnesses of the lumped model",
+                        "masses, inertias and mesh stiffnesses of the lumped model; the table is optional, and `epicyclic mesh` computes masses and inertias for it, `epicyclic static` mesh stiffnesses",
                     ));
                 }
             }

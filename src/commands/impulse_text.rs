@@ -55,11 +55,22 @@ pub(super) fn text(
             list[..shown].join(", ")
         )?;
     }
+    writeln!(out, "{LEGEND}")?;
     match &result.band {
         Some(found) => band(found, out),
         None => Ok(()),
     }
 }
+
+/// Below the tables: what each column is.
+const LEGEND: &str = "\
+Hz, ζ: natural frequency and damping ratio found in the decays; linear Hz, ζ: of the linearised set
+difference: of the frequency found from the linearised one, over that
+rot., transl., planet: shares of the kinetic energy by kind of motion, – below 0.0005
+∂ln f/∂ln k: relative change of the frequency over that of all mesh stiffnesses
+force: acts for one time step; of a torque, over the base radius; force change: of a mesh, over the largest mesh force
+nonlinearity: of half the pulse, the response less half the response to the whole, over its largest value
+the sun's other motion: the one that the pulse on it would not excite with planets in phase (rotation as r_b θ)";
 
 /// A number without the digits that a conversion of units adds by rounding.
 fn plain(x: f64) -> String {
@@ -77,7 +88,7 @@ fn modes(result: &ImpulseOutput, out: &mut dyn Write) -> std::io::Result<()> {
         "ζ %",
         "linear Hz",
         "ζ %",
-        "apart %",
+        "difference %",
         "type",
         "rot.",
         "transl.",

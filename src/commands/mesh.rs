@@ -160,6 +160,17 @@ fn gear(body: &GearBody, bodies: &Bodies, lumped: Option<&LumpedInput>) -> BodyO
     }
 }
 
+/// Below the tables: what each column is.
+const LEGEND: &str = "\
+elements, free: numbers of finite elements and of free nodal displacements
+mass, inertia: of the finite-element mesh; inertia: polar, about the body's centre
+lumped: the scene's value in [lumped], and by how much the mesh's is above it; – without one
+flank error: largest distance of a meshed flank from its involute
+angles: least and largest corner of an element; aspect: largest ratio of two sides of an element
+det J ratio: least ratio of the smallest to the largest Jacobian determinant within one element, 1 without distortion
+flexibility: normal displacement below mid-flank, at the matching depth, under a unit force there; carrier: of a pin seat
+neighbour: displacement of the same point of the next tooth, over that of the loaded one";
+
 fn text(scene: &Scene, result: &MeshOutput, out: &mut dyn Write) -> std::io::Result<()> {
     writeln!(out, "{}", scene.title)?;
     let header =
@@ -210,5 +221,6 @@ fn text(scene: &Scene, result: &MeshOutput, out: &mut dyn Write) -> std::io::Res
             table.add_row(row);
         }
     }
-    writeln!(out, "{table}")
+    writeln!(out, "{table}")?;
+    writeln!(out, "{LEGEND}")
 }

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::command::{run, scene};
+use crate::command::{coarse, run, scene};
 
 /// The table of frequencies over carrier speed says which speeds are unstable, as JSON does.
 #[test]
@@ -61,4 +61,75 @@ fn reasons_of_tolerances_stand_by_check() {
         assert!(words.len() == 1 || own[count - 1] == words[2], "{row}");
     }
     assert_eq!(ids.next(), None, "{reasons}");
+}
+
+/// Headings of the tables in a text, without their units: the lines above a rule that follows a line of words.
+fn headings(text: &str) -> Vec<String> {
+    let lines: Vec<&str> = text.lines().collect();
+    let is_rule = |line: &str| line.starts_with('─');
+    let heads = (1..lines.len()).filter(|&i| is_rule(lines[i]) && lines[i - 1].contains("  "));
+    // The rule below a table follows its last row: only every second one stands below a heading.
+    let heads = heads.step_by(2).flat_map(|i| lines[i - 1].split("  "));
+    let units = [" µm/kN", " kg m²", " kg", " µm", " °", " Hz", " %", " N"];
+    let bare = |name: &str| {
+        let name = name.trim();
+        let unit = units.iter().find(|unit| name.ends_with(*unit) && name != "linear Hz");
+        unit.map_or(name, |unit| name.trim_end_matches(unit)).to_owned()
+    };
+    heads.map(bare).filter(|name| !name.is_empty()).collect()
+}
+
+/// Every column of the tables of meshes and of modal tests is explained below them.
+#[test]
+fn columns_of_meshes_and_modal_tests_are_explained() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = coarse(folder.path(), "oh58_4p.toml");
+    for (line, count, plain) in [
+        (format!("mesh {set}"), 14, ["body", "-"]),
+        (format!("impulse {set} --duration-ms 10"), 15, ["type", "pulse"]),
+    ] {
+        let (code, text, err) = run(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!(code, 0, "{err}");
+        let names = headings(&text);
+        assert_eq!(names.len(), count, "{names:?}");
+        for name in names.iter().filter(|name| !plain.contains(&name.as_str())) {
+            let is_term = |line: &str| {
+                line.split("; ").any(|part| {
+                    let term = part.split_once(": ").map(|(terms, _)| terms);
+                    term.is_some_and(|terms| terms.split(", ").any(|term| term == name))
+                })
+            };
+            assert!(text.lines().any(is_term), "{name}: {text}");
+        }
+    }
+}
+
+/// A torque in the scene acts on the input member, and `--sun-torque-nm` on the sun: with the carrier driven the two differ by
+/// 1 + z_ring/z_sun, and with either the sun carries the same.
+#[test]
+fn torques_of_scene_and_command_line_name_their_member() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = coarse(folder.path(), "oh58_4p.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let at_the_sun = |text: &str, more: &[&str]| {
+        std::fs::write(&path, text).unwrap();
+        let line = ["static", &path, "--positions", "1", "--format", "json"];
+        let (code, out, err) = run(&[&line, more].concat());
+        assert_eq!(code, 0, "{err}");
+        let result: Value = serde_json::from_str(&out).unwrap();
+        let cycle = &result["torques"][0];
+        let force = cycle["meshes"][0]["mean_force_n"].as_f64().unwrap();
+        (cycle["sun_torque_nm"].as_f64().unwrap(), force)
+    };
+    assert!(text.contains("input = \"sun\"") && text.contains("torque_nm = 1413"), "{text}");
+    let driven = at_the_sun(&text, &[]);
+    // 27 teeth of the sun, 99 of the ring, which is fixed.
+    let carrier = text
+        .replace("input = \"sun\"", "input = \"carrier\"")
+        .replace("torque_nm = 1413", &format!("torque_nm = {}", 1413.0 * (1.0 + 99.0 / 27.0)));
+    let (torque, force) = at_the_sun(&carrier, &[]);
+    assert!((torque.abs() / 1413.0 - 1.0).abs() < 1e-12 && driven.0 == 1413.0, "{torque}");
+    let (_, asked) = at_the_sun(&carrier, &["--sun-torque-nm", &torque.to_string()]);
+    assert!((asked / force - 1.0).abs() < 1e-9, "{asked} {force}");
+    assert!(force > 5000.0 && driven.1 > 5000.0);
 }

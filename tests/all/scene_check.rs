@@ -82,6 +82,8 @@ fn scenes() -> Vec<(&'static str, String)> {
             "sharp root",
             mutilated(&[], &[("fillet_radius_mm = 0.8   ", "fillet_radius_mm = 0.0   ")]),
         ),
+        ("few elements", mutilated(&[], &[("flank_elements = 6", "flank_elements = 4")])),
+        ("many elements", mutilated(&[], &[("flank_elements = 6", "flank_elements = 64")])),
         ("mesh law", mutilated(&[], &[("fidelity = \"quasi_static\"", "fidelity = \"mesh_law\"")])),
         (
             "gear pair",
@@ -176,6 +178,7 @@ fn it_says_verb_by_verb_what_is_lacking() {
     for words in [
         "verbs that run: rules, mesh, static\n",
         "modes, compare cannot run:\n  `lumped`: ",
+        "the table is optional, and `epicyclic mesh` computes masses and inertias for it",
         "branches (modal) cannot run:\n  `geometry.carrier`: ",
     ] {
         assert!(out.contains(words), "{words}: {out}");
