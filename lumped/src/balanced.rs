@@ -32,16 +32,15 @@ impl BalancedSet {
         law: MeshLaw,
         torque_nm: f64,
     ) -> Result<Self, LumpedError> {
-        let Parts { coordinates, linear, front, backside, side_loads, by_torque, .. } =
-            Parts::new(scene, sense, &law)?;
+        let Parts { layout, linear, front, backside, side_loads } = Parts::new(scene, sense, &law)?;
         let (couplings, steps) = ([front, backside].concat(), law.steps());
         let mut balance = HarmonicBalance::new(&linear, &couplings, MeshLawCouplings(law), steps)?;
-        let force: Vec<f64> = by_torque.iter().map(|f| f * torque_nm).collect();
+        let force: Vec<f64> = layout.by_torque.iter().map(|f| f * torque_nm).collect();
         balance.set_external(&force)?;
         for (step, load) in side_loads.iter().enumerate() {
             balance.add_in_cycle(step, load)?;
         }
-        Ok(Self { coordinates, balance })
+        Ok(Self { coordinates: layout.coordinates, balance })
     }
 
     /// A steady motion at a mesh frequency, from the unknowns of one nearby or from rest.

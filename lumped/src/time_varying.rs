@@ -47,39 +47,35 @@ impl CouplingForce for MeshLawCouplings {
 /// A lumped set in time, its mesh forces given by a mesh law.
 #[derive(Debug, Clone)]
 pub struct TimeVarying {
-    coordinates: Coordinates,
+    layout: Layout,
     system: Coupled<MeshLawCouplings>,
-    /// r in u = r θ of carrier, ring, sun and planet, m.
-    radii: [f64; 4],
-    /// Load on the coordinates by a unit torque on the sun, N/(N m).
-    by_torque: Vec<f64>,
-    relative: Option<RelativeRotation>,
-    sign: f64,
-    planets: usize,
-    /// Angles of the planets, of a set mirrored to counter-clockwise torque on the sun, rad.
-    psi_rad: Vec<f64>,
 }
 
 /// What a set consists of, in the coordinates of counter-clockwise torque on the sun.
 pub(crate) struct Parts {
-    pub(crate) coordinates: Coordinates,
+    pub(crate) layout: Layout,
     /// Masses, supports and bearings, without meshes.
     pub(crate) linear: LinearPart,
     pub(crate) front: Vec<Coupling>,
     pub(crate) backside: Vec<Coupling>,
     /// Forces on the coordinates by step of the cycle, N.
     pub(crate) side_loads: Vec<Vec<f64>>,
+}
+
+/// Which displacements the coordinates are and how a torque loads them. Of a pair whose gears both turn freely, these
+/// and the equations are those of the coordinates with one relative rotation.
+#[derive(Debug, Clone)]
+pub(crate) struct Layout {
+    pub(crate) coordinates: Coordinates,
     /// r in u = r θ of carrier, ring, sun and planet, m.
-    pub(crate) radii: [f64; 4],
+    radii: [f64; 4],
     /// Load on the coordinates by a unit torque on the sun, N/(N m); a planet of a pair that turns freely has the
     /// torque that balances it.
     pub(crate) by_torque: Vec<f64>,
-    /// How the rotations of a pair whose gears both turn freely are one coordinate; all of the above is then on
-    /// the reduced coordinates.
-    pub(crate) relative: Option<RelativeRotation>,
+    /// How the rotations of a pair whose gears both turn freely are one coordinate.
+    relative: Option<RelativeRotation>,
     sign: f64,
-    planets: usize,
-    /// Angles of the planets, rad.
+    /// Angles of the planets, of a set mirrored to counter-clockwise torque on the sun, rad.
     psi_rad: Vec<f64>,
 }
 
@@ -161,19 +157,8 @@ impl Parts {
             by_torque = relative.reduced(&by_torque);
         }
         let (coordinates, psi_rad) = (model.coordinates, model.psi);
-        Ok(Self {
-            coordinates,
-            linear,
-            front,
-            backside,
-            side_loads,
-            radii,
-            by_torque,
-            relative,
-            sign,
-            planets,
-            psi_rad,
-        })
+        let layout = Layout { coordinates, radii, by_torque, relative, sign, psi_rad };
+        Ok(Self { layout, linear, front, backside, side_loads })
     }
 }
 
@@ -197,25 +182,13 @@ impl TimeVarying {
         let steps = law.steps();
         let rule = AverageAcceleration::new(1.0 / (mesh_frequency_hz * steps as f64))
             .map_err(|_| LumpedError::Frequency(mesh_frequency_hz))?;
-        let Parts {
-            coordinates,
-            linear,
-            front,
-            backside,
-            side_loads,
-            radii,
-            by_torque,
-            relative,
-            sign,
-            planets,
-            psi_rad,
-        } = parts;
+        let Parts { layout, linear, front, backside, side_loads } = parts;
         let mut system =
             Coupled::new(&linear, &front, &backside, MeshLawCouplings(law), rule, steps)?;
         for (step, load) in side_loads.iter().enumerate() {
             system.add_in_cycle(step, load)?;
         }
-        Ok(Self { coordinates, system, radii, by_torque, relative, sign, planets, psi_rad })
+        Ok(Self { layout, system })
     }
 
     /// Puts the set to rest under a torque on the sun (N m, magnitude) at its current step.
@@ -223,7 +196,7 @@ impl TimeVarying {
     /// # Errors
     /// If there is no equilibrium.
     pub fn rest(&mut self, torque_nm: f64) -> Result<(), LumpedError> {
-        let force: Vec<f64> = self.by_torque.iter().map(|f| f * torque_nm).collect();
+        let force: Vec<f64> = self.layout.by_torque.iter().map(|f| f * torque_nm).collect();
         self.system.set_external(&force)?;
         Ok(self.system.rest()?)
     }
@@ -250,18 +223,18 @@ impl TimeVarying {
 
     fn by_body(&self, x: impl Fn(usize) -> f64) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
         let of = |body: Body, radius: f64| {
-            let at = |i: usize| match &self.relative {
+            let at = |i: usize| match &self.layout.relative {
                 Some(relative) => relative.full(i, &x),
                 None => x(i),
             };
-            let value = |axis| self.coordinates.of(body, axis).map_or(0.0, at);
+            let value = |axis| self.layout.coordinates.of(body, axis).map_or(0.0, at);
             let [first, second, u] = Axis::ALL.map(value);
             // Mirrored back: y and θ change sign.
-            [first, self.sign * second, self.sign * u / radius]
+            [first, self.layout.sign * second, self.layout.sign * u / radius]
         };
-        let [carrier, ring, sun, planet] = self.radii;
+        let [carrier, ring, sun, planet] = self.layout.radii;
         let central = [of(Body::Carrier, carrier), of(Body::Ring, ring), of(Body::Sun, sun)];
-        (central, (0..self.planets).map(|n| of(Body::Planet(n), planet)).collect())
+        (central, (0..self.layout.psi_rad.len()).map(|n| of(Body::Planet(n), planet)).collect())
     }
 
     /// Force of each mesh: sun meshes, ring meshes, then their backside flanks if the law has them, N.
@@ -343,23 +316,23 @@ impl TimeVarying {
 
     /// The symmetry after a part of the mesh cycle that the set has, with the most parts.
     pub fn symmetry(&self) -> Option<(Symmetry, CyclePart)> {
+        let Layout { coordinates, psi_rad, sign, .. } = &self.layout;
+        let planets = psi_rad.len();
         let couplings = self.system.forces().len();
         let place = |body: usize, axis: usize| {
-            let body = Body::all(self.planets).nth(body)?;
-            self.coordinates.of(body, *Axis::ALL.get(axis)?)
+            let body = Body::all(planets).nth(body)?;
+            coordinates.of(body, *Axis::ALL.get(axis)?)
         };
         // The planets' angles are those of the set mirrored to counter-clockwise torque.
-        Symmetry::candidates(&self.psi_rad, self.system.law().0.steps()).into_iter().find_map(
-            |own| {
-                let renumbering = Renumbering {
-                    parts: own.parts,
-                    coordinates: own.renumbering(self.planets, place)?,
-                    couplings: (0..couplings).map(|k| own.later(k, self.planets)).collect(),
-                };
-                let part = self.system.part_of_cycle(&renumbering)?;
-                Some((Symmetry { angle_rad: self.sign * own.angle_rad, ..own }, part))
-            },
-        )
+        Symmetry::candidates(psi_rad, self.system.law().0.steps()).into_iter().find_map(|own| {
+            let renumbering = Renumbering {
+                parts: own.parts,
+                coordinates: own.renumbering(planets, place)?,
+                couplings: (0..couplings).map(|k| own.later(k, planets)).collect(),
+            };
+            let part = self.system.part_of_cycle(&renumbering)?;
+            Some((Symmetry { angle_rad: sign * own.angle_rad, ..own }, part))
+        })
     }
 
     /// Ends such a part that began at step 0: the set stands at step 0 again, its planets renumbered.
@@ -380,7 +353,7 @@ impl TimeVarying {
 
     /// Free coordinates.
     pub fn coordinates(&self) -> &Coordinates {
-        &self.coordinates
+        &self.layout.coordinates
     }
 
     /// Mean number of iterations per step so far, and number of steps with backside flanks in the solution.

@@ -6,8 +6,8 @@ use experiments::ExperimentError;
 use experiments::branches::{
     BranchError, BranchParameter, BranchSettings, Branches as Found, branch, branches,
 };
-use experiments::sweep::{FeModel, MeshLawModel, SteadySettings, SweepModel};
-use fe_contact::statics::{Bodies, Imperfections};
+use experiments::sweep::SteadySettings;
+use fe_contact::statics::Bodies;
 use gearset::{Fidelity, LoadCase, Scene, Verb};
 
 use crate::arguments::{Branches, DAMPING_FACTORS, Model, Over, TableFormat};
@@ -16,7 +16,7 @@ use crate::output;
 
 use super::branches_output::{BranchesOutput, Fixed};
 use super::working::Working;
-use super::{fe_refused, loads, needs, read_scene, refused, unfit};
+use super::{fe_refused, loads, needs, read_scene, refused, turning, unfit};
 
 /// Follows the branch: results to `out`, warnings to `err`.
 pub(super) fn run(
@@ -41,15 +41,7 @@ pub(super) fn run(
     damping.bearing_s *= arguments.damping_factor;
     let working = Working::new("meshing the bodies and laying out tables");
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
-    let model: Box<dyn SweepModel> = match (arguments.model, scene.dynamics.fidelity) {
-        (Model::FeContact, Fidelity::MeshLaw) => {
-            Box::new(MeshLawModel::new(&scene, &bodies, case)?)
-        }
-        (Model::FeContact, _) => {
-            Box::new(FeModel::new(&scene, &bodies, Imperfections::default(), case))
-        }
-        (Model::Lumped, _) => Box::new(MeshLawModel::new(&scene, &bodies, case)?.lumped()),
-    };
+    let model = turning::model(arguments.model, &scene, &bodies, case)?;
     working.now("following the branch");
     let found = match arguments.switch {
         true => branches(model.as_ref(), &settings),

@@ -5,13 +5,14 @@ use std::io::Write;
 use experiments::branches::{
     Branch, BranchEnd, BranchOrigin, BranchParameter, BranchPointKind, BranchSettings, Branches,
 };
-use experiments::sweep::{Part, Response};
 use gearset::{LoadCase, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::error::CommandError;
 use crate::output;
+
+use super::turning::{OF_SUN, of_sun};
 
 /// What is held fixed along branches, apart from the parameter.
 pub(super) struct Fixed {
@@ -156,10 +157,10 @@ impl BranchesOutput {
             "point",
             "stable",
             "μ",
-            "rotation µrad",
-            "l",
-            "translation µm",
-            "l",
+            OF_SUN[0],
+            OF_SUN[1],
+            OF_SUN[2],
+            OF_SUN[3],
             "lowest N",
             "no contact",
             "grazing",
@@ -167,8 +168,7 @@ impl BranchesOutput {
         ];
         let mut table = output::table(&header, &[0, 3, 4, 5, 6, 7, 8, 9, 10, 11]);
         for p in &branch.points {
-            let rotation = Response::Rotation(Part::Sun).strongest(&p.state, self.harmonics);
-            let translation = Response::Translation(Part::Sun).strongest(&p.state, self.harmonics);
+            let [rotation, l, translation, of_translation] = of_sun(&p.state, self.harmonics);
             table.add_row([
                 match self.over {
                     BranchParameter::Speed => format!("{:.3}", p.parameter),
@@ -182,10 +182,10 @@ impl BranchesOutput {
                 },
                 if p.is_stable { "yes".into() } else { "no".into() },
                 format!("{:.4}", p.largest_multiplier()),
-                format!("{:.3}", 1e6 * rotation.0),
-                rotation.1.to_string(),
-                format!("{:.4}", 1e6 * translation.0),
-                if translation.0 > 1e-12 { translation.1.to_string() } else { "–".into() },
+                rotation,
+                l,
+                translation,
+                of_translation,
                 format!("{:.0}", p.lowest_force_n),
                 output::share(p.contact_loss),
                 p.grazing_margin.map_or("–".into(), |margin| format!("{margin:.3}")),

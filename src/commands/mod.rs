@@ -29,6 +29,7 @@ mod sweep_output;
 #[cfg(feature = "parquet")]
 mod sweep_parquet;
 mod sweep_store;
+mod turning;
 mod validate;
 mod verdict_table;
 mod verdict_text;

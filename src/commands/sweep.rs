@@ -5,10 +5,10 @@ use std::path::Path;
 
 use experiments::ExperimentError;
 use experiments::sweep::{
-    Direction, FeModel, Kept, LUMPED, Memory, MeshLawModel, Plan, PlanError, PointStore,
-    SteadyMethod, SteadySettings, Sweep, SweepModel, even_speeds, fidelity_name, run as run_plan,
+    Direction, Kept, LUMPED, Memory, Plan, PlanError, PointStore, SteadyMethod, SteadySettings,
+    Sweep, SweepModel, even_speeds, fidelity_name, run as run_plan,
 };
-use fe_contact::statics::{Bodies, Imperfections};
+use fe_contact::statics::Bodies;
 use gearset::{Fidelity, LoadCase, MOST_SCENE_BYTES, Scene, Verb};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
@@ -22,7 +22,7 @@ use super::sweep_manifest::Manifest;
 use super::sweep_output::{SweepOutput, text, write_csv, write_failed};
 use super::sweep_store::{Folder, write_whole};
 use super::working::Working;
-use super::{fe_refused, loads, needs, read_scene, refused, unfit};
+use super::{fe_refused, loads, needs, read_scene, refused, turning, unfit};
 
 /// Half-width of the refinement about a peak, as a share of its speed.
 const SPAN: f64 = 0.04;
@@ -47,15 +47,7 @@ pub(super) fn run(
     needs::figures(&scene, arguments.figures.as_deref(), err)?;
     let working = Working::new("meshing the bodies and laying out tables");
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
-    let model: Box<dyn SweepModel> = match (arguments.model, scene.dynamics.fidelity) {
-        (Model::FeContact, Fidelity::MeshLaw) => {
-            Box::new(MeshLawModel::new(&scene, &bodies, task.case)?)
-        }
-        (Model::FeContact, _) => {
-            Box::new(FeModel::new(&scene, &bodies, Imperfections::default(), task.case))
-        }
-        (Model::Lumped, _) => Box::new(MeshLawModel::new(&scene, &bodies, task.case)?.lumped()),
-    };
+    let model = turning::model(arguments.model, &scene, &bodies, task.case)?;
     let model = model.as_ref();
     drop(working);
     let mut sweep = task.march(model, &task.plan, PLAN)?;

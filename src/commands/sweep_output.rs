@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use experiments::sweep::{
-    FailedPoint, MOST_REPEATS, Part, Response, SteadyMethod, SteadySettings, Sweep, SweepPoint,
+    FailedPoint, MOST_REPEATS, SteadyMethod, SteadySettings, Sweep, SweepPoint,
 };
 use gearset::Scene;
 use schemars::JsonSchema;
@@ -11,6 +11,8 @@ use serde::Serialize;
 
 use crate::error::CommandError;
 use crate::output;
+
+use super::turning::{OF_SUN, of_sun};
 
 /// A sweep as JSON.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -229,10 +231,10 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
         "chain",
         "rpm",
         "f_m Hz",
-        "rotation µrad",
-        "l",
-        "translation µm",
-        "l",
+        OF_SUN[0],
+        OF_SUN[1],
+        OF_SUN[2],
+        OF_SUN[3],
         "lowest N",
         "no contact",
         "backside",
@@ -243,16 +245,15 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
     ];
     let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13]);
     for ChainPoint { chain, point: p } in &result.points {
-        let rotation = Response::Rotation(Part::Sun).strongest(&p.state, result.harmonics);
-        let translation = Response::Translation(Part::Sun).strongest(&p.state, result.harmonics);
+        let [rotation, l, translation, of_translation] = of_sun(&p.state, result.harmonics);
         table.add_row([
             chain.clone(),
             format!("{:.1}", p.state.case.speed_rpm),
             format!("{:.1}", p.state.case.mesh_frequency_hz),
-            format!("{:.3}", 1e6 * rotation.0),
-            rotation.1.to_string(),
-            format!("{:.4}", 1e6 * translation.0),
-            if translation.0 > 1e-12 { translation.1.to_string() } else { "–".into() },
+            rotation,
+            l,
+            translation,
+            of_translation,
             format!("{:.0}", p.lowest_force_n),
             output::share(p.contact_loss),
             p.backside_contact.map_or("n/a".into(), output::share),
@@ -325,7 +326,7 @@ mod tests {
         let case = |rpm: f64| LoadCase::turning(1130.0, rpm, 0.35 * rpm);
         let point = |rpm: f64, repeats_after: Option<usize>| {
             let line = |coordinate, amplitude| Line {
-                part: Part::Sun,
+                part: experiments::sweep::Part::Sun,
                 coordinate,
                 harmonic: 1,
                 amplitude,
