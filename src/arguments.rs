@@ -7,13 +7,13 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 /// Verification and benchmark suite for planetary gear dynamics (2-D, spur, single stage).
 #[derive(Debug, Parser)]
 #[command(version, about, max_term_width = 100)]
-pub struct Arguments {
+pub(crate) struct Arguments {
     #[command(subcommand)]
     pub verb: Verb,
 }
 
 #[derive(Debug, Subcommand)]
-pub enum Verb {
+pub(crate) enum Verb {
     /// Judge the models against published tables and theorems.
     Validate(Validate),
     /// Natural frequencies and mode types of a scene's lumped model.
@@ -40,7 +40,7 @@ pub enum Verb {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Format {
+pub(crate) enum Format {
     /// A table for people.
     Text,
     /// Stable keys for programs; schemas in `schemas/`.
@@ -48,7 +48,7 @@ pub enum Format {
 }
 
 #[derive(Debug, Args)]
-pub struct Validate {
+pub(crate) struct Validate {
     /// Also write the verdict and the mode tables to this folder (Markdown, JSON) and draw figures.
     #[arg(long, value_name = "DIR")]
     pub report: Option<PathBuf>,
@@ -73,7 +73,7 @@ pub struct Validate {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Profile {
+pub(crate) enum Profile {
     /// The checks that run within minutes.
     Quick,
     /// Every check.
@@ -81,7 +81,7 @@ pub enum Profile {
 }
 
 #[derive(Debug, Args)]
-pub struct Modes {
+pub(crate) struct Modes {
     /// Scene file.
     pub scene: PathBuf,
     /// Also list each mode's energy shares and the sensitivities of its frequency.
@@ -95,7 +95,7 @@ pub struct Modes {
 }
 
 #[derive(Debug, Args)]
-pub struct Rules {
+pub(crate) struct Rules {
     /// Scene file.
     pub scene: PathBuf,
     /// Highest harmonic of mesh frequency.
@@ -107,7 +107,7 @@ pub struct Rules {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum TableFormat {
+pub(crate) enum TableFormat {
     /// A table for people.
     Text,
     /// Stable keys for programs; schemas in `schemas/`.
@@ -118,7 +118,7 @@ pub enum TableFormat {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum ContactSolver {
+pub(crate) enum ContactSolver {
     /// Warm-started active set.
     ActiveSet,
     /// Lemke's complementary pivoting.
@@ -129,7 +129,7 @@ pub enum ContactSolver {
 }
 
 #[derive(Debug, Args)]
-pub struct Static {
+pub(crate) struct Static {
     /// Scene file: a whole set, or one mesh (`kind = "gear_pair"`).
     pub scene: PathBuf,
     /// Torques on the sun, N·m; negative is clockwise. If left out, what a set's operating point loads the sun with.
@@ -180,12 +180,12 @@ const POSITIONS: u32 = 140;
 
 impl Static {
     /// Number of positions in the mesh cycle.
-    pub fn position_count(&self) -> usize {
+    pub(crate) fn position_count(&self) -> usize {
         self.positions.unwrap_or(POSITIONS) as usize
     }
 
     /// The first of the options that only a gear pair turned by an approach has, if it is not turned by one.
-    pub fn without_approach(&self) -> Option<&'static str> {
+    pub(crate) fn without_approach(&self) -> Option<&'static str> {
         // The parser lets a `requires` pass where what is required conflicts with an option that is there.
         let given = [
             ("--phase", self.phase.is_some()),
@@ -200,7 +200,7 @@ impl Static {
 }
 
 #[derive(Debug, Args)]
-pub struct Impulse {
+pub(crate) struct Impulse {
     /// Scene file of a whole set, or a sun–planet gear pair.
     pub scene: PathBuf,
     /// Torque on the sun, N·m; negative is clockwise. If left out, what the operating point loads the sun with.
@@ -231,7 +231,7 @@ pub struct Impulse {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Model {
+pub(crate) enum Model {
     /// FE/contact, at the fidelity of the scene.
     FeContact,
     /// Lumped, its mesh forces tabulated over deflection and phase by FE/contact.
@@ -239,7 +239,7 @@ pub enum Model {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum SteadyMethod {
+pub(crate) enum SteadyMethod {
     /// Newton's method for the periodic motion, with its stability; marched where none is found or it is unstable.
     Shooting,
     /// Time integration until mesh cycles repeat.
@@ -247,7 +247,7 @@ pub enum SteadyMethod {
 }
 
 #[derive(Debug, Args)]
-pub struct Sweep {
+pub(crate) struct Sweep {
     /// Scene file of a whole set, or a sun–planet gear pair; its `[dynamics]` gives fidelity and steps per mesh cycle.
     pub scene: PathBuf,
     /// Speeds of the input member: first, last and step, rpm.
@@ -297,7 +297,7 @@ pub struct Sweep {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Over {
+pub(crate) enum Over {
     /// Speed of the input member.
     Speed,
     /// Torque on the sun.
@@ -307,7 +307,7 @@ pub enum Over {
 }
 
 #[derive(Debug, Args)]
-pub struct Branches {
+pub(crate) struct Branches {
     /// Scene file of a whole set, or a sun–planet gear pair; its `[dynamics]` gives fidelity and steps per mesh cycle.
     pub scene: PathBuf,
     /// What is varied along the branch.
@@ -357,7 +357,7 @@ pub struct Branches {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum MapArgument {
+pub(crate) enum MapArgument {
     /// Spectral radius, period error and numerical damping of time-stepping schemes over ω Δt.
     Integrators,
     /// Where the explicit central difference becomes unstable, and how many steps a mesh cycle would need.
@@ -371,7 +371,7 @@ pub enum MapArgument {
 }
 
 #[derive(Debug, Args)]
-pub struct Stability {
+pub(crate) struct Stability {
     /// The map; without it, the maps are listed.
     #[arg(value_enum)]
     pub map: Option<MapArgument>,
@@ -387,7 +387,7 @@ pub struct Stability {
 }
 
 #[derive(Debug, Args)]
-pub struct MeshVerb {
+pub(crate) struct MeshVerb {
     /// Scene file.
     pub scene: PathBuf,
     /// Draw the assembled meshes into this file (SVG).
@@ -402,7 +402,7 @@ pub struct MeshVerb {
 }
 
 #[derive(Debug, Subcommand)]
-pub enum SceneVerb {
+pub(crate) enum SceneVerb {
     /// Write a commented scene file to start from.
     New {
         /// File to write; `-` for standard output. An existing file is never overwritten.
@@ -423,7 +423,7 @@ pub enum SceneVerb {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// A whole planetary set.
     Planetary,
     /// One mesh alone.
@@ -431,7 +431,7 @@ pub enum Kind {
 }
 
 #[derive(Debug, Args)]
-pub struct Compare {
+pub(crate) struct Compare {
     /// CSV file with a `frequency_hz` column and, optionally, `mode_type` and `multiplicity`.
     pub modes: PathBuf,
     /// Scene the frequencies belong to.
@@ -482,7 +482,7 @@ fn small(text: &str) -> Result<f64, String> {
 }
 
 /// Least and greatest factor on every damping of a scene: with a millionth of it a set is undamped for all purposes.
-pub const DAMPING_FACTORS: [f64; 2] = [1e-6, 100.0];
+pub(crate) const DAMPING_FACTORS: [f64; 2] = [1e-6, 100.0];
 
 fn damping_factor(text: &str) -> Result<f64, String> {
     match text.parse() {

@@ -5,23 +5,23 @@ use std::error::Error;
 use std::path::Path;
 use std::process::ExitCode;
 
-pub type Outcome<T> = Result<T, Box<dyn Error>>;
+pub(crate) type Outcome<T> = Result<T, Box<dyn Error>>;
 
 /// The functions of such a bench.
-pub struct Beside {
-    pub name: &'static str,
+pub(crate) struct Beside {
+    pub(crate) name: &'static str,
     /// Prints medians and quartiles over a few batches.
-    pub summary: fn() -> Outcome<()>,
+    pub(crate) summary: fn() -> Outcome<()>,
     /// Nanoseconds per solution, averaged over this number of solutions.
-    pub nanoseconds: fn(u32) -> Outcome<f64>,
+    pub(crate) nanoseconds: fn(u32) -> Outcome<f64>,
     /// Writes the problem and its solution as CSV files into a folder.
-    pub dump: fn(&Path) -> Outcome<()>,
+    pub(crate) dump: fn(&Path) -> Outcome<()>,
 }
 
 impl Beside {
     /// Without arguments prints the summary, with `--batch COUNT` the nanoseconds per solution; `--dump
     /// FOLDER` writes the files; `--test` solves once, as benches do under `cargo bench -- --test`.
-    pub fn main(&self) -> ExitCode {
+    pub(crate) fn main(&self) -> ExitCode {
         // `cargo bench` adds `--bench`.
         let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
         let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
@@ -51,14 +51,14 @@ impl Beside {
 }
 
 /// Lower quartile, median and upper quartile of nine batches.
-pub fn quartiles(mut batch: impl FnMut() -> Outcome<f64>) -> Outcome<[f64; 3]> {
+pub(crate) fn quartiles(mut batch: impl FnMut() -> Outcome<f64>) -> Outcome<[f64; 3]> {
     let mut times = (0..9).map(|_| batch()).collect::<Outcome<Vec<f64>>>()?;
     times.sort_by(f64::total_cmp);
     Ok([2, 4, 6].map(|i| times[i]))
 }
 
 /// A matrix as CSV with all digits.
-pub fn csv(rows: usize, columns: usize, entry: impl Fn(usize, usize) -> f64) -> String {
+pub(crate) fn csv(rows: usize, columns: usize, entry: impl Fn(usize, usize) -> f64) -> String {
     let line = |i| (0..columns).map(|j| format!("{:e}", entry(i, j))).collect::<Vec<_>>().join(",");
     (0..rows).map(|i| line(i) + "\n").collect()
 }

@@ -42,7 +42,7 @@ impl Fixed {
 
 /// Branches as JSON.
 #[derive(Debug, Serialize, JsonSchema)]
-pub struct BranchesOutput {
+pub(super) struct BranchesOutput {
     /// Scene.
     scene: String,
     /// Version of the program.

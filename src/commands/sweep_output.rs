@@ -16,7 +16,7 @@ use super::turning::{OF_SUN, of_sun};
 
 /// A sweep as JSON.
 #[derive(Debug, Serialize, JsonSchema)]
-pub struct SweepOutput {
+pub(super) struct SweepOutput {
     /// Scene.
     scene: String,
     /// Name of the fidelity or model.

@@ -39,7 +39,7 @@ pub(super) struct RawPole {
 
 impl Realisation {
     /// Up to `highest` states.
-    pub fn new(
+    pub(super) fn new(
         matrices: &Compressed,
         outputs: usize,
         highest: usize,
@@ -74,7 +74,7 @@ impl Realisation {
     }
 
     /// Highest order.
-    pub fn highest(&self) -> usize {
+    pub(super) fn highest(&self) -> usize {
         self.sigma.len()
     }
 
@@ -82,7 +82,7 @@ impl Realisation {
     ///
     /// A is solved as a complex matrix: faer's real route gives wrong eigenvectors for pairs that
     /// are exactly repeated.
-    pub fn poles(&self, n: usize) -> Result<Vec<RawPole>, IdentifyError> {
+    pub(super) fn poles(&self, n: usize) -> Result<Vec<RawPole>, IdentifyError> {
         let complex = |m: MatRef<'_, f64>| {
             Mat::from_fn(m.nrows(), m.ncols(), |i, j| c64::new(m[(i, j)], 0.0))
         };

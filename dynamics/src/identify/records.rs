@@ -27,7 +27,7 @@ pub(super) struct Records {
 
 impl Records {
     /// Checks and prepares `raw[input][output]`.
-    pub fn new(
+    pub(super) fn new(
         raw: &[Vec<Vec<f64>>],
         interval: f64,
         options: &Options,
@@ -68,7 +68,7 @@ impl Records {
     }
 
     /// Factor by which the filter has multiplied the amplitude of a pole.
-    pub fn gain(&self, s: c64) -> c64 {
+    pub(super) fn gain(&self, s: c64) -> c64 {
         gain(&self.weights, s, self.interval)
     }
 }

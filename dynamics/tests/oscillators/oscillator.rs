@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 
 /// Force law of one coupling.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Law {
+pub(crate) enum Law {
     /// k δ.
     Linear { stiffness: f64 },
     /// γ δ³.
@@ -40,18 +40,18 @@ impl CouplingForce for Law {
 
 /// m ẍ + c ẋ + k x + F(x + τ ẋ) = f₀ + f₁ cos ωt.
 #[derive(Debug, Clone, Copy)]
-pub struct Oscillator {
-    pub mass: f64,
-    pub damping: f64,
-    pub stiffness: f64,
-    pub lag: f64,
-    pub law: Law,
-    pub steady: f64,
-    pub harmonic: f64,
+pub(crate) struct Oscillator {
+    pub(crate) mass: f64,
+    pub(crate) damping: f64,
+    pub(crate) stiffness: f64,
+    pub(crate) lag: f64,
+    pub(crate) law: Law,
+    pub(crate) steady: f64,
+    pub(crate) harmonic: f64,
 }
 
 impl Oscillator {
-    pub fn linear(&self) -> LinearPart {
+    pub(crate) fn linear(&self) -> LinearPart {
         LinearPart {
             mass: vec![self.mass],
             damping: DMatrix::from_element(1, 1, self.damping),
@@ -59,7 +59,7 @@ impl Oscillator {
         }
     }
 
-    pub fn couplings(&self) -> Vec<Coupling> {
+    pub(crate) fn couplings(&self) -> Vec<Coupling> {
         vec![Coupling { row: vec![1.0], offset: 0.0, lag: self.lag }]
     }
 
@@ -67,7 +67,7 @@ impl Oscillator {
         self.harmonic * (TAU * step as f64 / steps as f64).cos()
     }
 
-    pub fn balance(&self, steps: usize) -> HarmonicBalance<Law> {
+    pub(crate) fn balance(&self, steps: usize) -> HarmonicBalance<Law> {
         let law = self.at(steps).law;
         let mut out = HarmonicBalance::new(&self.linear(), &self.couplings(), law, steps).unwrap();
         out.set_external(&[self.steady]).unwrap();
@@ -77,7 +77,7 @@ impl Oscillator {
         out
     }
 
-    pub fn coupled(&self, omega: f64, steps: usize) -> Coupled<Law> {
+    pub(crate) fn coupled(&self, omega: f64, steps: usize) -> Coupled<Law> {
         let rule = AverageAcceleration::new(TAU / omega / steps as f64).unwrap();
         let law = self.at(steps).law;
         let mut out =
@@ -101,7 +101,7 @@ impl Oscillator {
     }
 
     /// The cycle's displacements at every `stride`-th step after marching from a motion at step 0.
-    pub fn marched(
+    pub(crate) fn marched(
         &self,
         omega: f64,
         steps: usize,
@@ -125,7 +125,7 @@ impl Oscillator {
     }
 
     /// The same, extrapolated from two numbers of steps to none: (4 x_{2S} − x_S)/3.
-    pub fn extrapolated(
+    pub(crate) fn extrapolated(
         &self,
         omega: f64,
         steps: usize,
@@ -139,7 +139,7 @@ impl Oscillator {
 }
 
 /// Duffing's oscillator ẍ + 2ζẋ + x + γx³ = f cos ωt in metres: displacements of the order of 0.1 mm to 1 mm.
-pub fn duffing(zeta: f64, force: f64) -> Oscillator {
+pub(crate) fn duffing(zeta: f64, force: f64) -> Oscillator {
     Oscillator {
         mass: 1.0,
         damping: 2.0 * zeta,
@@ -158,7 +158,7 @@ pub fn duffing(zeta: f64, force: f64) -> Oscillator {
 /// ```
 ///
 /// (Nayfeh & Mook, Nonlinear Oscillations, 1979, § 4.1). The frequency of the fold nearest a guess of (A, ω).
-pub fn duffing_fold(own: &Oscillator, gamma: f64, amplitude: f64, omega: f64) -> f64 {
+pub(crate) fn duffing_fold(own: &Oscillator, gamma: f64, amplitude: f64, omega: f64) -> f64 {
     let (k, m, c, f) = (own.stiffness, own.mass, own.damping, own.harmonic);
     let (mut a, mut s) = (amplitude * amplitude, omega * omega);
     for _ in 0..60 {

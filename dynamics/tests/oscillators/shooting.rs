@@ -10,15 +10,15 @@ use super::oscillator::Oscillator;
 
 /// Periodic motions of an oscillator by shooting: unknowns x, v at phase 0; fourth-order Runge–Kutta in θ = ωt, with
 /// the derivatives by start and frequency integrated along.
-pub struct Shooting {
-    pub own: Oscillator,
-    pub gamma: f64,
-    pub steps: usize,
+pub(crate) struct Shooting {
+    pub(crate) own: Oscillator,
+    pub(crate) gamma: f64,
+    pub(crate) steps: usize,
 }
 
 impl Shooting {
     /// End of a period [x, v, ∂x/∂x₀, ∂v/∂x₀, ∂x/∂v₀, ∂v/∂v₀, ∂x/∂ω, ∂v/∂ω], and x along it.
-    pub fn period(&self, y: &[f64], omega: f64) -> ([f64; 8], Vec<f64>) {
+    pub(crate) fn period(&self, y: &[f64], omega: f64) -> ([f64; 8], Vec<f64>) {
         let o = &self.own;
         let rate = |s: &[f64; 8], theta: f64| -> [f64; 8] {
             let (x, v) = (s[0], s[1]);

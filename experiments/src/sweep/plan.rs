@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::steady::SteadySettings;
 
 /// Speeds in a chain unless said otherwise.
-pub const CHAIN: usize = 12;
+pub(super) const CHAIN: usize = 12;
 
 /// Most speeds of a plan.
 const MOST_SPEEDS: f64 = 100_000.0;

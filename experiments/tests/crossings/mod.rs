@@ -5,12 +5,12 @@ use experiments::branches::{Branch, BranchPoint};
 use crate::amplitudes::rotation;
 
 /// Speed of a point, rpm.
-pub fn speed(p: &BranchPoint) -> f64 {
+pub(crate) fn speed(p: &BranchPoint) -> f64 {
     p.state.case.speed_rpm
 }
 
 /// The motions of a branch at one speed, with their stability, between neighbouring points.
-pub fn at(branch: &Branch, rpm: f64) -> Vec<([f64; 5], bool)> {
+pub(crate) fn at(branch: &Branch, rpm: f64) -> Vec<([f64; 5], bool)> {
     let crossing = |pair: &[BranchPoint]| {
         let [a, b] = [speed(&pair[0]), speed(&pair[1])];
         let share = (rpm - a) / (b - a);

@@ -100,7 +100,7 @@ impl BodyMatrices {
 }
 
 /// Unknown number (of x; y is the next) of each node; `usize::MAX` on the race.
-pub fn number_unknowns(mesh: &FeGearMesh) -> Vec<usize> {
+pub(crate) fn number_unknowns(mesh: &FeGearMesh) -> Vec<usize> {
     let mut next = 0;
     let number = |held: &bool| {
         if *held {

@@ -103,7 +103,7 @@ fn growing(length: f64, first: f64, most: f64) -> Vec<f64> {
 }
 
 /// 0, 1/n, …, 1.
-pub fn evenly(n: usize) -> Vec<f64> {
+pub(super) fn evenly(n: usize) -> Vec<f64> {
     (0..=n).map(|i| i as f64 / n as f64).collect()
 }
 

@@ -95,12 +95,12 @@ pub trait VibratingBody: std::fmt::Debug + Send {
 }
 
 /// Components of a race vector in a frame turned by `angle`: x and y turn, u stays.
-pub fn into_frame(v: [f64; 3], angle: f64) -> [f64; 3] {
+pub(super) fn into_frame(v: [f64; 3], angle: f64) -> [f64; 3] {
     let (sin, cos) = angle.sin_cos();
     [cos * v[0] + sin * v[1], -sin * v[0] + cos * v[1], v[2]]
 }
 
 /// Inverse of [`into_frame`].
-pub fn out_of_frame(v: [f64; 3], angle: f64) -> [f64; 3] {
+pub(super) fn out_of_frame(v: [f64; 3], angle: f64) -> [f64; 3] {
     into_frame(v, -angle)
 }

@@ -6,13 +6,13 @@ use gearset::Scene;
 use lumped::{LumpedModel, ModeType, NaturalModes};
 
 /// A scene file of the repository.
-pub fn scene(name: &str) -> Scene {
+pub(crate) fn scene(name: &str) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
     Scene::from_file(&path).unwrap()
 }
 
 /// Model and modes of a scene, whose frequencies rounding must not have spoilt.
-pub fn modes(scene: &Scene) -> (LumpedModel, NaturalModes) {
+pub(crate) fn modes(scene: &Scene) -> (LumpedModel, NaturalModes) {
     let model = LumpedModel::from_scene(scene).unwrap();
     let modes = NaturalModes::of(&model).unwrap();
     assert!(modes.groups.iter().all(|g| g.uncertainty < 1e-11));
@@ -20,6 +20,6 @@ pub fn modes(scene: &Scene) -> (LumpedModel, NaturalModes) {
 }
 
 /// Frequencies of one type with multiplicity, Hz.
-pub fn of_type(modes: &NaturalModes, mode_type: ModeType) -> Vec<(f64, usize)> {
+pub(crate) fn of_type(modes: &NaturalModes, mode_type: ModeType) -> Vec<(f64, usize)> {
     modes.of_type(mode_type).map(|g| (g.frequency_hz, g.multiplicity)).collect()
 }
