@@ -27,9 +27,6 @@ pub struct Symmetry {
     pub angle_rad: f64,
 }
 
-/// One entry of a matrix: row, column, value.
-pub type Entry = (usize, usize, f64);
-
 impl Symmetry {
     /// Those that the planets' angles (rad) and the number of steps in a mesh cycle allow, more parts first. Whether
     /// the set has one of them depends on its phases and on all else it is made of.
@@ -54,7 +51,7 @@ impl Symmetry {
         mesh / planets * planets + (mesh % planets + self.shift) % planets
     }
 
-    /// P of x(start of the next part) = P x(end of a part), by its entries that are not zero: planets take the numbers
+    /// P of x(start of the next part) = P x(end of a part), by row, column and value of its entries that are not zero: planets take the numbers
     /// of those `shift` before them, central members turn back by the angle. `place` gives the place of a body's axis
     /// among the coordinates: carrier, ring, sun, planets; x, y, rotation, of planets ζ, η, rotation. `None` if a
     /// central member is held in one direction only, or one planet and not another.
@@ -62,7 +59,7 @@ impl Symmetry {
         &self,
         planets: usize,
         place: impl Fn(usize, usize) -> Option<usize>,
-    ) -> Option<Vec<Entry>> {
+    ) -> Option<Vec<(usize, usize, f64)>> {
         let mut entries = Vec::new();
         let (sin, cos) = self.angle_rad.sin_cos();
         for body in 0..CENTRAL {
