@@ -11,7 +11,7 @@ use super::newton;
 use crate::newmark::AverageAcceleration;
 
 /// Rows that pass through a step together.
-const ROWS: usize = 2;
+const ROWS: usize = 4;
 
 /// Gradients of displacements, velocities and accelerations of n modes with respect to 2n coordinates at the start:
 /// by bundles of [`ROWS`] of these, then modes.
@@ -21,6 +21,8 @@ pub(super) struct Gradients {
     own: Vec<[[f64; ROWS]; 3]>,
     /// Of one bundle by mode, in turn: A⁻¹ (a*' + C v*'), v*', a*'.
     within: Vec<[[f64; ROWS]; 3]>,
+    /// Loads on the modes of one bundle.
+    loads: Vec<[f64; ROWS]>,
     /// Answers of the modes to z', by mode, then coupling.
     by_reach: Vec<f64>,
 }
@@ -48,7 +50,8 @@ impl Gradients {
                 }
             }
         }
-        Self { modes, own, within: vec![[[0.0; ROWS]; 3]; modes], by_reach: Vec::new() }
+        let within = vec![[[0.0; ROWS]; 3]; modes];
+        Self { modes, own, within, loads: Vec::new(), by_reach: Vec::new() }
     }
 
     /// Displacements, then velocities of the modes at the end by those at the start, 2n×2n.
@@ -94,7 +97,7 @@ impl Gradients {
                     q[row] = a1[row];
                 }
             }
-            solve(modes, within);
+            solve(modes, rate, within, &mut self.loads);
             if presses {
                 let (mut z, mut rates) = ([[0.0; ROWS]; W], [[0.0; ROWS]; W]);
                 for (along, [q, ..]) in rows.iter().zip(within.iter()) {
@@ -151,9 +154,14 @@ impl Gradients {
     }
 }
 
-/// Replaces a*' by A⁻¹ (a*' + C v*') in all modes of a bundle.
+/// Replaces a*' by A⁻¹ (a*' + C v*') in all modes of a bundle. Where C is full, C = (h/2) (A − (4/h²) I − Λ) leaves one
+/// product with a full matrix,
+///
+/// ```text
+/// A⁻¹ (a* + C v*) = (h/2) v* + A⁻¹ (a* − (2/h) v* − (h/2) Λ v*)
+/// ```
 #[inline]
-fn solve(modes: &Modes, within: &mut [[[f64; ROWS]; 3]]) {
+fn solve(modes: &Modes, rate: f64, within: &mut [[[f64; ROWS]; 3]], loads: &mut Vec<[f64; ROWS]>) {
     match &modes.own_damping {
         Some(damping) => {
             let own = damping.iter().zip(&modes.own_inverse);
@@ -164,13 +172,20 @@ fn solve(modes: &Modes, within: &mut [[[f64; ROWS]; 3]]) {
             }
         }
         None => {
-            for row in 0..ROWS {
-                let velocity: Vec<f64> = within.iter().map(|[_, v1, _]| v1[row]).collect();
-                let mut load: Vec<f64> = within.iter().map(|[q, ..]| q[row]).collect();
-                let mut free = vec![0.0; load.len()];
-                modes.add_damping(&velocity, &mut load);
-                modes.solve_full(&load, &mut free);
-                within.iter_mut().zip(free).for_each(|([q, ..], free)| q[row] = free);
+            loads.clear();
+            loads.extend(within.iter().zip(&modes.lambda).map(|([q, v1, _], lambda)| {
+                std::array::from_fn(|row| q[row] - (rate + lambda / rate) * v1[row])
+            }));
+            for ([q, v1, _], inverse) in within.iter_mut().zip(modes.inverse.row_iter()) {
+                let mut sum = [0.0; ROWS];
+                for (load, inverse) in loads.iter().zip(inverse.iter()) {
+                    for row in 0..ROWS {
+                        sum[row] += inverse * load[row];
+                    }
+                }
+                for row in 0..ROWS {
+                    q[row] = v1[row] / rate + sum[row];
+                }
             }
         }
     }
