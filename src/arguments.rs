@@ -30,6 +30,8 @@ pub(crate) enum Verb {
     Branches(Branches),
     /// Methods and sets pushed until they fail: borders of stability, measured, with theory beside them.
     Stability(Stability),
+    /// Error against cost: what many settings give for quantities of interest, beside a truth with its uncertainty.
+    Study(Study),
     /// Finite-element meshes of a scene: quality, mass properties, flexibility, pictures.
     Mesh(MeshVerb),
     /// Write or explain a scene file.
@@ -113,7 +115,8 @@ pub(crate) enum TableFormat {
     /// Stable keys for programs; schemas in `schemas/`.
     Json,
     /// One row per position and tooth pair (`static`), mode (`impulse`), speed, quantity and harmonic (`sweep`),
-    /// point, quantity and harmonic (`branches`), or border (`stability`; without a map, one row per map).
+    /// point, quantity and harmonic (`branches`), border (`stability`; without a map, one row per map), or quantity and
+    /// setting (`study`).
     Csv,
 }
 
@@ -384,6 +387,21 @@ pub(crate) struct Stability {
     pub out: Option<PathBuf>,
     #[arg(long, value_enum, default_value_t = TableFormat::Text)]
     pub format: TableFormat,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Study {
+    /// Study file: quantities, routes to their truth, settings (docs/studies.md).
+    pub(crate) file: PathBuf,
+    /// Rounds in which every setting is run; those of the file if left out.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(3..=999),
+          allow_negative_numbers = true)]
+    pub(crate) rounds: Option<u32>,
+    /// Also write table (CSV), result (JSON) and figure (SVG, PNG) into this folder.
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    pub(crate) format: TableFormat,
 }
 
 #[derive(Debug, Args)]

@@ -24,6 +24,15 @@ pub enum CommandError {
         /// What is missing, by key.
         reason: String,
     },
+    /// A study that cannot be run.
+    #[error("{}: {error}", path.display())]
+    Study {
+        /// Its file.
+        path: PathBuf,
+        /// What is wrong with it, by key.
+        #[source]
+        error: experiments::study::StudyError,
+    },
     /// A file that cannot be read or written.
     #[error("{what} `{}`: {source}", path.display())]
     File {

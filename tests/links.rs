@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Component, Path, PathBuf};
 
 /// Folders whose files are quoted by their path from the root of the repository.
-const DATA: [&str; 5] = ["docs", "kept", "reference", "checks", "scenes"];
+const DATA: [&str; 6] = ["docs", "kept", "reference", "checks", "scenes", "studies"];
 
 /// Pages quote program files as well.
 const PROGRAM: [&str; 13] = [

@@ -10,6 +10,7 @@ mod model;
 pub mod models;
 mod natural_mode;
 pub mod stability;
+pub mod study;
 pub mod sweep;
 mod table_growth;
 pub mod torque;

@@ -21,6 +21,8 @@ mod static_approach;
 mod static_pair;
 mod static_set;
 mod statics;
+mod study;
+mod study_text;
 mod suite_progress;
 mod sweep;
 mod sweep_claim;
@@ -90,6 +92,7 @@ fn dispatch(
         Verb::Sweep(arguments) => sweep::run(&arguments, out, err).map(|()| true),
         Verb::Branches(arguments) => branches::run(&arguments, out, err).map(|()| true),
         Verb::Stability(arguments) => stability::run(&arguments, out, err).map(|()| true),
+        Verb::Study(arguments) => study::run(&arguments, out, err).map(|()| true),
         Verb::Mesh(arguments) => mesh::run(&arguments, out, err).map(|()| true),
         Verb::Scene(verb) => scene::run(&verb, out).map(|()| true),
         Verb::Compare(arguments) => compare::run(&arguments, out),

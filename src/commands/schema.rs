@@ -13,6 +13,7 @@ use super::stability::{StabilityList, StabilityOutput};
 use super::static_approach::ApproachOutput;
 use super::static_pair::PairOutput;
 use super::static_set::SetOutput;
+use super::study::StudyOutput;
 use super::sweep_output::SweepOutput;
 use super::validate::ControlsOutput;
 
@@ -38,6 +39,7 @@ pub fn schemas() -> Vec<(&'static str, Schema)> {
         ("branches", of::<BranchesOutput>()),
         ("stability", of::<StabilityOutput>()),
         ("stability_list", of::<StabilityList>()),
+        ("study", of::<StudyOutput>()),
         ("mesh", of::<MeshOutput>()),
         ("compare", of::<Comparison>()),
     ]

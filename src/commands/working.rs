@@ -28,6 +28,11 @@ impl Working {
     pub(super) fn now(&self, words: &'static str) {
         self.0.set_message(words);
     }
+
+    /// The same with words put together as the work goes on.
+    pub(super) fn say(&self, words: &str) {
+        self.0.set_message(words.to_owned());
+    }
 }
 
 impl Drop for Working {

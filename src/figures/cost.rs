@@ -149,12 +149,17 @@ fn legend(canvas: &mut Canvas, groups: &[&str], [left, top]: Pixel) {
 }
 
 /// Square about a point: left, top, right, bottom.
-fn around([x, y]: Pixel, half: f64) -> [f64; 4] {
+pub(super) fn around([x, y]: Pixel, half: f64) -> [f64; 4] {
     [x - half, y - half, x + half, y + half]
 }
 
 /// Place and anchor of a label that covers no other, if there is one.
-fn free(axes: &Axes, [x, y]: Pixel, length: f64, taken: &mut Vec<[f64; 4]>) -> (Pixel, Anchor) {
+pub(super) fn free(
+    axes: &Axes,
+    [x, y]: Pixel,
+    length: f64,
+    taken: &mut Vec<[f64; 4]>,
+) -> (Pixel, Anchor) {
     let is_free = |b: &[f64; 4], taken: &[[f64; 4]]| {
         let is_inside = b[0] >= axes.left() && b[2] <= axes.right() && b[1] >= axes.top();
         let meets = |t: &[f64; 4]| b[0] < t[2] && t[0] < b[2] && b[1] < t[3] && t[1] < b[3];

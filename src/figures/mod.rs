@@ -1,5 +1,5 @@
-//! Figures of the verdict's report, of a mesh cycle at rest, of impulse tests, of speed sweeps, of branches and of stability maps,
-//! one module per figure; all are saved as SVG and PNG.
+//! Figures of the verdict's report, of a mesh cycle at rest, of impulse tests, of speed sweeps, of branches, of stability
+//! maps and of studies, one module per figure; all are saved as SVG and PNG.
 
 mod branches;
 mod campbell;
@@ -17,6 +17,7 @@ mod set_cycle;
 mod spectrum;
 mod stabilisation;
 mod stability;
+mod study;
 mod sweep;
 mod torque_map;
 mod torque_peaks;
@@ -32,6 +33,7 @@ pub use meshes::meshes;
 pub use pair_cycle::of_pair_cycle;
 pub use set_cycle::of_set_cycles;
 pub use stability::of_map;
+pub use study::of_study;
 pub use sweep::{SweepContext, of_sweep};
 pub use torque_map::torque_map;
 pub use torque_peaks::torque_peaks;

@@ -13,4 +13,5 @@ mod refusals;
 mod scene_check;
 mod scene_schema;
 mod snapshots;
+mod study_command;
 mod sweep_command;

@@ -13,7 +13,7 @@ use serde_json::Value;
 use validation::{Figure, Ledger};
 
 /// Relative tolerance of numbers whose key contains this text; the longest match counts.
-const RELATIVE: [(&str, f64); 15] = [
+const RELATIVE: [(&str, f64); 18] = [
     // Frequencies and geometry: an eigenvalue solver's rounding is 1e-13.
     ("", 1e-9),
     // Shares and sensitivities depend on eigenvectors, which are less accurate at close frequencies.
@@ -34,6 +34,10 @@ const RELATIVE: [(&str, f64); 15] = [
     // 100 times a relative difference, about 1e-4, of identified frequencies.
     ("difference_percent", 0.05),
     ("force_change", 1e-4),
+    // Of values that agree to a thousandth, and depend on contact as above.
+    ("quantities/rows/value", 1e-6),
+    ("quantities/rows", 1e-3),
+    ("quantities/truth", 1e-3),
 ];
 
 /// Largest drift of a checked value, as a share of the tolerance it is judged by.
@@ -113,12 +117,16 @@ fn assert_json(name: &str, arguments: &[&str]) {
     let all = std::iter::once("epicyclic").chain(arguments.iter().copied());
     let code = epicyclic::run(all.chain(["--format", "json"]), &mut out, &mut err);
     assert_eq!(code, 0, "{}", String::from_utf8_lossy(&err));
+    assert_text(name, String::from_utf8(out).unwrap());
+}
+
+fn assert_text(name: &str, text: String) {
     let mut settings = Settings::clone_current();
     settings.set_snapshot_path(Path::new(env!("CARGO_MANIFEST_DIR")).join("snapshots"));
     settings.set_prepend_module_to_snapshot(false);
     settings.set_omit_expression(true);
     settings.set_comparator(Box::new(Tolerant));
-    settings.bind(|| insta::assert_snapshot!(name, String::from_utf8(out).unwrap()));
+    settings.bind(|| insta::assert_snapshot!(name, text));
 }
 
 fn scene(name: &str) -> String {
@@ -211,6 +219,17 @@ fn campbell() {
 fn stability() {
     assert_json("stability_explicit_step", &["stability", "explicit-step"]);
     assert_json("stability_list", &["stability"]);
+}
+
+/// A study without its times.
+#[test]
+fn study() {
+    let file = format!("{}/studies/first.toml", env!("CARGO_MANIFEST_DIR"));
+    let (code, out, err) = super::command::run(&["study", &file, "--format", "json"]);
+    assert_eq!(code, 0, "{err}");
+    let mut result: Value = serde_json::from_str(&out).unwrap();
+    super::study_command::without_times(&mut result);
+    assert_text("study_first", serde_json::to_string_pretty(&result).unwrap());
 }
 
 #[test]

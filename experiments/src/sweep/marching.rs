@@ -54,6 +54,11 @@ pub trait Marching {
     /// Effort of the steps so far.
     fn effort(&self) -> Effort;
 
+    /// Memory of contact tables, maps and frames, bytes; 0 of a model whose meshes follow a law.
+    fn bytes(&self) -> usize {
+        0
+    }
+
     /// The state from which the next step continues, after a whole number of mesh cycles: first
     /// [`counters`](Self::counters) whole numbers, then continuous quantities.
     fn state(&mut self) -> Vec<f64>;
@@ -116,6 +121,10 @@ impl Marching for FeMarching<'_> {
             coordinates: self.set.races().count + self.set.elastic_unknowns(),
             solutions: counts.solutions as f64 / counts.steps.max(1) as f64,
         }
+    }
+
+    fn bytes(&self) -> usize {
+        self.set.bytes().iter().sum()
     }
 
     fn state(&mut self) -> Vec<f64> {

@@ -1,0 +1,75 @@
+//! `study FILE`: quantities of interest, their truth, settings by error and cost.
+
+use std::io::Write;
+
+use experiments::study::{StudyError, StudyFile, StudyResult, run_study};
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use crate::arguments::{Study, TableFormat};
+use crate::error::CommandError;
+use crate::output;
+
+use super::study_text::{write_csv, write_text};
+use super::working::Working;
+use super::{folder, save};
+
+/// `study FILE --format json`.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct StudyOutput {
+    /// Version of the program.
+    version: String,
+    #[serde(flatten)]
+    study: StudyResult,
+}
+
+pub(super) fn run(
+    arguments: &Study,
+    out: &mut dyn Write,
+    err: &mut (dyn Write + Send),
+) -> Result<(), CommandError> {
+    let refused = |error: StudyError| CommandError::Study { path: arguments.file.clone(), error };
+    let mut study = StudyFile::read(&arguments.file).map_err(refused)?;
+    if let Some(rounds) = arguments.rounds {
+        study = study.with_rounds(rounds as usize).map_err(refused)?;
+    }
+    folder("--out", arguments.out.as_deref())?;
+    let working = Working::new("study");
+    let result = run_study(&study, &|words| working.say(words)).map_err(refused)?;
+    drop(working);
+    warn(&result, err)?;
+    let result = StudyOutput { version: env!("CARGO_PKG_VERSION").into(), study: result };
+    if let Some(folder) = &arguments.out {
+        let name = arguments.file.file_stem().unwrap_or_default().to_string_lossy();
+        let file = |ending: &str| folder.join(format!("{name}.{ending}"));
+        let mut text = Vec::new();
+        output::json(&mut text, &result)?;
+        save(&file("json"), &String::from_utf8_lossy(&text))?;
+        text.clear();
+        write_csv(&result.study, &mut text)?;
+        save(&file("csv"), &String::from_utf8_lossy(&text))?;
+        #[cfg(feature = "charts")]
+        crate::figures::save(&[crate::figures::of_study(&result.study, &name)], folder)?;
+    }
+    match arguments.format {
+        TableFormat::Json => output::json(out, &result),
+        TableFormat::Csv => write_csv(&result.study, out),
+        TableFormat::Text => write_text(&result.study, out),
+    }
+}
+
+/// Drift of the yardstick beyond which costs are warned of: ratios are taken to the yardstick just before and after, which
+/// a slow drift leaves as they are, and a machine this restless may have changed in between.
+const RESTLESS: f64 = 1.2;
+
+fn warn(study: &StudyResult, err: &mut dyn Write) -> Result<(), CommandError> {
+    let drift = study.time.yardstick_drift;
+    if !(1.0 / RESTLESS..=RESTLESS).contains(&drift) {
+        writeln!(
+            err,
+            "warning: the yardstick took {drift:.2} times as long at the end as at the beginning: other programs may \
+             have run beside the study; errors do not depend on it, costs may"
+        )?;
+    }
+    Ok(())
+}
