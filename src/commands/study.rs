@@ -58,17 +58,20 @@ pub(super) fn run(
     }
 }
 
-/// Drift of the yardstick beyond which costs are warned of: ratios are taken to the yardstick just before and after, which
-/// a slow drift leaves as they are, and a machine this restless may have changed in between.
+/// Ratio of the yardstick's times, of the last third to the first or of the upper quartile to the lower, beyond which
+/// costs are warned of. Ratios are taken to the yardstick just before and after, which a slow drift leaves as they are; a
+/// machine as restless as this may have changed in between.
 const RESTLESS: f64 = 1.2;
 
 fn warn(study: &StudyResult, err: &mut dyn Write) -> Result<(), CommandError> {
-    let drift = study.time.yardstick_drift;
-    if !(1.0 / RESTLESS..=RESTLESS).contains(&drift) {
+    let (drift, q) = (study.time.yardstick_drift, &study.time.yardstick_s);
+    let scatter = q.high / q.low;
+    if scatter > RESTLESS || !(1.0 / RESTLESS..=RESTLESS).contains(&drift) {
         writeln!(
             err,
-            "warning: the yardstick took {drift:.2} times as long at the end as at the beginning: other programs may \
-             have run beside the study; errors do not depend on it, costs may"
+            "warning: the yardstick took {drift:.2} times as long at the end as at the beginning, and its upper quartile \
+             is {scatter:.2} times the lower: other programs may have run beside the study; errors do not depend on it, \
+             costs may be off by as much"
         )?;
     }
     Ok(())
