@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 /// Tells the time.
-pub trait Stopwatch {
+pub trait Stopwatch: Send {
     /// Seconds since any fixed moment.
     fn seconds(&mut self) -> f64;
 }

@@ -37,10 +37,15 @@ pub fn run_study_with(
     stopwatch: &mut (dyn FnMut() -> Box<dyn Stopwatch> + Send),
     now: &(dyn Fn(&str) + Sync),
 ) -> Result<StudyResult, StudyError> {
-    // One thread, so that times are those of one core and the yardstick runs on the same.
+    apart(|| on_this_thread(study, stopwatch().as_mut(), now))?
+}
+
+/// Runs on a thread of its own, so that times are those of one core. The yardstick shares its thread with no contact
+/// solution: the state in which one leaves the processor's registers halves the speed of what follows on its thread.
+fn apart<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, StudyError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
     let pool = pool.map_err(|e| StudyError::Thread(e.to_string()))?;
-    pool.install(|| on_this_thread(study, stopwatch().as_mut(), now))
+    Ok(pool.install(work))
 }
 
 fn on_this_thread(
@@ -52,7 +57,7 @@ fn on_this_thread(
     let case = LoadCase::of_scene(&study.scene).map_err(|e| StudyError::Yardstick(e.into()))?;
     let case = torque.map_or(case, |torque| case.with_sun_torque(torque));
     now("yardstick");
-    let lumped = yardstick(&study.scene, case).map_err(StudyError::Yardstick)?;
+    let lumped = apart(|| yardstick(&study.scene, case))?.map_err(StudyError::Yardstick)?;
     let mut unit = Yardstick::new(&lumped).map_err(StudyError::Yardstick)?;
     let experiments = experiments(&study.quantities);
     let truths = truths(study, stopwatch, now)?;
@@ -68,7 +73,7 @@ fn on_this_thread(
             unit.cycle_s(own.stopwatch).map_err(StudyError::Yardstick)
         },
         |round, setting| {
-            let found = clock.borrow_mut().answers(round, setting, &experiments);
+            let found = clock.borrow_mut().answers(round, setting, &experiments)?;
             let times = found.iter().flat_map(|a| a.times).collect();
             match first.get(setting) {
                 None => first.push(found),
@@ -110,10 +115,16 @@ struct Measuring<'s> {
 }
 
 impl Measuring<'_> {
-    fn answers(&mut self, round: usize, setting: usize, experiments: &[Experiment]) -> Vec<Answer> {
+    fn answers(
+        &mut self,
+        round: usize,
+        setting: usize,
+        experiments: &[Experiment],
+    ) -> Result<Vec<Answer>, StudyError> {
         let own = &self.study.settings[setting];
         (self.now)(&format!("round {} of {}, {}", round + 1, self.study.rounds, own.name));
-        answers(own, self.study.sun_torque_nm, experiments, self.stopwatch)
+        let (torque, stopwatch) = (self.study.sun_torque_nm, &mut *self.stopwatch);
+        apart(|| answers(own, torque, experiments, stopwatch))
     }
 }
 
@@ -178,7 +189,8 @@ fn truths(
         let mut found = Vec::new();
         for setting in settings {
             now(&format!("truth, {}", setting.name));
-            found.push(answers(setting, study.sun_torque_nm, &experiments, stopwatch));
+            let torque = study.sun_torque_nm;
+            found.push(apart(|| answers(setting, torque, &experiments, &mut *stopwatch))?);
         }
         for (k, quantity) in own.into_iter().zip(&asked) {
             let at = place(&experiments, quantity);
