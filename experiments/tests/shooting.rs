@@ -34,7 +34,7 @@ fn compare(model: &dyn SweepModel, rpm: f64, most_cycles: usize) -> (f64, [usize
         let mut set = model.turning(&model.case().at_speed(rpm), 0).unwrap();
         set.rest().unwrap();
         let steps = model.steps_per_cycle();
-        steady(set.as_mut(), model.planets(), model.first_planet_rad(), steps, settings).unwrap()
+        steady(set.as_mut(), model.shape(), model.first_planet_rad(), steps, settings).unwrap()
     };
     let shot = find(&shooting);
     assert_eq!(shot.method, SteadyMethod::Shooting, "{rpm} rpm: {:?}", shot.why_marched);
@@ -73,18 +73,25 @@ fn shooting_and_marching_agree_on_modal_bodies() {
     }
 }
 
+/// The lumped model and tabulated mesh forces, on three sets and a pair of gears.
 #[test]
 fn shooting_and_marching_agree_where_meshes_follow_a_law() {
-    let scene = scene("oh58_4p", Fidelity::MeshLaw, 56);
-    let bodies = Bodies::new(&scene).unwrap();
-    let case = LoadCase::of_scene(&scene).unwrap().with_sun_torque(1130.0);
-    let law = MeshLawModel::new(&scene, &bodies, case).unwrap();
-    for model in [&law, &law.lumped()] {
-        for k in 0..6 {
-            let rpm = 400.0 + 400.0 * f64::from(k);
-            let (off, cycles, largest) = compare(model, rpm, 2000);
-            assert!(off < 1e-6, "{}, {rpm} rpm: {off:e}, {cycles:?}", model.name());
-            assert!(largest < 1.0);
+    for (name, torque, speeds) in [
+        ("oh58_4p", 1130.0, [400.0, 800.0, 1200.0, 1600.0, 2000.0, 2400.0].as_slice()),
+        ("oh58_3p", 500.0, &[450.0, 1150.0, 1650.0, 2350.0]),
+        ("five_planets", 800.0, &[450.0, 1150.0, 1650.0, 2350.0]),
+        ("pair_50_50", 150.0, &[900.0, 1400.0, 1900.0, 3300.0]),
+    ] {
+        let scene = scene(name, Fidelity::MeshLaw, 56);
+        let bodies = Bodies::new(&scene).unwrap();
+        let case = LoadCase::of_scene(&scene).unwrap().with_sun_torque(torque);
+        let law = MeshLawModel::new(&scene, &bodies, case).unwrap();
+        for model in [&law, &law.lumped()] {
+            for rpm in speeds {
+                let (off, cycles, largest) = compare(model, *rpm, 4000);
+                assert!(off < 1e-6, "{name}, {}, {rpm} rpm: {off:e}, {cycles:?}", model.name());
+                assert!(largest < 1.0);
+            }
         }
     }
 }

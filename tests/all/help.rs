@@ -6,6 +6,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use crate::command::{coarse, run, scene};
+use crate::study_command::small;
 
 /// A text without the escape sequences of its colours.
 fn plain(text: &str) -> String {
@@ -72,6 +73,9 @@ fn short(verb: &str, plain: &str) -> Option<String> {
         "branches" => format!("branches {plain} --speeds-rpm 990:1000 --model lumped"),
         "stability" => "stability explicit-step".to_owned(),
         "compare" => format!("compare {} --scene {plain} --tolerance-percent 100", modes.display()),
+        "study" => {
+            format!("study {} --rounds 3", small(Path::new(plain).parent().unwrap()).display())
+        }
         "scene new" | "scene schema" => return None,
         other => panic!("`{other}` is a new verb: give it a short run here"),
     })
@@ -147,6 +151,11 @@ fn a_row_of_csv_is_what_help_says() {
     let line = short("stability", &plain).unwrap();
     assert_eq!(rows(&line), list(&json(&line), "borders").len(), "{line}");
     assert_eq!(rows("stability"), list(&json("stability"), "maps").len());
+    let line = short("study", &plain).unwrap();
+    let result = json(&line);
+    let expected: usize =
+        list(&result, "quantities").iter().map(|own| list(own, "rows").len()).sum();
+    assert_eq!(rows(&line), expected, "{line}");
     for (verb, key) in [("sweep", ["chain", "speed_rpm"]), ("branches", ["branch", "point"])] {
         let line = short(verb, &plain).unwrap();
         let table = good(&format!("{line} --format csv"));

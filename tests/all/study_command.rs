@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::command::{run, scene};
 
 /// A study of some seconds.
-fn small(folder: &Path) -> PathBuf {
+pub(crate) fn small(folder: &Path) -> PathBuf {
     let text = format!(
         r#"
 format = 1

@@ -176,8 +176,8 @@ pub(crate) fn shot(
     settings: &SteadySettings,
 ) -> Result<Result<Shot, ShootingError<ExperimentError>>, ExperimentError> {
     let symmetry = match set.derivative() {
-        Some(own) => own.symmetry()?,
-        None => None,
+        Some(own) if !settings.whole_cycles => own.symmetry()?,
+        _ => None,
     };
     let parts = symmetry.map_or(1, |own| own.parts);
     let mut cycles = RecordedCycles::new(set, shape, first_planet_rad, steps / parts);

@@ -40,13 +40,25 @@ pub struct SteadySettings {
     /// Cycles on which the energy between harmonics of a marched motion is measured; 0 leaves that out. Of a
     /// motion found by shooting it is measured on the last two cycles.
     pub between_cycles: usize,
+    /// Whether sets that are themselves after a part of the cycle are shot over whole cycles all the same. Motions that
+    /// break the symmetry are then found too, and what the symmetry forbids is a result instead of a premise.
+    #[serde(default)]
+    pub whole_cycles: bool,
 }
 
 impl Default for SteadySettings {
     /// Shooting to 1e-9 within 2,000 cycles, harmonics 1 to 5, energy between them over 16 cycles.
     fn default() -> Self {
         let method = SteadyMethod::Shooting;
-        Self { method, tolerance: 1e-9, most_cycles: 2000, harmonics: 5, between_cycles: 16 }
+        let (most_cycles, harmonics, between_cycles) = (2000, 5, 16);
+        Self {
+            method,
+            tolerance: 1e-9,
+            most_cycles,
+            harmonics,
+            between_cycles,
+            whole_cycles: false,
+        }
     }
 }
 

@@ -52,8 +52,9 @@ pub(crate) fn speeds(first: f64, last: f64, ratio: f64) -> Vec<f64> {
     (0..=count).map(|i| first * (1.0 + ratio).powi(i)).collect()
 }
 
+/// Over whole cycles: what planet phasing forbids must come out, not be put in.
 fn steady_settings() -> SteadySettings {
-    SteadySettings { tolerance: 1e-9, ..SteadySettings::default() }
+    SteadySettings { tolerance: 1e-9, whole_cycles: true, ..SteadySettings::default() }
 }
 
 fn strengths(scene: &Scene) -> Result<Vec<ExcitationStrengths>, ValidationError> {
