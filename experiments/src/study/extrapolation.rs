@@ -29,7 +29,7 @@ pub struct Extrapolated {
 /// as n⁻ᵖ), at least two of either. `formal` is the order that theory gives, if any.
 ///
 /// With three values of order p, v∞ = v₃ + (v₃ − v₂)/(rᵖ − 1) and U = 1.25 |v∞ − v₃|. Where the observed order is
-/// higher than the formal one by more than [0.5](NEAR_FORMAL), the formal one is used, and where it is lower, the
+/// higher than the formal one by more than 0.5, the formal one is used, and where it is lower, the
 /// observed one: of the two the larger U. Of four values or more, U is at least the difference to the
 /// limit of the sequence without its last value. Without a usable order, v∞ is the finest value and U three times the
 /// larger of the last two differences.
