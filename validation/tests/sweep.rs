@@ -29,6 +29,7 @@ fn settings() -> SteadySettings {
         most_cycles: 400,
         harmonics: 4,
         between_cycles: 4,
+        whole_cycles: false,
     }
 }
 
