@@ -163,6 +163,7 @@ fn plan(speeds: &[f64]) -> Plan {
         most_cycles: 30,
         harmonics: 2,
         between_cycles: 0,
+        whole_cycles: false,
     };
     Plan::new(speeds, &[Direction::Up], steady).unwrap()
 }
