@@ -65,7 +65,7 @@ pub use parse::MOST_SCENE_BYTES;
 pub use phasing::{GearAngles, MeshPhases, Phasing};
 pub use rules::*;
 pub use scene::*;
-pub use symmetry::Symmetry;
+pub use symmetry::{Entries, Symmetry};
 pub use template::template;
 pub use text_file::read_text;
 pub use torque_path::NoTorquePath;

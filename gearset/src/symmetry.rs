@@ -16,6 +16,9 @@ const EQUAL: f64 = 1e-9;
 /// Bodies before the planets: carrier, ring, sun.
 const CENTRAL: usize = 3;
 
+/// Entries of a matrix that are not zero: row, column, value.
+pub type Entries = Vec<(usize, usize, f64)>;
+
 /// The renumbering after which a set is itself.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Symmetry {
@@ -51,15 +54,36 @@ impl Symmetry {
         mesh / planets * planets + (mesh % planets + self.shift) % planets
     }
 
-    /// P of x(start of the next part) = P x(end of a part), by row, column and value of its entries that are not zero: planets take the numbers
-    /// of those `shift` before them, central members turn back by the angle. `place` gives the place of a body's axis
-    /// among the coordinates: carrier, ring, sun, planets; x, y, rotation, of planets ζ, η, rotation. `None` if a
-    /// central member is held in one direction only, or one planet and not another.
+    /// The candidates with what they do to coordinates (P as in [`renumbering`](Self::renumbering)) and to `couplings`
+    /// couplings that are meshes of the sun and of the ring in turn (the place after a part of each).
+    pub fn renumberings(
+        psi_rad: &[f64],
+        steps: usize,
+        couplings: usize,
+        place: impl Fn(usize, usize) -> Option<usize>,
+    ) -> Vec<(Self, Entries, Vec<usize>)> {
+        let planets = psi_rad.len();
+        let one = |own: Self| {
+            let entries = own.renumbering(planets, &place)?;
+            Some((own, entries, (0..couplings).map(|k| own.later(k, planets)).collect()))
+        };
+        Self::candidates(psi_rad, steps).into_iter().filter_map(one).collect()
+    }
+
+    /// The same set seen from the other side for `sign` = −1: planets turn the other way.
+    pub fn seen_with(self, sign: f64) -> Self {
+        Self { angle_rad: sign * self.angle_rad, ..self }
+    }
+
+    /// P of x(start of the next part) = P x(end of a part), by row, column and value of its entries that are not
+    /// zero: planets take the numbers of those `shift` before them, central members turn back by the angle. `place`
+    /// gives the place of a body's axis among the coordinates: carrier, ring, sun, planets; x, y, rotation, of planets
+    /// ζ, η, rotation. `None` if a central member is held in one direction only, or one planet and not another.
     pub fn renumbering(
         &self,
         planets: usize,
         place: impl Fn(usize, usize) -> Option<usize>,
-    ) -> Option<Vec<(usize, usize, f64)>> {
+    ) -> Option<Entries> {
         let mut entries = Vec::new();
         let (sin, cos) = self.angle_rad.sin_cos();
         for body in 0..CENTRAL {

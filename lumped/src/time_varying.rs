@@ -324,14 +324,11 @@ impl TimeVarying {
             coordinates.of(body, *Axis::ALL.get(axis)?)
         };
         // The planets' angles are those of the set mirrored to counter-clockwise torque.
-        Symmetry::candidates(psi_rad, self.system.law().0.steps()).into_iter().find_map(|own| {
-            let renumbering = Renumbering {
-                parts: own.parts,
-                coordinates: own.renumbering(planets, place)?,
-                couplings: (0..couplings).map(|k| own.later(k, planets)).collect(),
-            };
-            let part = self.system.part_of_cycle(&renumbering)?;
-            Some((Symmetry { angle_rad: sign * own.angle_rad, ..own }, part))
+        let steps = self.system.law().0.steps();
+        let all = Symmetry::renumberings(psi_rad, steps, couplings, place);
+        all.into_iter().find_map(|(own, coordinates, couplings)| {
+            let renumbering = Renumbering { parts: own.parts, coordinates, couplings };
+            Some((own.seen_with(*sign), self.system.part_of_cycle(&renumbering)?))
         })
     }
 

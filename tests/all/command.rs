@@ -1,28 +1,12 @@
 //! The command as a user meets it: results on stdout, one clear message and exit code 2 for bad
 //! input, JSON that keeps to its schema.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
 
-pub(crate) fn scene(name: &str) -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name).display().to_string()
-}
-
-/// Exit code, stdout and stderr of one in-process run.
-pub(crate) fn run(arguments: &[&str]) -> (u8, String, String) {
-    let (mut out, mut err) = (Vec::new(), Vec::new());
-    let all = std::iter::once("epicyclic").chain(arguments.iter().copied());
-    let code = epicyclic::run(all, &mut out, &mut err);
-    (code, String::from_utf8(out).unwrap(), String::from_utf8(err).unwrap())
-}
-
-fn json(arguments: &[&str]) -> Value {
-    let (code, out, err) = run(arguments);
-    assert_eq!(code, 0, "{err}");
-    serde_json::from_str(&out).unwrap()
-}
+use super::harness::{coarse, csv_of_own_modes, json, run, scene};
 
 #[test]
 fn modes_of_oh58_as_json() {
@@ -43,14 +27,6 @@ fn modes_of_oh58_as_json() {
     assert!(of("mixed").is_empty());
     let all: u64 = modes.iter().map(|m| m["multiplicity"].as_u64().unwrap()).sum();
     assert_eq!(all, 17);
-}
-
-/// A scene of the repository with a coarse mesh.
-pub(crate) fn coarse(folder: &Path, name: &str) -> String {
-    let text = std::fs::read_to_string(scene(name)).unwrap();
-    let path = folder.join(name);
-    std::fs::write(&path, text + "\n[fe_contact]\nflank_elements = 8\n").unwrap();
-    path.to_str().unwrap().to_owned()
 }
 
 /// Every verb in every way that changes what it prints: schema, whether it has CSV, arguments.
@@ -219,43 +195,6 @@ fn a_branch_without_speeds_or_start_is_refused() {
 }
 
 #[test]
-fn stability_maps_that_are_none_are_refused() {
-    let (set, pair) = (scene("oh58_4p.toml"), scene("oh58_sun_planet_pair.toml"));
-    let bare = scene("lin_parker_1999_4p.toml");
-    for (line, named) in [
-        ("stability tongues".to_owned(), "bouncing-bar"),
-        (format!("stability bouncing-bar --scene {set}"), "--scene"),
-        (format!("stability --scene {set}"), "--scene"),
-        ("stability --out out".to_owned(), "--out"),
-        (format!("stability parametric --scene {pair}"), "lumped"),
-        (format!("stability parametric --scene {bare}"), "teeth"),
-        (format!("stability explicit-step --scene {bare}"), "operation"),
-        ("stability parametric --scene none.toml".to_owned(), "none.toml"),
-    ] {
-        let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
-        assert_eq!((code, out.as_str()), (2, ""), "{line}");
-        assert!(err.contains(named), "{line}: {err}");
-    }
-}
-
-#[test]
-fn a_stability_map_writes_its_table_and_its_figure() {
-    let folder = tempfile::tempdir().unwrap();
-    let out = folder.path().join("maps");
-    let result =
-        json(&["stability", "explicit-step", "--format", "json", "--out", out.to_str().unwrap()]);
-    for file in ["explicit-step.json", "explicit-step.csv", "stability_explicit_step.svg"] {
-        assert!(out.join(file).metadata().unwrap().len() > 100, "{file}");
-    }
-    let text = std::fs::read_to_string(out.join("explicit-step.json")).unwrap();
-    assert_eq!(serde_json::from_str::<Value>(&text).unwrap(), result);
-    // Observed borders agree with theory within 1 %.
-    for border in result["borders"].as_array().unwrap() {
-        assert!(border["difference_percent"].as_f64().unwrap().abs() < 1.0, "{border}");
-    }
-}
-
-#[test]
 fn modes_whose_types_mean_nothing_are_warned_of() {
     for (name, is_warned) in [("oh58_4p.toml", false), ("coinciding_modes.toml", true)] {
         let (code, _, err) = run(&["modes", &scene(name)]);
@@ -288,50 +227,6 @@ fn options_without_use_are_refused() {
     }
 }
 
-/// The model's own modes as a list to compare with.
-fn csv_of_own_modes() -> PathBuf {
-    let result = json(&["modes", &scene("oh58_4p.toml"), "--format", "json"]);
-    let mut text = String::from("frequency_hz,mode_type\n");
-    for m in result["modes"].as_array().unwrap() {
-        text += &format!("{},{}\n", m["frequency_hz"], m["mode_type"].as_str().unwrap());
-    }
-    let path = std::env::temp_dir().join(format!("epicyclic-own-modes-{}.csv", std::process::id()));
-    std::fs::write(&path, text).unwrap();
-    path
-}
-
-#[test]
-fn compare_agrees_with_itself_and_not_with_the_published_spacing() {
-    let own = csv_of_own_modes();
-    let own = own.to_str().unwrap();
-    let (code, out, _) = run(&["compare", own, "--scene", &scene("oh58_4p.toml")]);
-    assert_eq!(code, 0, "{out}");
-    let (code, out, _) = run(&["compare", own, "--scene", &scene("oh58_3p.toml")]);
-    assert_eq!(code, 1, "{out}");
-    assert!(out.contains("the model has no such mode"), "{out}");
-}
-
-#[test]
-fn compare_takes_letter_case_an_index_column_and_a_table_that_ends() {
-    let folder = tempfile::tempdir().unwrap();
-    let set = scene("oh58_4p_as_published.toml");
-    let compared = |text: &str, more: &[&str]| {
-        let path = folder.path().join("modes.csv");
-        std::fs::write(&path, text).unwrap();
-        let mut all = vec!["compare", path.to_str().unwrap(), "--scene", &set];
-        all.extend(more);
-        run(&all)
-    };
-    // As pandas writes it.
-    let table =
-        ",Frequency_Hz,Mode_Type,Multiplicity\n0,774.08,Translational,2\n1,1150.19,ROTATIONAL,\n";
-    let (code, out, err) = compared(table, &["--tolerance-percent", "1.5"]);
-    assert_eq!(code, 0, "{out}{err}");
-    assert!(out.contains("above the list's highest frequency"), "{out}");
-    let (code, ..) = compared(table, &["--tolerance-percent", "1.5", "--whole"]);
-    assert_eq!(code, 1);
-}
-
 #[test]
 fn files_without_end_are_refused() {
     let set = scene("oh58_4p.toml");
@@ -339,29 +234,6 @@ fn files_without_end_are_refused() {
         let (code, _, err) = run(&line.split(' ').collect::<Vec<_>>());
         assert_eq!(code, 2, "{err}");
         assert!(err.contains("longer than 1 MB"), "{err}");
-    }
-}
-
-#[test]
-fn bad_tables_of_modes_name_line_and_column() {
-    let folder = tempfile::tempdir().unwrap();
-    let cases = [
-        ("hz\n1\n", "`hz` is not known"),
-        ("frequency_hz\nabc\n", "line 2, `frequency_hz` is `abc`"),
-        ("frequency_hz\n-1\n", "line 2, `frequency_hz` is `-1`"),
-        ("frequency_hz,unknown\n1,2\n", "`unknown` is not known"),
-        ("frequency_hz,mode_type\n1,wobble\n", "line 2, `mode_type` is `wobble`"),
-        ("frequency_hz,multiplicity\n1,0\n", "line 2, `multiplicity` is `0`"),
-        ("frequency_hz\n", "no rows"),
-        ("", "`frequency_hz` is absent"),
-    ];
-    for (text, words) in cases {
-        let path = folder.path().join("modes.csv");
-        std::fs::write(&path, text).unwrap();
-        let set = scene("oh58_4p.toml");
-        let (code, _, err) = run(&["compare", path.to_str().unwrap(), "--scene", &set]);
-        assert_eq!(code, 2, "{text}");
-        assert!(err.contains(words), "{err}");
     }
 }
 

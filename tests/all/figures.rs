@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use crate::command::{run, scene};
+use crate::harness::{run, scene};
 
 /// A text of an SVG file with the corners of the box it fills, by estimate.
 struct Label {

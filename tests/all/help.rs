@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::command::{coarse, run, scene};
+use crate::harness::{coarse, run, scene};
 use crate::study_command::small;
 
 /// A text without the escape sequences of its colours.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::command::{run, scene};
+use crate::harness::{run, scene};
 
 #[test]
 fn impulse_refuses_what_makes_no_sense_with_one_message() {

@@ -3,7 +3,9 @@
 //! `cargo test --release --test all snapshots` runs the tests of one module.
 
 mod command;
+mod compare_command;
 mod figures;
+mod harness;
 mod help;
 mod impulse_command;
 mod mutated_scenes;
@@ -13,5 +15,6 @@ mod refusals;
 mod scene_check;
 mod scene_schema;
 mod snapshots;
+mod stability_command;
 mod study_command;
 mod sweep_command;

@@ -2,7 +2,7 @@
 
 use std::process::{Command, Output};
 
-use crate::command::{coarse, scene};
+use crate::harness::{coarse, scene};
 
 /// Runs its arguments with a terminal of 24 lines of 100 columns as standard error; what the terminal was sent goes to
 /// standard error, so that both can be read apart.

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::command::{coarse, run, scene};
+use crate::harness::{coarse, run, scene};
 
 /// The table of frequencies over carrier speed says which speeds are unstable, as JSON does.
 #[test]

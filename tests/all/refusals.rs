@@ -3,7 +3,7 @@
 
 use serde_json::Value;
 
-use crate::command::{coarse, run, scene};
+use crate::harness::{coarse, run, scene};
 
 /// A torque, force or approach on the command line is judged as the scene's own torque is: beyond a module of deflection it is
 /// refused, with the largest that is allowed, and from a quarter of one it is warned of.

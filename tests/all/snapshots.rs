@@ -225,7 +225,7 @@ fn stability() {
 #[test]
 fn study() {
     let file = format!("{}/studies/first.toml", env!("CARGO_MANIFEST_DIR"));
-    let (code, out, err) = super::command::run(&["study", &file, "--format", "json"]);
+    let (code, out, err) = super::harness::run(&["study", &file, "--format", "json"]);
     assert_eq!(code, 0, "{err}");
     let mut result: Value = serde_json::from_str(&out).unwrap();
     super::study_command::without_times(&mut result);

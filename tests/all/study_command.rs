@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::command::{run, scene};
+use super::harness::{run, scene};
 
 /// A study of some seconds.
 pub(crate) fn small(folder: &Path) -> PathBuf {

@@ -6,6 +6,26 @@ use super::linear::{LANES, Modes};
 /// Numbers of couplings (widths) for which the solver is compiled.
 pub(super) const WIDTHS: [usize; 9] = [4, 6, 8, 10, 12, 16, 24, 32, 48];
 
+/// Evaluates an expression in which the constant `$w` is the given width of a group: the solver of that width.
+macro_rules! at_width {
+    ($width:expr, $w:ident => $body:expr) => {
+        at_width!(@ $width, $w, $body, 4 6 8 10 12 16 24 32; 48)
+    };
+    (@ $width:expr, $w:ident, $body:expr, $($size:literal)*; $most:literal) => {
+        match $width {
+            $($size => {
+                const $w: usize = $size;
+                $body
+            })*
+            _ => {
+                const $w: usize = $most;
+                $body
+            }
+        }
+    };
+}
+pub(super) use at_width;
+
 /// Couplings in modal coordinates, padded with couplings without force to a width of the solver.
 #[derive(Debug, Clone)]
 pub(super) struct Condensed {

@@ -5,7 +5,7 @@
 
 use nalgebra::DMatrix;
 
-use super::condensed::Condensed;
+use super::condensed::{Condensed, at_width};
 use super::linear::Modes;
 use super::newton;
 use crate::newmark::AverageAcceleration;
@@ -62,17 +62,7 @@ impl Gradients {
 
     /// Carries them over a step.
     pub(super) fn carry(&mut self, step: &StepGradient<'_>) {
-        match step.group.width {
-            4 => self.carry_with::<4>(step),
-            6 => self.carry_with::<6>(step),
-            8 => self.carry_with::<8>(step),
-            10 => self.carry_with::<10>(step),
-            12 => self.carry_with::<12>(step),
-            16 => self.carry_with::<16>(step),
-            24 => self.carry_with::<24>(step),
-            32 => self.carry_with::<32>(step),
-            _ => self.carry_with::<48>(step),
-        }
+        at_width!(step.group.width, W => self.carry_with::<W>(step));
     }
 
     fn carry_with<const W: usize>(&mut self, step: &StepGradient<'_>) {

@@ -1,6 +1,6 @@
 //! A coupled system in time.
 
-use super::condensed::{Condensed, WIDTHS};
+use super::condensed::{Condensed, WIDTHS, at_width};
 use super::coupling::{Coupling, CouplingForce};
 use super::error::CoupledError;
 use super::linear::{LANES, LinearPart, Modes};
@@ -293,17 +293,7 @@ impl<L: CouplingForce> Coupled<L> {
     /// Whether rare couplings touch at the displacements found.
     #[inline]
     fn rare_touch(&self, rare: &Condensed) -> bool {
-        match rare.width {
-            4 => self.touch::<4>(rare),
-            6 => self.touch::<6>(rare),
-            8 => self.touch::<8>(rare),
-            10 => self.touch::<10>(rare),
-            12 => self.touch::<12>(rare),
-            16 => self.touch::<16>(rare),
-            24 => self.touch::<24>(rare),
-            32 => self.touch::<32>(rare),
-            _ => self.touch::<48>(rare),
-        }
+        at_width!(rare.width, W => self.touch::<W>(rare))
     }
 
     #[inline]
@@ -392,15 +382,5 @@ fn solve<L: CouplingForce>(
 ) -> Result<usize, Left> {
     let Work { free, velocity_history, forces, .. } = work;
     let start = Start { step_in_cycle, rate: rule.damping(), free, velocity_history };
-    match group.width {
-        4 => newton::solve::<4, L>(group, law, &start, forces),
-        6 => newton::solve::<6, L>(group, law, &start, forces),
-        8 => newton::solve::<8, L>(group, law, &start, forces),
-        10 => newton::solve::<10, L>(group, law, &start, forces),
-        12 => newton::solve::<12, L>(group, law, &start, forces),
-        16 => newton::solve::<16, L>(group, law, &start, forces),
-        24 => newton::solve::<24, L>(group, law, &start, forces),
-        32 => newton::solve::<32, L>(group, law, &start, forces),
-        _ => newton::solve::<48, L>(group, law, &start, forces),
-    }
+    at_width!(group.width, W => newton::solve::<W, L>(group, law, &start, forces))
 }

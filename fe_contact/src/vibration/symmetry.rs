@@ -38,7 +38,7 @@ impl VibratingSet<'_> {
         let mut patterns = Vec::new();
         // The races are those of counter-clockwise torque: mirrored, if that on the sun is clockwise.
         for internal in Symmetry::candidates(&races.psi, count) {
-            let own = Symmetry { angle_rad: sign * internal.angle_rad, ..internal };
+            let own = internal.seen_with(sign);
             if !self.phases_fit(&own) {
                 continue;
             }
@@ -126,7 +126,7 @@ impl VibratingSet<'_> {
     /// P of the present symmetry.
     pub(super) fn present_renumbering(&self) -> Option<(Symmetry, DMatrix<f64>)> {
         let own = self.symmetry.flatten()?;
-        let internal = Symmetry { angle_rad: self.statics.sign() * own.angle_rad, ..own };
+        let internal = own.seen_with(self.statics.sign());
         Some((own, self.renumbering(&internal)?))
     }
 

@@ -229,16 +229,13 @@ impl<'s> MeshLawSet<'s> {
     /// The symmetry after a part of the mesh cycle that the set has, with the most parts.
     pub fn symmetry(&self) -> Option<(Symmetry, CyclePart)> {
         let (sign, races) = (self.statics.sign(), &self.statics.races);
-        let (planets, couplings) = (races.planets(), self.system.forces().len());
+        let couplings = self.system.forces().len();
         let place = |body, axis| races.of(body, axis);
-        Symmetry::candidates(&races.psi, self.system.law().0.steps()).into_iter().find_map(|own| {
-            let renumbering = Renumbering {
-                parts: own.parts,
-                coordinates: own.renumbering(planets, place)?,
-                couplings: (0..couplings).map(|k| own.later(k, planets)).collect(),
-            };
-            let part = self.system.part_of_cycle(&renumbering)?;
-            Some((Symmetry { angle_rad: sign * own.angle_rad, ..own }, part))
+        let steps = self.system.law().0.steps();
+        let all = Symmetry::renumberings(&races.psi, steps, couplings, place);
+        all.into_iter().find_map(|(own, coordinates, couplings)| {
+            let renumbering = Renumbering { parts: own.parts, coordinates, couplings };
+            Some((own.seen_with(sign), self.system.part_of_cycle(&renumbering)?))
         })
     }
 

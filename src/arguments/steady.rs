@@ -1,0 +1,134 @@
+//! The command line of steady states: over speed, and along branches.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::TableFormat;
+use super::values::{damping_factor, range, small, span};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Model {
+    /// FE/contact, at the fidelity of the scene.
+    FeContact,
+    /// Lumped, its mesh forces tabulated over deflection and phase by FE/contact.
+    Lumped,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SteadyMethod {
+    /// Newton's method for the periodic motion, with its stability; marched where none is found or it is unstable.
+    Shooting,
+    /// Time integration until mesh cycles repeat.
+    Marching,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Sweep {
+    /// Scene file of a whole set, or a sun–planet gear pair; its `[dynamics]` gives fidelity and steps per mesh cycle.
+    pub scene: PathBuf,
+    /// Speeds of the input member: first, last and step, rpm.
+    #[arg(long, value_name = "FROM:TO:STEP", default_value = "100:2500:25", value_parser = range,
+          allow_negative_numbers = true)]
+    pub speeds_rpm: [f64; 3],
+    /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out.
+    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
+    pub sun_torque_nm: Option<f64>,
+    /// Model whose motion is integrated.
+    #[arg(long, value_enum, default_value_t = Model::FeContact)]
+    pub model: Model,
+    /// Also sweep towards lower speeds.
+    #[arg(long)]
+    pub both_ways: bool,
+    /// Number of further speeds about each peak, 0 for none.
+    #[arg(long, value_name = "N", default_value_t = 0,
+          value_parser = clap::value_parser!(u32).range(0..=1000), allow_negative_numbers = true)]
+    pub refine: u32,
+    /// How steady states are found.
+    #[arg(long, value_enum, default_value_t = SteadyMethod::Shooting)]
+    pub method: SteadyMethod,
+    /// Highest harmonic of the mesh frequency: up to 5, up to 10 with at least 560 steps in a cycle.
+    #[arg(long, default_value_t = 5, allow_negative_numbers = true)]
+    pub harmonics: u32,
+    /// Largest change of a steady state from cycle to cycle, over its peak-to-peak vibration.
+    #[arg(long, default_value_t = 1e-9, value_parser = small)]
+    pub tolerance: f64,
+    /// Cycles after which a set that has not settled is recorded as it is, flagged as subharmonic or not
+    /// periodic.
+    #[arg(long, default_value_t = 2000, value_parser = clap::value_parser!(u32).range(2..=1_000_000), allow_negative_numbers = true)]
+    pub most_cycles: u32,
+    /// Cycles over which the energy between harmonics of a marched motion is measured, 0 for none; of a motion
+    /// found by shooting it is measured over the last two.
+    #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(0..=10_000), allow_negative_numbers = true)]
+    pub between_cycles: u32,
+    /// Folder for finished points, then the table (CSV) and a sidecar (JSON); the same command resumes from
+    /// the points in it. A folder with anything else that would be overwritten is refused.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Also draw figures into this folder (SVG, PNG): waterfalls, frequencies and harmonics_* of each quantity.
+    #[cfg(feature = "charts")]
+    #[arg(long, value_name = "DIR")]
+    pub figures: Option<PathBuf>,
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    pub format: TableFormat,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Over {
+    /// Speed of the input member.
+    Speed,
+    /// Torque on the sun.
+    Torque,
+    /// Factor on every damping of the scene.
+    Damping,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct Branches {
+    /// Scene file of a whole set, or a sun–planet gear pair; its `[dynamics]` gives fidelity and steps per mesh cycle.
+    pub scene: PathBuf,
+    /// What is varied along the branch.
+    #[arg(long, value_enum, default_value_t = Over::Speed)]
+    pub over: Over,
+    /// Least and greatest speed of the input member, rpm; with --over speed, which needs it.
+    #[arg(long, value_name = "FROM:TO", value_parser = span, allow_hyphen_values = true)]
+    pub speeds_rpm: Option<[f64; 2]>,
+    /// Least and greatest torque on the sun, N·m, both of one sign; with --over torque, which needs it.
+    #[arg(long, value_name = "FROM:TO", value_parser = span, allow_hyphen_values = true)]
+    pub torques_nm: Option<[f64; 2]>,
+    /// Least and greatest factor on every damping of the scene; with --over damping, which needs it.
+    #[arg(long, value_name = "FROM:TO", value_parser = span, allow_hyphen_values = true)]
+    pub damping_factors: Option<[f64; 2]>,
+    /// Speed (rpm), torque (N·m) or factor at which the branch begins, with the motion found from rest; the greatest if
+    /// left out.
+    #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
+    pub start: Option<f64>,
+    /// Speed of the input member, rpm, with --over torque and damping. The operating speed if left out.
+    #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
+    pub rpm: Option<f64>,
+    /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out. With --over torque the one under
+    /// which the model is set up, the middle of the range if left out.
+    #[arg(long, value_name = "NM", allow_negative_numbers = true)]
+    pub sun_torque_nm: Option<f64>,
+    /// Model whose motion is followed.
+    #[arg(long, value_enum, default_value_t = Model::FeContact)]
+    pub model: Model,
+    /// Factor on every damping of the scene, with --over speed and torque.
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = damping_factor,
+          allow_negative_numbers = true)]
+    pub damping_factor: f64,
+    /// Also follow the branches that leave at period doublings and branch points.
+    #[arg(long)]
+    pub switch: bool,
+    /// Most points each way from the start.
+    #[arg(long, value_name = "N", default_value_t = 500,
+          value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
+    pub max_points: u32,
+    /// Also draw the strongest motions of the sun into this folder (SVG, PNG), stable solid, unstable dashed:
+    /// branch_sun_rotation, branch_sun_translation.
+    #[cfg(feature = "charts")]
+    #[arg(long, value_name = "DIR")]
+    pub figures: Option<PathBuf>,
+    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
+    pub format: TableFormat,
+}

@@ -1,0 +1,52 @@
+//! Values of the command line with their bounds.
+
+pub(super) fn elements(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if (1.0..=100.0).contains(&x) => Ok(x),
+        _ => Err("a number from 1 to 100".into()),
+    }
+}
+
+pub(super) fn two(text: &str) -> Result<[f64; 2], String> {
+    let parts: Vec<Option<f64>> = text.split(':').map(|part| part.trim().parse().ok()).collect();
+    match parts[..] {
+        [Some(low), Some(high)] => Ok([low, high]),
+        _ => Err("two frequencies as LOW:HIGH, in Hz".into()),
+    }
+}
+
+pub(super) fn span(text: &str) -> Result<[f64; 2], String> {
+    two(text).map_err(|_| "two numbers as FROM:TO".into())
+}
+
+pub(super) fn range(text: &str) -> Result<[f64; 3], String> {
+    let parts: Vec<Option<f64>> = text.split(':').map(|part| part.trim().parse().ok()).collect();
+    match parts[..] {
+        [Some(from), Some(to), Some(step)] => Ok([from, to, step]),
+        _ => Err("three numbers as FROM:TO:STEP, in rpm".into()),
+    }
+}
+
+pub(super) fn small(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if f64::is_finite(x) && (1e-12..=0.1).contains(&x) => Ok(x),
+        _ => Err("a number from 1e-12 to 0.1".into()),
+    }
+}
+
+/// Least and greatest factor on every damping of a scene: with a millionth of it a set is undamped for all purposes.
+pub(crate) const DAMPING_FACTORS: [f64; 2] = [1e-6, 100.0];
+
+pub(super) fn damping_factor(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if (DAMPING_FACTORS[0]..=DAMPING_FACTORS[1]).contains(&x) => Ok(x),
+        _ => Err("a number from 1e-6 to 100".into()),
+    }
+}
+
+pub(super) fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(x) if f64::is_finite(x) && x > 0.0 && x <= 100.0 => Ok(x),
+        _ => Err("a number above 0, at most 100".into()),
+    }
+}

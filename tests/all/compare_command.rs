@@ -1,0 +1,58 @@
+//! `compare`: lists of natural frequencies as others write them.
+
+use super::harness::{csv_of_own_modes, run, scene};
+
+#[test]
+fn compare_agrees_with_itself_and_not_with_the_published_spacing() {
+    let own = csv_of_own_modes();
+    let own = own.to_str().unwrap();
+    let (code, out, _) = run(&["compare", own, "--scene", &scene("oh58_4p.toml")]);
+    assert_eq!(code, 0, "{out}");
+    let (code, out, _) = run(&["compare", own, "--scene", &scene("oh58_3p.toml")]);
+    assert_eq!(code, 1, "{out}");
+    assert!(out.contains("the model has no such mode"), "{out}");
+}
+
+#[test]
+fn compare_takes_letter_case_an_index_column_and_a_table_that_ends() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = scene("oh58_4p_as_published.toml");
+    let compared = |text: &str, more: &[&str]| {
+        let path = folder.path().join("modes.csv");
+        std::fs::write(&path, text).unwrap();
+        let mut all = vec!["compare", path.to_str().unwrap(), "--scene", &set];
+        all.extend(more);
+        run(&all)
+    };
+    // As pandas writes it.
+    let table =
+        ",Frequency_Hz,Mode_Type,Multiplicity\n0,774.08,Translational,2\n1,1150.19,ROTATIONAL,\n";
+    let (code, out, err) = compared(table, &["--tolerance-percent", "1.5"]);
+    assert_eq!(code, 0, "{out}{err}");
+    assert!(out.contains("above the list's highest frequency"), "{out}");
+    let (code, ..) = compared(table, &["--tolerance-percent", "1.5", "--whole"]);
+    assert_eq!(code, 1);
+}
+
+#[test]
+fn bad_tables_of_modes_name_line_and_column() {
+    let folder = tempfile::tempdir().unwrap();
+    let cases = [
+        ("hz\n1\n", "`hz` is not known"),
+        ("frequency_hz\nabc\n", "line 2, `frequency_hz` is `abc`"),
+        ("frequency_hz\n-1\n", "line 2, `frequency_hz` is `-1`"),
+        ("frequency_hz,unknown\n1,2\n", "`unknown` is not known"),
+        ("frequency_hz,mode_type\n1,wobble\n", "line 2, `mode_type` is `wobble`"),
+        ("frequency_hz,multiplicity\n1,0\n", "line 2, `multiplicity` is `0`"),
+        ("frequency_hz\n", "no rows"),
+        ("", "`frequency_hz` is absent"),
+    ];
+    for (text, words) in cases {
+        let path = folder.path().join("modes.csv");
+        std::fs::write(&path, text).unwrap();
+        let set = scene("oh58_4p.toml");
+        let (code, _, err) = run(&["compare", path.to_str().unwrap(), "--scene", &set]);
+        assert_eq!(code, 2, "{text}");
+        assert!(err.contains(words), "{err}");
+    }
+}
