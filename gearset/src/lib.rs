@@ -24,6 +24,7 @@ mod mesh_curve;
 mod mesh_kind;
 mod mesh_law;
 mod needs;
+mod numerics_warnings;
 mod pair_law;
 mod pair_springs;
 mod parse;

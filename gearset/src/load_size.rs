@@ -49,6 +49,31 @@ impl LoadSize {
         self.deflection > LARGE_MODULES * self.module
     }
 
+    /// How far the teeth give way, in words.
+    pub fn words(&self) -> String {
+        format!(
+            "by estimate the teeth give way by {:.3e} mm, {:.3e} of the module",
+            1e3 * self.deflection,
+            self.deflection / self.module
+        )
+    }
+
+    /// Why a load of this size is refused, what is allowed, and why; `None` if it is not.
+    pub fn refusal(&self, load: f64, unit: &str) -> Option<String> {
+        let (bound, why) = match (self.is_too_small(), self.is_too_large()) {
+            (true, _) => {
+                let bound = format!("above {:.3e} {unit}", self.least(load));
+                (bound, ", so little that rounding shows in what is computed")
+            }
+            (_, true) => {
+                let bound = format!("below {:.3e} {unit}", self.most(load));
+                (bound, ", and displacements are no longer linear in the load")
+            }
+            _ => return None,
+        };
+        Some(format!("{load:e} {unit}: allowed is a magnitude {bound}; {}{why}", self.words()))
+    }
+
     /// The load with which teeth give way by a module, for a load that gives this size.
     pub fn most(&self, load: f64) -> f64 {
         MOST_MODULES * load.abs() * self.module / self.deflection

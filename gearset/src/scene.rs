@@ -392,6 +392,17 @@ pub struct Damping {
     pub bearing_s: f64,
 }
 
+impl Damping {
+    /// Every damping multiplied by a factor.
+    pub fn times(self, factor: f64) -> Self {
+        Self {
+            mass_proportional_per_s: factor * self.mass_proportional_per_s,
+            stiffness_proportional_s: factor * self.stiffness_proportional_s,
+            bearing_s: factor * self.bearing_s,
+        }
+    }
+}
+
 /// A central member.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]

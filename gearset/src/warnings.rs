@@ -6,6 +6,7 @@ use crate::estimates::{self, BODIES};
 use crate::geometry::Geometry;
 use crate::load_case::LoadCase;
 use crate::load_size::LARGE_MODULES;
+use crate::numerics_warnings::numerics;
 use crate::scene::{PerBody, Scene, SceneKind, Support, Torsional};
 
 /// Mass and inertia of a body against its disc of the same width and density: webs, hubs and shafts change them by
@@ -71,6 +72,7 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
     supports(scene, geometry.as_ref(), &mut found);
     damping(scene, &mut found);
     speed(scene, &mut found);
+    found.0.extend(numerics(scene, geometry.as_ref()));
     found.0
 }
 

@@ -289,3 +289,24 @@ fn mesh_frequency() {
     );
     border("operation.speed_rpm", "mesh frequency", &speed("speed_rpm = -282900"), &[]);
 }
+
+#[test]
+fn elements_that_lock_and_steps_that_phasing_does_not_share() {
+    let element = "element = \"quadratic\"";
+    let key = "fe_contact.element";
+    border(
+        key,
+        "lock",
+        &[(element, "element = \"linear\"")],
+        &[(element, "element = \"incompatible\"")],
+    );
+    // Two opposed pairs: half a cycle.
+    let steps = "steps_per_cycle = 140";
+    let key = "dynamics.steps_per_cycle";
+    border(
+        key,
+        "multiple of 2",
+        &[(steps, "steps_per_cycle = 141")],
+        &[(steps, "steps_per_cycle = 142")],
+    );
+}

@@ -79,7 +79,7 @@ pub enum LumpedError {
     NoTeeth,
     /// A variation of mesh stiffness that makes it negative.
     #[error(
-        "a stiffness variation of ε = {epsilon} leaves {lowest} of the mean mesh stiffness at the lowest: ε must be \
+        "a stiffness variation of ε = {epsilon} leaves {lowest:.4} of the mean mesh stiffness at the lowest: ε must be \
          finite and not negative, and leave a stiffness that is not negative"
     )]
     Variation {

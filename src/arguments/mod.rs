@@ -252,6 +252,16 @@ pub(crate) enum MapArgument {
     Parametric,
     /// Types of modes when one planet is heavier.
     ModeTypes,
+    /// Energy and place of a pair that hammers under a light torque, by scheme and steps in a contact.
+    Hammering,
+    /// Where meshes lose contact and motions coexist at the strongest resonance, over torque and damping.
+    ContactLoss,
+    /// Contact cells, definiteness of the flexibility matrix and contact solvers on Hertz's problem.
+    ContactCells,
+    /// Bending stiffness of one quadrilateral, by family and shape.
+    Locking,
+    /// Too few steps in a mesh cycle: place and size of harmonics, and cancellation by phasing.
+    Resolution,
 }
 
 #[derive(Debug, Args)]
@@ -259,7 +269,10 @@ pub(crate) struct Stability {
     /// The map; without it, the maps are listed.
     #[arg(value_enum)]
     pub map: Option<MapArgument>,
-    /// Set for which the map is computed (explicit-step, parametric, mode-types); five equally spaced planets if left
+    /// List the guards of the program: what it says on either side of each border.
+    #[arg(long, conflicts_with_all = ["map", "scene", "out"])]
+    pub guards: bool,
+    /// Set for which the map is computed (explicit-step, parametric, mode-types, contact-loss); five equally spaced planets if left
     /// out.
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,

@@ -32,13 +32,11 @@ pub(super) fn run(
     let steps = scene.dynamics.steps_per_cycle as usize;
     let harmonics = SteadySettings { harmonics: settings.harmonics, ..SteadySettings::default() };
     harmonics.check(steps).map_err(|e| unfit(path, e.to_string()))?;
+    needs::caution(&harmonics, steps, err)?;
     needs::warn(&scene, err)?;
     #[cfg(feature = "charts")]
     needs::figures(&scene, arguments.figures.as_deref(), err)?;
-    let damping = &mut scene.damping;
-    damping.mass_proportional_per_s *= arguments.damping_factor;
-    damping.stiffness_proportional_s *= arguments.damping_factor;
-    damping.bearing_s *= arguments.damping_factor;
+    scene.damping = scene.damping.times(arguments.damping_factor);
     let working = Working::new("meshing the bodies and laying out tables");
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let model = turning::model(arguments.model, &scene, &bodies, case)?;

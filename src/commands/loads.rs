@@ -19,12 +19,10 @@ pub(super) fn sun_torque(
     let Some(torque) = asked else {
         let torque = operating_torque(path, scene)?;
         // A scene with more than the linear theory can bear is refused when it is read, and one that comes near it warned of.
-        return match scene.size_of_sun_torque(torque) {
-            Some(size) if size.is_too_small() => {
-                let reason = too_small(torque, "N·m on the sun", &size);
-                Err(unfit(path, format!("`operation.torque_nm` gives {reason}")))
-            }
-            _ => Ok(torque),
+        let size = scene.size_of_sun_torque(torque);
+        return match size.and_then(|size| size.refusal(torque, "N·m on the sun")) {
+            Some(reason) => Err(unfit(path, format!("`operation.torque_nm` gives {reason}"))),
+            None => Ok(torque),
         };
     };
     if !torque.is_finite() || torque == 0.0 {
@@ -81,24 +79,6 @@ pub(super) fn approach(
     Ok(asked_um)
 }
 
-/// How far teeth give way under a load.
-fn way(size: &LoadSize) -> String {
-    format!(
-        "by estimate the teeth give way by {:.3e} mm, {:.3e} of the module",
-        1e3 * size.deflection,
-        size.deflection / size.module
-    )
-}
-
-/// A load that is too small, what is allowed, and why.
-fn too_small(load: f64, unit: &str, size: &LoadSize) -> String {
-    format!(
-        "{load:e} {unit}: allowed is a magnitude above {:.3e} {unit}; {}, so little that rounding shows in what is computed",
-        size.least(load),
-        way(size)
-    )
-}
-
 /// Refuses a load under which teeth give way by more than a module or less than a millionth of one, and warns from a quarter
 /// of a module on, as the scene's own `operation.torque_nm` is refused and warned of.
 fn sized(
@@ -109,19 +89,11 @@ fn sized(
     err: &mut dyn Write,
 ) -> Result<(), CommandError> {
     let Some(size) = size else { return Ok(()) };
-    let way = way(&size);
-    if size.is_too_small() {
-        return Err(refused(argument, too_small(load, unit, &size)));
-    }
-    if size.is_too_large() {
-        let most = size.most(load);
-        let reason = format!(
-            "{load:e} {unit}: allowed is a magnitude below {most:.3e} {unit}; {way}, and displacements are no longer \
-             linear in the load"
-        );
+    if let Some(reason) = size.refusal(load, unit) {
         return Err(refused(argument, reason));
     }
     if size.is_worth_a_warning() {
+        let way = size.words();
         writeln!(err, "warning: {argument} is {load} {unit}: {way}; likely a slip of unit")?;
     }
     Ok(())

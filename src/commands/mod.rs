@@ -17,6 +17,7 @@ mod scene_summary;
 mod scene_text;
 mod schema;
 mod stability;
+mod stability_guards;
 mod static_approach;
 mod static_pair;
 mod static_set;

@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
+use experiments::sweep::SteadySettings;
 use gearset::{Scene, Verb};
 
 use crate::error::CommandError;
@@ -40,6 +41,18 @@ pub(super) fn not_ring_pair(path: &Path, scene: &Scene) -> Result<(), CommandErr
 /// If they cannot be written.
 pub(super) fn warn(scene: &Scene, err: &mut dyn Write) -> std::io::Result<()> {
     gearset::warnings(scene).iter().try_for_each(|warning| writeln!(err, "warning: {warning}"))
+}
+
+/// Writes what to know of harmonics that few steps resolve.
+///
+/// # Errors
+/// If it cannot be written.
+pub(super) fn caution(
+    settings: &SteadySettings,
+    steps: usize,
+    err: &mut dyn Write,
+) -> std::io::Result<()> {
+    settings.caution(steps).map_or(Ok(()), |words| writeln!(err, "warning: {words}"))
 }
 
 /// Refuses a folder of figures that cannot be made, and warns of characters in the title that figures cannot show.

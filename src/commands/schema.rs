@@ -10,6 +10,7 @@ use super::modes::ModesOutput;
 use super::rules::RulesOutput;
 use super::scene_summary::SceneSummary;
 use super::stability::{StabilityList, StabilityOutput};
+use super::stability_guards::GuardList;
 use super::static_approach::ApproachOutput;
 use super::static_pair::PairOutput;
 use super::static_set::SetOutput;
@@ -39,6 +40,7 @@ pub fn schemas() -> Vec<(&'static str, Schema)> {
         ("branches", of::<BranchesOutput>()),
         ("stability", of::<StabilityOutput>()),
         ("stability_list", of::<StabilityList>()),
+        ("stability_guards", of::<GuardList>()),
         ("study", of::<StudyOutput>()),
         ("mesh", of::<MeshOutput>()),
         ("compare", of::<Comparison>()),

@@ -48,6 +48,9 @@ pub(super) fn run(
     out: &mut dyn Write,
     err: &mut dyn Write,
 ) -> Result<(), CommandError> {
+    if arguments.guards {
+        return super::stability_guards::run(arguments.format, out);
+    }
     let Some(argument) = arguments.map else {
         return list(arguments, out);
     };
@@ -96,6 +99,11 @@ fn name(argument: MapArgument) -> MapName {
         MapArgument::BouncingBar => MapName::BouncingBar,
         MapArgument::Parametric => MapName::Parametric,
         MapArgument::ModeTypes => MapName::ModeTypes,
+        MapArgument::Hammering => MapName::Hammering,
+        MapArgument::ContactLoss => MapName::ContactLoss,
+        MapArgument::ContactCells => MapName::ContactCells,
+        MapArgument::Locking => MapName::Locking,
+        MapArgument::Resolution => MapName::Resolution,
     }
 }
 

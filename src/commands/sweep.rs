@@ -164,6 +164,7 @@ impl<'a> Task<'a> {
         };
         let steps = scene.dynamics.steps_per_cycle as usize;
         steady.check(steps).map_err(refuse("--harmonics"))?;
+        needs::caution(&steady, steps, err)?;
         let directions: &[Direction] = match arguments.both_ways {
             true => &[Direction::Up, Direction::Down],
             false => &[Direction::Up],

@@ -72,6 +72,7 @@ fn every_verb(folder: &Path) -> Vec<(&'static str, bool, Vec<String>)> {
         ("stability", true, words("stability integrators")),
         ("stability", true, words(&format!("stability mode-types --scene {set}"))),
         ("stability_list", true, words("stability")),
+        ("stability_guards", true, words("stability --guards")),
         ("modes", false, words(&format!("modes {set}"))),
         ("modes", false, words(&format!("modes {set} --carrier-speeds-rpm 0,535.7"))),
         ("modes", false, words(&format!("modes {}", scene("lin_parker_1999_3p.toml")))),

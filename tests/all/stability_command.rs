@@ -40,3 +40,67 @@ fn a_stability_map_writes_its_table_and_its_figure() {
         assert!(border["difference_percent"].as_f64().unwrap().abs() < 1.0, "{border}");
     }
 }
+
+/// Maps with theory at every border that agree with it within 1 %.
+#[test]
+fn borders_of_locking_and_of_steps_are_those_of_theory() {
+    for (map, least) in [("locking", 27), ("resolution", 4)] {
+        let result = json(&["stability", map, "--format", "json"]);
+        let borders = result["borders"].as_array().unwrap();
+        let compared = borders.iter().filter_map(|b| b["difference_percent"].as_f64());
+        let off: Vec<f64> = compared.collect();
+        assert!(off.len() >= least && off.iter().all(|x| x.abs() < 1.0), "{map}: {off:?}");
+    }
+}
+
+/// Bilinear elements lock; a square one is 48 % too stiff, as the program warns.
+#[test]
+fn a_square_bilinear_element_is_as_stiff_as_the_warning_says() {
+    let result = json(&["stability", "locking", "--format", "json"]);
+    let square = result["borders"].as_array().unwrap().iter().find(|b| {
+        b["of"] == "linear" && b["quantity"].as_str().unwrap().ends_with("at 1 times its height")
+    });
+    let stiff = square.unwrap()["measured"].as_f64().unwrap();
+    assert!((stiff - 1.48).abs() < 0.005, "{stiff}");
+}
+
+/// Solvers agree where pivoting could cycle, the interior point to its floor; the default of 40 cells, twice the even share
+/// laid out, has more than the four cells in a half-width that 1 % of the peak pressure needs.
+#[test]
+fn contact_solvers_hold_on_degenerate_problems() {
+    let result = json(&["stability", "contact-cells", "--format", "json"]);
+    let borders = result["borders"].as_array().unwrap();
+    let of = |name: &str, quantity: &str| {
+        let own = |b: &&Value| {
+            b["of"].as_str().unwrap().starts_with(name)
+                && b["quantity"].as_str().unwrap().contains(quantity)
+        };
+        borders.iter().find(own).unwrap()["measured"].as_f64().unwrap()
+    };
+    for (solver, allowed) in [("active set", 1e-12), ("Lemke", 1e-12), ("interior point", 1e-5)] {
+        let name = format!("{solver}, 40 degenerate");
+        assert!(of(&name, "largest error") < allowed, "{solver}");
+        assert!(of(&name, "most iterations") < 2.0 * 80.0, "{solver}");
+    }
+    assert!(of("interior point", "largest difference") > 1e-12, "no floor is seen");
+    assert!((of("flexibility matrix", "order") - 1.0).abs() < 0.05);
+    assert!(of("cells of equal", "peak pressure within 1 %") <= 4.0);
+}
+
+/// Every guard is silent within its border and speaks beyond it, and the page that lists them is what it says now.
+#[test]
+fn guards_speak_beyond_their_borders_and_not_within() {
+    let result = json(&["stability", "--guards", "--format", "json"]);
+    let guards = result["guards"].as_array().unwrap();
+    assert!(guards.len() >= 19);
+    for guard in guards {
+        assert!(guard["within"].is_null(), "{guard}");
+        assert!(guard["beyond"].as_str().is_some_and(|words| words.len() > 20), "{guard}");
+    }
+    let (code, page, _) = run(&["stability", "--guards"]);
+    let kept = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guards.md");
+    let kept = std::fs::read_to_string(kept).unwrap();
+    assert_eq!((code, page), (0, kept), "epicyclic stability --guards > docs/guards.md");
+    let (code, _, err) = run(&["stability", "--guards", "locking"]);
+    assert!(code == 2 && err.contains("--guards"), "{err}");
+}

@@ -2,6 +2,8 @@
 
 mod bouncing_bar;
 mod explicit_step;
+mod hammering;
 
 pub use bouncing_bar::{BarError, Bounces, BouncingBar};
 pub use explicit_step::explicit_limit;
+pub use hammering::{Hammering, HammeringPair};

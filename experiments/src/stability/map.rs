@@ -4,7 +4,10 @@ use gearset::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{bouncing_bar, explicit_step, integrators, mode_types, parametric};
+use super::{
+    bouncing_bar, contact_cells, contact_loss, explicit_step, hammering, integrators, locking,
+    mode_types, parametric, resolution,
+};
 
 /// The maps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -19,16 +22,31 @@ pub enum MapName {
     Parametric,
     /// Types of modes with one planet heavier.
     ModeTypes,
+    /// A gear pair that hammers under a light torque.
+    Hammering,
+    /// Loss of contact over torque and damping.
+    ContactLoss,
+    /// Contact cells and contact solvers on Hertz's problem.
+    ContactCells,
+    /// Locking of quadrilaterals in bending.
+    Locking,
+    /// Too few steps in a mesh cycle.
+    Resolution,
 }
 
 impl MapName {
     /// All of them.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 10] = [
         Self::Integrators,
         Self::ExplicitStep,
         Self::BouncingBar,
         Self::Parametric,
         Self::ModeTypes,
+        Self::Hammering,
+        Self::ContactLoss,
+        Self::ContactCells,
+        Self::Locking,
+        Self::Resolution,
     ];
 
     /// As on the command line.
@@ -39,6 +57,11 @@ impl MapName {
             Self::BouncingBar => "bouncing-bar",
             Self::Parametric => "parametric",
             Self::ModeTypes => "mode-types",
+            Self::Hammering => "hammering",
+            Self::ContactLoss => "contact-loss",
+            Self::ContactCells => "contact-cells",
+            Self::Locking => "locking",
+            Self::Resolution => "resolution",
         }
     }
 
@@ -63,12 +86,32 @@ impl MapName {
                 "with one planet heavier than this a mode has lost its type: it is listed as mixed, and further on it is \
                  shared by kinds"
             }
+            Self::Hammering => {
+                "teeth that part and meet again: with fewer steps in a contact than this the motion gains or loses energy \
+                 that no damping and no torque accounts for"
+            }
+            Self::ContactLoss => {
+                "with less damping than this teeth part at the resonance, then several motions are possible at one speed, \
+                 then the backside flanks touch"
+            }
+            Self::ContactCells => {
+                "with fewer contact cells in the loaded half-width than this pressures are those of the grid; solvers are \
+                 held against one another where they could cycle or lose accuracy"
+            }
+            Self::Locking => {
+                "bilinear elements resist bending by a shear that is not there: teeth come out too stiff, the more the \
+                 longer the elements"
+            }
+            Self::Resolution => {
+                "with fewer steps in a mesh cycle than this a harmonic resonates at the wrong speed, is taken for another, or \
+                 is not cancelled by planet phasing"
+            }
         }
     }
 
     /// Whether it is computed for a scene.
     pub fn is_of_a_scene(self) -> bool {
-        matches!(self, Self::ExplicitStep | Self::Parametric | Self::ModeTypes)
+        matches!(self, Self::ExplicitStep | Self::Parametric | Self::ModeTypes | Self::ContactLoss)
     }
 }
 
@@ -137,7 +180,7 @@ pub struct StabilityMap {
 }
 
 /// Why a map cannot be drawn.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Debug, thiserror::Error)]
 pub enum MapError {
     /// A step in time.
     #[error(transparent)]
@@ -145,6 +188,12 @@ pub enum MapError {
     /// The lumped set of the scene.
     #[error(transparent)]
     Lumped(#[from] lumped::LumpedError),
+    /// Steady states and branches of them.
+    #[error(transparent)]
+    Experiment(#[from] crate::error::ExperimentError),
+    /// The scene that `scene new` writes, changed for a guard.
+    #[error("the template of scenes: {0}")]
+    Template(String),
     /// A scene without operating point.
     #[error("[operation] is absent: steps per mesh cycle need a mesh frequency")]
     NoOperation,
@@ -161,6 +210,11 @@ pub fn stability_map(which: MapName, scene: &Scene) -> Result<StabilityMap, MapE
         MapName::BouncingBar => bouncing_bar::map(),
         MapName::Parametric => parametric::map(scene),
         MapName::ModeTypes => mode_types::map(scene),
+        MapName::Hammering => hammering::map(),
+        MapName::ContactLoss => contact_loss::map(scene),
+        MapName::ContactCells => contact_cells::map(),
+        MapName::Locking => locking::map(),
+        MapName::Resolution => resolution::map(),
     }
 }
 

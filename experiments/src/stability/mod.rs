@@ -1,10 +1,17 @@
 //! Stability maps: a method or a set pushed until it fails, the border found from the program itself, theory beside it.
 
 mod bouncing_bar;
+mod contact_cells;
+mod contact_loss;
 mod explicit_step;
+mod guards;
+mod hammering;
 mod integrators;
+mod locking;
 mod map;
 mod mode_types;
 mod parametric;
+mod resolution;
 
+pub use guards::{Guard, guards};
 pub use map::{Border, MapCurve, MapError, MapName, StabilityMap, stability_map};

@@ -1,6 +1,7 @@
 //! Speed sweeps: steady states of a turning set by marching, their harmonics, as fixed plans.
 
 mod coexisting;
+mod damped_model;
 mod extrapolation;
 mod failed_point;
 mod judge;
@@ -18,6 +19,7 @@ mod state;
 mod steady;
 mod sweep_model;
 
+pub use damped_model::DampedModel;
 pub use failed_point::FailedPoint;
 pub use judge::{Assigned, Content, assigned, contents, peak_speeds};
 pub use marching::{Effort, Marching};

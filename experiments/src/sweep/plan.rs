@@ -69,7 +69,7 @@ pub enum PlanError {
     NoHarmonic,
     /// Harmonics that the steps of a cycle do not resolve.
     #[error(
-        "{harmonics} harmonics with {steps} steps in a mesh cycle: up to 5 with any, up to 10 with at least 560, none above (at a resonance of the highest Newmark's method is {percent:.0} % off)"
+        "{harmonics} harmonics with {steps} steps in a mesh cycle: up to 5 with any, up to 10 with at least 560, none above (at a resonance of the highest average acceleration is {percent:.1} % off)"
     )]
     Harmonics {
         /// Harmonics asked for.
@@ -79,6 +79,15 @@ pub enum PlanError {
         /// What it would be off, percent.
         percent: f64,
     },
+}
+
+/// Harmonic over steps in a mesh cycle at which a resonance is 1 % below its place: (2πl/S)²/12 = 0.01 with the next term.
+const LARGEST_SHARE: f64 = 0.0556;
+
+/// By how much average acceleration lowers a frequency at a harmonic, %: (2/h) atan(ωh/2) for ω.
+fn place_percent(harmonic: usize, steps: usize) -> f64 {
+    let half = std::f64::consts::PI * harmonic as f64 / steps.max(1) as f64;
+    100.0 * (1.0 - half.atan() / half)
 }
 
 impl SteadySettings {
@@ -94,9 +103,20 @@ impl SteadySettings {
         if harmonics <= 5 || (harmonics <= 10 && steps >= 560) {
             return Ok(());
         }
-        // Newmark turns ω into (2/h) atan(ωh/2): −(ωh)²/12 of it.
-        let angle = std::f64::consts::TAU * harmonics as f64 / steps.max(1) as f64;
-        Err(PlanError::Harmonics { harmonics, steps, percent: 100.0 * angle * angle / 12.0 })
+        Err(PlanError::Harmonics { harmonics, steps, percent: place_percent(harmonics, steps) })
+    }
+
+    /// What to know before harmonics are read from this many steps in a mesh cycle; `None` if resonances of the highest
+    /// of them are within 1 % of their place.
+    pub fn caution(&self, steps: usize) -> Option<String> {
+        let (harmonics, percent) = (self.harmonics, place_percent(self.harmonics, steps));
+        (percent > 1.0).then(|| {
+            let least = (harmonics as f64 / LARGEST_SHARE).ceil();
+            format!(
+                "with {steps} steps in a mesh cycle resonances that harmonic {harmonics} excites appear {percent:.1} % below \
+                 their speed: for 1 % take at least {least} (`dynamics.steps_per_cycle`), or fewer harmonics"
+            )
+        })
     }
 }
 

@@ -82,10 +82,7 @@ pub(super) fn check_sense(own: &LoadCase, other: &LoadCase) -> Result<(), Experi
 /// A scene with every damping multiplied by a factor.
 pub(super) fn damped(scene: &Scene, factor: f64) -> Scene {
     let mut scene = scene.clone();
-    let damping = &mut scene.damping;
-    damping.mass_proportional_per_s *= factor;
-    damping.stiffness_proportional_s *= factor;
-    damping.bearing_s *= factor;
+    scene.damping = scene.damping.times(factor);
     scene
 }
 

@@ -1,0 +1,86 @@
+//! Locking of quadrilaterals in bending: the energy of one element that is bent, by family.
+//!
+//! A rectangle of 2a × 2b whose nodes follow pure bending by the curvature κ, u = κxy, v = −κ (x² + ν y²)/2 (plane stress),
+//! has the exact energy ½ κ² E t (4ab) b²/3. Bilinear functions make of it u = κxy, v = const: a shear κx that pure bending
+//! does not have, and no contraction across,
+//!
+//! ```text
+//! energy over exact = 1/(1 − ν²) + (a/b)²/(2(1 + ν))
+//! ```
+//!
+//! without bound as elements get longer. Incompatible modes and eight nodes contain the exact field: 1.
+
+use fe_contact::Elastic;
+use fe_contact::element::{Shape, matrices};
+use gearset::PlaneState;
+use nalgebra::DVector;
+
+use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+
+const STEEL: Elastic =
+    Elastic { young: 207e9, poisson: 0.3, density: 7800.0, plane: PlaneState::Stress };
+
+/// Length over height a/b.
+const RATIOS: [f64; 9] = [0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0];
+
+/// Half the height, m.
+const HALF_HEIGHT: f64 = 1e-3;
+
+pub(super) fn map() -> Result<StabilityMap, MapError> {
+    let system = "one element bent with the curvature of a beam, plane stress, ν = 0.3";
+    let mut map = empty(MapName::Locking, system, "length over height of the element");
+    for (name, shape, incompatible) in [
+        ("linear", Shape::LINEAR, false),
+        ("incompatible", Shape::LINEAR, true),
+        ("quadratic", Shape::QUADRATIC, false),
+    ] {
+        let theory = |ratio: f64| match (shape.is_linear(), incompatible) {
+            (true, false) => locked(ratio),
+            _ => 1.0,
+        };
+        let mut points = Vec::new();
+        for ratio in RATIOS {
+            let found = energy_ratio(&shape, incompatible, ratio)?;
+            let quantity = format!("bending stiffness over exact at {ratio} times its height");
+            let border = Border::new(name, quantity, "", Some(found), Some(theory(ratio)));
+            map.borders.push(border);
+            points.push((ratio, found));
+        }
+        let curves = [(false, points), (true, RATIOS.map(|r| (r, theory(r))).to_vec())];
+        for (is_theory, points) in curves {
+            let (panel, name) = ("bending stiffness over exact".into(), name.into());
+            map.curves.push(MapCurve { panel, name, is_theory, is_points: !is_theory, points });
+        }
+    }
+    Ok(map)
+}
+
+/// 1/(1 − ν²) + (a/b)²/(2(1 + ν))
+fn locked(ratio: f64) -> f64 {
+    let nu = STEEL.poisson;
+    1.0 / (1.0 - nu * nu) + ratio * ratio / (2.0 * (1.0 + nu))
+}
+
+fn energy_ratio(shape: &Shape, incompatible: bool, ratio: f64) -> Result<f64, MapError> {
+    let (a, b) = (ratio * HALF_HEIGHT, HALF_HEIGHT);
+    let mut places = vec![[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
+    if !shape.is_linear() {
+        places.extend([[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]]);
+    }
+    let points: Vec<[f64; 2]> = places.iter().map(|[xi, eta]| [a * xi, b * eta]).collect();
+    let (curvature, thickness, nu) = (1.0, 1.0, STEEL.poisson);
+    let bent = points
+        .iter()
+        .flat_map(|[x, y]| [curvature * x * y, -0.5 * curvature * (x * x + nu * y * y)]);
+    let bent = DVector::from_iterator(2 * points.len(), bent);
+    let own = matrices(shape, &points, &STEEL, thickness, incompatible)
+        .map_err(|cause| crate::error::ExperimentError::Fe(distorted(cause)))?;
+    let energy = 0.5 * bent.dot(&(&own.stiffness * &bent));
+    // ½ κ² E t (4ab) b²/3
+    let exact = 0.5 * curvature * curvature * STEEL.young * thickness * 4.0 * a * b * b * b / 3.0;
+    Ok(energy / exact)
+}
+
+fn distorted(cause: fe_contact::element::DistortedElement) -> fe_contact::FeError {
+    fe_contact::FeError::Distorted { body: "bent element", element: 0, cause }
+}

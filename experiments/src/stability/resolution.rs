@@ -1,0 +1,145 @@
+//! Too few steps in a mesh cycle: resonances off their place, harmonics taken for one another, and phasing that no longer
+//! cancels.
+//!
+//! With S steps a cycle, average acceleration turns the frequency ω of a mode at which harmonic l resonates into (2/h)
+//! atan(ωh/2), ωh = 2πl/S. A mesh stiffness that switches between two values, sampled S times, has the harmonic
+//!
+//! ```text
+//! ŵ_l^S = Σ_k ŵ_(l+kS) = ŵ_l (πl/S)/sin(πl/S)
+//! ```
+//!
+//! if it switches at steps. Of two such meshes half a cycle apart the odd harmonics cancel; sampled, only if S is even.
+
+use std::f64::consts::{PI, TAU};
+
+use dynamics::c64;
+use dynamics::integrators::{Scheme, amplification};
+use lumped::MeshWave;
+
+use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+
+/// Steps of the default.
+const STEPS: u32 = 140;
+
+/// Contact ratio whose switches fall on steps of the default.
+const CONTACT_RATIO: f64 = 1.6;
+
+/// The first harmonic of the default steps that is more than 1 % too high.
+const TOO_HIGH: u32 = 11;
+
+/// Wanted accuracy, 1 %.
+const WANTED: f64 = 0.01;
+
+pub(super) fn map() -> Result<StabilityMap, MapError> {
+    let system = "one mesh of rectangular stiffness and one mode at a harmonic of it";
+    let mut map = empty(MapName::Resolution, system, "harmonic over steps in a mesh cycle");
+    let harmonics = || (1..=STEPS / 4).map(|l| (l, f64::from(l) / f64::from(STEPS)));
+    let mut measured = [Vec::new(), Vec::new()];
+    for (l, share) in harmonics() {
+        measured[0].push((share, place(share)?));
+        let exact = wave(0.0).harmonic(l).norm();
+        // Every fifth harmonic of this wave is 0.
+        if exact > 1e-9 {
+            measured[1].push((share, sampled(l, STEPS) / exact - 1.0));
+        }
+    }
+    let theory: [fn(f64) -> f64; 2] = [
+        |share| 1.0 - (PI * share).atan() / (PI * share),
+        |share| PI * share / (PI * share).sin() - 1.0,
+    ];
+    for (k, (of, quantity)) in [
+        ("resonance of a harmonic", "harmonic over steps at which it is 1 % low"),
+        ("harmonic of a stiffness that switches", "harmonic 11 of 140 steps too high by"),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let (border, exact, unit) = match k {
+            0 => (
+                root(|share| place(share).map(|off| off - WANTED))?,
+                root(|share| Ok(theory[k](share) - WANTED))?,
+                "",
+            ),
+            _ => {
+                let share = f64::from(TOO_HIGH) / f64::from(STEPS);
+                let own = measured[k].iter().find(|(x, _)| *x == share);
+                (own.map(|(_, y)| 100.0 * y), Some(100.0 * theory[k](share)), "%")
+            }
+        };
+        map.borders.push(Border::new(of, quantity, unit, border, exact));
+        let percent = |points: &[(f64, f64)]| points.iter().map(|(x, y)| (*x, 100.0 * y)).collect();
+        let exact: Vec<(f64, f64)> = harmonics().map(|(_, x)| (x, theory[k](x))).collect();
+        for (is_theory, points) in [(false, percent(&measured[k])), (true, percent(&exact))] {
+            let (panel, name) = ("error, %".into(), of.into());
+            map.curves.push(MapCurve { panel, name, is_theory, is_points: !is_theory, points });
+        }
+    }
+    for steps in [STEPS, STEPS + 1, 4 * STEPS + 1] {
+        let found = left_over(steps);
+        let of = format!("two meshes half a cycle apart, {steps} steps");
+        let quantity = "harmonic 1 left over, of that of one mesh";
+        map.borders.push(Border::new(of, quantity, "", Some(found), Some(aliased(steps))));
+    }
+    Ok(map)
+}
+
+/// By how much the step lowers a frequency at a harmonic over steps, as a part.
+fn place(share: f64) -> Result<f64, MapError> {
+    let found = amplification(&Scheme::AverageAcceleration, TAU * share, 0.0)?;
+    // The period is longer by e: the frequency is 1/(1 + e).
+    let longer = found.period_error.unwrap_or(f64::NAN);
+    Ok(longer / (1.0 + longer))
+}
+
+fn wave(phase: f64) -> MeshWave {
+    // Switches in the middle between steps: no sample lies on one.
+    MeshWave { contact_ratio: CONTACT_RATIO, phase: phase + 0.5 / f64::from(STEPS) }
+}
+
+/// Harmonic l of S samples.
+fn samples(steps: u32, l: u32, at: impl Fn(f64) -> f64) -> c64 {
+    let one = |i: u32| {
+        let t = f64::from(i) / f64::from(steps);
+        c64::from_polar(at(t), -TAU * f64::from(l) * t)
+    };
+    (0..steps).map(one).sum::<c64>() / f64::from(steps)
+}
+
+fn sampled(l: u32, steps: u32) -> f64 {
+    let own = wave(0.0);
+    samples(steps, l, |t| own.at(t)).norm()
+}
+
+fn left_over(steps: u32) -> f64 {
+    let [a, b] = [wave(0.0), wave(0.5)];
+    let sum = samples(steps, 1, |t| a.at(t) + b.at(t)).norm();
+    sum / a.harmonic(1).norm()
+}
+
+/// Σ_k ŵ_(1+kS) of both meshes over ŵ_1, summed to where its terms are 1e-6.
+fn aliased(steps: u32) -> f64 {
+    let (own, s) = (wave(0.0), i64::from(steps));
+    let harmonic = |l: i64| {
+        let size = own.harmonic(l.unsigned_abs() as u32);
+        let size = if l < 0 { size.conj() } else { size };
+        // The second mesh is half a cycle on: e^{πi l}.
+        if l % 2 == 0 { 2.0 * size } else { c64::new(0.0, 0.0) }
+    };
+    let most = 200_000 / s;
+    // Pairs ±k together: the sum converges only so.
+    let sum: c64 = (1..=most).map(|k| harmonic(1 + k * s) + harmonic(1 - k * s)).sum();
+    sum.norm() / own.harmonic(1).norm()
+}
+
+/// Where a function that grows from below 0 crosses 0 between 0.001 and 0.25, by bisection.
+fn root(of: impl Fn(f64) -> Result<f64, MapError>) -> Result<Option<f64>, MapError> {
+    let (mut low, mut high) = (1e-3, 0.25);
+    if of(low)? > 0.0 || of(high)? < 0.0 {
+        return Ok(None);
+    }
+    while high - low > 1e-9 {
+        let middle = 0.5 * (low + high);
+        if of(middle)? > 0.0 { high = middle } else { low = middle }
+    }
+    Ok(Some(0.5 * (low + high)))
+}
