@@ -3,6 +3,7 @@
 
 mod amplitudes;
 mod crossings;
+mod tongue;
 
 use std::f64::consts::TAU;
 
@@ -10,8 +11,8 @@ use amplitudes::{off, rotation};
 use crossings::{at, speed};
 use experiments::branches::{BranchEnd, BranchPoint, BranchSettings, branch};
 use experiments::sweep::{
-    Coordinate, Direction, FeModel, Memory, MeshLawModel, Part, Plan, SteadyMethod, SteadySettings,
-    SweepModel, even_speeds, run, steady,
+    Coordinate, DampedModel, Direction, FeModel, Memory, MeshLawModel, Part, Plan, SteadyMethod,
+    SteadySettings, SweepModel, even_speeds, run, steady,
 };
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, pair_cycle};
@@ -372,4 +373,72 @@ fn superharmonic_resonances_of_the_finite_element_pair() {
         assert!((0.88..1.05).contains(&at), "{at}");
         assert!(ends.iter().all(|end| top > 2.0 * end), "{top} {ends:?}");
     }
+}
+
+/// FE/contact inside and outside a tongue of parametric instability: about twice the natural frequency the motion that repeats
+/// with the mesh cycle is unstable, and its period doubles at the borders. They are those of Hill's equation with the
+/// mesh stiffness along the motion. (With the stiffness under a constant load, as at rest, the tongue would be a fifth
+/// narrower.)
+#[test]
+fn a_finite_element_pair_is_unstable_inside_its_tongue_only() {
+    let (scene, bodies) = meshed();
+    let case = LoadCase::of_scene(&scene).unwrap();
+    let model = MeshLawModel::new(&scene, &bodies, case).unwrap();
+    let natural = natural_rpm(&bodies, &case);
+    let range = [1.85 * natural, 2.15 * natural];
+    let borders = |model: &dyn SweepModel, factor: f64| -> Vec<f64> {
+        let settings = BranchSettings { start: range[0], ..BranchSettings::over(range) };
+        let found = branch(&DampedModel { model, factor }, &settings).unwrap();
+        assert_eq!(found.ends, [BranchEnd::Bound, BranchEnd::Bound]);
+        let at: Vec<f64> = found.bifurcations().map(speed).collect();
+        for p in found.points.iter().filter(|p| at.iter().all(|s| (speed(p) - s).abs() > 0.1)) {
+            let is_inside = at.len() == 2 && speed(p) > at[0] && speed(p) < at[1];
+            assert_eq!(p.is_stable, !is_inside, "{} rpm", speed(p));
+            assert_eq!(p.contact_loss, 0.0);
+        }
+        at
+    };
+    let nearly_undamped = 0.02;
+    let [low, high] = borders(&model, nearly_undamped)[..] else { panic!("no tongue") };
+
+    // k along the motion at either border, from contact solved at its deflections.
+    let hill = [low, high].map(|border| {
+        let settings =
+            BranchSettings { start: border, most_points: 2, ..BranchSettings::over(range) };
+        let own =
+            branch(&DampedModel { model: &model, factor: nearly_undamped }, &settings).unwrap();
+        let at = own
+            .points
+            .iter()
+            .min_by(|a, b| (speed(a) - border).abs().total_cmp(&(speed(b) - border).abs()));
+        tongue::Hill::along(at.unwrap(), &bodies, case.sun_load_nm())
+    });
+    let [exact_low, exact_high] = [hill[0].borders()[0], hill[1].borders()[1]];
+    println!("{low} {high}, Hill along the motion {exact_low} {exact_high}");
+    // 70 steps lower a frequency of half the mesh frequency by (π/70)²/12 = 1.7e-4; the table of the law adds its own part.
+    let (half, exact_half) = (0.5 * (high - low), 0.5 * (exact_high - exact_low));
+    assert!((low / exact_low - 1.0).abs() < 1e-3 && (high / exact_high - 1.0).abs() < 1e-3);
+    assert!((half / exact_half - 1.0).abs() < 0.03, "{half} {exact_half}");
+    let centre = 0.5 * (low + high);
+    let hill = &hill[0];
+    // To first order Ω = 2ω ± ω h/2 with k = k̄ (1 + h cos Ωt); the next terms are of h².
+    for (first, exact) in hill.first_order().into_iter().zip(hill.borders()) {
+        assert!((first / exact - 1.0).abs() < hill.h() * hill.h(), "{first} {exact}");
+    }
+
+    // Contact solved in every step instead of looked up.
+    let solved = FeModel::new(&scene, &bodies, Imperfections::default(), case);
+    let [solved_low, solved_high] = borders(&solved, nearly_undamped)[..] else {
+        panic!("no tongue")
+    };
+    println!("contact solved: {solved_low} {solved_high}");
+    assert!((solved_low / low - 1.0).abs() < 1e-3 && (solved_high / high - 1.0).abs() < 1e-3);
+
+    // Damping closes it from 4ζ = h on: half of that, and twice.
+    let omega = 0.5 * TAU * case.at_speed(centre).mesh_frequency_hz;
+    let d = scene.damping;
+    let zeta = 0.5 * (d.mass_proportional_per_s / omega + d.stiffness_proportional_s * omega);
+    let closing = 0.25 * hill.h() / zeta;
+    assert_eq!(borders(&model, 0.5 * closing).len(), 2);
+    assert!(borders(&model, 2.0 * closing).is_empty());
 }
