@@ -1,6 +1,7 @@
 //! Virtual experiments: what can be asked of a model of a planetary gear set, as functions of the model and a
 //! load case.
 
+pub mod auto;
 mod bodies_cache;
 pub mod branches;
 mod error;

@@ -4,7 +4,8 @@ use std::f64::consts::PI;
 
 use crate::geometry::Geometry;
 use crate::load_case::LoadCase;
-use crate::scene::{Freedom, PerMesh, Scene, SceneKind, Support, Torsional};
+use crate::mesh::Mesh;
+use crate::scene::{Freedom, PerBody, PerMesh, Scene, SceneKind, Support, Torsional};
 
 /// One pair of steel teeth in mesh has about E b/13: 14 N/(mm µm) for steel, as in ISO 6336-1.
 const PAIR_STIFFNESS_DIVISOR: f64 = 13.0;
@@ -69,6 +70,25 @@ pub(crate) fn mesh_stiffness(scene: &Scene) -> Option<f64> {
 pub(crate) fn pair_stiffness(scene: &Scene) -> Option<f64> {
     let width = scene.geometry.as_ref()?.face_width;
     Some(scene.material.young_modulus_pa * width / PAIR_STIFFNESS_DIVISOR)
+}
+
+/// Estimate of the mean stiffness of a mesh, N/m: that of one pair, E b/13, times 0.75 ε + 0.25 with the contact
+/// ratio ε (ISO 6336-1, c_γ from c').
+pub fn estimated_mesh_stiffness(scene: &Scene, mesh: &Mesh) -> Option<f64> {
+    Some(pair_stiffness(scene)? * (0.75 * mesh.contact_ratio + 0.25))
+}
+
+/// Estimates of masses (kg) and polar inertias (kg m²) of the bodies from annuli with half of each tooth height filled;
+/// `None` where the scene does not give both circles of a body.
+pub fn estimated_inertias(scene: &Scene) -> (PerBody, PerBody) {
+    let [sun, planet, ring, carrier] = discs(scene);
+    let of = |read: fn(&Disc) -> f64| PerBody {
+        carrier: carrier.as_ref().map(read),
+        ring: ring.as_ref().map(read),
+        sun: sun.as_ref().map(read),
+        planet: planet.as_ref().map(read),
+    };
+    (of(|disc| disc.mass), of(Disc::inertia))
 }
 
 /// Mean force of one mesh at the operating point, N: |T_s|/(r_b N).

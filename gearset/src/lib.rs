@@ -48,6 +48,7 @@ mod warnings;
 pub use bound::Bound;
 pub use choices::*;
 pub use displaced::{DisplacedMesh, Displacements, MeshGradients, MeshHessians, PairLocation};
+pub use estimates::{estimated_inertias, estimated_mesh_stiffness};
 pub use fault::{Fault, SceneError};
 pub use gear::{Facing, Flank, Gear, ToothSide};
 pub use geometry::{Geometry, GeometryError, ProfileShiftSums};

@@ -1,5 +1,6 @@
 //! Virtual experiments and checks: the models against published numbers, theorems and each other.
 
+mod auto_record;
 mod catalogue;
 mod check;
 mod compare;
@@ -20,6 +21,7 @@ mod suites;
 mod verdict;
 mod worst;
 
+pub use auto_record::{AutoRow, DrawnScene, auto_row, drawn_scene};
 pub use catalogue::{PublishedScene, scene};
 pub use check::{Check, ReferenceKind, Status, Subject, Tolerance, Value};
 pub use compare::{Comparison, ListedMode, Match, ModelMode, compare};

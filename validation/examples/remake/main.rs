@@ -2,6 +2,7 @@
 //! `cargo run --release -p validation --example remake -- NAME`; without a name it lists them.
 
 mod assumptions;
+mod auto;
 mod effects;
 mod exact_peaks;
 mod ladder;
@@ -23,12 +24,13 @@ type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
 type Remake = fn() -> Outcome;
 
 /// Name, what it makes, how.
-const ALL: [(&str, &str, Remake); 12] = [
+const ALL: [(&str, &str, Remake); 13] = [
     (
         "assumptions",
         "docs/assumptions.md from the ledger and the kept verdict",
         assumptions::remake,
     ),
+    ("auto", "kept/auto.csv: choices of auto on drawn sets, their errors and costs", auto::remake),
     (
         "effects",
         "tables of docs/fe_dynamics_effects.md: what changes the tabled frequencies",

@@ -1,0 +1,75 @@
+//! Where a mode has its energy: shares by which the errors of its frequency are estimated.
+
+use fe_contact::statics::{CARRIER, PLANETS};
+use fe_contact::vibration::{LinearSet, VibratingSet};
+use lumped::{Body, LumpedModel, ModeGroup, ModeType, Parameter, sensitivities};
+
+use crate::error::ExperimentError;
+use crate::modal::{linear_modes, mesh_influence};
+
+/// Bodies in the order carrier, ring, sun, all planets.
+pub(super) const KINDS: usize = 4;
+
+/// Energy of one mode.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ModeEnergy {
+    pub(super) frequency_hz: f64,
+    pub(super) mode_type: ModeType,
+    /// Shares of kinetic energy: carrier, ring, sun, all planets.
+    pub(super) kinetic: [f64; KINDS],
+    /// Share of strain energy in all meshes, 2 ∂ln f/∂ln k.
+    pub(super) meshes: f64,
+    /// Share of strain energy in the planet bearings; with FE/contact, in all that are not meshes.
+    pub(super) bearings: f64,
+}
+
+/// Modes of a linearised FE/contact set, ascending.
+pub(super) fn of_linear(
+    set: &VibratingSet<'_>,
+    linear: &LinearSet,
+) -> Result<Vec<ModeEnergy>, ExperimentError> {
+    let modes = linear_modes(set, linear)?;
+    let influence = mesh_influence(linear)?;
+    let (races, mass) = (set.races(), set.masses());
+    let bodies = PLANETS + races.psi.len();
+    let energy = modes.iter().zip(&influence).map(|(mode, own)| {
+        let mut kinetic = [0.0; KINDS];
+        for body in CARRIER..bodies {
+            for i in (0..3).filter_map(|axis| races.of(body, axis)) {
+                // M-normalised: T_i = m_i φ_i²
+                kinetic[body.min(PLANETS)] += mass[i] * mode.shape[i].powi(2);
+            }
+        }
+        let meshes = 2.0 * own.all_meshes;
+        let bearings = (1.0 - meshes).max(0.0);
+        let (frequency_hz, mode_type) = (mode.frequency_hz, mode.mode_type);
+        ModeEnergy { frequency_hz, mode_type, kinetic, meshes, bearings }
+    });
+    Ok(energy.collect())
+}
+
+/// One distinct frequency of the lumped model.
+pub(super) fn of_group(model: &LumpedModel, group: &ModeGroup) -> ModeEnergy {
+    let mut kinetic = [0.0; KINDS];
+    for share in lumped::kinetic_energy(model, group) {
+        let kind = match share.of {
+            Body::Carrier => 0,
+            Body::Ring => 1,
+            Body::Sun => 2,
+            Body::Planet(_) => 3,
+        };
+        kinetic[kind] += share.share;
+    }
+    let all = sensitivities(model, group);
+    let share = |name: &str| {
+        let own = |s: &&lumped::Sensitivity| matches!(&s.parameter, Parameter::StiffnessFamily(n) if n == name);
+        all.iter().find(own).map_or(0.0, |s| 2.0 * s.logarithmic)
+    };
+    ModeEnergy {
+        frequency_hz: group.frequency_hz,
+        mode_type: crate::modal::majority(&group.participation),
+        kinetic,
+        meshes: share("sun_mesh") + share("ring_mesh"),
+        bearings: share("planet_bearing"),
+    }
+}

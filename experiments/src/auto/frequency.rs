@@ -1,0 +1,285 @@
+//! The cheapest settings for a natural frequency.
+
+use fe_contact::statics::Bodies;
+use gearset::{LoadCase, Scene};
+use lumped::{LumpedModel, ModeType, NaturalModes};
+
+use super::choice::{AutoError, Choice, ErrorPart, PassedOver, total};
+use super::energy::{ModeEnergy, of_group, of_linear};
+use super::error_parts::SetSize;
+use super::settings::{AutoModel, AutoSettings};
+use crate::error::ExperimentError;
+use crate::modal::{Preload, preloaded};
+
+/// A natural frequency about the load at position 0 of the mesh cycle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrequencyRequest {
+    /// Type by the larger part of the kinetic energy.
+    pub mode_type: ModeType,
+    /// Number among the modes of that type by ascending frequency, from 1; a frequency that occurs twice counts twice.
+    pub number: usize,
+    /// Wanted accuracy, percent.
+    pub tolerance_percent: f64,
+}
+
+impl std::fmt::Display for FrequencyRequest {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "natural frequency of {} mode {}", self.mode_type.name(), self.number)
+    }
+}
+
+/// FE/contact with quasi-static bodies, from cheap to dear.
+const QUASI_STATIC: [AutoSettings; 3] = [
+    AutoSettings::quasi_static(6, 20),
+    AutoSettings::quasi_static(10, 30),
+    AutoSettings::quasi_static(16, 40),
+];
+
+/// FE/contact with modes of each body, from cheap to dear.
+const MODAL: [AutoSettings; 2] = [AutoSettings::modal(4, 6, 20), AutoSettings::modal(4, 10, 30)];
+
+impl FrequencyRequest {
+    /// All candidates for a scene, from cheap to dear.
+    pub fn candidates(scene: &Scene) -> Vec<AutoSettings> {
+        let lumped = scene.lumped.as_ref().map(|_| AutoSettings::LUMPED);
+        lumped.into_iter().chain(QUASI_STATIC).chain(MODAL).collect()
+    }
+
+    fn found(&self, modes: Vec<ModeEnergy>) -> Result<ModeEnergy, String> {
+        let of_type = modes.into_iter().filter(|m| m.mode_type == self.mode_type);
+        let mut own: Vec<ModeEnergy> = of_type.collect();
+        match (1..=own.len()).contains(&self.number) {
+            true => Ok(own.swap_remove(self.number - 1)),
+            false => {
+                Err(format!("it has {} modes of type {}", own.len(), self.mode_type.name()))
+            }
+        }
+    }
+}
+
+/// The frequency with given settings, Hz.
+///
+/// # Errors
+/// If the model refuses the scene or has no such mode.
+pub fn frequency_with(
+    scene: &Scene,
+    case: &LoadCase,
+    settings: AutoSettings,
+    request: &FrequencyRequest,
+) -> Result<f64, ExperimentError> {
+    let mode = match settings.model {
+        AutoModel::Lumped => lumped_mode(scene, request).map(|(_, _, mode)| mode),
+        _ => fe_mode(scene, case, settings, request),
+    };
+    mode.map(|m| m.frequency_hz)
+}
+
+type LumpedMode = (LumpedModel, lumped::ModeGroup, ModeEnergy);
+
+fn lumped_mode(scene: &Scene, request: &FrequencyRequest) -> Result<LumpedMode, ExperimentError> {
+    let model = LumpedModel::from_scene(scene)?;
+    let groups = NaturalModes::of(&model)?.groups;
+    let each = groups.into_iter().flat_map(|g| {
+        let energy = of_group(&model, &g);
+        std::iter::repeat_n((g.clone(), energy), g.multiplicity)
+    });
+    let all: Vec<_> = each.collect();
+    let mode = request
+        .found(all.iter().map(|(_, energy)| energy.clone()).collect())
+        .map_err(|e| ExperimentError::Model(e.into()))?;
+    let own = all.into_iter().find(|(_, energy)| *energy == mode);
+    let (group, _) = own.ok_or(ExperimentError::Incomplete("mode"))?;
+    Ok((model, group, mode))
+}
+
+fn fe_mode(
+    scene: &Scene,
+    case: &LoadCase,
+    settings: AutoSettings,
+    request: &FrequencyRequest,
+) -> Result<ModeEnergy, ExperimentError> {
+    let own = settings.applied_to(scene);
+    let bodies = Bodies::new(&own)?;
+    let set = preloaded(&own, &bodies, &Preload { load: *case, position: 0.0, step_s: 5e-6 })?;
+    let modes = of_linear(&set, &set.linearised()?)?;
+    request.found(modes).map_err(|e| ExperimentError::Model(e.into()))
+}
+
+/// The cheapest candidate whose estimated error is within the tolerance, with its answer.
+///
+/// Quasi-static candidates that the first of them shows to be too coarse are not run: the energy of its mode gives the
+/// errors of all.
+///
+/// # Errors
+/// If no candidate has the mode, or none is estimated to be within the tolerance.
+pub fn choose_frequency(
+    scene: &Scene,
+    case: &LoadCase,
+    request: &FrequencyRequest,
+) -> Result<Choice, AutoError> {
+    let tolerance = request.tolerance_percent;
+    if !(tolerance > 0.0 && tolerance <= 100.0) {
+        return Err(AutoError::Tolerance(tolerance));
+    }
+    let mut search = Search {
+        scene,
+        case,
+        request,
+        size: SetSize::new(scene, case)?,
+        passed_over: Vec::new(),
+        has_answer: false,
+    };
+    let found = match search.lumped() {
+        Some(choice) => Some(choice),
+        None => search.fe_contact(),
+    };
+    let quantity = request.to_string();
+    let passed_over = search.passed_over;
+    match found {
+        Some(choice) => Ok(Choice { passed_over, ..choice }),
+        None if search.has_answer => {
+            Err(AutoError::NothingMeets { quantity, tolerance_percent: tolerance, passed_over })
+        }
+        None => Err(AutoError::NoAnswer { quantity, passed_over }),
+    }
+}
+
+struct Search<'s> {
+    scene: &'s Scene,
+    case: &'s LoadCase,
+    request: &'s FrequencyRequest,
+    size: SetSize,
+    passed_over: Vec<PassedOver>,
+    has_answer: bool,
+}
+
+impl Search<'_> {
+    fn lumped(&mut self) -> Option<Choice> {
+        self.scene.lumped.as_ref()?;
+        let (model, group, mode) = match lumped_mode(self.scene, self.request) {
+            Ok(found) => found,
+            Err(e) => return self.refused(AutoSettings::LUMPED, &e),
+        };
+        let mut parts = self.size.of_lumped(&model, self.scene, &group, &mode);
+        parts.push(ErrorPart::new(BODY_INERTIA, self.size.body_inertia(&mode)));
+        self.judged(AutoSettings::LUMPED, &mode, parts)
+    }
+
+    fn fe_contact(&mut self) -> Option<Choice> {
+        let first = QUASI_STATIC[0];
+        let probe = match fe_mode(self.scene, self.case, first, self.request) {
+            Ok(mode) => mode,
+            Err(e) => return self.refused(first, &e),
+        };
+        let parts = self.quasi_static_parts(&probe, first);
+        if let Some(choice) = self.judged(first, &probe, parts) {
+            return Some(choice);
+        }
+        for settings in &QUASI_STATIC[1..] {
+            let expected = total(&self.quasi_static_parts(&probe, *settings));
+            if !self.is_expected(*settings, expected) {
+                continue;
+            }
+            match fe_mode(self.scene, self.case, *settings, self.request) {
+                Ok(mode) => {
+                    let parts = self.quasi_static_parts(&mode, *settings);
+                    if let Some(choice) = self.judged(*settings, &mode, parts) {
+                        return Some(choice);
+                    }
+                }
+                Err(e) => drop(self.refused(*settings, &e)),
+            }
+        }
+        MODAL.iter().find_map(|settings| self.modal(*settings, &probe))
+    }
+
+    /// Modes of the bodies change the frequency by d from that of quasi-static bodies on the same mesh. If they leave a
+    /// third of the error of quasi-static bodies (saturation assumption), d/2 is left.
+    fn modal(&mut self, settings: AutoSettings, probe: &ModeEnergy) -> Option<Choice> {
+        if !self.is_expected(settings, total(&self.mesh_parts(probe, settings))) {
+            return None;
+        }
+        let of = |settings| fe_mode(self.scene, self.case, settings, self.request);
+        let coarse = QUASI_STATIC[0];
+        let found = of(settings).and_then(|mode| {
+            let without = settings.without_modes();
+            let rigid = if without == coarse { probe.clone() } else { of(without)? };
+            Ok((mode, rigid))
+        });
+        match found {
+            Ok((mode, rigid)) => {
+                let change = (mode.frequency_hz - rigid.frequency_hz).abs() / mode.frequency_hz;
+                let mut parts = self.mesh_parts(&rigid, settings);
+                parts.push(ErrorPart::new(BODY_INERTIA, 0.5 * change));
+                self.judged(settings, &mode, parts)
+            }
+            Err(e) => self.refused(settings, &e),
+        }
+    }
+
+    fn mesh_parts(&self, mode: &ModeEnergy, settings: AutoSettings) -> Vec<ErrorPart> {
+        let (n, cells) = (settings.flank_elements.unwrap_or(1), settings.contact_cells.unwrap_or(1));
+        self.size.discretisation(mode, n, cells).into()
+    }
+
+    fn quasi_static_parts(&self, mode: &ModeEnergy, settings: AutoSettings) -> Vec<ErrorPart> {
+        let mut parts = self.mesh_parts(mode, settings);
+        parts.push(ErrorPart::new(BODY_INERTIA, self.size.body_inertia(mode)));
+        parts
+    }
+
+    /// Whether settings are worth a run by the error that is expected of them, percent.
+    fn is_expected(&mut self, settings: AutoSettings, expected: f64) -> bool {
+        let is = expected <= self.request.tolerance_percent;
+        if !is {
+            self.pass(settings, Some(expected), format!("not run: {} % or more expected", shown(expected)));
+        }
+        is
+    }
+
+    fn judged(
+        &mut self,
+        settings: AutoSettings,
+        mode: &ModeEnergy,
+        parts: Vec<ErrorPart>,
+    ) -> Option<Choice> {
+        self.has_answer = true;
+        let error = total(&parts);
+        // NaN is within nothing.
+        if !(error <= self.request.tolerance_percent) {
+            let largest = parts.iter().max_by(|a, b| a.percent.total_cmp(&b.percent));
+            let of = largest.map_or(String::new(), |p| {
+                format!(", {} % of it from {}", shown(p.percent), p.source)
+            });
+            self.pass(settings, Some(error), format!("estimated error {} %{of}", shown(error)));
+            return None;
+        }
+        Some(Choice {
+            quantity: self.request.to_string(),
+            value: mode.frequency_hz,
+            unit: "Hz".into(),
+            tolerance_percent: self.request.tolerance_percent,
+            estimated_error_percent: error,
+            error_parts: parts,
+            settings,
+            passed_over: Vec::new(),
+        })
+    }
+
+    fn refused(&mut self, settings: AutoSettings, error: &ExperimentError) -> Option<Choice> {
+        self.pass(settings, None, error.to_string());
+        None
+    }
+
+    fn pass(&mut self, settings: AutoSettings, estimated_error_percent: Option<f64>, why: String) {
+        self.passed_over.push(PassedOver { settings, estimated_error_percent, why });
+    }
+}
+
+const BODY_INERTIA: &str = "inertia of the bodies behind the teeth";
+
+/// Percent with two significant digits.
+fn shown(percent: f64) -> String {
+    let decimals = (1 - percent.abs().max(1e-9).log10().floor() as i32).clamp(0, 6) as usize;
+    format!("{percent:.decimals$}")
+}

@@ -1,0 +1,16 @@
+//! The cheapest settings that give one quantity within a tolerance, with the estimated error of the answer.
+//!
+//! Candidates are tried from cheap to dear. Each answers the question and estimates its own error, one part for every
+//! approximation it makes; the parts are added as if all had the same sign. The first candidate whose sum is within the
+//! tolerance is the answer, and where none is, there is no answer. Equations, limits and the test of the estimates:
+//! `docs/auto.md`.
+
+mod choice;
+mod energy;
+mod error_parts;
+mod frequency;
+mod settings;
+
+pub use choice::{AutoError, Choice, ErrorPart, PassedOver};
+pub use frequency::{FrequencyRequest, choose_frequency, frequency_with};
+pub use settings::{AutoModel, AutoSettings};
