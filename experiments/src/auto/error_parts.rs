@@ -1,6 +1,6 @@
 //! Estimated errors of a natural frequency, one for each approximation of a model. `docs/auto.md` derives them.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use gearset::{Geometry, LoadCase, PerBody, Scene, estimated_inertias, estimated_mesh_stiffness};
 use lumped::{LumpedModel, ModeGroup, Parameter, sensitivities};
@@ -12,12 +12,20 @@ use crate::error::ExperimentError;
 /// Factor on estimates of inertia that is left out: they are first-order bounds (grid convergence: Roache 1994).
 const SAFETY: f64 = 1.25;
 
-/// Grid convergence index of the mean mesh stiffness at 14 flank elements of eight nodes, with its safety factor of 3
-/// and the formal order 2 (`docs/fe_contact.md`).
-const STIFFNESS_INDEX: (f64, f64) = (0.008, 14.0);
+/// Grid convergence index of the mean mesh stiffness at this many flank elements of eight nodes, and observed order: from
+/// 620.6, 618.3 and 617.3 N/µm at 7, 14 and 28 elements (`docs/fe_contact.md`) by `dynamics::grid_convergence_index`.
+const STIFFNESS_INDEX: (f64, f64, f64) = (0.0036, 14.0, 1.2);
 
 /// Half-widths of contact that the grid of a pair reaches to either side.
 const GRID_HALF_WIDTHS: f64 = 1.5;
+
+/// Part of the rim's mass per pitch that moves with a loaded tooth: over three pitches a tenth of the tooth's deflection
+/// (a neighbouring tooth moves by 4 to 7 %), which falls to nothing at the race.
+const RIM_SHARE: f64 = 0.15;
+
+/// ∂ln k/∂ln a of a mesh: the half-planes of both flanks yield by 2 · 2 (1 − ν²)/(π E b) · ln a under unit force, the whole
+/// mesh by about 13/(E b).
+const HALF_WIDTH_INFLUENCE: f64 = 0.18;
 
 /// What the estimate of a mesh stiffness, E b/13 (0.75 ε + 0.25), may be off: ln 1.35, where ISO 6336-1 and computed
 /// stiffnesses differ by up to a third (`docs/fe_contact.md`).
@@ -26,6 +34,10 @@ const STIFFNESS_DOUBT: f64 = 0.3;
 /// What the mass or inertia of an annulus with half of each tooth height filled may be off: teeth are about a third of
 /// such a body, and their filling is good to a tenth.
 const INERTIA_DOUBT: f64 = 0.03;
+
+/// Independent parameters that are anywhere within ±a: standard uncertainty a/√3 each, root of the sum of squares, and
+/// twice that (JCGM 100:2008, 4.3.7, 5.1.2 and 6.2).
+const EXPANDED: f64 = 1.154_700_538_379_251_6;
 
 /// Largest effect of corner contacts that press along their own normals (`docs/fe_dynamics_effects.md`).
 const CORNERS: f64 = 0.006;
@@ -38,7 +50,7 @@ pub(super) struct SetSize {
     inertia: [f64; KINDS],
     /// Meshes of one body: carrier (none), ring, sun, planet.
     meshes: [f64; KINDS],
-    /// Mass of the loaded teeth of one mesh, ε m_t, kg: carrier (none), ring, sun, planet.
+    /// Mass that moves with the loaded teeth of one mesh, ε m_t, kg: carrier (none), ring, sun, planet.
     teeth: [f64; KINDS],
     /// Least estimate of a mesh stiffness, N/m.
     mesh: f64,
@@ -49,6 +61,8 @@ pub(super) struct SetSize {
     bearing: f64,
     /// Mass of the carrier that moves with a pin seat, kg; 0 if it is rigid.
     seat: f64,
+    /// First mode of each body with its race held, Hz: carrier, ring, sun, planet; infinite where it is rigid.
+    first_modes_hz: [f64; KINDS],
     /// Mean force of a mesh over the sun's base radius, N/m.
     turning: f64,
     /// Estimates of masses (kg) and polar inertias (kg m²).
@@ -74,11 +88,13 @@ impl SetSize {
             list.into_iter().flatten().fold(f64::INFINITY, f64::min)
         };
         let per_area = scene.material.density_kg_per_m3 * geometry.face_width;
-        // Half a pitch wide at the middle of its height.
+        // A tooth is half a pitch wide at the middle of its height, the rim below it reaches to the race.
         let tooth = |gear: &gearset::Gear| {
             let height = (gear.tip_radius - gear.root_radius).abs();
             let middle = 0.5 * (gear.tip_radius + gear.root_radius);
-            per_area * 0.5 * middle * gear.pitch_angle() * height
+            let rim = (gear.root_radius - gear.body_radius.unwrap_or(gear.root_radius)).abs();
+            let area = 0.5 * middle * height + RIM_SHARE * gear.root_radius * rim;
+            per_area * gear.pitch_angle() * area
         };
         let largest = sun_mesh.contact_ratio.max(ring_mesh.contact_ratio);
         let stiffness = |mesh| estimated_mesh_stiffness(scene, mesh).ok_or_else(of("face width"));
@@ -105,49 +121,78 @@ impl SetSize {
             bearing: scene.supports.planet_bearing,
             // A disc of twice the seat's diameter.
             seat: carrier.map_or(0.0, |c| {
-                per_area * std::f64::consts::PI * (2.0 * c.pin_seat_radius).powi(2)
+                per_area * PI * (2.0 * c.pin_seat_radius).powi(2)
             }),
+            first_modes_hz: {
+                let [held, free] = [sun, &geometry.planet].map(|gear| {
+                    torsional_hz(scene, gear.body_radius.unwrap_or(0.0), gear.tip_radius)
+                });
+                [
+                    carrier.map_or(f64::INFINITY, |c| {
+                        torsional_hz(scene, c.bore_radius, c.outer_radius)
+                    }),
+                    torsional_hz(scene, ring.body_radius.unwrap_or(0.0), ring.tip_radius),
+                    held,
+                    free,
+                ]
+            },
             turning: case.sun_load_nm() / sun.base_radius.powi(2) / planets,
             masses,
             inertias,
         })
     }
 
-    /// Inertia of the elastic displacement left out, of first order. Teeth of mass ε m_t move against their body by
-    /// half of what a mesh yields; the strain energy of the meshes bounds that (Cauchy–Schwarz), as that of the planet
+    /// Inertia of the elastic displacement left out, of first order. A mass ε m_t, teeth and a part of the
+    /// rim below them, moves against its body by half of what a mesh yields; the strain energy of the meshes bounds that (Cauchy–Schwarz), as that of the planet
     /// bearings bounds what a pin seat yields:
     ///
     /// ```text
-    /// δf/f ≤ ½ ω Σ_b ε m_t √(n_b τ_b e/(M_b k)) + m_c ω √(N τ_c e_p k_p/M_c)/(E b)
+    /// δf/f ≤ ½ ω Σ_b ε m_t D_b √(n_b τ_b e/(M_b k)) + m_c ω D_c √(N τ_c e_p k_p/M_c)/(E b),
+    /// D_b = 1/(1 − (f/f_b)²)
     /// ```
+    ///
+    /// f_b is the first mode of the body with its race held; above one of them it is infinite, because such modes are then
+    /// missing below the one asked for.
     pub(super) fn body_inertia(&self, mode: &ModeEnergy) -> f64 {
         let omega = TAU * mode.frequency_hz;
+        if mode.frequency_hz >= self.first_mode_hz() {
+            return f64::INFINITY;
+        }
+        let grown = |b: usize| 1.0 / (1.0 - (mode.frequency_hz / self.first_modes_hz[b]).powi(2));
         let teeth: f64 = (1..KINDS)
             .map(|b| {
                 let stretch = self.meshes[b] * mode.kinetic[b] * mode.meshes.max(0.0);
-                0.5 * omega * self.teeth[b] * (stretch / (self.inertia[b] * self.mesh)).sqrt()
+                let share = (stretch / (self.inertia[b] * self.mesh)).sqrt();
+                0.5 * omega * self.teeth[b] * grown(b) * share
             })
             .sum();
         let seats = self.planets * mode.kinetic[0] * mode.bearings * self.bearing;
-        let carrier = self.seat * omega * (seats / self.inertia[0]).sqrt() / self.modulus_width;
+        let share = (seats / self.inertia[0]).sqrt();
+        let carrier = self.seat * omega * grown(0) * share / self.modulus_width;
         SAFETY * (teeth + carrier)
     }
 
-    /// Errors of FE/contact: finite elements, δf/f = ½ e GCI (14/n)², and contact cells, δf/f = ½ e (Δ/a)² with Δ/a the
-    /// width of a cell over the half-width of contact.
+    /// Lowest of the first modes of the bodies with their races held, by estimate, Hz.
+    pub(super) fn first_mode_hz(&self) -> f64 {
+        self.first_modes_hz.into_iter().fold(f64::INFINITY, f64::min)
+    }
+
+    /// Errors of FE/contact: finite elements, δf/f = ½ e GCI (14/n)^p; contact cells, δf/f = ½ e (∂ln k/∂ln a) Δ/(2a),
+    /// because the cells that touch hold the half-width a to half the width Δ of a cell.
     pub(super) fn discretisation(
         &self,
         mode: &ModeEnergy,
         flank_elements: u32,
         contact_cells: u32,
     ) -> [ErrorPart; 2] {
-        let (index, at) = STIFFNESS_INDEX;
-        let elements = index * (at / f64::from(flank_elements)).powi(2);
+        let (index, at, order) = STIFFNESS_INDEX;
+        let elements = index * (at / f64::from(flank_elements)).powf(order);
         let cell = 2.0 * GRID_HALF_WIDTHS / f64::from(contact_cells);
+        let cells = HALF_WIDTH_INFLUENCE * 0.5 * cell;
         let half = 0.5 * mode.meshes;
         [
             ErrorPart::new("finite elements behind the flanks", half * elements),
-            ErrorPart::new("contact cells", half * cell * cell),
+            ErrorPart::new("contact cells", half * cells),
         ]
     }
 
@@ -167,7 +212,7 @@ impl SetSize {
         let over_r2 = |inertia: Option<f64>, radius: Option<f64>| Some(inertia? / radius?.powi(2));
         let (m, i, i_est) = (&given.mass, &given.inertia_over_r2, &self.inertias);
         let m_est = &self.masses;
-        let (mut meshes, mut inertia) = (0.0, 0.0);
+        let mut squares = 0.0;
         for sensitivity in sensitivities(model, group) {
             let size = sensitivity.logarithmic.abs();
             match &sensitivity.parameter {
@@ -177,7 +222,7 @@ impl SetSize {
                         "sun_mesh" => (given.mesh.sun_planet, sun),
                         _ => (given.mesh.ring_planet, ring),
                     };
-                    meshes += size * off(Some(own), Some(estimate), STIFFNESS_DOUBT);
+                    squares += (size * off(Some(own), Some(estimate), STIFFNESS_DOUBT)).powi(2);
                 }
                 Parameter::InertiaFamily(name) => {
                     let r = &given.radius;
@@ -191,7 +236,7 @@ impl SetSize {
                         "sun_inertia" => (i.sun, over_r2(i_est.sun, r.sun)),
                         _ => (i.planet, over_r2(i_est.planet, r.planet)),
                     };
-                    inertia += size * off(own, estimate, INERTIA_DOUBT);
+                    squares += (size * off(own, estimate, INERTIA_DOUBT)).powi(2);
                 }
                 _ => (),
             }
@@ -206,8 +251,7 @@ impl SetSize {
         let moved: f64 =
             (1..KINDS).map(|b| self.meshes[b] * mode.kinetic[b] / self.inertia[b]).sum();
         vec![
-            ErrorPart::new("mesh stiffnesses as given", meshes),
-            ErrorPart::new("masses and inertias as given", inertia),
+            ErrorPart::new("parameters as given", EXPANDED * squares.sqrt()),
             ErrorPart::new("carrier between pin seats and race", seats),
             ErrorPart::new(
                 "mesh forces that turn with their lines of action",
@@ -215,5 +259,56 @@ impl SetSize {
             ),
             ErrorPart::new("corner contacts beside the line of action", CORNERS),
         ]
+    }
+}
+
+/// First torsional mode of an annulus that is held at one edge and free at the other, Hz, by Rayleigh's quotient with a
+/// quarter of a sine wave between them:
+///
+/// ```text
+/// ω² = (G/ρ) ∫ r³ φ'² dr / ∫ r³ φ² dr,   φ = sin(π/2 (r − r_held)/(r_free − r_held))
+/// ```
+///
+/// It is an upper bound of this mode.
+fn torsional_hz(scene: &Scene, held: f64, free: f64) -> f64 {
+    const INTERVALS: usize = 64;
+    let material = &scene.material;
+    let shear = 0.5 * material.young_modulus_pa / (1.0 + material.poisson_ratio);
+    let (span, mut bent, mut moved) = (free - held, 0.0, 0.0);
+    for i in 0..=INTERVALS {
+        let share = i as f64 / INTERVALS as f64;
+        // Simpson's weights; the common factor drops out.
+        let weight = match i {
+            0 | INTERVALS => 1.0,
+            _ => 2.0 + 2.0 * (i % 2) as f64,
+        };
+        let cubed = (held + share * span).powi(3) * weight;
+        let (sin, cos) = (FRAC_PI_2 * share).sin_cos();
+        bent += cubed * (FRAC_PI_2 / span * cos).powi(2);
+        moved += cubed * sin * sin;
+    }
+    (shear / material.density_kg_per_m3 * bent / moved).sqrt() / TAU
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gearset::{SceneKind, template};
+
+    /// A thin annulus is a bar in shear: f = √(G/ρ)/(4 h). That of the carrier of OH-58 was computed with finite
+    /// elements as 12.26 kHz with every mode kept (`docs/fe_dynamics.md`: 12.1 kHz).
+    #[test]
+    fn the_torsional_mode_of_an_annulus_has_its_limit_and_that_of_finite_elements() {
+        let mut scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
+        let shear = 0.5 * scene.material.young_modulus_pa / (1.0 + scene.material.poisson_ratio);
+        let speed = (shear / scene.material.density_kg_per_m3).sqrt();
+        let thin = torsional_hz(&scene, 1.0, 1.0 + 1e-4) / (speed / 4e-4) - 1.0;
+        assert!(thin.abs() < 1e-3, "{thin:e}");
+        scene.material.young_modulus_pa = 207e9;
+        scene.material.density_kg_per_m3 = 7595.0;
+        let carrier = torsional_hz(&scene, 0.0684, 0.1168) / 12.1e3 - 1.0;
+        assert!(carrier.abs() < 0.05, "{carrier:e}");
+        // Held outside, more of the mass is near the held edge: the frequency is higher.
+        assert!(torsional_hz(&scene, 0.1168, 0.0684) > torsional_hz(&scene, 0.0684, 0.1168));
     }
 }

@@ -190,13 +190,21 @@ impl Search<'_> {
                 Err(e) => drop(self.refused(*settings, &e)),
             }
         }
-        MODAL.iter().find_map(|settings| self.modal(*settings, &probe))
+        // Share that the inertia left out by modes is known to have, from modes on a coarser mesh.
+        let mut left_out = 0.0;
+        MODAL.iter().find_map(|settings| self.modal(*settings, &probe, &mut left_out))
     }
 
     /// Modes of the bodies change the frequency by d from that of quasi-static bodies on the same mesh. If they leave a
     /// third of the error of quasi-static bodies (saturation assumption), d/2 is left.
-    fn modal(&mut self, settings: AutoSettings, probe: &ModeEnergy) -> Option<Choice> {
-        if !self.is_expected(settings, total(&self.mesh_parts(probe, settings))) {
+    fn modal(
+        &mut self,
+        settings: AutoSettings,
+        probe: &ModeEnergy,
+        left_out: &mut f64,
+    ) -> Option<Choice> {
+        let expected = total(&self.mesh_parts(probe, settings)) + 100.0 * *left_out;
+        if !self.is_expected(settings, expected) {
             return None;
         }
         let of = |settings| fe_mode(self.scene, self.case, settings, self.request);
@@ -209,8 +217,9 @@ impl Search<'_> {
         match found {
             Ok((mode, rigid)) => {
                 let change = (mode.frequency_hz - rigid.frequency_hz).abs() / mode.frequency_hz;
+                *left_out = 0.5 * change;
                 let mut parts = self.mesh_parts(&rigid, settings);
-                parts.push(ErrorPart::new(BODY_INERTIA, 0.5 * change));
+                parts.push(ErrorPart::new(BODY_INERTIA, *left_out));
                 self.judged(settings, &mode, parts)
             }
             Err(e) => self.refused(settings, &e),
@@ -231,8 +240,11 @@ impl Search<'_> {
     /// Whether settings are worth a run by the error that is expected of them, percent.
     fn is_expected(&mut self, settings: AutoSettings, expected: f64) -> bool {
         let is = expected <= self.request.tolerance_percent;
-        if !is {
-            self.pass(settings, Some(expected), format!("not run: {} % or more expected", shown(expected)));
+        if !is && expected.is_finite() {
+            let why = format!("not run: {} % or more expected", shown(expected));
+            self.pass(settings, Some(expected), why);
+        } else if !is {
+            self.pass(settings, None, "not run: no bound of its error, as above".into());
         }
         is
     }
@@ -245,6 +257,15 @@ impl Search<'_> {
     ) -> Option<Choice> {
         self.has_answer = true;
         let error = total(&parts);
+        if error.is_infinite() {
+            let first = self.size.first_mode_hz();
+            let why = format!(
+                "no bound of its error: {:.0} Hz is above the first mode of a body that is left out, about {first:.0} Hz",
+                mode.frequency_hz
+            );
+            self.pass(settings, None, why);
+            return None;
+        }
         // NaN is within nothing.
         if !(error <= self.request.tolerance_percent) {
             let largest = parts.iter().max_by(|a, b| a.percent.total_cmp(&b.percent));
