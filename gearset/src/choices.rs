@@ -29,6 +29,42 @@ pub struct DynamicsInput {
     pub gyroscopic: bool,
     /// How approaches of tooth pairs follow from displacements of the gears in a sweep.
     pub kinematics: MeshKinematics,
+    /// With `fidelity = "auto"`: what the settings are to be chosen for. `fidelity` is then `QuasiStatic` until they are.
+    pub auto: Option<AutoInput>,
+}
+
+/// A quantity and how accurate it is to be: settings are chosen for it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct AutoInput {
+    /// The quantity.
+    pub quantity: AutoQuantity,
+    /// Largest error that is allowed, percent of the quantity.
+    pub tolerance_percent: f64,
+}
+
+/// A quantity for which settings can be chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AutoQuantity {
+    /// A natural frequency about the operating torque at position 0 of the mesh cycle.
+    NaturalFrequency {
+        /// Type of the mode.
+        mode_type: AutoModeType,
+        /// Number among the modes of that type by ascending frequency, from 1; a frequency that occurs twice counts twice.
+        number: u32,
+    },
+}
+
+/// Type of a mode, by the larger part of its kinetic energy.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AutoModeType {
+    /// Central members rotate, planets move alike.
+    Rotational,
+    /// Central members translate.
+    Translational,
+    /// Planets move against each other.
+    Planet,
 }
 
 /// How approaches of tooth pairs follow from displacements of the gears.
@@ -50,6 +86,7 @@ impl Default for DynamicsInput {
             steps_per_cycle: 140,
             gyroscopic: false,
             kinematics,
+            auto: None,
         }
     }
 }

@@ -93,6 +93,16 @@ impl Scene {
             lacks.push(lack("mesh", why));
             return lacks;
         }
+        if self.dynamics.auto.is_some() {
+            if verb == Verb::Modes {
+                self.lacks_for_auto(&mut lacks);
+                return lacks;
+            }
+            if matches!(verb, Verb::Impulse | Verb::Sweep(_) | Verb::Branches(_)) {
+                let why = "\"auto\" chooses settings for a natural frequency, which `modes` gives: name the fidelity here";
+                lacks.push(lack("dynamics.fidelity", why));
+            }
+        }
         match verb {
             Verb::Modes | Verb::Compare => {
                 if self.lumped.is_none() {
@@ -175,6 +185,20 @@ impl Scene {
                 lacks.push(lack(key, "above 0: stresses at a sharp root have no limit"));
             }
         }
+    }
+
+    /// A planetary set with teeth, under a torque by keys alone: `modes` has no argument for it.
+    fn lacks_for_auto(&self, lacks: &mut Vec<Lack>) {
+        if self.kind == SceneKind::GearPair {
+            let why = "fidelity = \"auto\" estimates errors of planetary sets: \"planetary\" is needed";
+            lacks.push(lack("kind", why));
+            return;
+        }
+        self.lacks_bodies(lacks);
+        self.lacks_torque(lacks);
+        self.lacks_torque_path(lacks);
+        self.lacks_carrier_mass(lacks);
+        lacks.iter_mut().for_each(|lack| lack.argument = None);
     }
 
     fn lacks_torque(&self, lacks: &mut Vec<Lack>) {

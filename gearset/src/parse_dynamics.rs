@@ -1,6 +1,9 @@
 //! The `[dynamics]` table.
 
-use crate::choices::{DynamicsInput, Fidelity, MeshKinematics};
+use crate::bound::Bound;
+use crate::choices::{
+    AutoInput, AutoModeType, AutoQuantity, DynamicsInput, Fidelity, MeshKinematics,
+};
 use crate::reader::Section;
 
 /// Fidelities by name; the number of modes has a key of its own.
@@ -10,6 +13,41 @@ enum Name {
     QuasiStatic,
     Modal,
     Full,
+    Auto,
+}
+
+/// Keys that say what `fidelity = "auto"` is to choose for.
+const AUTO_KEYS: [&str; 4] = ["quantity", "mode_type", "mode_number", "tolerance_percent"];
+
+/// What settings are to be chosen for: all keys with `fidelity = "auto"`, none with any other.
+fn auto(s: &Section<'_, '_>, is_auto: bool, is_known: bool) -> Option<AutoInput> {
+    let quantity = s.choice("quantity", &[("natural_frequency", ())], "what is to be accurate");
+    let types = [
+        ("rotational", AutoModeType::Rotational),
+        ("translational", AutoModeType::Translational),
+        ("planet", AutoModeType::Planet),
+    ];
+    let mode_type = s.choice("mode_type", &types, "type of the mode");
+    let number = s.integer("mode_number", (1, 1000), "number of the mode among those of its type");
+    let why = "largest error of the quantity that is allowed";
+    let tolerance = s.number("tolerance_percent", Bound::Between(0.0, 100.0), why);
+    for key in AUTO_KEYS.into_iter().filter(|_| is_known) {
+        if is_auto && !s.may_hold(key) {
+            let why = "fidelity = \"auto\" chooses the settings for one quantity and tolerance";
+            let allowed = match key {
+                "quantity" => "\"natural_frequency\"",
+                "mode_type" => "\"rotational\", \"translational\", \"planet\"",
+                "mode_number" => "a whole number from 1 to 1000",
+                _ => "a number between 0 and 100",
+            };
+            s.fault(key, allowed, why);
+        } else if !is_auto && s.has(key) {
+            s.fault(key, "with fidelity = \"auto\"", "no other fidelity is chosen for a quantity");
+        }
+    }
+    let ((), mode_type, number) = (quantity?, mode_type?, number? as u32);
+    let quantity = AutoQuantity::NaturalFrequency { mode_type, number };
+    is_auto.then_some(AutoInput { quantity, tolerance_percent: tolerance? })
 }
 
 pub(crate) fn dynamics(s: Section<'_, '_>) -> DynamicsInput {
@@ -19,6 +57,7 @@ pub(crate) fn dynamics(s: Section<'_, '_>) -> DynamicsInput {
         ("quasi_static", Name::QuasiStatic),
         ("modal", Name::Modal),
         ("full", Name::Full),
+        ("auto", Name::Auto),
     ];
     let name = s.choice("fidelity", &names, "what stands behind the teeth");
     let modes = s.integer("modes", (1, 400), "modes of each body with its race held");
@@ -26,6 +65,7 @@ pub(crate) fn dynamics(s: Section<'_, '_>) -> DynamicsInput {
     if modes.is_some() && name != Some(Name::Modal) && is_known {
         s.fault("modes", "with fidelity = \"modal\"", "no other fidelity takes a number of modes");
     }
+    let auto = auto(&s, name == Some(Name::Auto), is_known);
     if name == Some(Name::Modal) && !s.may_hold("modes") {
         s.fault("modes", "a whole number from 1 to 400", "fidelity = \"modal\" needs it");
     }
@@ -55,5 +95,6 @@ pub(crate) fn dynamics(s: Section<'_, '_>) -> DynamicsInput {
         steps_per_cycle: steps.map_or(default.steps_per_cycle, |n| n as u32),
         gyroscopic: gyroscopic.unwrap_or(default.gyroscopic),
         kinematics: kinematics.unwrap_or(default.kinematics),
+        auto,
     }
 }

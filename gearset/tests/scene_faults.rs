@@ -277,7 +277,7 @@ fn faults_of_every_stage_are_listed_in_one_run_and_nothing_that_follows_from_the
 
 #[test]
 fn nothing_is_reported_that_only_follows_from_another_fault() {
-    let cases: [Faults; 12] = [
+    let cases: [Faults; 15] = [
         // Positions, base radii, meshes and angles depend on the teeth.
         (&[("sun = 27", "sun = 27.5")], &["teeth.sun"]),
         (&[("planet = 35", "")], &["teeth.planet"]),
@@ -296,6 +296,22 @@ fn nothing_is_reported_that_only_follows_from_another_fault() {
         (
             &[("fidelity = \"quasi_static\"", "fidelity = \"model\"\nmodes = 4")],
             &["dynamics.fidelity"],
+        ),
+        (
+            &[("fidelity = \"quasi_static\"", "fidelity = \"auto\"\nquantity = \"natural_frequency\"")],
+            &["dynamics.mode_number", "dynamics.mode_type", "dynamics.tolerance_percent"],
+        ),
+        (
+            &[("fidelity = \"quasi_static\"", "fidelity = \"full\"\ntolerance_percent = 1")],
+            &["dynamics.tolerance_percent"],
+        ),
+        (
+            &[(
+                "fidelity = \"quasi_static\"",
+                "fidelity = \"auto\"\nquantity = \"natural_frequency\"\nmode_type = \"planet\"\nmode_number = 0\n\
+                 tolerance_percent = 0",
+            )],
+            &["dynamics.mode_number", "dynamics.tolerance_percent"],
         ),
         (&[("\n[lumped]", "\nlumped_mass = 1\n[lumped]")], &["planet.lumped_mass"]),
         (&[("motion = \"free\"", "motion = \"fre\"\ntorsional_n_per_m = 1")], &["sun.motion"]),

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::io::Write;
 
-use gearset::{Scene, SceneKind, Verb};
+use experiments::auto::{AutoModel, Choice, choose_frequency};
+use gearset::{AutoInput, LoadCase, Scene, SceneKind, Verb};
 use lumped::{
     LumpedModel, ModeGroup, NaturalModes, Parameter, campbell, kinetic_energy, sensitivities,
     strain_energy,
@@ -16,16 +17,21 @@ use crate::arguments::{Format, Modes};
 use crate::error::CommandError;
 use crate::output::{self, share};
 
-use super::{needs, read_scene, unfit};
+use super::working::Working;
+use super::{needs, read_scene, refused, unfit};
 
 /// `modes --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
 pub(crate) struct ModesOutput {
-    /// One entry for each distinct frequency (and type, should two types coincide).
+    /// One entry for each distinct frequency of the lumped model (and type, should two types coincide). Empty where
+    /// `auto` chose another model.
     pub(crate) modes: Vec<ModeEntry>,
     /// With `--carrier-speeds-rpm`: frequencies with gyroscopic terms.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     campbell: Vec<CampbellEntry>,
+    /// With `fidelity = "auto"`: the settings chosen, why, and the frequency with its estimated error.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    auto: Option<Choice>,
 }
 
 /// One distinct frequency.
@@ -89,6 +95,9 @@ pub(crate) fn run(
         let reason = "a gear pair has no carrier: leave it out".into();
         return Err(CommandError::Argument { argument: "--carrier-speeds-rpm", reason });
     }
+    if let Some(wanted) = scene.dynamics.auto {
+        return chosen(arguments, &scene, wanted, out);
+    }
     let (model, modes) = solve(&scene).map_err(|reason| unfit(&arguments.scene, reason))?;
     for warning in lumped::type_warnings(&model, &modes) {
         writeln!(err, "warning: {warning}")?;
@@ -130,7 +139,61 @@ pub(crate) fn describe(model: &LumpedModel, modes: &NaturalModes) -> ModesOutput
     ModesOutput {
         modes: modes.groups.iter().map(|group| entry(model, group)).collect(),
         campbell: Vec::new(),
+        auto: None,
     }
+}
+
+/// The frequency that the scene names, with the cheapest settings within its tolerance; all modes of the lumped model if
+/// that is chosen.
+fn chosen(
+    arguments: &Modes,
+    scene: &Scene,
+    wanted: AutoInput,
+    out: &mut dyn Write,
+) -> Result<(), CommandError> {
+    let path = &arguments.scene;
+    if !arguments.carrier_speeds_rpm.is_empty() {
+        let reason = "`dynamics.fidelity` = \"auto\" chooses settings for a set without gyroscopic terms: leave it out";
+        return Err(refused("--carrier-speeds-rpm", reason));
+    }
+    needs::require(path, scene, Verb::Modes, |_| false)?;
+    let case = LoadCase::of_scene(scene).map_err(|e| unfit(path, e.to_string()))?;
+    let working = Working::new("choosing settings");
+    let choice = choose_frequency(scene, &case, &wanted.into())
+        .map_err(|e| unfit(path, format!("`dynamics.fidelity` = \"auto\": {e}")))?;
+    drop(working);
+    let is_lumped = choice.settings.model == AutoModel::Lumped;
+    let listed = is_lumped.then(|| solve(scene)).transpose().map_err(|e| unfit(path, e))?;
+    let mut result = match &listed {
+        Some((model, modes)) => describe(model, modes),
+        None => ModesOutput { modes: Vec::new(), campbell: Vec::new(), auto: None },
+    };
+    if arguments.format == Format::Json {
+        result.auto = Some(choice);
+        return output::json(out, &result);
+    }
+    writeln!(out, "{}", scene.title)?;
+    write_choice(&choice, out)?;
+    match listed {
+        Some(_) => Ok(write_text(&result, arguments.details, out)?),
+        None => Ok(()),
+    }
+}
+
+fn write_choice(choice: &Choice, out: &mut dyn Write) -> std::io::Result<()> {
+    let Choice { quantity, value, unit, tolerance_percent, estimated_error_percent, .. } = choice;
+    writeln!(
+        out,
+        "{quantity}: {value:.2} {unit}, estimated error {estimated_error_percent:.2} % (allowed: {tolerance_percent} %)"
+    )?;
+    writeln!(out, "chosen: {}", choice.settings)?;
+    for part in &choice.error_parts {
+        writeln!(out, "  {:.3} % from {}", part.percent, part.source)?;
+    }
+    for other in &choice.passed_over {
+        writeln!(out, "passed over: {}: {}", other.settings, other.why)?;
+    }
+    Ok(())
 }
 
 fn entry(model: &LumpedModel, group: &ModeGroup) -> ModeEntry {

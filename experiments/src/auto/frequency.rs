@@ -1,7 +1,7 @@
 //! The cheapest settings for a natural frequency.
 
 use fe_contact::statics::Bodies;
-use gearset::{LoadCase, Scene};
+use gearset::{AutoInput, AutoModeType, AutoQuantity, LoadCase, Scene};
 use lumped::{LumpedModel, ModeType, NaturalModes};
 
 use super::choice::{AutoError, Choice, ErrorPart, PassedOver, total};
@@ -20,6 +20,18 @@ pub struct FrequencyRequest {
     pub number: usize,
     /// Wanted accuracy, percent.
     pub tolerance_percent: f64,
+}
+
+impl From<AutoInput> for FrequencyRequest {
+    fn from(input: AutoInput) -> Self {
+        let AutoQuantity::NaturalFrequency { mode_type, number } = input.quantity;
+        let mode_type = match mode_type {
+            AutoModeType::Rotational => ModeType::Rotational,
+            AutoModeType::Translational => ModeType::Translational,
+            AutoModeType::Planet => ModeType::Planet,
+        };
+        Self { mode_type, number: number as usize, tolerance_percent: input.tolerance_percent }
+    }
 }
 
 impl std::fmt::Display for FrequencyRequest {

@@ -71,6 +71,7 @@ impl AutoSettings {
             // The default depth follows the size of the elements.
             own.fe_contact.matching_depth = None;
         }
+        own.dynamics.auto = None;
         own.dynamics.fidelity = match self.modes {
             Some(modes) => Fidelity::Modal(modes),
             None => Fidelity::QuasiStatic,
