@@ -190,7 +190,8 @@ impl Scene {
     /// A planetary set with teeth, under a torque by keys alone: `modes` has no argument for it.
     fn lacks_for_auto(&self, lacks: &mut Vec<Lack>) {
         if self.kind == SceneKind::GearPair {
-            let why = "fidelity = \"auto\" estimates errors of planetary sets: \"planetary\" is needed";
+            let why =
+                "fidelity = \"auto\" estimates errors of planetary sets: \"planetary\" is needed";
             lacks.push(lack("kind", why));
             return;
         }

@@ -298,7 +298,10 @@ fn nothing_is_reported_that_only_follows_from_another_fault() {
             &["dynamics.fidelity"],
         ),
         (
-            &[("fidelity = \"quasi_static\"", "fidelity = \"auto\"\nquantity = \"natural_frequency\"")],
+            &[(
+                "fidelity = \"quasi_static\"",
+                "fidelity = \"auto\"\nquantity = \"natural_frequency\"",
+            )],
             &["dynamics.mode_number", "dynamics.mode_type", "dynamics.tolerance_percent"],
         ),
         (

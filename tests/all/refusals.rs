@@ -227,3 +227,45 @@ fn negative_numbers_are_refused_by_their_argument() {
         assert!(err.contains(argument) && !err.contains("unexpected argument"), "{line}: {err}");
     }
 }
+
+/// `fidelity = "auto"` answers within its tolerance or not at all, and other verbs do not take it for a fidelity.
+#[test]
+fn settings_that_meet_no_tolerance_are_refused_with_their_estimates() {
+    let folder = tempfile::tempdir().unwrap();
+    let with = |tolerance: &str| {
+        let text = std::fs::read_to_string(scene("oh58_4p.toml")).unwrap();
+        let keys = format!(
+            "\n[dynamics]\nfidelity = \"auto\"\nquantity = \"natural_frequency\"\nmode_type = \"rotational\"\n\
+             mode_number = 1\ntolerance_percent = {tolerance}\n"
+        );
+        let path = folder.path().join("auto.toml");
+        std::fs::write(&path, text + &keys).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let (code, out, err) = run(&["modes", &with("0.01")]);
+    assert_eq!((code, out.as_str()), (2, ""), "{err}");
+    for words in [
+        "`dynamics.fidelity`",
+        "lumped: estimated error",
+        "quasi_static, 6 flank",
+        "allow a larger",
+    ] {
+        assert!(err.contains(words), "{words}: {err}");
+    }
+    for line in ["sweep F --speeds-rpm 800:900:10", "impulse F", "branches F --speeds-rpm 800:900"]
+    {
+        let line = line.replace('F', &with("1"));
+        let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!((code, out.as_str()), (2, ""), "{line}");
+        assert!(err.contains("`dynamics.fidelity`: \"auto\""), "{line}: {err}");
+    }
+    let (code, out, err) = run(&["modes", &with("1"), "--format", "json"]);
+    assert_eq!(code, 0, "{err}");
+    let found: Value = serde_json::from_str(&out).unwrap();
+    let auto = &found["auto"];
+    assert_eq!(auto["settings"]["model"], "quasi_static");
+    assert!(auto["estimated_error_percent"].as_f64().unwrap() <= 1.0);
+    let hz = auto["value"].as_f64().unwrap();
+    // docs/fe_dynamics.md: 1152.3 Hz by linearisation at 1130 N·m.
+    assert!((hz / 1152.3 - 1.0).abs() < 0.01, "{hz}");
+}

@@ -214,10 +214,11 @@ impl AutoRow {
     /// What is wrong with it, if anything.
     pub fn miss(&self) -> Option<&'static str> {
         let tolerance = self.drawn.request.tolerance_percent;
-        match (self.error_percent(), self.cost_ratio, self.cheapest) {
-            // NaN is within nothing.
-            (Some(error), ..) if !(error <= tolerance) => Some("error"),
-            (Some(_), Some(ratio), _) if ratio > 2.0 => Some("cost"),
+        // NaN is within nothing.
+        let is_within = self.error_percent().map(|error| error <= tolerance);
+        match (is_within, self.cost_ratio, self.cheapest) {
+            (Some(false), ..) => Some("error"),
+            (Some(true), Some(ratio), _) if ratio > 2.0 => Some("cost"),
             (None, _, Some(_)) => Some("refused"),
             _ => None,
         }

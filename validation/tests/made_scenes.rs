@@ -1,11 +1,13 @@
-//! Scenes with fitted parameters still have the properties to which these were fitted.
+//! Scenes with fitted parameters still have the properties to which these were fitted, and drawn scenes those that are
+//! kept of them.
 
+use experiments::auto::choose_frequency;
 use experiments::modal::{Preload, linear_modes, lumped_frequencies, of_type, preloaded};
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-use gearset::{Facing, MeshKind};
+use gearset::{Facing, LoadCase, MeshKind};
 use lumped::ModeType;
-use validation::{PublishedScene, scene};
+use validation::{PublishedScene, drawn_scene, scene};
 
 /// Printed lumped mesh stiffness, N/m.
 const PRINTED: f64 = 350e6;
@@ -49,4 +51,36 @@ fn the_second_system_has_its_printed_frequencies() {
     let (translational, rotational) = (first(ModeType::Translational), first(ModeType::Rotational));
     assert!((translational / pair[0] - 1.0).abs() < 0.005, "{translational}");
     assert!((rotational / 782.0 - 1.0).abs() < 0.02, "{rotational}");
+}
+
+/// `kept/auto.csv`: sixty sets; the answers of `auto` are within their tolerances in at least 95 %, their estimates are not
+/// below the errors more often than that, and a few cheap ones come out again.
+#[test]
+fn the_record_of_auto_holds_and_comes_out_again() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../kept/auto.csv");
+    let text = std::fs::read_to_string(path).unwrap();
+    let lines = text.lines().filter(|line| !line.starts_with('#'));
+    let rows: Vec<Vec<&str>> = lines.skip(1).map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 60);
+    let number = |row: &[&str], k: usize| row[k].parse::<f64>().unwrap();
+    let answered: Vec<&Vec<&str>> = rows.iter().filter(|row| row[4] != "refused").collect();
+    assert!(answered.len() >= 40, "{}", answered.len());
+    let (mut missed, mut below) = (0, 0);
+    for row in &answered {
+        let error = 100.0 * (number(row, 6) / number(row, 7) - 1.0).abs();
+        assert!((error - number(row, 8)).abs() < 1e-3, "{row:?}");
+        missed += usize::from(error > number(row, 3));
+        below += usize::from(error > number(row, 5));
+    }
+    assert!(20 * missed <= answered.len() && 20 * below <= answered.len(), "{missed}, {below}");
+    let cheap = |row: &&Vec<&str>| !row[4].starts_with("modal") && row[4] != "refused";
+    for row in rows.iter().filter(cheap).step_by(6) {
+        let drawn = drawn_scene(row[0].parse().unwrap()).unwrap();
+        assert_eq!(drawn.request.to_string(), row[2]);
+        let case = LoadCase::of_scene(&drawn.scene).unwrap();
+        let choice = choose_frequency(&drawn.scene, &case, &drawn.request).unwrap();
+        assert_eq!(choice.settings.to_string().replace(',', ""), row[4], "{row:?}");
+        assert!((choice.value / number(row, 6) - 1.0).abs() < 1e-6, "{row:?} {}", choice.value);
+        assert!((choice.estimated_error_percent - number(row, 5)).abs() < 1e-3, "{row:?}");
+    }
 }

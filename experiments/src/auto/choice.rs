@@ -62,7 +62,9 @@ pub(super) fn total(parts: &[ErrorPart]) -> f64 {
 #[derive(Debug, thiserror::Error)]
 pub enum AutoError {
     /// A tolerance that is none.
-    #[error("`dynamics.tolerance_percent` is {0}: allowed is a finite number above 0 and up to 100")]
+    #[error(
+        "`dynamics.tolerance_percent` is {0}: allowed is a finite number above 0 and up to 100"
+    )]
     Tolerance(f64),
     /// No candidate has the quantity: each with its reason.
     #[error("{quantity}: no settings give it: {}", listed(.passed_over))]

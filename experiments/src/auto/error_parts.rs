@@ -120,9 +120,7 @@ impl SetSize {
             modulus_width: scene.material.young_modulus_pa * geometry.face_width,
             bearing: scene.supports.planet_bearing,
             // A disc of twice the seat's diameter.
-            seat: carrier.map_or(0.0, |c| {
-                per_area * PI * (2.0 * c.pin_seat_radius).powi(2)
-            }),
+            seat: carrier.map_or(0.0, |c| per_area * PI * (2.0 * c.pin_seat_radius).powi(2)),
             first_modes_hz: {
                 let [held, free] = [sun, &geometry.planet].map(|gear| {
                     torsional_hz(scene, gear.body_radius.unwrap_or(0.0), gear.tip_radius)

@@ -169,7 +169,8 @@ impl Setting {
         let scene = scene_with(base, &[study, &choices.keys])
             .map_err(|source| StudyError::Scene { of: format!("setting `{name}`"), source })?;
         if scene.dynamics.auto.is_some() {
-            let allowed = "a fidelity by name: a study compares settings, and \"auto\" chooses them";
+            let allowed =
+                "a fidelity by name: a study compares settings, and \"auto\" chooses them";
             let key = format!("dynamics.fidelity of setting `{name}`");
             return Err(StudyError::key(key, "\"auto\"", allowed));
         }

@@ -22,8 +22,12 @@ pub(super) fn remake() -> Outcome {
         Err(_) => SEEDS,
     };
     println!("# What auto chose on drawn sets (docs/auto.md), its true error and its cost.");
-    println!("# Own computation: validation/src/auto_record.rs; cost_ratio is a ratio of CPU times of one run");
-    println!("# cargo run --release -p validation --example remake -- auto > auto.csv && mv auto.csv kept/");
+    println!(
+        "# Own computation: validation/src/auto_record.rs; cost_ratio is a ratio of CPU times of one run"
+    );
+    println!(
+        "# cargo run --release -p validation --example remake -- auto > auto.csv && mv auto.csv kept/"
+    );
     println!(
         "seed,planets,quantity,tolerance_percent,chosen,estimated_percent,value_hz,truth_hz,error_percent,\
          cheapest_within_tolerance,cost_ratio,fe_cost_ratio,miss"
