@@ -395,6 +395,21 @@ mod tests {
         }
     }
 
+    /// A scene that asks for a choice has no fidelity of its own, which quasi-static bodies would quietly stand for.
+    #[test]
+    fn a_scene_without_a_choice_is_not_computed() {
+        let (mut scene, case) = set(false);
+        let quantity =
+            AutoQuantity::NaturalFrequency { mode_type: AutoModeType::Rotational, number: 1 };
+        scene.dynamics.auto = Some(AutoInput { quantity, tolerance_percent: 1.0 });
+        let bodies = Bodies::new(&scene).unwrap();
+        let preload = Preload { load: case, position: 0.0, step_s: 5e-6 };
+        let refusal = preloaded(&scene, &bodies, &preload).unwrap_err().to_string();
+        assert!(refusal.contains("`dynamics.fidelity` is \"auto\""), "{refusal}");
+        let asked = scene.dynamics.auto.unwrap().into();
+        assert!(choose_frequency(&scene, &case, &asked).is_ok());
+    }
+
     /// A mode that the set does not have, and one above the first mode of the carrier, which quasi-static bodies lack.
     #[test]
     fn modes_that_are_missing_or_beyond_the_bodies_are_not_answered() {

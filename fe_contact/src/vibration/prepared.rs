@@ -105,8 +105,16 @@ impl<'s> Prepared<'s> {
     }
 }
 
-/// Refuses fidelity `mesh_law`, which does not solve contact.
+/// Refuses fidelity `mesh_law`, which does not solve contact, and `auto`, for which no settings have been chosen yet.
 fn solves_contact(scene: &Scene) -> Result<(), FeError> {
+    if scene.dynamics.auto.is_some() {
+        return Err(FeError::Unfit {
+            key: "dynamics.fidelity".into(),
+            value: "\"auto\"".into(),
+            allowed: "a fidelity by name".into(),
+            why: "no settings have been chosen for this scene yet".into(),
+        });
+    }
     match scene.dynamics.fidelity {
         Fidelity::MeshLaw => Err(FeError::NoContact),
         _ => Ok(()),
