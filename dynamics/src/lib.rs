@@ -22,6 +22,7 @@ pub mod stability;
 mod state_space;
 mod subspace;
 mod symmetric;
+mod wide;
 
 pub use coupled::{
     Coupled, CoupledDerivative, CoupledError, CoupledState, Coupling, CouplingForce, CyclePart,
@@ -44,3 +45,4 @@ pub use spectrum::{Spectrum, Window, spectrum};
 pub use state_space::{StateMode, state_modes};
 pub use subspace::{IMPURE, SubspaceDirection, group_equal, orthonormal_basis, split};
 pub use symmetric::{SymmetricModes, generalized_symmetric};
+pub use wide::{Computation, wide};

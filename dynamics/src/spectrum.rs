@@ -1,9 +1,11 @@
 //! One-sided amplitude spectrum of an evenly sampled real record.
 
+use std::cell::RefCell;
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use faer::c64;
-use rustfft::FftPlanner;
+use rustfft::{Fft, FftPlanner};
 
 use crate::error::SpectrumError;
 
@@ -46,6 +48,20 @@ impl Spectrum {
     }
 }
 
+/// Longest transform whose plan is kept, samples: mesh cycles at any number of steps.
+const KEPT: usize = 1 << 14;
+
+/// The plan of a transform of some length, which takes longer to make than to use once.
+fn transform(length: usize) -> Arc<dyn Fft<f64>> {
+    thread_local! {
+        static KNOWN: RefCell<FftPlanner<f64>> = RefCell::new(FftPlanner::new());
+    }
+    match length <= KEPT {
+        true => KNOWN.with_borrow_mut(|known| known.plan_fft_forward(length)),
+        false => FftPlanner::new().plan_fft_forward(length),
+    }
+}
+
 /// Spectrum of `record` (any length), sampled every `interval` s, padded with zeros to `padding`
 /// times its length (1: not padded).
 ///
@@ -82,7 +98,7 @@ pub fn spectrum(
         buffer[k] = c64::new(weight * x, 0.0);
         sum += weight;
     }
-    FftPlanner::new().plan_fft_forward(padded).process(&mut buffer);
+    transform(padded).process(&mut buffer);
     buffer.truncate(padded / 2 + 1);
     for (j, line) in buffer.iter_mut().enumerate() {
         let alone = j == 0 || 2 * j == padded;

@@ -9,6 +9,7 @@ use super::condensed::{Condensed, at_width};
 use super::linear::Modes;
 use super::newton;
 use crate::newmark::AverageAcceleration;
+use crate::wide::{Computation, wide};
 
 /// Rows that pass through a step together.
 const ROWS: usize = 4;
@@ -37,6 +38,18 @@ pub(super) struct StepGradient<'s> {
     pub(super) tangents: &'s [f64],
 }
 
+/// Gradients that are carried over a step with W couplings.
+struct Carrying<'g, 's, const W: usize>(&'g mut Gradients, &'g StepGradient<'s>);
+
+impl<const W: usize> Computation for Carrying<'_, '_, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.0.carry_with::<W>(self.1);
+    }
+}
+
 impl Gradients {
     /// Of displacements, velocities and accelerations, each 2n×n: rows by coordinate at the start, columns by mode.
     pub(super) fn new([x, v, a]: [&DMatrix<f64>; 3]) -> Self {
@@ -62,9 +75,10 @@ impl Gradients {
 
     /// Carries them over a step.
     pub(super) fn carry(&mut self, step: &StepGradient<'_>) {
-        at_width!(step.group.width, W => self.carry_with::<W>(step));
+        at_width!(step.group.width, W => wide(Carrying::<W>(self, step)));
     }
 
+    #[inline(always)]
     fn carry_with<const W: usize>(&mut self, step: &StepGradient<'_>) {
         let StepGradient { modes, rule, group, tangents } = step;
         let (inertia, rate) = (rule.inertia(), rule.damping());
@@ -123,6 +137,7 @@ impl Gradients {
     }
 
     /// A⁻¹ Rᵀ D (I + g Y D)⁻¹, by mode, then coupling.
+    #[inline(always)]
     fn answer_to_reach<const W: usize>(&mut self, step: &StepGradient<'_>) {
         let StepGradient { modes, rule, group, tangents } = step;
         let (y, _) = group.receptance.as_chunks::<W>();
@@ -150,7 +165,7 @@ impl Gradients {
 /// ```text
 /// A⁻¹ (a* + C v*) = (h/2) v* + A⁻¹ (a* − (2/h) v* − (h/2) Λ v*)
 /// ```
-#[inline]
+#[inline(always)]
 fn solve(modes: &Modes, rate: f64, within: &mut [[[f64; ROWS]; 3]], loads: &mut Vec<[f64; ROWS]>) {
     match &modes.own_damping {
         Some(damping) => {
@@ -182,7 +197,7 @@ fn solve(modes: &Modes, rate: f64, within: &mut [[[f64; ROWS]; 3]], loads: &mut 
 }
 
 /// Adds the part of one mode to the deflections of all couplings.
-#[inline]
+#[inline(always)]
 fn add<const W: usize>(z: &mut [[f64; ROWS]; W], along: &[f64; W], q: &[f64; ROWS]) {
     for (z, along) in z.iter_mut().zip(along) {
         for row in 0..ROWS {

@@ -154,7 +154,7 @@ fn times<const W: usize>(n: &[[f64; W]; W], r: &[f64; W], part: f64) -> [f64; W]
 
 /// (I + Y D)⁻¹ by column: Gauss–Jordan without pivoting. Y is positive semidefinite up to the small
 /// skew part of unsymmetric damping, D ≥ 0, so all leading minors are at least about 1.
-#[inline]
+#[inline(always)]
 pub(super) fn inverted<const W: usize>(y: &[[f64; W]; W], d: &[f64; W]) -> [[f64; W]; W] {
     // Columns of I + Y D are the rows of its transpose, whose inverse is the transpose of the inverse.
     let mut g = [[0.0; W]; W];

@@ -16,8 +16,9 @@ use crate::error::ExperimentError;
 /// Cycles after which shooting is given up and the motion marched: what it needs otherwise is about ten.
 const MOST_CYCLES: usize = 80;
 
-/// Cycles marched before the first derivative.
-const SETTLING: usize = 2;
+/// Cycles marched before the first derivative: most motions come to where Newton's method needs one derivative only
+/// without any, and the others are marched on from a state that a correction has brought nearer.
+const SETTLING: usize = 0;
 
 /// Multipliers below this size are left out: such perturbations are gone after one cycle.
 pub(crate) const SMALL: f64 = 1e-3;

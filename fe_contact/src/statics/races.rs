@@ -1,6 +1,8 @@
 //! The rigid races of a set: coordinates, bearings, and the approach of tooth pairs on the
 //! coordinates.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use gearset::{Displacements, Freedom, GivenInertia, MeshKind, Scene, Support, Torsional};
@@ -26,8 +28,8 @@ pub struct Races {
     /// Stiffness of all bearings and torsional supports, the carrier's flexibility included, n×n,
     /// N/m.
     pub stiffness: DMatrix<f64>,
-    /// The flexible carrier, where the scene gives its shape.
-    pub carrier: Option<CarrierBody>,
+    /// The flexible carrier, where the scene gives its shape; shared by all sets of a scene.
+    pub carrier: Option<Arc<CarrierBody>>,
     /// Number n of free coordinates.
     pub count: usize,
     /// Elongations of the planet bearings (radial, tangential of each) on the coordinates, 2N×n, and
@@ -112,7 +114,8 @@ impl Races {
         let (a, width) = (geometry.center_distance, geometry.face_width);
         let carrier = shape
             .map(|input| CarrierBody::new(&input, a, psi, &bodies.material, width))
-            .transpose()?;
+            .transpose()?
+            .map(Arc::new);
         let mut races = Self {
             psi: psi.to_vec(),
             index,

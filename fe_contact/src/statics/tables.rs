@@ -21,9 +21,9 @@ pub struct SetTables {
     pub list: Vec<Arc<MeshTable>>,
     /// Maps of each that sets in time have found.
     pub(crate) maps: Vec<Arc<SharedMaps>>,
-    place: HashMap<(usize, i64), usize>,
+    place: Arc<HashMap<(usize, i64), usize>>,
     /// Tables beside each, once slopes were asked for: of the nearest pairs, and of all.
-    beside: Vec<[OnceLock<Arc<NeighbourTables>>; 2]>,
+    beside: Arc<Vec<[OnceLock<Arc<NeighbourTables>>; 2]>>,
     /// Settings they were made with.
     pub settings: CellSettings,
 }
@@ -80,9 +80,10 @@ impl StaticSet<'_> {
             .par_iter()
             .map(|(group, phase)| self.table(*group, *phase, &settings).map(Arc::new))
             .collect();
-        let place = wanted.iter().enumerate().map(|(i, (g, phase))| (key(*g, *phase), i)).collect();
+        let place = wanted.iter().enumerate().map(|(i, (g, phase))| (key(*g, *phase), i));
+        let place = Arc::new(place.collect());
         let list = list?;
-        let beside = vec![[const { OnceLock::new() }; 2]; list.len()];
+        let beside = Arc::new(vec![[const { OnceLock::new() }; 2]; list.len()]);
         let maps = list.iter().map(|_| Arc::default()).collect();
         Ok(SetTables { list, maps, place, beside, settings })
     }

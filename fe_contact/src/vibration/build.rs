@@ -48,17 +48,15 @@ pub(super) fn one_flexibility(scene: &Scene, bodies: &Bodies) -> Result<(), FeEr
     Ok(())
 }
 
-/// Ring, sun and planets, with their teeth as they stand at the position `start` (cycles).
+/// Ring, sun and planets; tooth 0 of every body of the set, carrier first, stands at its angle (rad) at the start.
 pub(super) fn gears<'s>(
     statics: &StaticSet<'s>,
     scene: &Scene,
-    tables: &SetTables,
+    angles: &[f64],
     settings: &Settings,
-    start: f64,
 ) -> Result<Vec<VibratingGear<'s>>, FeError> {
     let bodies = statics.bodies;
     let races = &statics.races;
-    let angles = start_angles(statics, tables, start)?;
     let missing = |key: &str| FeError::Missing { key: key.into(), why: "a set needs it" };
     let sun = bodies.sun.as_ref().ok_or_else(|| missing("geometry.sun"))?;
     // A pair has no ring: a gear without mass and mesh has its number, so that bodies are numbered as in a set.
@@ -72,17 +70,21 @@ pub(super) fn gears<'s>(
         let is_absent = kind == RING && scene.kind == SceneKind::GearPair;
         let absent = Settings { fidelity: Fidelity::QuasiStatic, ..*settings };
         let settings = if is_absent { &absent } else { settings };
-        let unknown_of = Arc::new(number_unknowns(&body.mesh));
         let mass = body_mass(statics, scene, kind)?;
         let radius = races.radii[kind];
         let make = flexible(settings, body.mesh.name, radius, mass, &|| {
             BodyMatrices::of_gear(&body.mesh, &body.material, body.face_width)
         })?;
         let count = if kind == PLANETS { races.planets() } else { 1 };
-        for n in 0..count {
+        let vibrating: Vec<_> = (0..count).map(|_| make()).collect();
+        // Bodies without elastic states have no ports.
+        let is_elastic = vibrating.iter().any(|own| own.unknowns() > 0);
+        let unknown_of =
+            Arc::new(if is_elastic { number_unknowns(&body.mesh) } else { Vec::new() });
+        for (n, vibrating) in vibrating.into_iter().enumerate() {
             gears.push(VibratingGear {
                 body,
-                vibrating: make(),
+                vibrating,
                 unknown_of: unknown_of.clone(),
                 start: angles[kind + n],
                 // Relative to the carrier the sun turns forwards, planets and ring turn backwards.
@@ -198,7 +200,7 @@ pub(super) fn body_mass(
 
 /// Angle of tooth 0 of every body at a position (carrier first, 0), rad: that of a tooth in
 /// contact.
-fn start_angles(
+pub(super) fn start_angles(
     statics: &StaticSet<'_>,
     tables: &SetTables,
     start: f64,

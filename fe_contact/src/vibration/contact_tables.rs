@@ -17,13 +17,13 @@ pub(super) struct ContactTables {
     /// Contact maps of each table.
     pub(super) maps: Vec<ContactMaps>,
     /// Slopes of the flanks, by step in the cycle.
-    pub(super) leaning: Vec<Leaning>,
+    pub(super) leaning: Arc<[Leaning]>,
     /// Tables on a grid of phases; `None` unless kinematics are exact at every step.
     pub(super) grid: Option<GridTables>,
 }
 
 impl ContactTables {
-    pub(super) fn new(tables: SetTables, leaning: Vec<Leaning>, is_exact: bool) -> Self {
+    pub(super) fn new(tables: SetTables, leaning: Arc<[Leaning]>, is_exact: bool) -> Self {
         let of = |shared| ContactMaps::new(&tables.settings, Arc::clone(shared));
         let maps = tables.maps.iter().map(of).collect();
         Self { tables, maps, leaning, grid: is_exact.then(GridTables::default) }

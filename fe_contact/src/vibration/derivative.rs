@@ -1,6 +1,8 @@
 //! The derivative of the mesh cycle that a set marched last, computed from what its frames keep of every step.
 
 use dynamics::MapDerivative;
+use faer::linalg::solvers::Solve;
+use faer::{MatMut, MatRef};
 use gearset::Symmetry;
 use nalgebra::{DMatrix, DVector};
 
@@ -84,7 +86,8 @@ impl VibratingSet<'_> {
         if along == Along::Motion {
             // In a periodic motion the steps before the start are those before the end.
             let settling = FORGOTTEN * self.race_dynamics.damping.beta / self.clock.rule.step();
-            let settling = (settling.ceil() as usize + FEWEST).min(steps);
+            let few: usize = std::env::var("X_FEW").ok().and_then(|x| x.parse().ok()).unwrap_or(FEWEST);
+            let settling = (settling.ceil() as usize + few).min(steps);
             for step in steps - settling + 1..=steps {
                 self.carry_derivative(&mut derivative, step, cycles - 1);
             }
@@ -176,6 +179,7 @@ impl VibratingSet<'_> {
 
 impl SetDerivative {
     /// Writes the displacement along a row that is expected at the end of the step: x + h (v + ½ h a).
+    #[inline(always)]
     pub(super) fn expect(&self, h: f64, row: &ShortRow, out: &mut Vec<f64>) {
         let m = self.rows();
         out.clear();
@@ -245,12 +249,25 @@ impl SetDerivative {
                 at += list.ncols();
             }
         }
-        let factor = now.lu();
-        let singular = || FeError::NoEquilibrium("motions that differ become equal".into());
-        self.lists_mut().try_for_each(|list| {
-            let is_empty = list.is_empty();
-            (is_empty || factor.solve_mut(list)).then_some(()).ok_or_else(singular)
-        })
+        // Of pairs that have left contact for good no gradient is left: their columns stay 0.
+        let is_live = |column: &&mut [f64]| column.iter().any(|x| *x != 0.0);
+        let each = |list: &mut DMatrix<f64>, of: &mut dyn FnMut(&mut [f64])| {
+            list.as_mut_slice().chunks_exact_mut(m.max(1)).filter(is_live).for_each(of);
+        };
+        let mut columns = Vec::new();
+        self.lists_mut().for_each(|list| each(list, &mut |own| columns.extend_from_slice(own)));
+        let count = columns.len() / m.max(1);
+        let factor = MatRef::from_column_major_slice(now.as_slice(), m, m).partial_piv_lu();
+        factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut columns, m, count));
+        if !columns.iter().all(|x| x.is_finite()) {
+            return Err(FeError::NoEquilibrium("motions that differ become equal".into()));
+        }
+        let mut solved = columns.chunks_exact(m.max(1));
+        let mut put = |own: &mut [f64]| {
+            solved.next().into_iter().for_each(|column| own.copy_from_slice(column));
+        };
+        self.lists_mut().for_each(|list| each(list, &mut put));
+        Ok(())
     }
 
     /// Replaces the rows by fewer: with G the gradients and D the sizes of their columns, G D⁻¹ Π = Q R, of which

@@ -13,6 +13,7 @@
 //! touched in the last step to their position and the second-order terms, so that a whole cycle can be
 //! differentiated after it was marched.
 
+use dynamics::{Computation, wide};
 use nalgebra::{DMatrix, DVector};
 
 use super::body::Port;
@@ -23,9 +24,31 @@ use super::gradients::{add, column, column_mut, out_of_turned, times_transposed,
 use super::set::VibratingSet;
 use crate::statics::CARRIER;
 
+/// A derivative that is carried over a step.
+struct Carrying<'c, 's> {
+    set: &'c VibratingSet<'s>,
+    derivative: &'c mut SetDerivative,
+    step: usize,
+    cycles: i64,
+}
+
+impl Computation for Carrying<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.set.carry_over_step(self.derivative, self.step, self.cycles);
+    }
+}
+
 impl VibratingSet<'_> {
     /// Carries the derivative over a step, 1 to the number of steps, of the cycle after `cycles` whole ones.
     pub(super) fn carry_derivative(&self, d: &mut SetDerivative, step: usize, cycles: i64) {
+        wide(Carrying { set: self, derivative: d, step, cycles });
+    }
+
+    #[inline(always)]
+    fn carry_over_step(&self, d: &mut SetDerivative, step: usize, cycles: i64) {
         let count = self.clock.rotation.count();
         let (k, cycles) = (step % count, cycles + (step / count) as i64);
         let Some(frame) = self.frames.current(k) else { return };
@@ -89,6 +112,7 @@ impl VibratingSet<'_> {
     }
 
     /// Load on the races from the second-order terms of corner gaps.
+    #[inline(always)]
     fn add_bent(&self, d: &SetDerivative, frame: &Frame, work: &mut Work) {
         let m = d.rows();
         for bend in frame.bends.iter().filter(|bend| bend.force > 0.0) {
@@ -108,6 +132,7 @@ impl VibratingSet<'_> {
     }
 
     /// Adds to the approaches of the touching pairs what corner gaps, the bodies' modes and the lag contribute.
+    #[inline(always)]
     fn add_gaps(&self, d: &SetDerivative, frame: &Frame, bodies: &[BodyStep], work: &mut Work) {
         let m = d.rows();
         let Work { b, column_of, expected, .. } = work;

@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use dynamics::{Computation, wide};
 use nalgebra::{DMatrix, DVector};
 
 use super::body::Port;
@@ -146,7 +147,7 @@ impl Frame {
             offsets: pattern.offsets.clone(),
             rows: pattern.rows.clone(),
             receptance: DMatrix::zeros(count, count),
-            lagging: DMatrix::zeros(count, count),
+            lagging: pattern.within.clone(),
             lags: Vec::new(),
             is_coupled,
             bends: pattern.bends.iter().map(bend).collect(),
@@ -155,14 +156,6 @@ impl Frame {
             oldest: 0,
             pattern,
         };
-        let pattern = Arc::clone(&frame.pattern);
-        for (own, flexibility) in pattern.own.iter().zip(&pattern.within) {
-            for (j, (b, _)) in own.iter().enumerate() {
-                for (i, (a, _)) in own.iter().enumerate() {
-                    frame.lagging[(*a, *b)] += flexibility[(i, j)];
-                }
-            }
-        }
         if is_coupled {
             let mut rows = frame.pattern.rigid.clone();
             for (k, gear) in inputs.gears.iter().enumerate() {
@@ -173,25 +166,16 @@ impl Frame {
             frame.rows = short.collect::<Option<_>>().ok_or_else(many)?;
         } else {
             // Y = R A⁻¹ Rᵀ with rows of a few entries.
-            let mut answer = DVector::zeros(inputs.inverse.nrows());
-            for (j, on) in frame.rows.iter().enumerate() {
-                answer.fill(0.0);
-                for (i, r) in on.entries() {
-                    answer.axpy(r, &inputs.inverse.column(i), 1.0);
-                }
-                for (y, of) in frame.receptance.column_mut(j).iter_mut().zip(&frame.rows) {
-                    *y = of.dot(answer.as_slice());
-                }
-            }
+            let out = frame.receptance.as_mut_slice();
+            wide(Receptance { out, rows: &frame.rows, inverse: inputs.inverse });
         }
         let known = inputs.lag_end - 1.0;
         frame.receptance.zip_apply(&frame.lagging, |y, lagging| *y += known * lagging);
-        for mesh in &frame.meshes {
-            let lagged = frame.lagged_by(mesh);
-            for j in mesh.first..mesh.first + mesh.count {
-                frame.lags.extend(lagged.clone().map(|i| frame.lagging[(i, j)]));
-            }
-        }
+        // By columns: of all pairs, or of those of the same mesh.
+        frame.lags = match is_coupled {
+            true => frame.lagging.as_slice().to_vec(),
+            false => frame.pattern.within_meshes.clone(),
+        };
         Ok(frame)
     }
 
@@ -277,5 +261,32 @@ impl Frame {
             c.slope.bytes() + 8 * lists
         };
         own + rows + 8 * self.lags.len() + self.combinations.iter().map(of).sum::<usize>()
+    }
+}
+
+/// R A⁻¹ Rᵀ of some rows R, to be written by columns.
+struct Receptance<'r> {
+    out: &'r mut [f64],
+    rows: &'r [ShortRow],
+    inverse: &'r DMatrix<f64>,
+}
+
+impl Computation for Receptance<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { out, rows, inverse } = self;
+        let mut answer = vec![0.0; inverse.nrows()];
+        for (column, on) in out.chunks_exact_mut(rows.len().max(1)).zip(rows) {
+            answer.fill(0.0);
+            for (i, r) in on.entries() {
+                let own = inverse.as_slice()[i * answer.len()..].iter();
+                answer.iter_mut().zip(own).for_each(|(x, a)| *x += r * a);
+            }
+            for (y, of) in column.iter_mut().zip(rows) {
+                *y = of.dot(&answer);
+            }
+        }
     }
 }

@@ -3,6 +3,7 @@
 
 use std::sync::{Arc, OnceLock};
 
+use gearset::Symmetry;
 use nalgebra::DMatrix;
 
 use super::gear::VibratingGear;
@@ -59,8 +60,10 @@ pub(super) struct FramePattern {
     pub(super) bends: Vec<PatternBend>,
     /// Index of each pair in the state of the lag.
     pub(super) slots: Vec<PairSlot>,
-    /// Static FE flexibility of each gear between its ports, m/N: those of one mesh, others 0.
-    pub(super) within: Vec<DMatrix<f64>>,
+    /// Static FE flexibility of all gears between pairs of the same mesh, m/N, others 0.
+    pub(super) within: DMatrix<f64>,
+    /// Its columns, of each only the rows of the pairs of the same mesh.
+    pub(super) within_meshes: Vec<f64>,
     /// Between ports of different meshes, others 0; for bodies with elastic states only.
     across: OnceLock<Vec<DMatrix<f64>>>,
 }
@@ -89,7 +92,8 @@ impl FramePattern {
             rows: Vec::new(),
             bends: Vec::new(),
             slots: Vec::with_capacity(count),
-            within: Vec::new(),
+            within: DMatrix::zeros(count, count),
+            within_meshes: Vec::new(),
             across: OnceLock::new(),
         };
         for (which, mesh) in placed.iter().enumerate() {
@@ -135,7 +139,19 @@ impl FramePattern {
         }
         let short = pattern.rigid.row_iter().map(|row| ShortRow::new(row.iter().copied()));
         pattern.rows = short.collect::<Option<_>>().ok_or_else(many)?;
-        pattern.within = pattern.flexibility(gears, true);
+        for (own, flexibility) in pattern.own.iter().zip(&pattern.flexibility(gears, true)) {
+            for (j, (b, _)) in own.iter().enumerate() {
+                for (i, (a, _)) in own.iter().enumerate() {
+                    pattern.within[(*a, *b)] += flexibility[(i, j)];
+                }
+            }
+        }
+        for mesh in &pattern.meshes {
+            let pairs = mesh.first..mesh.first + mesh.count;
+            for j in pairs.clone() {
+                pattern.within_meshes.extend(pairs.clone().map(|i| pattern.within[(i, j)]));
+            }
+        }
         pattern.backside =
             placed.into_iter().skip(front).map(|p| Arc::new(p.table.into_owned())).collect();
         Ok(pattern)
@@ -186,12 +202,23 @@ impl FramePattern {
 pub(super) struct FramePatterns {
     /// By step in the cycle: front flanks alone, and with backside flanks.
     list: Vec<[OnceLock<Arc<FramePattern>>; 2]>,
+    /// Angle of tooth 0 of every body at the start (carrier first, 0), rad.
+    start_angles: OnceLock<Vec<f64>>,
+    /// By step in the cycle: meshes whose phase is less than at the step before.
+    restarts: OnceLock<Arc<[Vec<usize>]>>,
+    /// The symmetries under which all positions are those of a part of the cycle.
+    symmetries: OnceLock<Vec<Symmetry>>,
 }
 
 impl FramePatterns {
     /// None yet, for a cycle of `count` steps.
     pub(super) fn new(count: usize) -> Self {
-        Self { list: (0..count).map(|_| [const { OnceLock::new() }; 2]).collect() }
+        Self {
+            list: (0..count).map(|_| [const { OnceLock::new() }; 2]).collect(),
+            start_angles: OnceLock::new(),
+            restarts: OnceLock::new(),
+            symmetries: OnceLock::new(),
+        }
     }
 
     /// Number of steps in the cycle.
@@ -212,5 +239,40 @@ impl FramePatterns {
         }
         let made = Arc::new(make()?);
         Ok(Arc::clone(place.get_or_init(|| made)))
+    }
+
+    /// Angles of the bodies at the start, made by `make` at the first time of asking.
+    pub(super) fn start_angles(
+        &self,
+        make: impl FnOnce() -> Result<Vec<f64>, FeError>,
+    ) -> Result<&[f64], FeError> {
+        kept(&self.start_angles, make).map(Vec::as_slice)
+    }
+
+    /// Meshes that start again at each step, made by `make` at the first time of asking.
+    pub(super) fn restarts(&self, make: impl FnOnce() -> Arc<[Vec<usize>]>) -> Arc<[Vec<usize>]> {
+        Arc::clone(self.restarts.get_or_init(make))
+    }
+
+    /// The symmetries of all positions, made by `make` at the first time of asking.
+    pub(super) fn symmetries(
+        &self,
+        make: impl FnOnce() -> Result<Vec<Symmetry>, FeError>,
+    ) -> Result<&[Symmetry], FeError> {
+        kept(&self.symmetries, make).map(Vec::as_slice)
+    }
+}
+
+/// What a place holds, made at the first time of asking.
+fn kept<T>(
+    place: &OnceLock<T>,
+    make: impl FnOnce() -> Result<T, FeError>,
+) -> Result<&T, FeError> {
+    match place.get() {
+        Some(known) => Ok(known),
+        None => {
+            let made = make()?;
+            Ok(place.get_or_init(|| made))
+        }
     }
 }

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use super::lag::WIDTH;
 
 /// y += factor x.
-#[inline]
+#[inline(always)]
 pub(super) fn add(y: &mut [f64], factor: f64, x: &[f64]) {
     y.iter_mut().zip(x).for_each(|(y, x)| *y += factor * x);
 }
@@ -54,6 +54,7 @@ pub(super) struct Gradients {
 
 impl Gradients {
     /// Writes those of a* and v* of Newmark's rule, with 4/h² and 2/h, column after column.
+    #[inline(always)]
     pub(super) fn write_histories(&self, [inertia, rate]: [f64; 2], [a, v]: [&mut Vec<f64>; 2]) {
         let own = self.x.iter().zip(self.v.iter()).zip(self.a.iter());
         let count = self.x.len();
@@ -73,6 +74,7 @@ impl Gradients {
     }
 
     /// The end of a step with displacements `x` from the histories a*, v* at its start.
+    #[inline(always)]
     pub(super) fn advance(&mut self, [inertia, rate]: [f64; 2], x: &[f64], [a, v]: [&[f64]; 2]) {
         let own = self.x.iter_mut().zip(self.v.iter_mut()).zip(self.a.iter_mut());
         for (((x1, v1), a1), ((x, a), v)) in own.zip(x.iter().zip(a).zip(v)) {
@@ -116,6 +118,7 @@ impl LagGradients {
 
     /// Starts a step: computes the part of P̃ at its end that is known, as in
     /// [`PairMemory::known`](super::lag::PairMemory::known).
+    #[inline(always)]
     pub(super) fn predict(&mut self, [_, start, before, state]: [f64; 4]) {
         let [filtered, now, earlier] = &self.lists;
         let m = filtered.nrows();
@@ -135,6 +138,7 @@ impl LagGradients {
     }
 
     /// Advances by a step at whose end the pairs `pressed` (slot, column of `forces`) have forces.
+    #[inline(always)]
     pub(super) fn advance(&mut self, end: f64, pressed: &[(usize, usize)], forces: &[f64]) {
         let m = self.lists[0].nrows();
         for slot in 0..WIDTH {

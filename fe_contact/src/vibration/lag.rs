@@ -121,6 +121,11 @@ impl PairMemory {
         slot.place().map_or(0.0, |i| self.now[i])
     }
 
+    /// Force of the mesh at the end of the last step, N.
+    pub(super) fn total(&self) -> f64 {
+        self.now.iter().sum()
+    }
+
     #[cfg(test)]
     fn filtered(&self, pair: i64) -> f64 {
         PairSlot::of(pair).place().map_or(0.0, |i| self.filtered[i])

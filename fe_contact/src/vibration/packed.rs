@@ -28,10 +28,12 @@ pub(super) struct Packed {
 impl Packed {
     pub(super) fn new(matrix: &DMatrix<f64>) -> Self {
         let (rows, columns) = matrix.shape();
-        let entry = |i: usize, j: usize| if i < rows { matrix[(i, j)] } else { 0.0 };
-        let column = |block: usize, j| std::array::from_fn(|i| entry(block * BLOCK + i, j));
-        let blocks = rows.div_ceil(BLOCK);
-        let data = (0..blocks).flat_map(|b| (0..columns).map(move |j| column(b, j))).collect();
+        let mut data = vec![[0.0; BLOCK]; rows.div_ceil(BLOCK) * columns];
+        for (j, column) in matrix.as_slice().chunks_exact(rows.max(1)).enumerate() {
+            for (part, block) in column.chunks(BLOCK).zip(data[j..].iter_mut().step_by(columns)) {
+                block[..part.len()].copy_from_slice(part);
+            }
+        }
         Self { rows, columns, data }
     }
 

@@ -1,5 +1,7 @@
 //! Forces and approaches of all tooth pairs of a set, and the state of their lag.
 
+use std::sync::Arc;
+
 use nalgebra::DVector;
 
 use super::frame::Frame;
@@ -18,7 +20,7 @@ pub(super) struct PairForces {
     /// Load on the races from the second-order terms of corner gaps in the last step, n, N.
     pub(super) bent: DVector<f64>,
     /// By step in the cycle: meshes whose phase starts again at 0 with this step.
-    pub(super) restarts: Vec<Vec<usize>>,
+    pub(super) restarts: Arc<[Vec<usize>]>,
 }
 
 impl PairForces {
@@ -27,7 +29,7 @@ impl PairForces {
         lag: LagRule,
         meshes: usize,
         races: usize,
-        restarts: Vec<Vec<usize>>,
+        restarts: Arc<[Vec<usize>]>,
     ) -> Self {
         Self {
             lag,

@@ -28,7 +28,7 @@ pub struct Loading {
 pub struct Prepared<'s> {
     pub(super) statics: StaticSet<'s>,
     pub(super) tables: SetTables,
-    pub(super) leaning: Vec<Leaning>,
+    pub(super) leaning: Arc<[Leaning]>,
     /// Whether kinematics are exact at every step.
     pub(super) is_exact: bool,
     /// Patterns of the frames of the rotation it was made for, shared by its sets.
@@ -66,22 +66,27 @@ impl<'s> Prepared<'s> {
             // dropped; tables are laid out in the run, at the phases that occur.
             statics.reference.stiffness.fill(0.0);
             let tables = statics.tables(loading.mesh_force, &positions[..1])?;
-            let leaning = vec![Leaning::none(&statics); positions.len()];
+            let leaning = vec![Leaning::none(&statics); positions.len()].into();
             return Ok(Self { statics, tables, leaning, is_exact, patterns, turns });
         }
         let tables = statics.tables(loading.mesh_force, &positions)?;
-        let leaning = Leaning::at(&statics, &tables, &positions)?;
+        let leaning = Leaning::at(&statics, &tables, &positions)?.into();
         Ok(Self { statics, tables, leaning, is_exact, patterns, turns })
     }
 
     /// The shared patterns, or none yet for another rotation: a standing set has its teeth numbered from its own
     /// position.
     pub(super) fn patterns_for(&self, rotation: &NominalRotation) -> Arc<FramePatterns> {
-        let turns = matches!(rotation, NominalRotation::Turning { .. });
-        if turns && self.turns && rotation.count() == self.patterns.count() {
+        if self.has_positions_of(rotation) {
             return Arc::clone(&self.patterns);
         }
         Arc::new(FramePatterns::new(rotation.count()))
+    }
+
+    /// Whether a rotation passes the very positions that the data were prepared for.
+    fn has_positions_of(&self, rotation: &NominalRotation) -> bool {
+        let turns = matches!(rotation, NominalRotation::Turning { .. });
+        turns && self.turns && rotation.count() == self.patterns.count()
     }
 
     /// Refuses a scene or a rotation for which the data were not prepared.
@@ -91,6 +96,7 @@ impl<'s> Prepared<'s> {
         let Self { statics, tables, .. } = self;
         let is_covered = match self.is_exact {
             true => rotation.count() == self.leaning.len(),
+            false if self.has_positions_of(rotation) => true,
             false => rotation.positions().iter().all(|p| statics.is_covered(*p, tables)),
         };
         if is_covered {

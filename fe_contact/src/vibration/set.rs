@@ -24,7 +24,7 @@ use super::flexible_bodies::FlexibleBodies;
 use super::frame_pattern::FramePatterns;
 use super::frames::Frames;
 use super::gyroscopic::carrier_speed;
-use super::lag::LagRule;
+use super::lag::{LagRule, PairMemory};
 use super::pair_forces::PairForces;
 use super::prepared::{Loading, Prepared};
 use super::race_dynamics::RaceDynamics;
@@ -116,7 +116,8 @@ impl<'s> VibratingSet<'s> {
             beta: scene.damping.stiffness_proportional_s,
         };
         let settings = build::Settings { fidelity: scene.dynamics.fidelity, damping, rule };
-        let gears = build::gears(&statics, scene, &tables, &settings, rotation.start())?;
+        let start = || build::start_angles(&statics, &tables, rotation.start());
+        let gears = build::gears(&statics, scene, patterns.start_angles(start)?, &settings)?;
         let (carrier, ports, flexibility) = build::carrier(&statics, scene, &settings)?;
         let bodies = FlexibleBodies::new(carrier, gears);
         let speed = match rotation {
@@ -135,7 +136,7 @@ impl<'s> VibratingSet<'s> {
             let starts = |mesh: &usize| phase(*mesh, step) < phase(*mesh, clock.before(step));
             (0..meshes).filter(starts).collect()
         };
-        let restarts = (0..count).map(restarts).collect();
+        let restarts = patterns.restarts(|| (0..count).map(restarts).collect());
         Ok(Self {
             pairs: PairForces::new(LagRule::new(damping.beta, &rule), meshes, n, restarts),
             clock,
@@ -187,8 +188,10 @@ impl<'s> VibratingSet<'s> {
     /// Force of each mesh: sun meshes, ring meshes, and backside flanks if they took part, N.
     pub fn mesh_forces(&self, out: &mut Vec<f64>) {
         out.clear();
-        if let Some(frame) = self.frames.current(self.clock.step_in_cycle) {
-            out.extend(self.pairs.of_meshes(frame));
+        match self.frames.current(self.clock.step_in_cycle) {
+            Some(frame) => out.extend(self.pairs.of_meshes(frame)),
+            // A set that continues from a state has no frame before its first step.
+            None => out.extend(self.pairs.memory.iter().map(PairMemory::total)),
         }
     }
 

@@ -1,6 +1,6 @@
 //! One time step: the bodies' predictions, contact of all pairs, and the bodies' state at the end.
 
-use dynamics::Motion;
+use dynamics::{Computation, Motion, wide};
 use nalgebra::{DMatrix, DVector};
 
 use super::frame::{Combination, Frame};
@@ -177,7 +177,7 @@ impl VibratingSet<'_> {
             let place = match known {
                 Some(place) => place,
                 None => {
-                    let Some(made) = combine(frame, &self.contact.maps, &work.ids)? else {
+                    let Some(made) = wide(Combining(frame, &self.contact.maps, &work.ids))? else {
                         // Meshes that share a table: the map of one was replaced by that of
                         // another.
                         self.contact.find_lost(frame, approaches)?;
@@ -292,7 +292,20 @@ fn combination(frame: &Frame, ids: &mut Vec<u64>) -> Option<usize> {
     frame.combinations.iter().position(|c| c.maps == *ids)
 }
 
+/// The combination of the present maps of a frame, with their ids, that is to be solved.
+struct Combining<'c>(&'c Frame, &'c [ContactMaps], &'c [u64]);
+
+impl Computation for Combining<'_> {
+    type Output = Result<Option<Combination>, FeError>;
+
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        combine(self.0, self.1, self.2)
+    }
+}
+
 /// Solves (I + Y S) δ = b − Y P₀ for δ as a function of b; `None` if a mesh has no map.
+#[inline(always)]
 fn combine(
     frame: &Frame,
     maps: &[ContactMaps],
@@ -316,19 +329,24 @@ fn combine(
     let touching: Vec<usize> = (0..count).filter(touches).collect();
     // Only the touching pairs t are coupled: S W = (I + S_tt Y_tt)⁻¹ S_tt, W = I − Y_t (S W).
     let size = touching.len();
-    let own = DMatrix::from_fn(size, size, |i, j| s[(touching[i], touching[j])]);
     let across = frame.receptance.select_columns(&touching);
-    let mut matrix = DMatrix::identity(size, size);
-    // S couples the pairs of one mesh only.
-    for (k, column) in own.column_iter().enumerate() {
-        for (i, s) in column.iter().enumerate().filter(|(_, s)| **s != 0.0) {
-            for j in 0..size {
-                matrix[(i, j)] += s * across[(touching[k], j)];
+    // Row by row: I + S_tt Y_tt, then S_tt. S couples the pairs of one mesh only.
+    let mut rows = vec![0.0; 2 * size * size];
+    for (i, row) in rows.chunks_exact_mut(2 * size.max(1)).enumerate() {
+        let (matrix, right) = row.split_at_mut(size);
+        matrix[i] = 1.0;
+        for (k, right) in right.iter_mut().enumerate() {
+            *right = s[(touching[i], touching[k])];
+            if *right != 0.0 {
+                for (j, entry) in matrix.iter_mut().enumerate() {
+                    *entry += *right * across[(touching[k], j)];
+                }
             }
         }
     }
     let singular = || FeError::NoEquilibrium("the step's contact problem is singular".into());
-    let response = matrix.lu().solve(&own).ok_or_else(singular)?;
+    eliminate(&mut rows, size).ok_or_else(singular)?;
+    let response = DMatrix::from_fn(size, size, |i, j| rows[2 * size * i + size + j]);
     let mut shares = DMatrix::zeros(count, size);
     times(&mut shares, &across, &response);
     let mut slope = DMatrix::identity(count, count);
@@ -339,4 +357,33 @@ fn combine(
     let slope = Packed::new(&slope);
     let offset = offset.as_slice().to_vec();
     Ok(Some(Combination { maps: ids.to_vec(), slope, offset, laws, touching, response }))
+}
+
+/// Solves A X = B in place by Gauss–Jordan elimination with partial pivoting; `rows` holds the rows of A, each followed
+/// by that of B, both n×n. `None` if a pivot is 0 or no number.
+#[inline(always)]
+fn eliminate(rows: &mut [f64], n: usize) -> Option<()> {
+    let width = 2 * n;
+    for k in 0..n {
+        let size = |i: usize| rows[i * width + k].abs();
+        let best = (k..n).fold(k, |best, i| if size(i) > size(best) { i } else { best });
+        if best != k {
+            let (above, below) = rows.split_at_mut(best * width);
+            above[k * width..(k + 1) * width].swap_with_slice(&mut below[..width]);
+        }
+        let (above, rest) = rows.split_at_mut(k * width);
+        let (pivotal, below) = rest.split_at_mut(width);
+        let pivot = pivotal[k];
+        if pivot.is_nan() || pivot == 0.0 {
+            return None;
+        }
+        pivotal[k..].iter_mut().for_each(|x| *x /= pivot);
+        for row in above.chunks_exact_mut(width).chain(below.chunks_exact_mut(width)) {
+            let factor = row[k];
+            if factor != 0.0 {
+                row[k..].iter_mut().zip(&pivotal[k..]).for_each(|(x, p)| *x -= factor * p);
+            }
+        }
+    }
+    Some(())
 }

@@ -4,9 +4,12 @@
 //! The map of a part, with the renumbering, then has the same periodic motion as that of the whole cycle, and the map of
 //! the whole cycle is the p-th power of it.
 
+use std::sync::Arc;
+
 use gearset::Symmetry;
 use nalgebra::{DMatrix, DVector};
 
+use super::frame_pattern::FramePattern;
 use super::set::VibratingSet;
 use crate::error::FeError;
 
@@ -28,14 +31,24 @@ impl VibratingSet<'_> {
         Ok(found)
     }
 
-    /// Of the patterns of all positions, by number of parts and shift.
+    /// Of those of the positions, the first that the races have too.
     fn find_symmetry(&mut self) -> Result<Option<Symmetry>, FeError> {
         if !self.has_derivative() || self.elastic_unknowns() > 0 {
             return Ok(None);
         }
+        let of_positions = self.patterns.symmetries(|| self.symmetries_of_positions())?;
+        let has = |own: &&Symmetry| {
+            self.renumbering(&self.internal(own)).is_some_and(|turn| self.races_are_kept(&turn))
+        };
+        Ok(of_positions.iter().find(has).copied())
+    }
+
+    /// The symmetries under which the meshes and loads at all positions are those of a part of the cycle, by number of
+    /// parts and shift.
+    fn symmetries_of_positions(&self) -> Result<Vec<Symmetry>, FeError> {
         let (sign, races) = (self.statics.sign(), &self.statics.races);
         let count = self.clock.rotation.count();
-        let mut patterns = Vec::new();
+        let (mut patterns, mut found) = (Vec::new(), Vec::new());
         // The races are those of counter-clockwise torque: mirrored, if that on the sun is clockwise.
         for internal in Symmetry::candidates(&races.psi, count) {
             let own = internal.seen_with(sign);
@@ -48,11 +61,16 @@ impl VibratingSet<'_> {
                 }
             }
             let turn = self.renumbering(&internal);
-            if turn.is_some_and(|turn| self.is_itself(&own, &turn, &patterns)) {
-                return Ok(Some(own));
+            if turn.is_some_and(|turn| self.positions_are_kept(&own, &turn, &patterns)) {
+                found.push(own);
             }
         }
-        Ok(None)
+        Ok(found)
+    }
+
+    /// A symmetry in the frame of the races, which is mirrored if the torque on the sun is clockwise.
+    fn internal(&self, own: &Symmetry) -> Symmetry {
+        Symmetry { angle_rad: self.statics.sign() * own.angle_rad, ..*own }
     }
 
     /// Whether after a part the meshes of the planets `shift` further on have the phases of these at its start.
@@ -82,24 +100,23 @@ impl VibratingSet<'_> {
         Some(turn)
     }
 
-    /// Whether the equations of the races and of the meshes are equal under the renumbering.
-    fn is_itself(
-        &self,
-        own: &Symmetry,
-        turn: &DMatrix<f64>,
-        patterns: &[std::sync::Arc<super::frame_pattern::FramePattern>],
-    ) -> bool {
+    /// Whether the equations of the races, at this speed and under this load, are equal under the renumbering.
+    fn races_are_kept(&self, turn: &DMatrix<f64>) -> bool {
         let dynamics = &self.race_dynamics;
         let commutes = |a: &DMatrix<f64>| (turn * a - a * turn).amax() <= EQUAL * a.amax();
         let load = dynamics.velocity_load(&self.clock.rule);
         let mass = DMatrix::from_diagonal(&DVector::from_column_slice(&dynamics.mass));
-        if ![&dynamics.inverse, &load, &mass].into_iter().all(commutes) {
-            return false;
-        }
         let is_kept = |x: &DVector<f64>| (turn * x - x).amax() <= EQUAL * x.amax();
-        if !is_kept(&self.external) {
-            return false;
-        }
+        [&dynamics.inverse, &load, &mass].into_iter().all(commutes) && is_kept(&self.external)
+    }
+
+    /// Whether the meshes and their loads at all positions are equal under the renumbering.
+    fn positions_are_kept(
+        &self,
+        own: &Symmetry,
+        turn: &DMatrix<f64>,
+        patterns: &[Arc<FramePattern>],
+    ) -> bool {
         let (planets, count) = (self.statics.races.planets(), patterns.len());
         let scale = patterns.iter().flat_map(|p| &p.offsets).fold(0.0f64, |a, o| a.max(o.abs()));
         let loads = self.contact.leaning.iter().map(|leaning| leaning.load.amax());
@@ -126,8 +143,7 @@ impl VibratingSet<'_> {
     /// P of the present symmetry.
     pub(super) fn present_renumbering(&self) -> Option<(Symmetry, DMatrix<f64>)> {
         let own = self.symmetry.flatten()?;
-        let internal = own.seen_with(self.statics.sign());
-        Some((own, self.renumbering(&internal)?))
+        Some((own, self.renumbering(&self.internal(&own))?))
     }
 
     /// Ends a part of a cycle that began at position 0: the set stands at position 0 again, its planets renumbered.
