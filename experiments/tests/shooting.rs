@@ -202,13 +202,19 @@ fn multipliers_off(first: &MapDerivative, second: &MapDerivative) -> f64 {
 /// Displacements and velocities suffice: the derivative along them, with accelerations and lag following, has the
 /// multipliers of the derivative with respect to every coordinate.
 #[test]
-#[ignore = "open: multipliers of size below 0.1 differ by 3e-7"]
 fn multipliers_follow_from_displacements_and_velocities() {
-    for fidelity in [Fidelity::QuasiStatic, Fidelity::Modal(4)] {
-        let [motion, every] = both_derivatives(fidelity);
-        let off = multipliers_off(&motion, &every);
-        assert!(off < 1e-8, "{fidelity:?}: {off:e}");
-    }
+    let [motion, every] = both_derivatives(Fidelity::QuasiStatic);
+    let off = multipliers_off(&motion, &every);
+    assert!(off < 1e-8, "{off:e}");
+}
+
+/// The same with modes of the bodies.
+#[test]
+#[ignore = "open: multipliers above 0.01 in order of size differ by 1.6e-3"]
+fn multipliers_follow_from_displacements_and_velocities_of_modal_bodies() {
+    let [motion, every] = both_derivatives(Fidelity::Modal(4));
+    let off = multipliers_off(&motion, &every);
+    assert!(off < 1e-8, "{off:e}");
 }
 
 /// A derivative that forgets the state of the lag, as if it began every cycle at rest, has other multipliers than one
@@ -413,7 +419,6 @@ fn parts_of_a_cycle_are_the_whole_where_meshes_follow_a_law() {
 }
 
 #[test]
-#[ignore = "open: multipliers of size below 0.1 differ by 1e-7"]
 fn multipliers_of_parts_are_those_of_the_whole() {
     with_quasi_static_bodies().iter().for_each(all_agree);
 }

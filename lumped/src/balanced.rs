@@ -34,7 +34,8 @@ impl BalancedSet {
     ) -> Result<Self, LumpedError> {
         let Parts { layout, linear, front, backside, side_loads } = Parts::new(scene, sense, &law)?;
         let (couplings, steps) = ([front, backside].concat(), law.steps());
-        let mut balance = HarmonicBalance::new(&linear, &couplings, MeshLawCouplings(law), steps)?;
+        let mut balance =
+            HarmonicBalance::new(&linear, &couplings, MeshLawCouplings(law.into()), steps)?;
         let force: Vec<f64> = layout.by_torque.iter().map(|f| f * torque_nm).collect();
         balance.set_external(&force)?;
         for (step, load) in side_loads.iter().enumerate() {

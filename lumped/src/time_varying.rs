@@ -11,6 +11,8 @@
 //! Computed with counter-clockwise torque on the sun: for clockwise torque the set is mirrored, and its
 //! displacements are mirrored back.
 
+use std::sync::Arc;
+
 use nalgebra::DMatrix;
 
 use dynamics::{
@@ -27,7 +29,7 @@ use crate::springs::{Rows, SpringId};
 
 /// The forces of a mesh law as couplings: front flanks of all meshes, then backside flanks if the law has them.
 #[derive(Debug, Clone)]
-pub struct MeshLawCouplings(pub(crate) MeshLaw);
+pub struct MeshLawCouplings(pub(crate) Arc<MeshLaw>);
 
 impl CouplingForce for MeshLawCouplings {
     #[inline]
@@ -172,12 +174,13 @@ impl TimeVarying {
     pub fn new(
         scene: &Scene,
         sense: Facing,
-        law: MeshLaw,
+        law: impl Into<Arc<MeshLaw>>,
         mesh_frequency_hz: f64,
     ) -> Result<Self, LumpedError> {
         if !(mesh_frequency_hz > 0.0 && mesh_frequency_hz.is_finite()) {
             return Err(LumpedError::Frequency(mesh_frequency_hz));
         }
+        let law = law.into();
         let parts = Parts::new(scene, sense, &law)?;
         let steps = law.steps();
         let rule = AverageAcceleration::new(1.0 / (mesh_frequency_hz * steps as f64))

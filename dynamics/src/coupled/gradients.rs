@@ -181,9 +181,11 @@ fn solve(modes: &Modes, rate: f64, within: &mut [[[f64; ROWS]; 3]], loads: &mut 
             loads.extend(within.iter().zip(&modes.lambda).map(|([q, v1, _], lambda)| {
                 std::array::from_fn(|row| q[row] - (rate + lambda / rate) * v1[row])
             }));
-            for ([q, v1, _], inverse) in within.iter_mut().zip(modes.inverse.row_iter()) {
+            for ([q, v1, _], inverse) in
+                within.iter_mut().zip(modes.inverse.chunks_exact(modes.count.max(1)))
+            {
                 let mut sum = [0.0; ROWS];
-                for (load, inverse) in loads.iter().zip(inverse.iter()) {
+                for (load, inverse) in loads.iter().zip(inverse) {
                     for row in 0..ROWS {
                         sum[row] += inverse * load[row];
                     }

@@ -41,8 +41,8 @@ pub(super) struct Modes {
     pub(super) damping: Mat<f64>,
     /// Its diagonal, padded, if C is proportional.
     pub(super) own_damping: Option<Vec<f64>>,
-    /// A⁻¹ = ((4/h²) I + (2/h) ΦᵀCΦ + Λ)⁻¹, n×n.
-    pub(super) inverse: Mat<f64>,
+    /// A⁻¹ = ((4/h²) I + (2/h) ΦᵀCΦ + Λ)⁻¹, n×n, by rows.
+    pub(super) inverse: Vec<f64>,
     /// Its diagonal, padded.
     pub(super) own_inverse: Vec<f64>,
 }
@@ -86,6 +86,7 @@ impl Modes {
         };
         let own_damping = is_proportional.then(|| padded(&|i| damping[(i, i)]));
         let own_inverse = padded(&|i| inverse[(i, i)]);
+        let inverse = (0..n * n).map(|k| inverse[(k / n, k % n)]).collect();
         Ok(Self {
             count: n,
             shapes,
@@ -120,8 +121,8 @@ impl Modes {
 
     /// A⁻¹ g with the full ΦᵀCΦ.
     pub(super) fn solve_full(&self, g: &[f64], out: &mut [f64]) {
-        for (i, out) in out.iter_mut().enumerate().take(self.count) {
-            *out = (0..self.count).map(|j| self.inverse[(i, j)] * g[j]).sum();
+        for (row, out) in self.inverse.chunks_exact(self.count.max(1)).zip(out) {
+            *out = row.iter().zip(g).map(|(a, g)| a * g).sum();
         }
     }
 

@@ -45,6 +45,11 @@ pub trait Marching {
         true
     }
 
+    /// Whether the model has approaches of single pairs, and so a kinematic rest.
+    fn has_kinematic_rest(&self) -> bool {
+        false
+    }
+
     /// Kinematic rest (largest deviation of a pair's approach from its linear form) and the sun's base
     /// radius, m; `None` for a model without approaches of single pairs.
     fn kinematic_rest(&self) -> Option<[f64; 2]> {
@@ -109,6 +114,10 @@ impl Marching for FeMarching<'_> {
 
     fn mesh_forces(&self, out: &mut Vec<f64>) {
         self.set.mesh_forces(out);
+    }
+
+    fn has_kinematic_rest(&self) -> bool {
+        true
     }
 
     fn kinematic_rest(&self) -> Option<[f64; 2]> {

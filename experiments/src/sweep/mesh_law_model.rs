@@ -1,6 +1,8 @@
 //! Models whose meshes follow a tabulated law: the FE/contact fidelity `mesh_law`, and the lumped model in
 //! time.
 
+use std::sync::Arc;
+
 use dynamics::{CoupledState, CyclePart, MapDerivative, PassedSteps};
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use fe_contact::vibration::{Along, MeshLawSet, MeshLawSettings, mesh_law};
@@ -23,7 +25,7 @@ pub struct MeshLawModel<'s> {
     /// The loaded FE/contact set; `None` for the lumped model.
     loaded: Option<StaticSet<'s>>,
     case: LoadCase,
-    law: MeshLaw,
+    law: Arc<MeshLaw>,
 }
 
 impl<'s> MeshLawModel<'s> {
@@ -39,19 +41,19 @@ impl<'s> MeshLawModel<'s> {
         let law = mesh_law(&scene, bodies, case.sense(), steps, &settings)?;
         let loaded = StaticSet::new(&scene, bodies, case.sense(), Imperfections::default())?;
         let loaded = loaded.under(case.sun_load_nm())?;
-        Ok(Self { scene, loaded: Some(loaded), case, law })
+        Ok(Self { scene, loaded: Some(loaded), case, law: law.into() })
     }
 
     /// The lumped model with the same law in its meshes.
     pub fn lumped(&self) -> MeshLawModel<'static> {
-        MeshLawModel::lumped_with(&self.scene, self.case, self.law.clone())
+        MeshLawModel::lumped_with(&self.scene, self.case, Arc::clone(&self.law))
     }
 }
 
 impl MeshLawModel<'static> {
     /// The lumped model of a scene with any law in its meshes, under the torque of a load case.
-    pub fn lumped_with(scene: &Scene, case: LoadCase, law: MeshLaw) -> Self {
-        Self { scene: scene.clone(), loaded: None, case, law }
+    pub fn lumped_with(scene: &Scene, case: LoadCase, law: impl Into<Arc<MeshLaw>>) -> Self {
+        Self { scene: scene.clone(), loaded: None, case, law: law.into() }
     }
 }
 
@@ -88,7 +90,7 @@ impl SweepModel for MeshLawModel<'_> {
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
         check_sense(&self.case, case)?;
         let scene = damped(&self.scene, damping_factor);
-        let (law, torque) = (self.law.clone(), case.sun_load_nm());
+        let (law, torque) = (Arc::clone(&self.law), case.sun_load_nm());
         let has_backside = law.has_backside();
         let (sense, mesh_frequency) = (self.case.sense(), case.mesh_frequency_hz);
         let rate = scaling_rate(mesh_frequency);

@@ -164,7 +164,7 @@ pub fn steady(
             let start = set.state();
             match shot(set, shape, first_planet_rad, steps, settings)? {
                 Ok(found) if found.largest_multiplier() <= 1.0 + UNSTABLE => {
-                    return found.into_steady(set, steps, settings);
+                    return found.into_steady(set, steps);
                 }
                 Ok(found) => {
                     let largest = found.largest_multiplier();
@@ -193,12 +193,7 @@ impl Shot {
         self.multipliers.first().map_or(0.0, |m| m.size())
     }
 
-    fn into_steady(
-        self,
-        set: &mut dyn Marching,
-        steps: usize,
-        settings: &SteadySettings,
-    ) -> Result<Steady, ExperimentError> {
+    fn into_steady(self, set: &mut dyn Marching, steps: usize) -> Result<Steady, ExperimentError> {
         Ok(Steady {
             method: SteadyMethod::Shooting,
             why_marched: None,
@@ -208,7 +203,7 @@ impl Shot {
             record: self.record,
             cycles: self.cycles,
             residual: self.residual,
-            between: (settings.between_cycles > 0).then_some(self.between),
+            between: self.between,
             repeats_after: Some(1),
             further: None,
         })
@@ -222,7 +217,7 @@ fn part_rest(
     steps: usize,
     parts: usize,
 ) -> Result<Option<KinematicRest>, ExperimentError> {
-    let rest = sampled_rest(set, record, steps / parts)?;
+    let rest = sampled_rest(set, record, steps, parts)?;
     if let Some(own) = set.derivative().filter(|_| parts > 1 && rest.is_some()) {
         own.end()?;
     }
@@ -263,7 +258,7 @@ fn march(
             Some(before.between_harmonics(count)?)
         }
     };
-    let rest = sampled_rest(set, &now, steps)?;
+    let rest = sampled_rest(set, &now, steps, 1)?;
     Ok(Steady {
         method: SteadyMethod::Marching,
         why_marched: None,
@@ -310,19 +305,20 @@ fn period(
     Ok((None, watched))
 }
 
-/// Kinematic rest over one more cycle, also relative to the sun's largest peak-to-peak motion over the
+/// Kinematic rest over one more cycle, or the first of some equal `parts` of it, also relative to the sun's largest peak-to-peak motion over the
 /// recorded cycle. This includes x and y, since the transmission error (rotation at the base circle) is small
 /// at resonances of translational modes.
 fn sampled_rest(
     set: &mut dyn Marching,
     record: &Record,
     steps: usize,
+    parts: usize,
 ) -> Result<Option<KinematicRest>, ExperimentError> {
-    if set.kinematic_rest().is_none() {
+    if !set.has_kinematic_rest() {
         return Ok(None);
     }
     let (mut largest, mut radius) = (0.0f64, 0.0);
-    for step in 0..steps {
+    for step in 0..steps / parts {
         set.step()?;
         if step % (steps / SAMPLED).max(1) != 0 {
             continue;

@@ -6,21 +6,21 @@ use faer::{MatMut, MatRef};
 use gearset::Symmetry;
 use nalgebra::{DMatrix, DVector};
 
-use super::gradients::{Gradients, LagGradients, add, column};
+use super::gradients::{Gradients, LagGradients};
 use super::lag::WIDTH;
 use super::set::VibratingSet;
 use super::tooth_shift::ToothShift;
 use crate::error::FeError;
-use crate::short_row::ShortRow;
 
 /// Stiffness (N/m) that relates forces to displacements when the coordinates are scaled.
 const STIFFNESS: f64 = 1e9;
 
-/// The lag forgets its state as e^{−t/β}: it is gone after this many β.
-const FORGOTTEN: f64 = 37.0;
+/// The lag forgets its state as e^{−t/β}: after this many β a share of 1e-10 is left.
+const FORGOTTEN: f64 = 23.0;
 
-/// Fewest steps after which accelerations follow from displacements and velocities.
-const FEWEST: usize = 4;
+/// Steps after which accelerations follow from displacements and velocities, and so do the forces of the last two steps
+/// that the parabola of the lag passes through: of these a share of about 0.3 was left after each step of 10 β.
+const FEWEST: usize = 12;
 
 /// Changes of the state at the start of a cycle whose effect at its end is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,6 +60,8 @@ pub(super) struct Work {
     pub(super) next: Vec<f64>,
     pub(super) b: Vec<f64>,
     pub(super) forces: Vec<f64>,
+    /// Of the displacements of the races expected at the end of the step, and of one along a row.
+    pub(super) ahead: Vec<f64>,
     pub(super) expected: Vec<f64>,
     /// Column of each pair among the touching ones.
     pub(super) column_of: Vec<Option<usize>>,
@@ -86,8 +88,7 @@ impl VibratingSet<'_> {
         if along == Along::Motion {
             // In a periodic motion the steps before the start are those before the end.
             let settling = FORGOTTEN * self.race_dynamics.damping.beta / self.clock.rule.step();
-            let few: usize = std::env::var("X_FEW").ok().and_then(|x| x.parse().ok()).unwrap_or(FEWEST);
-            let settling = (settling.ceil() as usize + few).min(steps);
+            let settling = (settling.ceil() as usize + FEWEST).min(steps);
             for step in steps - settling + 1..=steps {
                 self.carry_derivative(&mut derivative, step, cycles - 1);
             }
@@ -178,17 +179,13 @@ impl VibratingSet<'_> {
 }
 
 impl SetDerivative {
-    /// Writes the displacement along a row that is expected at the end of the step: x + h (v + ½ h a).
+    /// Writes the displacements of the races that are expected at the end of the step, column after column:
+    /// x + h (v + ½ h a).
     #[inline(always)]
-    pub(super) fn expect(&self, h: f64, row: &ShortRow, out: &mut Vec<f64>) {
-        let m = self.rows();
+    pub(super) fn expect(&self, h: f64, out: &mut Vec<f64>) {
+        let [x, v, a] = [&self.races.x, &self.races.v, &self.races.a].map(|list| list.as_slice());
         out.clear();
-        out.resize(m, 0.0);
-        for (i, r) in row.entries() {
-            add(out, r, column(self.races.x.as_slice(), m, i));
-            add(out, r * h, column(self.races.v.as_slice(), m, i));
-            add(out, 0.5 * r * h * h, column(self.races.a.as_slice(), m, i));
-        }
+        out.extend(x.iter().zip(v).zip(a).map(|((x, v), a)| x + h * (v + 0.5 * h * a)));
     }
 
     /// Rows of the gradients.

@@ -22,6 +22,7 @@ use super::flexible_bodies::FlexibleBodies;
 use super::frame::Frame;
 use super::gradients::{add, column, column_mut, out_of_turned, times_transposed, turned_into};
 use super::set::VibratingSet;
+use crate::short_row::ShortRow;
 use crate::statics::CARRIER;
 
 /// A derivative that is carried over a step.
@@ -71,6 +72,9 @@ impl VibratingSet<'_> {
             add(column_mut(&mut work.load, m, *i), *c, column(&work.velocity, m, *j));
         }
         let bodies = self.predict_bodies(d, frame, (k, cycles), &mut work);
+        if !plain.bends.is_empty() || !frame.bends.is_empty() {
+            d.expect(rule.step(), &mut work.ahead);
+        }
         self.add_bent(d, plain, &mut work);
         work.free.resize(work.load.len(), 0.0);
         work.next.resize(work.load.len(), 0.0);
@@ -116,7 +120,7 @@ impl VibratingSet<'_> {
     fn add_bent(&self, d: &SetDerivative, frame: &Frame, work: &mut Work) {
         let m = d.rows();
         for bend in frame.bends.iter().filter(|bend| bend.force > 0.0) {
-            d.expect(self.clock.rule.step(), &bend.row, &mut work.expected);
+            along(&bend.row, m, &work.ahead, &mut work.expected);
             let pressed = &mut work.expected;
             pressed.iter_mut().for_each(|x| *x *= bend.curvature * bend.force);
             if let Some(slot) = bend.slot.place() {
@@ -135,10 +139,10 @@ impl VibratingSet<'_> {
     #[inline(always)]
     fn add_gaps(&self, d: &SetDerivative, frame: &Frame, bodies: &[BodyStep], work: &mut Work) {
         let m = d.rows();
-        let Work { b, column_of, expected, .. } = work;
+        let Work { b, column_of, ahead, expected, .. } = work;
         for bend in &frame.bends {
             let Some(at) = column_of[bend.pair] else { continue };
-            d.expect(self.clock.rule.step(), &bend.row, expected);
+            along(&bend.row, m, ahead, expected);
             add(column_mut(b, m, at), -bend.curvature * bend.moved, expected);
         }
         for (gear, own) in frame.pattern.own.iter().enumerate() {
@@ -321,6 +325,14 @@ impl VibratingSet<'_> {
         }
         Some(seats)
     }
+}
+
+/// Writes what a row makes of columns of length `m`.
+#[inline(always)]
+fn along(row: &ShortRow, m: usize, columns: &[f64], out: &mut Vec<f64>) {
+    out.clear();
+    out.resize(m, 0.0);
+    row.entries().for_each(|(i, r)| add(out, r, column(columns, m, i)));
 }
 
 /// The start of a step of one body.

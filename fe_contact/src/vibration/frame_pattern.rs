@@ -264,10 +264,7 @@ impl FramePatterns {
 }
 
 /// What a place holds, made at the first time of asking.
-fn kept<T>(
-    place: &OnceLock<T>,
-    make: impl FnOnce() -> Result<T, FeError>,
-) -> Result<&T, FeError> {
+fn kept<T>(place: &OnceLock<T>, make: impl FnOnce() -> Result<T, FeError>) -> Result<&T, FeError> {
     match place.get() {
         Some(known) => Ok(known),
         None => {

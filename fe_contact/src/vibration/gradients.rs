@@ -56,7 +56,8 @@ impl Gradients {
     /// Writes those of a* and v* of Newmark's rule, with 4/h² and 2/h, column after column.
     #[inline(always)]
     pub(super) fn write_histories(&self, [inertia, rate]: [f64; 2], [a, v]: [&mut Vec<f64>; 2]) {
-        let own = self.x.iter().zip(self.v.iter()).zip(self.a.iter());
+        let [x, v0, a0] = [&self.x, &self.v, &self.a].map(|list| list.as_slice());
+        let own = x.iter().zip(v0).zip(a0);
         let count = self.x.len();
         [&mut *a, &mut *v].into_iter().for_each(|list| list.resize(count, 0.0));
         for (((x, v0), a0), (a, v)) in own.zip(a.iter_mut().zip(v)) {
@@ -76,7 +77,8 @@ impl Gradients {
     /// The end of a step with displacements `x` from the histories a*, v* at its start.
     #[inline(always)]
     pub(super) fn advance(&mut self, [inertia, rate]: [f64; 2], x: &[f64], [a, v]: [&[f64]; 2]) {
-        let own = self.x.iter_mut().zip(self.v.iter_mut()).zip(self.a.iter_mut());
+        let [x1, v1, a1] = self.lists_mut().map(|list| list.as_mut_slice());
+        let own = x1.iter_mut().zip(v1).zip(a1);
         for (((x1, v1), a1), ((x, a), v)) in own.zip(x.iter().zip(a).zip(v)) {
             (*x1, *v1, *a1) = (*x, rate * x - v, inertia * x - a);
         }

@@ -1,10 +1,13 @@
 //! A mesh law as couplings: front flanks, then backside flanks.
 
+use std::sync::Arc;
+
 use dynamics::CouplingForce;
 use gearset::MeshLaw;
 
+/// Tables are shared by the sets at all speeds.
 #[derive(Debug, Clone)]
-pub(super) struct MeshLawCouplings(pub(super) MeshLaw);
+pub(super) struct MeshLawCouplings(pub(super) Arc<MeshLaw>);
 
 impl CouplingForce for MeshLawCouplings {
     #[inline]

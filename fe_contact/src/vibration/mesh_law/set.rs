@@ -1,6 +1,8 @@
 //! A set in time whose mesh forces follow a mesh law: races, masses, bearings and carrier of the
 //! quasi-static fidelity, with table look-up in place of contact.
 
+use std::sync::Arc;
+
 use dynamics::{
     AverageAcceleration, Coupled, CoupledState, Coupling, CyclePart, LinearPart, MapDerivative,
     Motion, PassedSteps, Renumbering,
@@ -37,7 +39,7 @@ impl<'s> MeshLawSet<'s> {
         sense: Facing,
         mesh_frequency: f64,
         torque_nm: f64,
-        law: MeshLaw,
+        law: impl Into<Arc<MeshLaw>>,
     ) -> Result<Self, FeError> {
         let statics = StaticSet::new(scene, bodies, sense, Imperfections::default())?;
         Self::on(scene, &statics.under(torque_nm)?, mesh_frequency, law)
@@ -51,8 +53,9 @@ impl<'s> MeshLawSet<'s> {
         scene: &Scene,
         loaded: &StaticSet<'s>,
         mesh_frequency: f64,
-        law: MeshLaw,
+        law: impl Into<Arc<MeshLaw>>,
     ) -> Result<Self, FeError> {
+        let law = law.into();
         let steps = law.steps();
         fit(scene, &NominalRotation::Turning { mesh_frequency, steps_per_cycle: steps })?;
         let statics = loaded.clone();
