@@ -70,7 +70,7 @@ impl VibratingSet<'_> {
 
     /// A symmetry in the frame of the races, which is mirrored if the torque on the sun is clockwise.
     fn internal(&self, own: &Symmetry) -> Symmetry {
-        Symmetry { angle_rad: self.statics.sign() * own.angle_rad, ..*own }
+        own.seen_with(self.statics.sign())
     }
 
     /// Whether after a part the meshes of the planets `shift` further on have the phases of these at its start.
