@@ -47,6 +47,10 @@ pub(crate) struct Sweep {
     /// How steady states are found.
     #[arg(long, value_enum, default_value_t = SteadyMethod::Shooting)]
     pub method: SteadyMethod,
+    /// Shoot over whole mesh cycles also where a set is itself again, with its planets renumbered, after a part of one:
+    /// motions that break this symmetry are then found, and what planet phasing forbids is computed, not put in.
+    #[arg(long)]
+    pub whole_cycles: bool,
     /// Highest harmonic of the mesh frequency: up to 5, up to 10 with at least 560 steps in a cycle.
     #[arg(long, default_value_t = 5, allow_negative_numbers = true)]
     pub harmonics: u32,

@@ -160,7 +160,7 @@ impl<'a> Task<'a> {
             most_cycles: arguments.most_cycles as usize,
             harmonics: arguments.harmonics as usize,
             between_cycles: arguments.between_cycles as usize,
-            whole_cycles: false,
+            whole_cycles: arguments.whole_cycles,
         };
         let steps = scene.dynamics.steps_per_cycle as usize;
         steady.check(steps).map_err(refuse("--harmonics"))?;

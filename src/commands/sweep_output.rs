@@ -87,6 +87,7 @@ struct PointHead<'a> {
     lowest_force_n: f64,
     contact_loss: f64,
     backside_contact: Option<f64>,
+    grazing_margin: Option<f64>,
     times_load_doubled: usize,
     kinematic_rest_m: Option<f64>,
     kinematic_rest_share: Option<f64>,
@@ -176,6 +177,7 @@ impl SweepOutput {
             lowest_force_n: p.lowest_force_n,
             contact_loss: p.contact_loss,
             backside_contact: p.backside_contact,
+            grazing_margin: p.grazing_margin,
             times_load_doubled: p.size,
             kinematic_rest_m: p.kinematic_rest_m,
             kinematic_rest_share: p.kinematic_rest_share,
@@ -218,6 +220,7 @@ translation: √(R² + T²) of the amplitudes R and T of the radial and the tang
 lowest N: lowest force of any mesh during a cycle, N
 no contact: largest part of the time in which a mesh carries nothing; – for never
 backside: part of the time in which backside flanks of any mesh press; n/a for a model without backside flanks
+grazing: least of lowest over mean force of the meshes that never part, near 0 of which μ loses its meaning; – where all part
 repeats: mesh cycles after which the motion repeats; – for none up to 8: not periodic, or not settled yet
 μ: size of the largest Floquet multiplier, below 1 if the motion is stable; – where it was marched
 cycles: mesh cycles integrated; residual: change between the last two of them over the peak-to-peak vibration";
@@ -238,12 +241,13 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
         "lowest N",
         "no contact",
         "backside",
+        "grazing",
         "repeats",
         "μ",
         "cycles",
         "residual",
     ];
-    let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13]);
+    let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14]);
     for ChainPoint { chain, point: p } in &result.points {
         let [rotation, l, translation, of_translation] = of_sun(&p.state, result.harmonics);
         table.add_row([
@@ -257,6 +261,7 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
             format!("{:.0}", p.lowest_force_n),
             output::share(p.contact_loss),
             p.backside_contact.map_or("n/a".into(), output::share),
+            p.grazing_margin.map_or("–".into(), |margin| format!("{margin:.3}")),
             p.repeats_after.map_or("–".into(), |cycles| cycles.to_string()),
             p.largest_multiplier().map_or("–".into(), |size| format!("{size:.3}")),
             p.cycles.to_string(),
@@ -351,6 +356,7 @@ mod tests {
                 lowest_force_n: 0.0,
                 contact_loss: 0.25,
                 backside_contact: None,
+                grazing_margin: None,
                 size: 0,
                 kinematic_rest_m: None,
                 kinematic_rest_share: None,

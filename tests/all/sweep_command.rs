@@ -362,6 +362,51 @@ fn under_the_usual_torque_teeth_stay_in_contact() {
     assert!(lowest.len() == 8 && lowest.iter().all(|f| (1e3..9e3).contains(f)), "{lowest:?}");
     assert_eq!(of_meshes(&found, "contact_loss"), [0.0; 8]);
     assert_eq!(of_meshes(&found, "backside_contact"), [0.0; 8]);
+    // The distance to grazing is that of the mesh whose lowest force is the least part of its mean.
+    let lines = found["lines"].as_array().unwrap().iter();
+    let mean = lines.filter(|l| l["coordinate"] == "force" && l["harmonic"] == 0);
+    let mean: Vec<f64> = mean.map(|l| l["amplitude"].as_f64().unwrap()).collect();
+    assert_eq!(mean.len(), 8);
+    let least =
+        lowest.iter().zip(&mean).map(|(low, mean)| low / mean).fold(f64::INFINITY, f64::min);
+    let margin = found["grazing_margin"].as_f64().unwrap();
+    assert!((margin / least - 1.0).abs() < 1e-9 && margin < 1.0, "{margin} {least}");
+}
+
+/// A set that is itself again after half a mesh cycle is shot over half of it, which makes forbidden harmonics zero by
+/// construction; over whole cycles the same motion is found, and they are results.
+#[test]
+fn whole_cycles_find_the_motion_of_a_part() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = damped(folder.path(), 1.0);
+    let of = |more: &[&str]| -> Vec<(String, u64, f64)> {
+        let mut all = vec!["--speeds-rpm", "1600:1600:10", "--format", "json"];
+        all.extend(more);
+        let result: serde_json::Value =
+            serde_json::from_str(&printed(&scene, "1130", &all)).unwrap();
+        let own = &result["points"][0];
+        assert_eq!(own["method"], "shooting");
+        let lines = own["lines"].as_array().unwrap().iter();
+        let sun = lines.filter(|l| l["part"] == "sun" && l["coordinate"] == "radial");
+        sun.map(|l| {
+            let harmonic = l["harmonic"].as_u64().unwrap();
+            (
+                l["coordinate"].as_str().unwrap().to_owned(),
+                harmonic,
+                l["amplitude"].as_f64().unwrap(),
+            )
+        })
+        .collect()
+    };
+    let (part, whole) = (of(&[]), of(&["--whole-cycles"]));
+    assert!(part.len() == 6 && whole.len() == 6, "{part:?}");
+    let largest = part.iter().map(|l| l.2).fold(0.0, f64::max);
+    for (a, b) in part.iter().zip(&whole) {
+        assert!((a.2 - b.2).abs() < 1e-7 * largest, "{a:?} {b:?}");
+    }
+    // Two opposed pairs move the sun sideways with odd harmonics only.
+    let remainder = |of: &[(String, u64, f64)]| of[2].2.max(of[4].2) / largest;
+    assert!(remainder(&part) < 1e-14 && remainder(&whole) > 1e-14, "{part:?} {whole:?}");
 }
 
 #[test]

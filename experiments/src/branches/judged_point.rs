@@ -7,7 +7,7 @@ use super::family::{Judged, PERIOD_DOUBLING, STABILITY};
 use super::point::{BranchPoint, BranchPointKind};
 use super::settings::BranchSettings;
 use crate::error::ExperimentError;
-use crate::sweep::{Record, Steady, SteadySettings, SweepModel, SweepPoint};
+use crate::sweep::{Steady, SteadySettings, SweepModel, SweepPoint};
 
 /// Located points this near to each other, as a share of the parameter, are one.
 const SAME: f64 = 1e-5;
@@ -45,6 +45,7 @@ pub(super) fn point(
         lowest_force_n,
         contact_loss,
         backside_contact,
+        grazing_margin,
         ..
     } = SweepPoint::new(case, &steady, &settings, size)?;
     let kind = match own.kind {
@@ -66,7 +67,7 @@ pub(super) fn point(
         lowest_force_n,
         contact_loss,
         backside_contact,
-        grazing_margin: grazing_margin(&found.record),
+        grazing_margin,
     })
 }
 
@@ -88,17 +89,6 @@ fn kind(test: usize, all: &[Multiplier]) -> BranchPointKind {
         _ => critical(&|m| (m.re - 1.0).hypot(m.im)).map(|_| BranchPointKind::BranchPoint),
     };
     found.unwrap_or(BranchPointKind::Kink)
-}
-
-/// Least of lowest over mean force of the meshes that never part.
-fn grazing_margin(record: &Record) -> Option<f64> {
-    let margin = |mesh: usize| {
-        let force = record.mesh_force(mesh);
-        let lowest = force.iter().copied().fold(f64::INFINITY, f64::min);
-        let mean = force.iter().sum::<f64>() / force.len().max(1) as f64;
-        (lowest > 0.0).then(|| lowest / mean)
-    };
-    (0..record.shape().meshes()).filter_map(margin).min_by(f64::total_cmp)
 }
 
 /// Keeps one point of those that several test functions locate at one place: a fold is also a zero of 1 − μ and a change

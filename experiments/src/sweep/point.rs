@@ -44,6 +44,9 @@ pub struct SweepPoint {
     /// Part of the time in which backside flanks of any mesh press, 0 to 1; absent for a model without
     /// backside flanks.
     pub backside_contact: Option<f64>,
+    /// Distance to grazing, near which multipliers lose their meaning: the least of lowest over mean force of the meshes
+    /// that never part, 0 where one is about to; absent if all meshes part.
+    pub grazing_margin: Option<f64>,
     /// How often the load the tables are made for was doubled.
     pub size: usize,
     /// What approaches of tooth pairs are off their linear form about the mean loaded configuration at
@@ -181,6 +184,7 @@ impl SweepPoint {
             lowest_force_n,
             contact_loss,
             backside_contact: watched.backside_share(None),
+            grazing_margin: watched.grazing_margin(),
             size,
             kinematic_rest_m: found.rest.map(|rest| rest.largest),
             kinematic_rest_share: found.rest.and_then(|rest| rest.share),

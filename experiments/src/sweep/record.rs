@@ -251,6 +251,18 @@ impl Record {
             .collect()
     }
 
+    /// Distance to grazing: the least of lowest over mean force of the meshes that never part, 0 where one is about to;
+    /// `None` if all meshes part.
+    pub fn grazing_margin(&self) -> Option<f64> {
+        let margin = |mesh: usize| {
+            let force = self.mesh_force(mesh);
+            let lowest = force.iter().copied().fold(f64::INFINITY, f64::min);
+            let mean = force.iter().sum::<f64>() / force.len().max(1) as f64;
+            (lowest > 0.0).then(|| lowest / mean)
+        };
+        (0..self.shape().meshes()).filter_map(margin).min_by(f64::total_cmp)
+    }
+
     /// Complex amplitudes of the harmonics 0 to `harmonics` of one channel, from a record of `cycles` mesh
     /// cycles: x(t) ≈ Re Σ X_l e^{i 2π l f_m t}, as real and imaginary parts.
     ///
