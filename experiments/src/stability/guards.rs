@@ -1,7 +1,5 @@
 //! Guards: what the program says beyond each border, from both sides of it.
 
-use std::f64::consts::PI;
-
 use dynamics::integrators::{Scheme, VibratingSystem};
 use dynamics::stability::{BouncingBar, HammeringPair};
 use fe_contact::FeError;
@@ -242,7 +240,7 @@ fn types(beyond: bool) -> Said {
     if beyond {
         let modes = NaturalModes::of(&model)?;
         let least =
-            tolerances_to(&model, &modes, 0).iter().map(|t| t.pure_up_to).fold(PI, f64::min);
+            tolerances_to(&model, &modes, 0).iter().map(|t| t.pure_up_to).fold(f64::INFINITY, f64::min);
         model = model.with_heavier_planet(0, 2.0 * least)?;
     }
     let modes = NaturalModes::of(&model)?;
