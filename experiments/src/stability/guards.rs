@@ -239,8 +239,10 @@ fn types(beyond: bool) -> Said {
     let mut model = LumpedModel::from_scene(&scene)?;
     if beyond {
         let modes = NaturalModes::of(&model)?;
-        let least =
-            tolerances_to(&model, &modes, 0).iter().map(|t| t.pure_up_to).fold(f64::INFINITY, f64::min);
+        let least = tolerances_to(&model, &modes, 0)
+            .iter()
+            .map(|t| t.pure_up_to)
+            .fold(f64::INFINITY, f64::min);
         model = model.with_heavier_planet(0, 2.0 * least)?;
     }
     let modes = NaturalModes::of(&model)?;
