@@ -18,7 +18,7 @@ pub(crate) fn numerics(scene: &Scene, geometry: Option<&Geometry>) -> Vec<Warnin
         found.push(Warning {
             key: "fe_contact.element".into(),
             value: "\"linear\"".into(),
-            what: "bilinear elements lock in bending: 48 % too stiff where they are square, more where they are longer".into(),
+            what: "bilinear elements lock in bending: about half too stiff where they are square, more where they are longer".into(),
             likely: "\"quadratic\" costs about as much and does not".into(),
         });
     }

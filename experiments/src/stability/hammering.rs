@@ -57,7 +57,7 @@ fn worst(scheme: &Scheme, steps: f64) -> Result<[f64; 2], IntegratorError> {
     let mut worst = [0.0f64; 2];
     for chance in 0..CHANCES {
         let steps = steps * 1.4f64.powf(f64::from(chance) / f64::from(CHANCES));
-        let Hammering { energy, place_error, .. } = PAIR.hammer(scheme, steps, BOUNCES)?;
+        let Hammering { energy, place_error } = PAIR.hammer(scheme, steps, BOUNCES)?;
         let energy = energy.last().map_or(f64::NAN, |e| (e - 1.0).abs());
         worst = [worst[0].max(energy), worst[1].max(place_error)];
     }
