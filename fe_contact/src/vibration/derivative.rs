@@ -86,11 +86,11 @@ impl VibratingSet<'_> {
         let steps = turn.as_ref().map_or(count, |(own, _)| count / own.parts);
         let mut derivative = self.start_derivative(along, rate);
         if along == Along::Motion {
-            // In a periodic motion the steps before the start are those before the end.
+            // In a periodic motion the steps before the start are those before the end, taken back as the end is.
             let settling = FORGOTTEN * self.race_dynamics.damping.beta / self.clock.rule.step();
             let settling = (settling.ceil() as usize + FEWEST).min(steps);
             for step in steps - settling + 1..=steps {
-                self.carry_derivative(&mut derivative, step, cycles - 1);
+                self.carry_derivative(&mut derivative, step, cycles);
             }
             derivative.turn_back(self.tooth_shifts()?, turn.as_ref());
             derivative.follow_motion(rate)?;
