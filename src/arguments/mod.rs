@@ -262,6 +262,12 @@ pub(crate) enum MapArgument {
     Locking,
     /// Too few steps in a mesh cycle: place and size of harmonics, and cancellation by phasing.
     Resolution,
+    /// Marches that end before their transient has died out, over the tolerance and damping.
+    Transients,
+    /// Mesh stiffness cut off after some harmonics.
+    TruncatedStiffness,
+    /// The lag of damped flexibility without inertia, over the step, by rule of integration.
+    Lag,
 }
 
 #[derive(Debug, Args)]
@@ -272,8 +278,8 @@ pub(crate) struct Stability {
     /// List the guards of the program: what it says on either side of each border.
     #[arg(long, conflicts_with_all = ["map", "scene", "out"])]
     pub guards: bool,
-    /// Set for which the map is computed (explicit-step, parametric, mode-types, contact-loss); five equally spaced planets if left
-    /// out.
+    /// Set for which the map is computed (explicit-step, parametric, mode-types, contact-loss, transients); five equally spaced
+    /// planets if left out.
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
     /// Also write table (CSV), result (JSON) and figure (SVG, PNG) into this folder.

@@ -104,6 +104,9 @@ fn name(argument: MapArgument) -> MapName {
         MapArgument::ContactCells => MapName::ContactCells,
         MapArgument::Locking => MapName::Locking,
         MapArgument::Resolution => MapName::Resolution,
+        MapArgument::Transients => MapName::Transients,
+        MapArgument::TruncatedStiffness => MapName::TruncatedStiffness,
+        MapArgument::Lag => MapName::Lag,
     }
 }
 
@@ -137,7 +140,7 @@ fn list(arguments: &Stability, out: &mut dyn Write) -> Result<(), CommandError> 
             output::csv(out, &["name", "meaning", "takes_scene"], maps.iter().map(row))
         }
         TableFormat::Text => {
-            maps.iter().try_for_each(|m| writeln!(out, "{:<14} {}", m.name, m.meaning))?;
+            maps.iter().try_for_each(|m| writeln!(out, "{:<19} {}", m.name, m.meaning))?;
             Ok(())
         }
     }

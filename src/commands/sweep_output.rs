@@ -82,6 +82,8 @@ struct PointHead<'a> {
     multipliers: &'a [[f64; 2]],
     residual: f64,
     is_steady: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    transient: Option<f64>,
     between_harmonics: Option<f64>,
     repeats_after: Option<usize>,
     lowest_force_n: f64,
@@ -172,6 +174,7 @@ impl SweepOutput {
             multipliers: &p.multipliers,
             residual: p.residual,
             is_steady: p.is_steady,
+            transient: p.transient,
             between_harmonics: p.between,
             repeats_after: p.repeats_after,
             lowest_force_n: p.lowest_force_n,
@@ -317,6 +320,14 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
             result.most_cycles
         )?;
     }
+    let mut cautions = result.points.iter().filter_map(|p| p.point.caution());
+    if let Some(first) = cautions.next() {
+        let others = match cautions.count() {
+            0 => String::new(),
+            n => format!("; so at {n} further speeds"),
+        };
+        writeln!(out, "Warning: {first}{others}.")?;
+    }
     write_failed(result, out)
 }
 
@@ -351,6 +362,7 @@ mod tests {
                 multipliers: Vec::new(),
                 residual: 1e-10,
                 is_steady: repeats_after == Some(1),
+                transient: None,
                 between: None,
                 repeats_after,
                 lowest_force_n: 0.0,

@@ -13,18 +13,13 @@ use gearset::{LoadCase, Scene};
 use rayon::prelude::*;
 
 use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::resonance::strongest;
 use crate::branches::{Branch, BranchEnd, BranchError, BranchPoint, BranchSettings, branch};
 use crate::error::ExperimentError;
-use crate::sweep::{
-    DampedModel, Direction, Memory, MeshLawModel, Plan, SteadySettings, SweepModel, run,
-};
+use crate::sweep::{DampedModel, MeshLawModel, SweepModel};
 
 /// Torques as shares of the operating one.
 const SHARES: [f64; 4] = [0.05, 0.2, 0.5, 1.0];
-
-/// Mesh frequencies among which the strongest resonance is sought, Hz, and the step between them as a part.
-const SOUGHT_HZ: [f64; 2] = [400.0, 3000.0];
-const STEP: f64 = 0.015;
 
 /// The branch reaches this part of the resonant speed to either side.
 const REACH: f64 = 0.12;
@@ -82,22 +77,6 @@ pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
         map.curves.push(MapCurve { panel, name, is_theory, is_points: false, points });
     }
     Ok(map)
-}
-
-/// Speed (rpm) at which the lowest mesh force is lowest at the scene's own damping.
-fn strongest(model: &dyn SweepModel) -> Result<f64, MapError> {
-    let per_rpm = model.case().mesh_frequency_per_rpm_hz();
-    let count = ((SOUGHT_HZ[1] / SOUGHT_HZ[0]).ln() / STEP).ceil() as i32;
-    let speeds: Vec<f64> =
-        (0..=count).map(|k| SOUGHT_HZ[0] * (STEP * f64::from(k)).exp() / per_rpm.abs()).collect();
-    let settings = SteadySettings { between_cycles: 0, ..SteadySettings::default() };
-    let plan = Plan::new(&speeds, &[Direction::Up], settings).map_err(ExperimentError::from)?;
-    let swept = run(model, &plan, &Memory, &|_| ())?;
-    let lowest = |a: &&crate::sweep::SweepPoint, b: &&crate::sweep::SweepPoint| {
-        a.lowest_force_n.total_cmp(&b.lowest_force_n)
-    };
-    let found = swept.points().into_iter().min_by(lowest);
-    found.map(|p| p.state.case.speed_rpm).ok_or(MapError::NoOperation)
 }
 
 /// What a branch over a resonance shows.

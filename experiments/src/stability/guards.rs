@@ -5,15 +5,18 @@ use dynamics::stability::{BouncingBar, HammeringPair};
 use fe_contact::FeError;
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, KinematicRest, pair_cycle};
-use gearset::{LoadSize, MeshKind, Scene, SceneKind, template, warnings};
+use gearset::{LoadCase, LoadSize, MeshKind, Scene, SceneKind, template, warnings};
 use lumped::{LumpedModel, NaturalModes, ParametricSet, tolerances_to, type_warnings};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::map::MapError;
+use super::resonance::slowest;
 use crate::branches::{BranchParameter, BranchSettings};
 use crate::error::ExperimentError;
-use crate::sweep::SteadySettings;
+use crate::sweep::{
+    MeshLawModel, SteadyMethod, SteadySettings, SweepModel, SweepPoint, left_of_transient, steady,
+};
 
 /// A guard of the program at a border of a method or of a model.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -33,7 +36,7 @@ type Said = Result<Option<String>, MapError>;
 /// What is tried: `true` beyond the border.
 type Attempt = fn(bool) -> Said;
 
-const ALL: [(&str, &str, Attempt); 19] = [
+const ALL: [(&str, &str, Attempt); 20] = [
     ("explicit step", "Δt·ω_max of central difference 1.999 and 2.001", explicit_step),
     ("parameter of a scheme", "HHT-α with α = −0.333 and −0.334", parameter),
     ("mass at an obstacle", "Moreau–Jean on a flank with and without mass", massless),
@@ -56,6 +59,11 @@ const ALL: [(&str, &str, Attempt); 19] = [
     ("light load", "0.1 % within and beyond a millionth of a module", light),
     ("mesh stiffness below 0", "variation 0.1 % within and beyond what closes the mesh", variation),
     ("types of modes", "equal planets, and one heavier than the border of mode-types", types),
+    (
+        "unfinished transient",
+        "a march at a resonance to the change that leaves at most 1 % of transient, and to three times that",
+        transient,
+    ),
     ("damping of a branch", "least factor on the damping 1e-6 and 0", damping),
 ];
 
@@ -247,6 +255,25 @@ fn types(beyond: bool) -> Said {
     }
     let modes = NaturalModes::of(&model)?;
     Ok(type_warnings(&model, &modes).into_iter().next())
+}
+
+fn transient(beyond: bool) -> Said {
+    let scene = accepted(SceneKind::Planetary, FLANK, "flank_elements = 8")?;
+    let case = LoadCase::of_scene(&scene).map_err(|_| MapError::NoOperation)?;
+    let bodies = Bodies::new(&scene).map_err(ExperimentError::from)?;
+    let model = MeshLawModel::new(&scene, &bodies, case)?;
+    let case = case.at_speed(slowest(&model)?);
+    let (steps, first) = (model.steps_per_cycle(), model.first_planet_rad());
+    let at = |settings: &SteadySettings| -> Result<_, ExperimentError> {
+        let mut set = model.turning(&case, 0)?;
+        set.rest()?;
+        steady(set.as_mut(), model.shape(), first, steps, settings)
+    };
+    let shooting = SteadySettings { between_cycles: 0, ..SteadySettings::default() };
+    let border = 0.01 / left_of_transient(&at(&shooting)?.multipliers);
+    let tolerance = if beyond { 3.0 } else { 1.0 } * border;
+    let marching = SteadySettings { method: SteadyMethod::Marching, tolerance, ..shooting };
+    Ok(SweepPoint::new(case, &at(&marching)?, &marching, 0)?.caution())
 }
 
 fn damping(beyond: bool) -> Said {

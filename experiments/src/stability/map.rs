@@ -5,8 +5,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::{
-    bouncing_bar, contact_cells, contact_loss, explicit_step, hammering, integrators, locking,
-    mode_types, parametric, resolution,
+    bouncing_bar, contact_cells, contact_loss, explicit_step, hammering, integrators, lag, locking,
+    mode_types, parametric, resolution, transients, truncated_stiffness,
 };
 
 /// The maps.
@@ -32,11 +32,17 @@ pub enum MapName {
     Locking,
     /// Too few steps in a mesh cycle.
     Resolution,
+    /// Unfinished transients that pass for steady states.
+    Transients,
+    /// Mesh stiffness cut off after some harmonics.
+    TruncatedStiffness,
+    /// The lag of damped flexibility without inertia, by rule of integration.
+    Lag,
 }
 
 impl MapName {
     /// All of them.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 13] = [
         Self::Integrators,
         Self::ExplicitStep,
         Self::BouncingBar,
@@ -47,6 +53,9 @@ impl MapName {
         Self::ContactCells,
         Self::Locking,
         Self::Resolution,
+        Self::Transients,
+        Self::TruncatedStiffness,
+        Self::Lag,
     ];
 
     /// As on the command line.
@@ -62,6 +71,9 @@ impl MapName {
             Self::ContactCells => "contact-cells",
             Self::Locking => "locking",
             Self::Resolution => "resolution",
+            Self::Transients => "transients",
+            Self::TruncatedStiffness => "truncated-stiffness",
+            Self::Lag => "lag",
         }
     }
 
@@ -106,12 +118,31 @@ impl MapName {
                 "with fewer steps in a mesh cycle than this a harmonic resonates at the wrong speed, is taken for another, or \
                  is not cancelled by planet phasing"
             }
+            Self::Transients => {
+                "a march that ends when cycles change by less than a tolerance may be off by far more than that: by up to \
+                 1/(2πζl) times as much at a resonance of harmonic l"
+            }
+            Self::TruncatedStiffness => {
+                "a mesh stiffness of some harmonics only has no hand-over between tooth pairs: resonances of the harmonics \
+                 left out are missing"
+            }
+            Self::Lag => {
+                "flexibility without inertia follows its load within microseconds: with steps longer than that the \
+                 trapezoidal rule makes it ring"
+            }
         }
     }
 
     /// Whether it is computed for a scene.
     pub fn is_of_a_scene(self) -> bool {
-        matches!(self, Self::ExplicitStep | Self::Parametric | Self::ModeTypes | Self::ContactLoss)
+        matches!(
+            self,
+            Self::ExplicitStep
+                | Self::Parametric
+                | Self::ModeTypes
+                | Self::ContactLoss
+                | Self::Transients
+        )
     }
 }
 
@@ -215,6 +246,9 @@ pub fn stability_map(which: MapName, scene: &Scene) -> Result<StabilityMap, MapE
         MapName::ContactCells => contact_cells::map(),
         MapName::Locking => locking::map(),
         MapName::Resolution => resolution::map(),
+        MapName::Transients => transients::map(scene),
+        MapName::TruncatedStiffness => truncated_stiffness::map(),
+        MapName::Lag => lag::map(),
     }
 }
 

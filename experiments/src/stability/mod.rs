@@ -7,11 +7,15 @@ mod explicit_step;
 mod guards;
 mod hammering;
 mod integrators;
+mod lag;
 mod locking;
 mod map;
 mod mode_types;
 mod parametric;
 mod resolution;
+mod resonance;
+mod transients;
+mod truncated_stiffness;
 
 pub use guards::{Guard, guards};
 pub use map::{Border, MapCurve, MapError, MapName, StabilityMap, stability_map};

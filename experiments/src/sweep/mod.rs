@@ -34,5 +34,5 @@ pub use set_shape::SetShape;
 pub use shooting::CycleDerivative;
 pub(crate) use shooting::{RecordedCycles, SMALL, shot};
 pub use state::{Coordinate, Line, Part, SteadyState};
-pub use steady::{MOST_REPEATS, Steady, SteadyMethod, SteadySettings, steady};
+pub use steady::{MOST_REPEATS, Steady, SteadyMethod, SteadySettings, left_of_transient, steady};
 pub use sweep_model::{FeModel, HEADROOM, SweepModel, fidelity_name};

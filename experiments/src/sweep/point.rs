@@ -8,6 +8,9 @@ use super::state::{Coordinate, Line, Part, SteadyState};
 use super::steady::{Steady, SteadyMethod};
 use crate::error::ExperimentError;
 
+/// A motion of which more than this part may be transient is not steady.
+const MOST_TRANSIENT: f64 = 0.01;
+
 /// A steady state, and how it was found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SweepPoint {
@@ -28,8 +31,12 @@ pub struct SweepPoint {
     pub multipliers: Vec<[f64; 2]>,
     /// Change of the last two cycles over the largest peak-to-peak vibration.
     pub residual: f64,
-    /// Whether that is within the tolerance.
+    /// Whether that is within the tolerance and the transient, where that is a question, within 1 %.
     pub is_steady: bool,
+    /// What may be left of the transient in the recorded cycle, of the vibration, by the multipliers of a marched motion
+    /// whose cycles still change by more than 1e-6; absent otherwise.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub transient: Option<f64>,
     /// Energy between mesh harmonics over all vibration.
     pub between: Option<f64>,
     /// Number of mesh cycles after which the motion repeats within the tolerance: 1 for a steady state, 2 to 8
@@ -97,6 +104,18 @@ impl SweepPoint {
     pub fn largest_multiplier(&self) -> Option<f64> {
         let largest = self.multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
         (self.method == SteadyMethod::Shooting).then_some(largest)
+    }
+
+    /// What must be said of a motion that ended within the tolerance and may be a transient all the same.
+    pub fn caution(&self) -> Option<String> {
+        let left = self.transient.filter(|left| *left > MOST_TRANSIENT)?;
+        let rpm = self.state.case.speed_rpm;
+        Some(format!(
+            "at {rpm:.1} rpm the march ended when cycles changed by {:.0e} of the vibration, but the transient decays so slowly \
+             that {:.0} % of the vibration may still be transient: lower the tolerance, or use shooting",
+            self.residual,
+            100.0 * left
+        ))
     }
 
     /// From a march under a load case.
@@ -178,7 +197,9 @@ impl SweepPoint {
             derivatives: found.derivatives,
             multipliers: found.multipliers.iter().map(|m| [m.re, m.im]).collect(),
             residual: found.residual,
-            is_steady: found.residual <= settings.tolerance,
+            is_steady: found.residual <= settings.tolerance
+                && found.transient.is_none_or(|left| left <= MOST_TRANSIENT),
+            transient: found.transient,
             between: found.between,
             repeats_after: found.repeats_after,
             lowest_force_n,

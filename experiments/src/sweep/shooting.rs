@@ -188,10 +188,7 @@ pub(crate) fn shot(
         Ok(found) => found,
         Err(why) => return Ok(Err(why)),
     };
-    // The map of a cycle is the p-th power of that of a part.
-    let of_cycle = |m: Multiplier| (1..parts).fold(m, |power, _| power.times(m));
-    let mut multipliers: Vec<Multiplier> =
-        multipliers(&found.derivative)?.into_iter().map(of_cycle).collect();
+    let mut multipliers = of_whole_cycle(&found.derivative, parts)?;
     multipliers.retain(|m| m.size() >= SMALL);
     let RecordedCycles { now, before, .. } = cycles;
     let [record, mut both] = [now, before].map(|part| match &symmetry {
@@ -210,4 +207,31 @@ pub(crate) fn shot(
         residual: found.residual,
         multipliers,
     }))
+}
+
+/// Multipliers of a whole cycle from the derivative of one of its equal parts: the map of a cycle is the p-th power of
+/// that of a part.
+fn of_whole_cycle(
+    derivative: &MapDerivative,
+    parts: usize,
+) -> Result<Vec<Multiplier>, ExperimentError> {
+    let of_cycle = |m: Multiplier| (1..parts).fold(m, |power, _| power.times(m));
+    Ok(multipliers(derivative)?.into_iter().map(of_cycle).collect())
+}
+
+/// Multipliers of the cycle that begins at the present state; `None` for a model without derivative.
+///
+/// # Errors
+/// If a step fails or the multipliers cannot be computed.
+pub(super) fn multipliers_of_next_cycle(
+    set: &mut dyn Marching,
+    shape: SetShape,
+    first_planet_rad: f64,
+    steps: usize,
+) -> Result<Option<Vec<Multiplier>>, ExperimentError> {
+    let Some(own) = set.derivative() else { return Ok(None) };
+    let parts = own.symmetry()?.map_or(1, |own| own.parts);
+    let mut cycle = RecordedCycles::new(set, shape, first_planet_rad, steps / parts);
+    cycle.advance()?;
+    Ok(Some(of_whole_cycle(&cycle.derivative()?, parts)?))
 }

@@ -9,7 +9,7 @@ use super::extrapolation::Extrapolation;
 use super::marching::Marching;
 use super::record::{Record, SUN};
 use super::set_shape::SetShape;
-use super::shooting::{Shot, shot};
+use super::shooting::{Shot, multipliers_of_next_cycle, shot};
 use crate::error::ExperimentError;
 
 /// How a steady state is found.
@@ -83,6 +83,9 @@ pub struct Steady {
     pub between: Option<f64>,
     /// Kinematic rest at a sample of positions; `None` if the model has none.
     pub rest: Option<KinematicRest>,
+    /// What may be left of the transient in the recorded cycle, of the vibration, by the Floquet multipliers of that cycle;
+    /// `None` of a motion found by shooting, of one whose cycles change by 1e-6 or less, or without derivative.
+    pub transient: Option<f64>,
     /// Number of mesh cycles after which the motion repeats within the tolerance: 1 for a steady state, 2 to
     /// [`MOST_REPEATS`] for a subharmonic response; `None` if it repeats after none of these.
     pub repeats_after: Option<usize>,
@@ -124,6 +127,7 @@ impl Steady {
             residual,
             between,
             rest: None,
+            transient: None,
             repeats_after: Some(cycles),
             further,
         })
@@ -136,6 +140,10 @@ pub const MOST_REPEATS: usize = 8;
 /// A motion is called subharmonic only if its change from one cycle to the next exceeds the tolerance by this
 /// factor: transients that have nearly died out change within the tolerance over one cycle or several.
 const CLEARLY: f64 = 10.0;
+
+/// Changes from cycle to cycle up to this leave no question of a transient: it would have to lose less than 1e-4 of itself
+/// in a cycle to be 1 % of the vibration.
+const SETTLED: f64 = 1e-6;
 
 /// Number of positions of a mesh cycle at which exact kinematics are evaluated.
 const SAMPLED: usize = 14;
@@ -204,10 +212,18 @@ impl Shot {
             cycles: self.cycles,
             residual: self.residual,
             between: self.between,
+            transient: None,
             repeats_after: Some(1),
             further: None,
         })
     }
+}
+
+/// What is left of a transient over the last change from cycle to cycle, at most: max |μ|/|μ − 1| over the Floquet
+/// multipliers μ; infinite without decay.
+pub fn left_of_transient(multipliers: &[Multiplier]) -> f64 {
+    let left = |m: &Multiplier| m.size() / (m.re - 1.0).hypot(m.im);
+    multipliers.iter().map(left).fold(0.0, f64::max)
 }
 
 /// [`sampled_rest`] over a part of a cycle after which the set is itself.
@@ -259,6 +275,12 @@ fn march(
         }
     };
     let rest = sampled_rest(set, &now, steps, 1)?;
+    let is_question = residual > SETTLED && repeats_after == Some(1);
+    let transient = match is_question {
+        true => multipliers_of_next_cycle(set, shape, first_planet_rad, steps)?
+            .map(|multipliers| residual * left_of_transient(&multipliers)),
+        false => None,
+    };
     Ok(Steady {
         method: SteadyMethod::Marching,
         why_marched: None,
@@ -269,6 +291,7 @@ fn march(
         residual,
         between,
         rest,
+        transient,
         repeats_after,
         further,
     })

@@ -15,6 +15,8 @@
 
 use dynamics::AverageAcceleration;
 
+use crate::error::FeError;
+
 /// Pairs −LEAST … WIDTH − 1 − LEAST are kept.
 const LEAST: i64 = 4;
 pub(super) const WIDTH: usize = 12;
@@ -60,6 +62,23 @@ impl LagRule {
         // Parabola through s = −1, 0, 1.
         Self { end: 0.5 * (i2 + i1), start: i0 - i2, before: 0.5 * (i2 - i1), state: (-z).exp() }
     }
+}
+
+/// P̃ at the end of each step under forces P (N) at the ends of equal steps (s), at rest under the first before;
+/// β in s.
+///
+/// # Errors
+/// If the step is not positive and finite.
+pub fn lagged(beta_s: f64, step_s: f64, forces: &[f64]) -> Result<Vec<f64>, FeError> {
+    let why = || FeError::NoEquilibrium(format!("{step_s} s is no step"));
+    let rule = LagRule::new(beta_s, &AverageAcceleration::new(step_s).map_err(|_| why())?);
+    let (mut memory, slot) = (PairMemory::default(), PairSlot::of(0));
+    memory.rest(forces.first().map(|p| (slot, *p)).into_iter());
+    let one = |p: &f64| {
+        memory.advance(&rule, std::iter::once((slot, *p)));
+        memory.filtered[LEAST as usize]
+    };
+    Ok(forces.iter().map(one).collect())
 }
 
 /// State of the lag of one mesh, for each pair: P̃, and the forces at the end of the last step and

@@ -48,6 +48,7 @@ pub use derivative::Along;
 pub use energy::{Energies, StepStart, StepWork};
 pub use fixed_race_mode::{FixedRaceMode, fixed_race_modes};
 pub use full_body::{FullBody, SharedFactors};
+pub use lag::lagged;
 pub use linear::{DampedMode, LinearSet};
 pub use mesh_law::{MeshLawSet, MeshLawSettings, mesh_law};
 pub use modal_body::ModalBody;

@@ -1,6 +1,8 @@
 //! One time step: the bodies' predictions, contact of all pairs, and the bodies' state at the end.
 
 use dynamics::{Computation, Motion, wide};
+use faer::linalg::solvers::Solve;
+use faer::{MatMut, MatRef};
 use nalgebra::{DMatrix, DVector};
 
 use super::frame::{Combination, Frame};
@@ -330,23 +332,23 @@ fn combine(
     // Only the touching pairs t are coupled: S W = (I + S_tt Y_tt)⁻¹ S_tt, W = I − Y_t (S W).
     let size = touching.len();
     let across = frame.receptance.select_columns(&touching);
-    // Row by row: I + S_tt Y_tt, then S_tt. S couples the pairs of one mesh only.
-    let mut rows = vec![0.0; 2 * size * size];
-    for (i, row) in rows.chunks_exact_mut(2 * size.max(1)).enumerate() {
-        let (matrix, right) = row.split_at_mut(size);
-        matrix[i] = 1.0;
-        for (k, right) in right.iter_mut().enumerate() {
-            *right = s[(touching[i], touching[k])];
-            if *right != 0.0 {
-                for (j, entry) in matrix.iter_mut().enumerate() {
-                    *entry += *right * across[(touching[k], j)];
-                }
+    // S couples the pairs of one mesh only: most of its entries are 0.
+    let mut response: DMatrix<f64> =
+        DMatrix::from_fn(size, size, |i, j| s[(touching[i], touching[j])]);
+    let mut matrix = DMatrix::<f64>::identity(size, size);
+    for k in 0..size {
+        for i in (0..size).filter(|i| response[(*i, k)] != 0.0) {
+            for j in 0..size {
+                matrix[(i, j)] += response[(i, k)] * across[(touching[k], j)];
             }
         }
     }
-    let singular = || FeError::NoEquilibrium("the step's contact problem is singular".into());
-    eliminate(&mut rows, size).ok_or_else(singular)?;
-    let response = DMatrix::from_fn(size, size, |i, j| rows[2 * size * i + size + j]);
+    let matrix = MatRef::from_column_major_slice(matrix.as_slice(), size, size);
+    let own = MatMut::from_column_major_slice_mut(response.as_mut_slice(), size, size);
+    matrix.partial_piv_lu().solve_in_place(own);
+    if !response.iter().all(|x| x.is_finite()) {
+        return Err(FeError::NoEquilibrium("the step's contact problem is singular".into()));
+    }
     let mut shares = DMatrix::zeros(count, size);
     times(&mut shares, &across, &response);
     let mut slope = DMatrix::identity(count, count);
@@ -357,33 +359,4 @@ fn combine(
     let slope = Packed::new(&slope);
     let offset = offset.as_slice().to_vec();
     Ok(Some(Combination { maps: ids.to_vec(), slope, offset, laws, touching, response }))
-}
-
-/// Solves A X = B in place by Gauss–Jordan elimination with partial pivoting; `rows` holds the rows of A, each followed
-/// by that of B, both n×n. `None` if a pivot is 0 or no number.
-#[inline(always)]
-fn eliminate(rows: &mut [f64], n: usize) -> Option<()> {
-    let width = 2 * n;
-    for k in 0..n {
-        let size = |i: usize| rows[i * width + k].abs();
-        let best = (k..n).fold(k, |best, i| if size(i) > size(best) { i } else { best });
-        if best != k {
-            let (above, below) = rows.split_at_mut(best * width);
-            above[k * width..(k + 1) * width].swap_with_slice(&mut below[..width]);
-        }
-        let (above, rest) = rows.split_at_mut(k * width);
-        let (pivotal, below) = rest.split_at_mut(width);
-        let pivot = pivotal[k];
-        if pivot.is_nan() || pivot == 0.0 {
-            return None;
-        }
-        pivotal[k..].iter_mut().for_each(|x| *x /= pivot);
-        for row in above.chunks_exact_mut(width).chain(below.chunks_exact_mut(width)) {
-            let factor = row[k];
-            if factor != 0.0 {
-                row[k..].iter_mut().zip(&pivotal[k..]).for_each(|(x, p)| *x -= factor * p);
-            }
-        }
-    }
-    Some(())
 }

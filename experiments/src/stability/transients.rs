@@ -1,0 +1,142 @@
+//! Marches that end before their transient has died out, and pose as steady states.
+//!
+//! Near a periodic motion each part of a deviation is multiplied by its Floquet multiplier μ in every cycle. If cycles
+//! change by c, what is left of the deviation afterwards is at most
+//!
+//! ```text
+//! |d| = c max |μ|/|μ − 1|
+//! ```
+//!
+//! at a resonance, where μ ≈ e^(−2πζl) is real, about 1/(2πζl) times the change.
+
+use fe_contact::statics::Bodies;
+use gearset::{LoadCase, Scene};
+
+use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::resonance::slowest;
+use crate::error::ExperimentError;
+use crate::sweep::{
+    MeshLawModel, Record, SteadyMethod, SteadySettings, SweepModel, left_of_transient, steady,
+};
+
+/// Factors on every damping of the scene.
+const FACTORS: [f64; 3] = [1.0, 0.25, 0.1];
+
+/// A deviation of the recorded cycle from the steady one that counts, of the vibration.
+const WANTED: f64 = 0.01;
+
+/// A change from cycle to cycle at which a march may be ended.
+const CHANGE: f64 = 1e-3;
+
+/// Changes from cycle to cycle down to which the march is followed.
+const LEAST_CHANGE: f64 = 1e-8;
+const MOST_CYCLES: usize = 4000;
+
+pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
+    let case = LoadCase::of_scene(scene).map_err(|_| MapError::NoOperation)?;
+    let bodies = Bodies::new(scene).map_err(ExperimentError::from)?;
+    let model = MeshLawModel::new(scene, &bodies, case)?;
+    let case = case.at_speed(slowest(&model)?);
+    let system =
+        format!("{}, mesh_law, {:.0} Hz, marched from rest", scene.title, case.mesh_frequency_hz);
+    let axis = "log₁₀ of the change from cycle to cycle, of the vibration";
+    let mut map = empty(MapName::Transients, system, axis);
+    for factor in FACTORS {
+        let of = format!("damping times {factor}");
+        let March { changes, factor_left, last_left } = match March::of(&model, &case, factor)? {
+            Some(found) => found,
+            None => {
+                let quantity = "no stable periodic motion was found";
+                map.borders.push(Border::new(of, quantity, "", None, None));
+                continue;
+            }
+        };
+        // Below the least change with which a cycle is off by more than what counts, none is.
+        let off = changes.iter().filter(|(_, off)| *off > WANTED);
+        let border = off.map(|(change, _)| *change).fold(f64::INFINITY, f64::min);
+        let within = changes.iter().filter(|(change, _)| *change <= CHANGE).map(|(_, off)| *off);
+        let largest = within.fold(0.0, f64::max);
+        for (quantity, found) in [
+            ("change from cycle to cycle below which the motion was within 1 %", border),
+            ("change below which it is sure to be, by its multipliers", WANTED / factor_left),
+            ("largest deviation at a change of 0.001 or less", largest),
+            ("largest possible one, by its multipliers", CHANGE * factor_left),
+        ] {
+            map.borders.push(Border::new(of.clone(), quantity, "", Some(found), None));
+        }
+        let at_end = changes.last().map(|(change, off)| off / change);
+        let quantity = "deviation over change when only the slowest part is left";
+        map.borders.push(Border::new(of.clone(), quantity, "", at_end, Some(last_left)));
+        let changes = thinned(changes);
+        let theory: Vec<_> = changes.iter().map(|(c, _)| (*c, c * factor_left)).collect();
+        for (points, is_theory) in [(changes, false), (theory, true)] {
+            let panel = "log₁₀ of the deviation from the steady motion, of the vibration".into();
+            let points = points.into_iter().map(|(x, y)| (x.log10(), y.log10())).collect();
+            let (name, is_points) = (of.clone(), !is_theory);
+            map.curves.push(MapCurve { panel, name, is_theory, is_points, points });
+        }
+    }
+    Ok(map)
+}
+
+/// Those of a figure: each with a change less than nine tenths of the one before.
+fn thinned(all: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    let mut kept: Vec<(f64, f64)> = Vec::new();
+    for point in all {
+        if kept.last().is_none_or(|last| point.0 < 0.9 * last.0) {
+            kept.push(point);
+        }
+    }
+    kept
+}
+
+/// Cycles marched from rest.
+struct March {
+    /// Change from the cycle before, and deviation from the steady cycle, cycle by cycle.
+    changes: Vec<(f64, f64)>,
+    /// max |μ|/|μ − 1| at the steady motion.
+    factor_left: f64,
+    /// The same of the multiplier of greatest size alone.
+    last_left: f64,
+}
+
+impl March {
+    /// `None` if shooting finds no stable motion.
+    fn of(
+        model: &dyn SweepModel,
+        case: &LoadCase,
+        factor: f64,
+    ) -> Result<Option<Self>, ExperimentError> {
+        let (steps, first) = (model.steps_per_cycle(), model.first_planet_rad());
+        let settings = SteadySettings {
+            between_cycles: 0,
+            whole_cycles: true,
+            tolerance: 1e-11,
+            ..SteadySettings::default()
+        };
+        let mut set = model.turning_damped(case, factor, 0)?;
+        set.rest()?;
+        let found = steady(set.as_mut(), model.shape(), first, steps, &settings)?;
+        if found.method != SteadyMethod::Shooting {
+            return Ok(None);
+        }
+        let factor_left = left_of_transient(&found.multipliers);
+        let last_left = left_of_transient(found.multipliers.get(..1).unwrap_or_default());
+        let mut set = model.turning_damped(case, factor, 0)?;
+        set.rest()?;
+        let (mut now, mut before) = (Record::new(model.shape()), Record::new(model.shape()));
+        let mut changes = Vec::new();
+        for _ in 0..MOST_CYCLES {
+            std::mem::swap(&mut now, &mut before);
+            now.march(set.as_mut(), first, steps)?;
+            let change = now.change_from(&before);
+            if change.is_finite() {
+                changes.push((change, now.change_from(&found.record)));
+            }
+            if change < LEAST_CHANGE {
+                break;
+            }
+        }
+        Ok(Some(Self { changes, factor_left, last_left }))
+    }
+}
