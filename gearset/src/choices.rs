@@ -53,6 +53,37 @@ pub enum AutoQuantity {
         /// Number among the modes of that type by ascending frequency, from 1; a frequency that occurs twice counts twice.
         number: u32,
     },
+    /// Largest less smallest loaded transmission error r_b θ of the sun over a mesh cycle at rest.
+    TransmissionError,
+    /// Mean of the same.
+    MeanTransmissionError,
+    /// Root mean square of a response in its harmonics, the largest over the speeds of a sweep.
+    Amplitude {
+        /// Which response.
+        response: AutoResponse,
+    },
+}
+
+impl AutoQuantity {
+    /// Its name as key `dynamics.quantity`, and the verb that gives it.
+    pub fn names(&self) -> (&'static str, &'static str) {
+        match self {
+            Self::NaturalFrequency { .. } => ("natural_frequency", "modes"),
+            Self::TransmissionError => ("transmission_error", "static"),
+            Self::MeanTransmissionError => ("mean_transmission_error", "static"),
+            Self::Amplitude { .. } => ("amplitude", "sweep"),
+        }
+    }
+}
+
+/// Response of a turning set whose amplitude is asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum AutoResponse {
+    /// Dynamic transmission error r_b θ of the sun.
+    TransmissionError,
+    /// Translation of the sun.
+    SunTranslation,
 }
 
 /// Type of a mode, by the larger part of its kinetic energy.

@@ -93,14 +93,27 @@ impl Scene {
             lacks.push(lack("mesh", why));
             return lacks;
         }
-        if self.dynamics.auto.is_some() {
-            if verb == Verb::Modes {
+        if let Some(auto) = self.dynamics.auto {
+            let (quantity, own) = auto.quantity.names();
+            if verb == Verb::Modes && own == "modes" {
                 self.lacks_for_auto(&mut lacks);
                 return lacks;
             }
-            if matches!(verb, Verb::Impulse | Verb::Sweep(_) | Verb::Branches(_)) {
-                let why = "\"auto\" chooses settings for a natural frequency, which `modes` gives: name the fidelity here";
+            let is_chosen = own == "sweep" && matches!(verb, Verb::Sweep(_));
+            let names_one =
+                matches!(verb, Verb::Modes | Verb::Impulse | Verb::Sweep(_) | Verb::Branches(_));
+            if names_one && !is_chosen {
+                let why = format!(
+                    "\"auto\" chooses settings for {quantity}, which `{own}` gives: name the fidelity here"
+                );
                 lacks.push(lack("dynamics.fidelity", why));
+            }
+            if is_chosen || own == "static" && verb == Verb::Static {
+                self.lacks_planetary(&mut lacks);
+            }
+            if is_chosen && self.dynamics.gyroscopic {
+                let why = "\"off\": the estimates are those of a set without gyroscopic terms";
+                lacks.push(lack("dynamics.gyroscopic", why));
             }
         }
         match verb {
@@ -187,12 +200,19 @@ impl Scene {
         }
     }
 
-    /// A planetary set with teeth, under a torque by keys alone: `modes` has no argument for it.
-    fn lacks_for_auto(&self, lacks: &mut Vec<Lack>) {
+    /// A planetary set, of which alone errors are estimated.
+    fn lacks_planetary(&self, lacks: &mut Vec<Lack>) {
         if self.kind == SceneKind::GearPair {
             let why =
                 "fidelity = \"auto\" estimates errors of planetary sets: \"planetary\" is needed";
             lacks.push(lack("kind", why));
+        }
+    }
+
+    /// A planetary set with teeth, under a torque by keys alone: `modes` has no argument for it.
+    fn lacks_for_auto(&self, lacks: &mut Vec<Lack>) {
+        self.lacks_planetary(lacks);
+        if self.kind == SceneKind::GearPair {
             return;
         }
         self.lacks_bodies(lacks);

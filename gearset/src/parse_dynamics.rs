@@ -2,7 +2,7 @@
 
 use crate::bound::Bound;
 use crate::choices::{
-    AutoInput, AutoModeType, AutoQuantity, DynamicsInput, Fidelity, MeshKinematics,
+    AutoInput, AutoModeType, AutoQuantity, AutoResponse, DynamicsInput, Fidelity, MeshKinematics,
 };
 use crate::reader::Section;
 
@@ -16,12 +16,42 @@ enum Name {
     Auto,
 }
 
-/// Keys that say what `fidelity = "auto"` is to choose for.
-const AUTO_KEYS: [&str; 4] = ["quantity", "mode_type", "mode_number", "tolerance_percent"];
+/// Quantities by name; some have keys of their own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Quantity {
+    NaturalFrequency,
+    TransmissionError,
+    MeanTransmissionError,
+    Amplitude,
+}
 
-/// What settings are to be chosen for: all keys with `fidelity = "auto"`, none with any other.
+const QUANTITIES: [(&str, Quantity); 4] = [
+    ("natural_frequency", Quantity::NaturalFrequency),
+    ("transmission_error", Quantity::TransmissionError),
+    ("mean_transmission_error", Quantity::MeanTransmissionError),
+    ("amplitude", Quantity::Amplitude),
+];
+
+/// Keys that say what `fidelity = "auto"` is to choose for, the quantity that alone has each, and what is allowed.
+const AUTO_KEYS: [(&str, Option<Quantity>, &str); 5] = [
+    (
+        "quantity",
+        None,
+        "\"natural_frequency\", \"transmission_error\", \"mean_transmission_error\", \"amplitude\"",
+    ),
+    (
+        "mode_type",
+        Some(Quantity::NaturalFrequency),
+        "\"rotational\", \"translational\", \"planet\"",
+    ),
+    ("mode_number", Some(Quantity::NaturalFrequency), "a whole number from 1 to 1000"),
+    ("response", Some(Quantity::Amplitude), "\"transmission_error\", \"sun_translation\""),
+    ("tolerance_percent", None, "a number between 0 and 100"),
+];
+
+/// What settings are to be chosen for: with `fidelity = "auto"` the keys of its quantity, none with any other.
 fn auto(s: &Section<'_, '_>, is_auto: bool, is_known: bool) -> Option<AutoInput> {
-    let quantity = s.choice("quantity", &[("natural_frequency", ())], "what is to be accurate");
+    let quantity = s.choice("quantity", &QUANTITIES, "what is to be accurate");
     let types = [
         ("rotational", AutoModeType::Rotational),
         ("translational", AutoModeType::Translational),
@@ -29,24 +59,38 @@ fn auto(s: &Section<'_, '_>, is_auto: bool, is_known: bool) -> Option<AutoInput>
     ];
     let mode_type = s.choice("mode_type", &types, "type of the mode");
     let number = s.integer("mode_number", (1, 1000), "number of the mode among those of its type");
+    let responses = [
+        ("transmission_error", AutoResponse::TransmissionError),
+        ("sun_translation", AutoResponse::SunTranslation),
+    ];
+    let response = s.choice("response", &responses, "motion whose amplitude is asked for");
     let why = "largest error of the quantity that is allowed";
     let tolerance = s.number("tolerance_percent", Bound::Between(0.0, 100.0), why);
-    for key in AUTO_KEYS.into_iter().filter(|_| is_known) {
-        if is_auto && !s.may_hold(key) {
+    for (key, of, allowed) in AUTO_KEYS.into_iter().filter(|_| is_known) {
+        let is_of = of.is_none() || of == quantity;
+        if is_auto && is_of && !s.may_hold(key) {
             let why = "fidelity = \"auto\" chooses the settings for one quantity and tolerance";
-            let allowed = match key {
-                "quantity" => "\"natural_frequency\"",
-                "mode_type" => "\"rotational\", \"translational\", \"planet\"",
-                "mode_number" => "a whole number from 1 to 1000",
-                _ => "a number between 0 and 100",
-            };
             s.fault(key, allowed, why);
         } else if !is_auto && s.has(key) {
             s.fault(key, "with fidelity = \"auto\"", "no other fidelity is chosen for a quantity");
+        } else if let (false, Some(_), true) = (is_of, quantity, s.has(key)) {
+            let own = QUANTITIES.iter().find(|(_, q)| Some(*q) == of);
+            let name = own.map_or("", |(name, _)| *name);
+            s.fault(key, format!("with quantity = \"{name}\""), "no other quantity has it");
         }
     }
-    let ((), mode_type, number) = (quantity?, mode_type?, number? as u32);
-    let quantity = AutoQuantity::NaturalFrequency { mode_type, number };
+    if is_auto && quantity == Some(Quantity::Amplitude) && s.has("steps_per_cycle") {
+        let why = "the number of steps is among the settings that are chosen for an amplitude";
+        s.fault("steps_per_cycle", "no value with quantity = \"amplitude\"", why);
+    }
+    let quantity = match quantity? {
+        Quantity::NaturalFrequency => {
+            AutoQuantity::NaturalFrequency { mode_type: mode_type?, number: number? as u32 }
+        }
+        Quantity::TransmissionError => AutoQuantity::TransmissionError,
+        Quantity::MeanTransmissionError => AutoQuantity::MeanTransmissionError,
+        Quantity::Amplitude => AutoQuantity::Amplitude { response: response? },
+    };
     is_auto.then_some(AutoInput { quantity, tolerance_percent: tolerance? })
 }
 

@@ -277,7 +277,7 @@ fn faults_of_every_stage_are_listed_in_one_run_and_nothing_that_follows_from_the
 
 #[test]
 fn nothing_is_reported_that_only_follows_from_another_fault() {
-    let cases: [Faults; 15] = [
+    let cases: [Faults; 17] = [
         // Positions, base radii, meshes and angles depend on the teeth.
         (&[("sun = 27", "sun = 27.5")], &["teeth.sun"]),
         (&[("planet = 35", "")], &["teeth.planet"]),
@@ -315,6 +315,18 @@ fn nothing_is_reported_that_only_follows_from_another_fault() {
                  tolerance_percent = 0",
             )],
             &["dynamics.mode_number", "dynamics.tolerance_percent"],
+        ),
+        (
+            &[("fidelity = \"quasi_static\"", "fidelity = \"auto\"\nquantity = \"amplitude\"")],
+            &["dynamics.response", "dynamics.steps_per_cycle", "dynamics.tolerance_percent"],
+        ),
+        (
+            &[(
+                "fidelity = \"quasi_static\"",
+                "fidelity = \"auto\"\nquantity = \"transmission_error\"\nmode_number = 1\nresponse = \"sun_translation\"\n\
+                 tolerance_percent = 5",
+            )],
+            &["dynamics.mode_number", "dynamics.response"],
         ),
         (&[("\n[lumped]", "\nlumped_mass = 1\n[lumped]")], &["planet.lumped_mass"]),
         (&[("motion = \"free\"", "motion = \"fre\"\ntorsional_n_per_m = 1")], &["sun.motion"]),

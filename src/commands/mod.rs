@@ -1,5 +1,6 @@
 //! One module per verb.
 
+mod auto_choice;
 mod branches;
 mod branches_output;
 mod compare;
@@ -19,6 +20,7 @@ mod schema;
 mod stability;
 mod stability_guards;
 mod static_approach;
+mod static_auto;
 mod static_pair;
 mod static_set;
 mod statics;
@@ -26,6 +28,7 @@ mod study;
 mod study_text;
 mod suite_progress;
 mod sweep;
+mod sweep_auto;
 mod sweep_claim;
 mod sweep_manifest;
 mod sweep_output;

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::io::Write;
 
-use experiments::auto::{AutoModel, Choice, choose_frequency};
-use gearset::{AutoInput, LoadCase, Scene, SceneKind, Verb};
+use experiments::auto::{AutoModel, Choice, FrequencyRequest, choose_frequency};
+use gearset::{AutoQuantity, LoadCase, Scene, SceneKind, Verb};
 use lumped::{
     LumpedModel, ModeGroup, NaturalModes, Parameter, campbell, kinetic_energy, sensitivities,
     strain_energy,
@@ -18,7 +18,7 @@ use crate::error::CommandError;
 use crate::output::{self, share};
 
 use super::working::Working;
-use super::{needs, read_scene, refused, unfit};
+use super::{auto_choice, needs, read_scene, refused, unfit};
 
 /// `modes --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -96,7 +96,12 @@ pub(crate) fn run(
         return Err(CommandError::Argument { argument: "--carrier-speeds-rpm", reason });
     }
     if let Some(wanted) = scene.dynamics.auto {
-        return chosen(arguments, &scene, wanted, out);
+        needs::require(&arguments.scene, &scene, Verb::Modes, |_| false)?;
+        // No other quantity is given by this verb, which the line above refuses.
+        if let AutoQuantity::NaturalFrequency { mode_type, number } = wanted.quantity {
+            let request = FrequencyRequest::new(mode_type, number, wanted.tolerance_percent);
+            return chosen(arguments, &scene, request, out);
+        }
     }
     let (model, modes) = solve(&scene).map_err(|reason| unfit(&arguments.scene, reason))?;
     for warning in lumped::type_warnings(&model, &modes) {
@@ -148,7 +153,7 @@ pub(crate) fn describe(model: &LumpedModel, modes: &NaturalModes) -> ModesOutput
 fn chosen(
     arguments: &Modes,
     scene: &Scene,
-    wanted: AutoInput,
+    request: FrequencyRequest,
     out: &mut dyn Write,
 ) -> Result<(), CommandError> {
     let path = &arguments.scene;
@@ -156,10 +161,9 @@ fn chosen(
         let reason = "`dynamics.fidelity` = \"auto\" chooses settings for a set without gyroscopic terms: leave it out";
         return Err(refused("--carrier-speeds-rpm", reason));
     }
-    needs::require(path, scene, Verb::Modes, |_| false)?;
     let case = LoadCase::of_scene(scene).map_err(|e| unfit(path, e.to_string()))?;
     let working = Working::new("choosing settings");
-    let choice = choose_frequency(scene, &case, &wanted.into())
+    let choice = choose_frequency(scene, &case, &request)
         .map_err(|e| unfit(path, format!("`dynamics.fidelity` = \"auto\": {e}")))?;
     drop(working);
     let is_lumped = choice.settings.model == AutoModel::Lumped;
@@ -173,27 +177,11 @@ fn chosen(
         return output::json(out, &result);
     }
     writeln!(out, "{}", scene.title)?;
-    write_choice(&choice, out)?;
+    auto_choice::write(&choice, out)?;
     match listed {
         Some(_) => Ok(write_text(&result, arguments.details, out)?),
         None => Ok(()),
     }
-}
-
-fn write_choice(choice: &Choice, out: &mut dyn Write) -> std::io::Result<()> {
-    let Choice { quantity, value, unit, tolerance_percent, estimated_error_percent, .. } = choice;
-    writeln!(
-        out,
-        "{quantity}: {value:.2} {unit}, estimated error {estimated_error_percent:.2} % (allowed: {tolerance_percent} %)"
-    )?;
-    writeln!(out, "chosen: {}", choice.settings)?;
-    for part in &choice.error_parts {
-        writeln!(out, "  {:.3} % from {}", part.percent, part.source)?;
-    }
-    for other in &choice.passed_over {
-        writeln!(out, "passed over: {}: {}", other.settings, other.why)?;
-    }
-    Ok(())
 }
 
 fn entry(model: &LumpedModel, group: &ModeGroup) -> ModeEntry {

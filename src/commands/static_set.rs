@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use experiments::auto::Choice;
 use fe_contact::statics::{Bodies, Imperfections, MeshState, SetCycle, SetState, StaticSet};
 use gearset::{LoadCase, Scene};
 use schemars::JsonSchema;
@@ -15,13 +16,16 @@ use crate::output;
 
 use super::static_pair::PairLoad;
 use super::working::Working;
-use super::{fe_refused, statics, unfit};
+use super::{auto_choice, fe_refused, statics, unfit};
 
 /// `static --format json` of a whole set. Displacements in the carrier frame, counter-clockwise.
 #[derive(Debug, Serialize, JsonSchema)]
 pub(crate) struct SetOutput {
     /// One entry for each torque.
     torques: Vec<TorqueOutput>,
+    /// With `fidelity = "auto"`: the settings chosen, why, and the transmission error with its estimated error.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    auto: Option<Choice>,
 }
 
 /// One mesh cycle under one torque.
@@ -112,6 +116,7 @@ pub(super) fn run(
     arguments: &Static,
     scene: &Scene,
     torques: &[f64],
+    auto: Option<Choice>,
     out: &mut dyn Write,
 ) -> Result<(), CommandError> {
     let path = &arguments.scene;
@@ -123,7 +128,8 @@ pub(super) fn run(
         let load = LoadCase::standing(*torque);
         let set = StaticSet::new(scene, &bodies, load.sense(), Imperfections::default())
             .map_err(fe_refused(path))?;
-        let positions = arguments.position_count();
+        let chosen = auto.as_ref().and_then(|choice| choice.settings.positions);
+        let positions = chosen.map_or(arguments.position_count(), |positions| positions as usize);
         cycles.push(set.cycle(load.sun_load_nm(), positions, solver).map_err(fe_refused(path))?);
     }
     drop(working);
@@ -136,10 +142,10 @@ pub(super) fn run(
     match arguments.format {
         TableFormat::Json => {
             let torques = cycles.iter().map(|c| describe(c, radius)).collect();
-            output::json(out, &SetOutput { torques })
+            output::json(out, &SetOutput { torques, auto })
         }
         TableFormat::Csv => csv(&cycles, out),
-        TableFormat::Text => Ok(text(scene, &cycles, radius, out)?),
+        TableFormat::Text => Ok(text(scene, &cycles, radius, auto.as_ref(), out)?),
     }
 }
 
@@ -247,9 +253,13 @@ fn text(
     scene: &Scene,
     cycles: &[SetCycle],
     radius: f64,
+    auto: Option<&Choice>,
     out: &mut dyn Write,
 ) -> std::io::Result<()> {
     writeln!(out, "{}", scene.title)?;
+    if let Some(choice) = auto {
+        auto_choice::write(choice, out)?;
+    }
     for cycle in cycles {
         let found = describe(cycle, radius);
         writeln!(

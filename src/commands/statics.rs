@@ -10,7 +10,9 @@ use gearset::{Scene, SceneKind, Verb};
 use crate::arguments::{ContactSolver, Static};
 use crate::error::CommandError;
 
-use super::{loads, needs, read_scene, refused, static_approach, static_pair, static_set, unfit};
+use super::{
+    loads, needs, read_scene, refused, static_approach, static_auto, static_pair, static_set, unfit,
+};
 
 pub(crate) fn run(
     arguments: &Static,
@@ -46,7 +48,12 @@ pub(crate) fn run(
                 argument == "--sun-torque-nm" && !arguments.sun_torque_nm.is_empty()
             };
             needs::require(path, &scene, Verb::Static, is_given)?;
-            static_set::run(arguments, &scene, &torques, out)
+            match static_auto::request(&scene) {
+                Some(request) => {
+                    static_auto::run(arguments, &scene, &torques, &request, (out, err))
+                }
+                None => static_set::run(arguments, &scene, &torques, None, out),
+            }
         }
     }
 }

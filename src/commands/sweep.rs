@@ -17,6 +17,7 @@ use crate::error::CommandError;
 use crate::output;
 
 use super::needs::not_ring_pair;
+use super::sweep_auto;
 use super::sweep_claim::{Claim, PEAKS, PLAN};
 use super::sweep_manifest::Manifest;
 use super::sweep_output::{SweepOutput, text, write_csv, write_failed};
@@ -40,6 +41,10 @@ pub(super) fn run(
     let path = &arguments.scene;
     let scene = read_scene(path)?;
     let task = Task::new(arguments, &scene, err)?;
+    if let Some(response) = sweep_auto::response(&scene) {
+        let asked = sweep_auto::Asked { arguments, scene: &scene, case: task.case };
+        return asked.run(response, &task.plan, out, err);
+    }
     // Bodies and tables take minutes: a folder that cannot be used is refused before.
     let _claim = task.claim()?;
     needs::warn(&scene, err)?;
@@ -94,7 +99,7 @@ pub(super) fn run(
 }
 
 #[cfg(feature = "charts")]
-fn draw(
+pub(super) fn draw(
     scene: &Scene,
     bodies: &Bodies,
     case: LoadCase,

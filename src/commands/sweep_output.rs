@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use experiments::auto::Choice;
 use experiments::sweep::{
     FailedPoint, MOST_REPEATS, SteadyMethod, SteadySettings, Sweep, SweepPoint,
 };
@@ -12,6 +13,7 @@ use serde::Serialize;
 use crate::error::CommandError;
 use crate::output;
 
+use super::auto_choice;
 use super::turning::{OF_SUN, of_sun};
 
 /// A sweep as JSON.
@@ -44,6 +46,9 @@ pub(super) struct SweepOutput {
     coexisting_rpm: Vec<f64>,
     /// Speeds at which nothing could be computed, by speed.
     failed: Vec<FailedPoint>,
+    /// With `fidelity = "auto"`: the settings chosen, why, and the amplitude with its estimated error.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    auto: Option<Choice>,
 }
 
 /// A point with the chain that it belongs to.
@@ -146,7 +151,13 @@ impl SweepOutput {
             between_cycles: settings.between_cycles,
             points: sweep.by_speed().into_iter().map(point).collect(),
             failed: sweep.failed_by_speed().into_iter().cloned().collect(),
+            auto: None,
         }
+    }
+
+    /// The same with what `fidelity = "auto"` chose.
+    pub(super) fn chosen_by(self, choice: Choice) -> Self {
+        Self { auto: Some(choice), ..self }
     }
 
     /// Scene, settings, version and tolerances beside the table.
@@ -233,6 +244,10 @@ cycles: mesh cycles integrated; residual: change between the last two of them ov
 pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), CommandError> {
     let (scene, fidelity, torque) = (&result.scene, &result.fidelity, result.sun_torque_nm);
     writeln!(out, "{scene}: {fidelity}, {torque} N·m on the sun\n")?;
+    if let Some(choice) = &result.auto {
+        auto_choice::write(choice, out)?;
+        writeln!(out)?;
+    }
     let header = [
         "chain",
         "rpm",

@@ -269,3 +269,64 @@ fn settings_that_meet_no_tolerance_are_refused_with_their_estimates() {
     // docs/fe_dynamics.md: 1152.3 Hz by linearisation at 1130 N·m.
     assert!((hz / 1152.3 - 1.0).abs() < 0.01, "{hz}");
 }
+
+/// `fidelity = "auto"` for a transmission error at rest and for an amplitude: the choice stands with the result, arguments
+/// that it decides are refused, and so is a quantity that the verb does not give.
+#[test]
+fn settings_are_chosen_for_transmission_errors_and_amplitudes() {
+    let folder = tempfile::tempdir().unwrap();
+    let with = |name: &str, keys: &str| {
+        let text = std::fs::read_to_string(scene("oh58_4p.toml")).unwrap();
+        let path = folder.path().join(name);
+        std::fs::write(&path, format!("{text}\n[dynamics]\nfidelity = \"auto\"\n{keys}")).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let rest = with("rest.toml", "quantity = \"transmission_error\"\ntolerance_percent = 20\n");
+    let motion = with(
+        "motion.toml",
+        "quantity = \"amplitude\"\nresponse = \"sun_translation\"\ntolerance_percent = 40\n",
+    );
+    let cases = [
+        ("static R --positions 28", "--positions"),
+        ("static R --solver lemke", "--solver"),
+        ("static R --sun-torque-nm 500,1000", "--sun-torque-nm"),
+        ("modes R", "`static` gives"),
+        ("sweep R --speeds-rpm 800:900:10", "`static` gives"),
+        ("modes M", "`sweep` gives"),
+        ("branches M --speeds-rpm 800:900", "`sweep` gives"),
+        ("sweep M --speeds-rpm 800:900:10 --model lumped", "--model"),
+        ("sweep M --speeds-rpm 800:900:10 --refine 3", "--refine"),
+        ("sweep M --speeds-rpm 800:900:10 --both-ways", "--both-ways"),
+        ("sweep M --speeds-rpm 800:900:10 --out O", "--out"),
+    ];
+    for (line, words) in cases {
+        let line = line.replace('R', &rest).replace('M', &motion);
+        let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!((code, out.as_str()), (2, ""), "{line}: {err}");
+        assert!(err.contains(words) && !err.contains("unexpected argument"), "{line}: {err}");
+    }
+    for line in ["static R --format json", "sweep M --speeds-rpm 800:840:40 --format json"] {
+        let line = line.replace('R', &rest).replace('M', &motion);
+        let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
+        assert_eq!(code, 0, "{line}: {err}");
+        let found: Value = serde_json::from_str(&out).unwrap();
+        let auto = &found["auto"];
+        let number = |key: &str| auto[key].as_f64().unwrap();
+        assert!(number("value") > 0.0 && auto["unit"] == "µm", "{auto}");
+        assert!(number("estimated_error_percent") <= number("tolerance_percent"), "{auto}");
+        if let Some(cycle) = found["torques"].get(0) {
+            let own = cycle["transmission_error_peak_to_peak_um"].as_f64().unwrap();
+            assert!((own / number("value") - 1.0).abs() < 1e-9, "{own}");
+            assert_eq!(
+                cycle["positions"].as_array().unwrap().len() as u64,
+                auto["settings"]["positions"]
+            );
+        } else {
+            assert_eq!(found["steps_per_cycle"], auto["settings"]["steps_per_cycle"]);
+            assert_eq!(found["points"].as_array().unwrap().len(), 2);
+        }
+        let (code, text, err) =
+            run(&line.split(' ').take_while(|w| *w != "--format").collect::<Vec<_>>());
+        assert!(code == 0 && text.contains("chosen: "), "{line}: {err}");
+    }
+}

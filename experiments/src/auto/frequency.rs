@@ -1,13 +1,14 @@
 //! The cheapest settings for a natural frequency.
 
 use fe_contact::statics::Bodies;
-use gearset::{AutoInput, AutoModeType, AutoQuantity, LoadCase, Scene};
+use gearset::{AutoModeType, LoadCase, Scene};
 use lumped::{LumpedModel, ModeType, NaturalModes};
 
-use super::choice::{AutoError, Choice, ErrorPart, PassedOver, total};
+use super::choice::{AutoError, Choice, ErrorPart, total};
 use super::energy::{ModeEnergy, of_group, of_linear};
 use super::error_parts::SetSize;
 use super::settings::{AutoModel, AutoSettings};
+use super::trial::Trial;
 use crate::error::ExperimentError;
 use crate::modal::{Preload, preloaded};
 
@@ -22,15 +23,15 @@ pub struct FrequencyRequest {
     pub tolerance_percent: f64,
 }
 
-impl From<AutoInput> for FrequencyRequest {
-    fn from(input: AutoInput) -> Self {
-        let AutoQuantity::NaturalFrequency { mode_type, number } = input.quantity;
+impl FrequencyRequest {
+    /// The mode of a type and number that a scene names.
+    pub fn new(mode_type: AutoModeType, number: u32, tolerance_percent: f64) -> Self {
         let mode_type = match mode_type {
             AutoModeType::Rotational => ModeType::Rotational,
             AutoModeType::Translational => ModeType::Translational,
             AutoModeType::Planet => ModeType::Planet,
         };
-        Self { mode_type, number: number as usize, tolerance_percent: input.tolerance_percent }
+        Self { mode_type, number: number as usize, tolerance_percent }
     }
 }
 
@@ -109,10 +110,19 @@ fn fe_mode(
     request: &FrequencyRequest,
 ) -> Result<ModeEnergy, ExperimentError> {
     let own = settings.applied_to(scene);
-    let bodies = Bodies::new(&own)?;
-    let set = preloaded(&own, &bodies, &Preload { load: *case, position: 0.0, step_s: 5e-6 })?;
-    let modes = of_linear(&set, &set.linearised()?)?;
+    let modes = modes_of(&own, &Bodies::new(&own)?, case)?;
     request.found(modes).map_err(|e| ExperimentError::Model(e.into()))
+}
+
+/// Modes about the load at position 0 of the mesh cycle, ascending.
+pub(super) fn modes_of(
+    scene: &Scene,
+    bodies: &Bodies,
+    case: &LoadCase,
+) -> Result<Vec<ModeEnergy>, ExperimentError> {
+    let standing = Preload { load: *case, position: 0.0, step_s: 5e-6 };
+    let set = preloaded(scene, bodies, &standing)?;
+    of_linear(&set, &set.linearised()?)
 }
 
 /// The cheapest candidate whose estimated error is within the tolerance, with its answer.
@@ -127,31 +137,14 @@ pub fn choose_frequency(
     case: &LoadCase,
     request: &FrequencyRequest,
 ) -> Result<Choice, AutoError> {
-    let tolerance = request.tolerance_percent;
-    if !(tolerance > 0.0 && tolerance <= 100.0) {
-        return Err(AutoError::Tolerance(tolerance));
-    }
-    let mut search = Search {
-        scene,
-        case,
-        request,
-        size: SetSize::new(scene, case)?,
-        passed_over: Vec::new(),
-        has_answer: false,
-    };
+    let trial = Trial::new(request.to_string(), "Hz", request.tolerance_percent)?;
+    let size = SetSize::new(scene, case)?;
+    let mut search = Search { scene, case, request, size, trial };
     let found = match search.lumped() {
         Some(choice) => Some(choice),
         None => search.fe_contact(),
     };
-    let quantity = request.to_string();
-    let passed_over = search.passed_over;
-    match found {
-        Some(choice) => Ok(Choice { passed_over, ..choice }),
-        None if search.has_answer => {
-            Err(AutoError::NothingMeets { quantity, tolerance_percent: tolerance, passed_over })
-        }
-        None => Err(AutoError::NoAnswer { quantity, passed_over }),
-    }
+    search.trial.ended(found)
 }
 
 struct Search<'s> {
@@ -159,8 +152,7 @@ struct Search<'s> {
     case: &'s LoadCase,
     request: &'s FrequencyRequest,
     size: SetSize,
-    passed_over: Vec<PassedOver>,
-    has_answer: bool,
+    trial: Trial,
 }
 
 impl Search<'_> {
@@ -187,7 +179,7 @@ impl Search<'_> {
         }
         for settings in &QUASI_STATIC[1..] {
             let expected = total(&self.quasi_static_parts(&probe, *settings));
-            if !self.is_expected(*settings, expected) {
+            if !self.trial.is_expected(*settings, expected) {
                 continue;
             }
             match fe_mode(self.scene, self.case, *settings, self.request) {
@@ -214,7 +206,7 @@ impl Search<'_> {
         left_out: &mut f64,
     ) -> Option<Choice> {
         let expected = total(&self.mesh_parts(probe, settings)) + 100.0 * *left_out;
-        if !self.is_expected(settings, expected) {
+        if !self.trial.is_expected(settings, expected) {
             return None;
         }
         let of = |settings| fe_mode(self.scene, self.case, settings, self.request);
@@ -248,79 +240,33 @@ impl Search<'_> {
         parts
     }
 
-    /// Whether settings are worth a run by the error that is expected of them, percent.
-    fn is_expected(&mut self, settings: AutoSettings, expected: f64) -> bool {
-        let is = expected <= self.request.tolerance_percent;
-        if !is && expected.is_finite() {
-            let why = format!("not run: {} % or more expected", shown(expected));
-            self.pass(settings, Some(expected), why);
-        } else if !is {
-            self.pass(settings, None, "not run: no bound of its error, as above".into());
-        }
-        is
-    }
-
     fn judged(
         &mut self,
         settings: AutoSettings,
         mode: &ModeEnergy,
         parts: Vec<ErrorPart>,
     ) -> Option<Choice> {
-        self.has_answer = true;
-        let error = total(&parts);
-        if error.is_infinite() {
-            let first = self.size.first_mode_hz();
-            let why = format!(
-                "no bound of its error: {:.0} Hz is above the first mode of a body that is left out, about {first:.0} Hz",
-                mode.frequency_hz
-            );
-            self.pass(settings, None, why);
-            return None;
-        }
-        // NaN is within nothing.
-        let is_within = error <= self.request.tolerance_percent;
-        if !is_within {
-            let largest = parts.iter().max_by(|a, b| a.percent.total_cmp(&b.percent));
-            let of = largest.map_or(String::new(), |p| {
-                format!(", {} % of it from {}", shown(p.percent), p.source)
-            });
-            self.pass(settings, Some(error), format!("estimated error {} %{of}", shown(error)));
-            return None;
-        }
-        Some(Choice {
-            quantity: self.request.to_string(),
-            value: mode.frequency_hz,
-            unit: "Hz".into(),
-            tolerance_percent: self.request.tolerance_percent,
-            estimated_error_percent: error,
-            error_parts: parts,
-            settings,
-            passed_over: Vec::new(),
-        })
+        let (hz, first) = (mode.frequency_hz, self.size.first_mode_hz());
+        let no_bound = || {
+            format!(
+                "{hz:.0} Hz is above the first mode of a body that is left out, about {first:.0} Hz"
+            )
+        };
+        self.trial.judged(settings, hz, parts, no_bound)
     }
 
     fn refused(&mut self, settings: AutoSettings, error: &ExperimentError) -> Option<Choice> {
-        self.pass(settings, None, error.to_string());
+        self.trial.refused(settings, error);
         None
     }
-
-    fn pass(&mut self, settings: AutoSettings, estimated_error_percent: Option<f64>, why: String) {
-        self.passed_over.push(PassedOver { settings, estimated_error_percent, why });
-    }
 }
 
-const BODY_INERTIA: &str = "inertia of the bodies behind the teeth";
-
-/// Percent with two significant digits.
-fn shown(percent: f64) -> String {
-    let decimals = (1 - percent.abs().max(1e-9).log10().floor() as i32).clamp(0, 6) as usize;
-    format!("{percent:.decimals$}")
-}
+pub(super) const BODY_INERTIA: &str = "inertia of the bodies behind the teeth";
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gearset::{Freedom, SceneKind, template};
+    use gearset::{AutoInput, AutoQuantity, Freedom, SceneKind, template};
 
     fn set(has_lumped: bool) -> (Scene, LoadCase) {
         let mut scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
@@ -399,14 +345,14 @@ mod tests {
     #[test]
     fn a_scene_without_a_choice_is_not_computed() {
         let (mut scene, case) = set(false);
-        let quantity =
-            AutoQuantity::NaturalFrequency { mode_type: AutoModeType::Rotational, number: 1 };
+        let mode_type = AutoModeType::Rotational;
+        let quantity = AutoQuantity::NaturalFrequency { mode_type, number: 1 };
         scene.dynamics.auto = Some(AutoInput { quantity, tolerance_percent: 1.0 });
         let bodies = Bodies::new(&scene).unwrap();
         let preload = Preload { load: case, position: 0.0, step_s: 5e-6 };
         let refusal = preloaded(&scene, &bodies, &preload).unwrap_err().to_string();
         assert!(refusal.contains("`dynamics.fidelity` is \"auto\""), "{refusal}");
-        let asked = scene.dynamics.auto.unwrap().into();
+        let asked = FrequencyRequest::new(mode_type, 1, 1.0);
         assert!(choose_frequency(&scene, &case, &asked).is_ok());
     }
 

@@ -5,12 +5,21 @@
 //! tolerance is the answer, and where none is, there is no answer. Equations, limits and the test of the estimates:
 //! `docs/auto.md`.
 
+mod amplitude;
+mod amplitude_run;
 mod choice;
 mod energy;
 mod error_parts;
 mod frequency;
+mod response;
 mod settings;
+mod transmission_error;
+mod trial;
 
+pub use amplitude::{AmplitudeRequest, ChosenSweep, amplitude_with, choose_amplitude};
 pub use choice::{AutoError, Choice, ErrorPart, PassedOver};
 pub use frequency::{FrequencyRequest, choose_frequency, frequency_with};
 pub use settings::{AutoModel, AutoSettings};
+pub use transmission_error::{
+    CycleRequest, CycleValue, choose_transmission_error, transmission_error_with,
+};

@@ -1,6 +1,6 @@
 //! Settings among which `auto` chooses.
 
-use gearset::{ElementFamily, Fidelity, Scene};
+use gearset::{ElementFamily, Facing, Fidelity, Geometry, Phasing, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -30,21 +30,43 @@ pub struct AutoSettings {
     /// Contact cells of one tooth pair.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_cells: Option<u32>,
+    /// Evenly spaced positions of a mesh cycle at rest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub positions: Option<u32>,
+    /// Time steps in a mesh cycle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps_per_cycle: Option<u32>,
 }
 
 impl AutoSettings {
     /// The lumped model.
-    pub const LUMPED: Self =
-        Self { model: AutoModel::Lumped, modes: None, flank_elements: None, contact_cells: None };
+    pub const LUMPED: Self = Self {
+        model: AutoModel::Lumped,
+        modes: None,
+        flank_elements: None,
+        contact_cells: None,
+        positions: None,
+        steps_per_cycle: None,
+    };
 
     /// FE/contact with quasi-static bodies.
     pub const fn quasi_static(flank_elements: u32, contact_cells: u32) -> Self {
         Self {
             model: AutoModel::QuasiStatic,
-            modes: None,
             flank_elements: Some(flank_elements),
             contact_cells: Some(contact_cells),
+            ..Self::LUMPED
         }
+    }
+
+    /// The same at so many positions of a mesh cycle at rest.
+    pub const fn at_positions(self, positions: u32) -> Self {
+        Self { positions: Some(positions), ..self }
+    }
+
+    /// The same with so many time steps in a mesh cycle.
+    pub const fn with_steps(self, steps_per_cycle: u32) -> Self {
+        Self { steps_per_cycle: Some(steps_per_cycle), ..self }
     }
 
     /// FE/contact with modes of each body.
@@ -76,6 +98,9 @@ impl AutoSettings {
             Some(modes) => Fidelity::Modal(modes),
             None => Fidelity::QuasiStatic,
         };
+        if let Some(steps) = self.steps_per_cycle {
+            own.dynamics.steps_per_cycle = steps;
+        }
         own
     }
 }
@@ -84,12 +109,50 @@ impl std::fmt::Display for AutoSettings {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match (self.modes, self.flank_elements, self.contact_cells) {
             (None, Some(n), Some(cells)) => {
-                write!(f, "quasi_static, {n} flank elements, {cells} contact cells")
+                write!(f, "quasi_static, {n} flank elements, {cells} contact cells")?;
             }
             (Some(modes), Some(n), Some(cells)) => {
-                write!(f, "modal with {modes} modes, {n} flank elements, {cells} contact cells")
+                write!(f, "modal with {modes} modes, {n} flank elements, {cells} contact cells")?;
             }
-            _ => f.write_str("lumped"),
+            _ => f.write_str("lumped")?,
+        }
+        if let Some(positions) = self.positions {
+            write!(f, ", {positions} positions")?;
+        }
+        match self.steps_per_cycle {
+            Some(steps) => write!(f, ", {steps} steps per mesh cycle"),
+            None => Ok(()),
         }
     }
+}
+
+/// Elements along a flank and contact cells of a tooth pair, from coarse to fine: those of the candidates for motion at
+/// rest and in time.
+pub(super) const MESHES: [(u32, u32); 4] = [(6, 20), (10, 30), (16, 40), (24, 60)];
+
+/// Size of the elements of the mesh of a number over that of a coarser one.
+pub(super) fn size_ratio(coarse: usize, fine: usize) -> f64 {
+    f64::from(MESHES[coarse].0) / f64::from(MESHES[fine].0)
+}
+
+/// Most positions or steps into which a mesh cycle is divided evenly so that phases of all planets fall on them.
+const MOST_PARTS: usize = 60;
+
+/// `least` or a little more parts of a mesh cycle, so that all planets pass through the same phases: tables are then
+/// shared. `least` itself for planets whose phases have no such number.
+pub(super) fn divided(scene: &Scene, least: u32) -> u32 {
+    let parts = phase_parts(scene);
+    least.div_ceil(parts) * parts
+}
+
+/// Least number of parts of a mesh cycle of which the phases of all planets are multiples, 1 if there is none.
+pub(super) fn phase_parts(scene: &Scene) -> u32 {
+    let Ok(geometry) = Geometry::from_scene(scene) else { return 1 };
+    let Some(phasing) = Phasing::new(&geometry, &scene.planets) else { return 1 };
+    let phases = phasing.phases(0.0, Facing::CounterClockwise).sun_planet;
+    let is_whole = |parts: &usize| {
+        let of = |phase: &f64| (phase - phases[0]) * *parts as f64;
+        phases.iter().map(of).all(|x| (x - x.round()).abs() < 1e-9)
+    };
+    (1..=MOST_PARTS).find(is_whole).map_or(1, |parts| parts as u32)
 }

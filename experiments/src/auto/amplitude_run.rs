@@ -1,0 +1,126 @@
+//! Steady states of one candidate for an amplitude.
+
+use fe_contact::statics::{Bodies, Imperfections};
+use gearset::{LoadCase, Scene};
+
+use super::amplitude::AmplitudeRequest;
+use super::response::Harmonics;
+use super::settings::AutoSettings;
+use crate::error::ExperimentError;
+use crate::sweep::{Direction, FeModel, Memory, Plan, Sweep, SweepModel, run};
+
+/// Candidates are compared at the speeds where the coarsest has at least this share of its largest amplitude, the
+/// highest of them, at most so many.
+const NEAR_TOP: (f64, usize) = (0.7, 5);
+
+/// A candidate with its gears and contact tables, which its runs share.
+pub(super) struct Turning<'b> {
+    pub(super) bodies: &'b Bodies,
+    pub(super) scene: &'b Scene,
+    model: FeModel<'b>,
+    request: &'b AmplitudeRequest,
+    /// Base radius of the sun, m.
+    radius: f64,
+}
+
+/// What `work` gives on a candidate.
+///
+/// # Errors
+/// If the settings are refused, and as `work`.
+pub(super) fn on<T>(
+    (scene, case): (&Scene, &LoadCase),
+    settings: AutoSettings,
+    request: &AmplitudeRequest,
+    work: impl FnOnce(&Turning<'_>) -> Result<T, ExperimentError>,
+) -> Result<T, ExperimentError> {
+    let scene = settings.applied_to(scene);
+    let bodies = Bodies::new(&scene)?;
+    let sun = bodies.geometry.sun.as_ref().ok_or(ExperimentError::Incomplete("sun"))?;
+    let radius = sun.base_radius;
+    let model = FeModel::new(&scene, &bodies, Imperfections::default(), *case);
+    work(&Turning { bodies: &bodies, scene: &scene, model, request, radius })
+}
+
+/// Steady states at some speeds.
+pub(super) struct Motions {
+    pub(super) sweep: Sweep,
+    /// Speed (rpm) and response, by speed.
+    at: Vec<(f64, Harmonics)>,
+}
+
+impl Turning<'_> {
+    /// The steady states at some speeds, rpm.
+    ///
+    /// # Errors
+    /// If one is not found, or is not steady.
+    pub(super) fn motions(&self, speeds_rpm: &[f64]) -> Result<Motions, ExperimentError> {
+        let refused = |e: crate::sweep::PlanError| ExperimentError::Model(e.to_string().into());
+        let steady = self.request.steady.clone();
+        let highest = steady.harmonics;
+        let plan = Plan::new(speeds_rpm, &[Direction::Up], steady).map_err(refused)?;
+        self.model.prepare()?;
+        let sweep = run(&self.model, &plan, &Memory, &|_| ())?.complete()?;
+        if let Some(point) = sweep.points().into_iter().find(|p| !p.is_steady) {
+            let rpm = point.state.case.speed_rpm;
+            let why = format!("at {rpm} rpm the motion has not become steady");
+            return Err(ExperimentError::Model(why.into()));
+        }
+        let points = sweep.points().into_iter();
+        let of = |p| Harmonics::of(p, self.request.response, self.radius, highest);
+        let at = points.map(|p| (p.state.case.speed_rpm, of(p))).collect();
+        Ok(Motions { sweep, at })
+    }
+}
+
+impl Motions {
+    /// Largest root mean square over the speeds, m.
+    pub(super) fn largest(&self) -> f64 {
+        self.at.iter().map(|(_, own)| own.rms()).fold(0.0, f64::max)
+    }
+
+    /// The response at the speed where it is largest.
+    pub(super) fn top(&self) -> Option<&(f64, Harmonics)> {
+        self.at.iter().max_by(|a, b| a.1.rms().total_cmp(&b.1.rms()))
+    }
+
+    /// All responses by speed.
+    pub(super) fn responses(&self) -> impl Iterator<Item = &Harmonics> {
+        self.at.iter().map(|(_, own)| own)
+    }
+
+    /// Speeds near the top, at which candidates are compared, ascending, rpm.
+    pub(super) fn near_top(&self) -> Vec<f64> {
+        let (share, most) = NEAR_TOP;
+        let least = share * self.largest();
+        let mut high: Vec<(f64, f64)> =
+            self.at.iter().map(|(rpm, own)| (*rpm, own.rms())).filter(|x| x.1 >= least).collect();
+        high.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let mut speeds: Vec<f64> = high.into_iter().take(most).map(|(rpm, _)| rpm).collect();
+        speeds.sort_by(f64::total_cmp);
+        speeds
+    }
+
+    /// Largest distance between this motion and another one over the speeds that both have, over the largest amplitude
+    /// of this one.
+    pub(super) fn apart(&self, other: &Self) -> f64 {
+        let of = |(rpm, own): &(f64, Harmonics)| {
+            let same = other.at.iter().find(|(speed, _)| speed == rpm);
+            same.map_or(0.0, |(_, theirs)| own.distance(theirs))
+        };
+        self.at.iter().map(of).fold(0.0, f64::max) / self.largest()
+    }
+
+    /// Largest change of a steady state from one cycle to the next, over its peak-to-peak vibration.
+    pub(super) fn residual(&self) -> f64 {
+        self.sweep.points().into_iter().fold(0.0, |a, p| a.max(p.residual))
+    }
+
+    /// Largest root mean square of the whole motion of the sun, rotation at its base circle and translation, m.
+    pub(super) fn of_sun(&self, turning: &Turning<'_>) -> f64 {
+        let both =
+            [gearset::AutoResponse::TransmissionError, gearset::AutoResponse::SunTranslation];
+        let highest = turning.request.steady.harmonics;
+        let of = |p| both.map(|r| Harmonics::of(p, r, turning.radius, highest).rms());
+        self.sweep.points().into_iter().map(|p| of(p)[0].hypot(of(p)[1])).fold(0.0, f64::max)
+    }
+}

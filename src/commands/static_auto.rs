@@ -1,0 +1,55 @@
+//! `static` of a whole set with `fidelity = "auto"`: the settings are chosen for a transmission error.
+
+use std::io::Write;
+
+use experiments::auto::{CycleRequest, CycleValue, choose_transmission_error};
+use gearset::{AutoQuantity, LoadCase, Scene};
+
+use crate::arguments::{ContactSolver, Static, TableFormat};
+use crate::error::CommandError;
+
+use super::working::Working;
+use super::{auto_choice, refused, static_set, unfit};
+
+/// What the scene asks `static` to choose settings for, if anything.
+pub(super) fn request(scene: &Scene) -> Option<CycleRequest> {
+    let wanted = scene.dynamics.auto?;
+    let value = match wanted.quantity {
+        AutoQuantity::TransmissionError => CycleValue::PeakToPeak,
+        AutoQuantity::MeanTransmissionError => CycleValue::Mean,
+        // Statics have no fidelity: what is chosen for other verbs changes nothing here.
+        AutoQuantity::NaturalFrequency { .. } | AutoQuantity::Amplitude { .. } => return None,
+    };
+    Some(CycleRequest { value, tolerance_percent: wanted.tolerance_percent })
+}
+
+/// The mesh cycle with the cheapest settings within the tolerance. Beside a table (CSV) the choice goes to `err`.
+pub(super) fn run(
+    arguments: &Static,
+    scene: &Scene,
+    torques: &[f64],
+    request: &CycleRequest,
+    (out, err): (&mut dyn Write, &mut dyn Write),
+) -> Result<(), CommandError> {
+    let path = &arguments.scene;
+    let [torque] = torques else {
+        let reason = "`dynamics.fidelity` = \"auto\" chooses settings for one torque: name one";
+        return Err(refused("--sun-torque-nm", reason));
+    };
+    if arguments.positions.is_some() {
+        let reason = "`dynamics.fidelity` = \"auto\" chooses the number of positions: leave it out";
+        return Err(refused("--positions", reason));
+    }
+    if arguments.solver != ContactSolver::ActiveSet {
+        let reason = "`dynamics.fidelity` = \"auto\" solves by active sets: leave it out";
+        return Err(refused("--solver", reason));
+    }
+    let working = Working::new("choosing settings");
+    let choice = choose_transmission_error(scene, &LoadCase::standing(*torque), request)
+        .map_err(|e| unfit(path, format!("`dynamics.fidelity` = \"auto\": {e}")))?;
+    drop(working);
+    if arguments.format == TableFormat::Csv {
+        auto_choice::write(&choice, err)?;
+    }
+    static_set::run(arguments, &choice.settings.applied_to(scene), torques, Some(choice), out)
+}

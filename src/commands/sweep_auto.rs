@@ -1,0 +1,102 @@
+//! `sweep` with `fidelity = "auto"`: the settings are chosen for the largest amplitude over the speeds.
+
+use std::io::Write;
+
+use experiments::auto::{AmplitudeRequest, choose_amplitude};
+use experiments::sweep::Plan;
+use gearset::{AutoQuantity, AutoResponse, LoadCase, Scene};
+
+use crate::arguments::{Model, Sweep, TableFormat};
+use crate::error::CommandError;
+use crate::output;
+
+use super::sweep_output::{SweepOutput, text, write_csv, write_failed};
+use super::working::Working;
+use super::{auto_choice, needs, refused, unfit};
+
+/// The response for whose amplitude the scene asks to choose settings, if for any.
+pub(super) fn response(scene: &Scene) -> Option<AutoResponse> {
+    match scene.dynamics.auto?.quantity {
+        AutoQuantity::Amplitude { response } => Some(response),
+        _ => None,
+    }
+}
+
+/// A sweep whose settings are to be chosen.
+pub(super) struct Asked<'a> {
+    pub(super) arguments: &'a Sweep,
+    pub(super) scene: &'a Scene,
+    /// Torque and driven member.
+    pub(super) case: LoadCase,
+}
+
+impl Asked<'_> {
+    /// The sweep with the cheapest settings within the tolerance. Beside a table (CSV) the choice goes to `err`.
+    pub(super) fn run(
+        &self,
+        response: AutoResponse,
+        plan: &Plan,
+        out: &mut dyn Write,
+        err: &mut dyn Write,
+    ) -> Result<(), CommandError> {
+        let Self { arguments, scene, case } = self;
+        self.check()?;
+        needs::warn(scene, err)?;
+        #[cfg(feature = "charts")]
+        needs::figures(scene, arguments.figures.as_deref(), err)?;
+        let speeds_rpm = plan.chains.iter().flat_map(|c| c.speeds_rpm.iter().copied()).collect();
+        let tolerance_percent = scene.dynamics.auto.map_or(f64::NAN, |a| a.tolerance_percent);
+        let steady = plan.steady.clone();
+        let request = AmplitudeRequest { response, speeds_rpm, steady, tolerance_percent };
+        let working = Working::new("choosing settings");
+        let found = choose_amplitude(scene, case, &request)
+            .map_err(|e| unfit(&arguments.scene, format!("`dynamics.fidelity` = \"auto\": {e}")))?;
+        drop(working);
+        let own = found.choice.settings.applied_to(scene);
+        #[cfg(feature = "charts")]
+        if let Some(folder) = &arguments.figures {
+            let bodies = fe_contact::statics::Bodies::new(&own)
+                .map_err(super::fe_refused(&arguments.scene))?;
+            super::sweep::draw(&own, &bodies, *case, &found.sweep, folder)?;
+        }
+        let (torque, sweep) = (case.sun_torque_nm, &found.sweep);
+        let result = SweepOutput::new(&own, torque, &plan.steady, sweep);
+        if arguments.format == TableFormat::Csv {
+            auto_choice::write(&found.choice, err)?;
+            write_csv(sweep, &scene.title, out)?;
+            return write_failed(&result, err);
+        }
+        let result = result.chosen_by(found.choice);
+        match arguments.format {
+            TableFormat::Json => output::json(out, &result),
+            _ => text(&result, out),
+        }
+    }
+
+    /// Refuses arguments that say what is to be chosen, or that change what it is chosen for.
+    fn check(&self) -> Result<(), CommandError> {
+        let given = self.arguments;
+        let refusals = [
+            ("--model", given.model == Model::Lumped, "chooses the model"),
+            (
+                "--refine",
+                given.refine > 0,
+                "gives the largest amplitude over the speeds that are named",
+            ),
+            ("--both-ways", given.both_ways, "compares settings by one motion at each speed"),
+            ("--harmonics", given.harmonics > 5, "chooses steps that resolve up to 5 harmonics"),
+            (
+                "--out",
+                given.out.is_some(),
+                "has no folder of points, which belong to one named fidelity",
+            ),
+        ];
+        match refusals.into_iter().find(|(_, is_given, _)| *is_given) {
+            Some((argument, _, why)) => {
+                let reason = format!("`dynamics.fidelity` = \"auto\" {why}: leave it out");
+                Err(refused(argument, reason))
+            }
+            None => Ok(()),
+        }
+    }
+}
