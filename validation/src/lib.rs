@@ -1,6 +1,7 @@
 //! Virtual experiments and checks: the models against published numbers, theorems and each other.
 
 mod auto_record;
+mod auto_response_record;
 mod catalogue;
 mod check;
 mod compare;
@@ -22,6 +23,7 @@ mod verdict;
 mod worst;
 
 pub use auto_record::{AutoRow, DrawnScene, auto_row, drawn_scene};
+pub use auto_response_record::{Asked, ResponseRow, drawn_response, response_row};
 pub use catalogue::{PublishedScene, scene};
 pub use check::{Check, ReferenceKind, Status, Subject, Tolerance, Value};
 pub use compare::{Comparison, ListedMode, Match, ModelMode, compare};

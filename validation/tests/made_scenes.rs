@@ -7,7 +7,7 @@ use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use gearset::{Facing, LoadCase, MeshKind};
 use lumped::ModeType;
-use validation::{PublishedScene, drawn_scene, scene};
+use validation::{PublishedScene, drawn_response, drawn_scene, scene};
 
 /// Printed lumped mesh stiffness, N/m.
 const PRINTED: f64 = 350e6;
@@ -82,5 +82,40 @@ fn the_record_of_auto_holds_and_comes_out_again() {
         assert_eq!(choice.settings.to_string().replace(',', ""), row[4], "{row:?}");
         assert!((choice.value / number(row, 6) - 1.0).abs() < 1e-6, "{row:?} {}", choice.value);
         assert!((choice.estimated_error_percent - number(row, 5)).abs() < 1e-3, "{row:?}");
+    }
+}
+
+/// `kept/auto_responses.csv`: sixty sets; the answers of `auto` for transmission errors and amplitudes are within their
+/// tolerances in at least 95 %, and a few cheap ones come out again.
+#[test]
+fn the_record_of_auto_for_responses_holds_and_comes_out_again() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../kept/auto_responses.csv");
+    let text = std::fs::read_to_string(path).unwrap();
+    let lines = text.lines().filter(|line| !line.starts_with('#'));
+    let rows: Vec<Vec<&str>> = lines.skip(1).map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows.len(), 60);
+    let number = |row: &[&str], k: usize| row[k].parse::<f64>().unwrap();
+    let answered: Vec<&Vec<&str>> = rows.iter().filter(|row| row[4] != "refused").collect();
+    assert!(answered.len() >= 30, "{}", answered.len());
+    for of in ["peak-to-peak", "mean transmission", "root mean square"] {
+        assert!(answered.iter().any(|row| row[2].starts_with(of)), "{of}");
+    }
+    let mut missed = 0;
+    for row in &answered {
+        let error = 100.0 * (number(row, 6) / number(row, 7) - 1.0).abs();
+        assert!((error - number(row, 8)).abs() < 1e-2, "{row:?}");
+        assert!(number(row, 5) <= number(row, 3), "{row:?}");
+        missed += usize::from(error > number(row, 3));
+    }
+    assert!(20 * missed <= answered.len(), "{missed}");
+    let cheap = |row: &&&Vec<&str>| row[4].starts_with("quasi_static 6 ");
+    for row in answered.iter().filter(cheap).step_by(5) {
+        let (drawn, asked) = drawn_response(row[0].parse().unwrap()).unwrap();
+        assert_eq!(asked.to_string().replace(',', ""), row[2]);
+        let case = LoadCase::of_scene(&drawn.scene).unwrap();
+        let choice = asked.chosen(&drawn.scene, &case).unwrap();
+        assert_eq!(choice.settings.to_string().replace(',', ""), row[4], "{row:?}");
+        assert!((choice.value / number(row, 6) - 1.0).abs() < 1e-5, "{row:?} {}", choice.value);
+        assert!((choice.estimated_error_percent - number(row, 5)).abs() < 1e-2, "{row:?}");
     }
 }

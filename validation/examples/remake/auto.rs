@@ -2,10 +2,10 @@
 //!
 //! `cargo run --release -p validation --example remake -- auto > auto.csv && mv auto.csv kept/`
 //!
-//! `AUTO_SEEDS=1..9` runs other seeds: those of the record served no other purpose, and 1 to 8 were used when the
+//! `AUTO_SEEDS=1..9` runs other seeds: those of the record served no other purpose, and 1 to 12 were used when the
 //! estimates were programmed.
 
-use validation::{AutoRow, auto_row};
+use validation::{AutoRow, ResponseRow, auto_row, response_row};
 
 use super::Outcome;
 
@@ -13,14 +13,82 @@ use super::Outcome;
 const SEEDS: std::ops::Range<u64> = 1001..2001;
 const SETS: usize = 60;
 
-pub(super) fn remake() -> Outcome {
-    let seeds = match std::env::var("AUTO_SEEDS") {
-        Ok(text) => {
-            let (from, to) = text.split_once("..").ok_or("AUTO_SEEDS is not of the form 1..9")?;
-            from.parse()?..to.parse()?
+/// Seeds of the record of responses, apart from those of natural frequencies and from 1 to 75 and 1001 to 1016, on which
+/// its estimates were programmed.
+const RESPONSE_SEEDS: std::ops::Range<u64> = 3001..5001;
+
+/// Seeds of the record, or those that `AUTO_SEEDS` asks for.
+fn seeds(
+    own: std::ops::Range<u64>,
+) -> Result<std::ops::Range<u64>, Box<dyn std::error::Error + Send + Sync>> {
+    let Ok(text) = std::env::var("AUTO_SEEDS") else { return Ok(own) };
+    let (from, to) = text.split_once("..").ok_or("AUTO_SEEDS is not of the form 1..9")?;
+    Ok(from.parse()?..to.parse()?)
+}
+
+/// `kept/auto_responses.csv`: transmission errors at rest, and amplitudes.
+pub(super) fn remake_responses() -> Outcome {
+    println!(
+        "# What auto chose for transmission errors and amplitudes of drawn sets (docs/auto.md), error and cost."
+    );
+    println!(
+        "# Own computation: validation/src/auto_response_record.rs; cost_ratio is a ratio of CPU times of one run"
+    );
+    println!(
+        "# cargo run --release -p validation --example remake -- auto_responses > r.csv && mv r.csv kept/auto_responses.csv"
+    );
+    println!(
+        "seed,planets,quantity,tolerance_percent,chosen,estimated_percent,value_um,truth_um,error_percent,\
+         cheapest_within_tolerance,cost_ratio,miss"
+    );
+    // One thread, so that CPU times are those of the whole work.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    let (mut done, mut refused) = (0, Vec::new());
+    for seed in seeds(RESPONSE_SEEDS)? {
+        if done == SETS {
+            break;
         }
-        Err(_) => SEEDS,
-    };
+        let row = pool.install(|| response_row(seed))?;
+        if row.truth_um.is_nan() {
+            refused.push(seed.to_string());
+            continue;
+        }
+        done += 1;
+        println!("{}", response_line(&row));
+    }
+    println!("# without a truth, because FE/contact refuses the set: seeds {}", refused.join(" "));
+    Ok(())
+}
+
+fn number(x: Option<f64>, digits: usize) -> String {
+    x.map_or(String::new(), |x| format!("{x:.digits$}"))
+}
+
+fn settings(s: Option<&experiments::auto::AutoSettings>, none: &str) -> String {
+    s.map_or(none.to_owned(), |s| s.to_string().replace(',', ""))
+}
+
+fn response_line(row: &ResponseRow) -> String {
+    let choice = row.found.as_ref().ok();
+    [
+        row.drawn.seed.to_string(),
+        row.drawn.scene.planets.count().to_string(),
+        row.asked.to_string().replace(',', ""),
+        row.asked.tolerance_percent().to_string(),
+        settings(choice.map(|c| &c.settings), "refused"),
+        number(choice.map(|c| c.estimated_error_percent), 4),
+        number(choice.map(|c| c.value), 6),
+        format!("{:.6}", row.truth_um),
+        number(row.error_percent(), 4),
+        settings(row.cheapest.as_ref(), "none"),
+        number(row.cost_ratio, 2),
+        row.miss().unwrap_or("").to_owned(),
+    ]
+    .join(",")
+}
+
+pub(super) fn remake() -> Outcome {
+    let seeds = seeds(SEEDS)?;
     println!("# What auto chose on drawn sets (docs/auto.md), its true error and its cost.");
     println!(
         "# Own computation: validation/src/auto_record.rs; cost_ratio is a ratio of CPU times of one run"
@@ -52,12 +120,7 @@ pub(super) fn remake() -> Outcome {
 }
 
 fn line(row: &AutoRow) -> String {
-    let (request, number) = (&row.drawn.request, |x: Option<f64>, d: usize| {
-        x.map_or(String::new(), |x| format!("{x:.d$}"))
-    });
-    let settings = |s: Option<&experiments::auto::AutoSettings>, none: &str| {
-        s.map_or(none.to_owned(), |s| s.to_string().replace(',', ""))
-    };
+    let request = &row.drawn.request;
     let choice = row.found.as_ref().ok();
     [
         row.drawn.seed.to_string(),

@@ -24,13 +24,18 @@ type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
 type Remake = fn() -> Outcome;
 
 /// Name, what it makes, how.
-const ALL: [(&str, &str, Remake); 13] = [
+const ALL: [(&str, &str, Remake); 14] = [
     (
         "assumptions",
         "docs/assumptions.md from the ledger and the kept verdict",
         assumptions::remake,
     ),
     ("auto", "kept/auto.csv: choices of auto on drawn sets, their errors and costs", auto::remake),
+    (
+        "auto_responses",
+        "kept/auto_responses.csv: the same for transmission errors at rest and amplitudes",
+        auto::remake_responses,
+    ),
     (
         "effects",
         "tables of docs/fe_dynamics_effects.md: what changes the tabled frequencies",
