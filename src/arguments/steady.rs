@@ -128,6 +128,10 @@ pub(crate) struct Branches {
     #[arg(long, value_name = "N", default_value_t = 500,
           value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
     pub max_points: u32,
+    /// Folder for finished steps, then the table (CSV) and everything (JSON); the same command resumes from the steps in
+    /// it. A folder with anything else that would be overwritten is refused.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
     /// Also draw the strongest motions of the sun into this folder (SVG, PNG), stable solid, unstable dashed:
     /// branch_sun_rotation, branch_sun_translation.
     #[cfg(feature = "charts")]

@@ -4,17 +4,19 @@ use std::io::Write;
 
 use experiments::ExperimentError;
 use experiments::branches::{
-    BranchError, BranchParameter, BranchSettings, Branches as Found, branch, branches,
+    BranchError, BranchParameter, BranchSettings, BranchStore, Search, branches_kept, finished,
 };
-use experiments::sweep::SteadySettings;
+use experiments::sweep::{LUMPED, Memory, SteadySettings, fidelity_name};
 use fe_contact::statics::Bodies;
-use gearset::{Fidelity, LoadCase, Scene, Verb};
+use gearset::{Fidelity, LoadCase, MOST_SCENE_BYTES, Scene, Verb};
 
 use crate::arguments::{Branches, DAMPING_FACTORS, Model, Over, TableFormat};
 use crate::error::CommandError;
 use crate::output;
 
+use super::branches_manifest::{BranchesManifest, RESULTS};
 use super::branches_output::{BranchesOutput, Fixed};
+use super::kept_files::write_whole;
 use super::working::Working;
 use super::{fe_refused, loads, needs, read_scene, refused, turning, unfit};
 
@@ -36,26 +38,41 @@ pub(super) fn run(
     needs::warn(&scene, err)?;
     #[cfg(feature = "charts")]
     needs::figures(&scene, arguments.figures.as_deref(), err)?;
-    scene.damping = scene.damping.times(arguments.damping_factor);
-    let working = Working::new("meshing the bodies and laying out tables");
-    let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
-    let model = turning::model(arguments.model, &scene, &bodies, case)?;
-    working.now("following the branch");
-    let found = match arguments.switch {
-        true => branches(model.as_ref(), &settings),
-        false => branch(model.as_ref(), &settings)
-            .map(|trunk| Found { branches: vec![trunk], not_followed: Vec::new() }),
-    };
-    let found = found.map_err(|e| match e {
-        ExperimentError::Fe(e) => unfit(path, e.to_string()),
-        ExperimentError::Branch(e @ BranchError::NoDerivative(_)) => unfit(path, e.to_string()),
-        ExperimentError::Branch(e @ BranchError::NoStart { .. }) => {
-            refused("--start", e.to_string())
-        }
-        other => other.into(),
-    })?;
-    drop(working);
     let fixed = Fixed { case, damping_factor: arguments.damping_factor };
+    let search = Search { switch: arguments.switch };
+    let fidelity = match arguments.model {
+        Model::FeContact => fidelity_name(scene.dynamics.fidelity),
+        Model::Lumped => LUMPED.into(),
+    };
+    // Bodies and tables take minutes: a folder that cannot be used is refused before.
+    let mut kept = None;
+    if let Some(folder) = &arguments.out {
+        let failed = |source| CommandError::File { what: "cannot read", path: path.into(), source };
+        let text = gearset::read_text(path, MOST_SCENE_BYTES).map_err(failed)?;
+        let manifest = BranchesManifest::new(text, fidelity, &fixed, settings.clone(), search);
+        kept = Some(manifest.open(folder)?);
+    }
+    let store: &dyn BranchStore = kept.as_ref().map_or(&Memory, |(_, steps)| steps);
+    scene.damping = scene.damping.times(arguments.damping_factor);
+    let found = match finished(store)? {
+        Some(found) => found,
+        None => {
+            let working = Working::new("meshing the bodies and laying out tables");
+            let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
+            let model = turning::model(arguments.model, &scene, &bodies, case)?;
+            working.now("following the branch");
+            branches_kept(model.as_ref(), &settings, &search, store).map_err(|e| match e {
+                ExperimentError::Fe(e) => unfit(path, e.to_string()),
+                ExperimentError::Branch(e @ BranchError::NoDerivative(_)) => {
+                    unfit(path, e.to_string())
+                }
+                ExperimentError::Branch(e @ BranchError::NoStart { .. }) => {
+                    refused("--start", e.to_string())
+                }
+                other => other.into(),
+            })?
+        }
+    };
     #[cfg(feature = "charts")]
     if let Some(folder) = &arguments.figures {
         use crate::figures::{of_branches, save};
@@ -63,6 +80,19 @@ pub(super) fn run(
         save(&of_branches(&found, &title, settings.harmonics), folder)?;
     }
     let result = BranchesOutput::new(&scene, &fixed, &settings, found);
+    if let Some(folder) = &arguments.out {
+        let (mut table, mut all) = (Vec::new(), Vec::new());
+        result.write_csv(&mut table)?;
+        output::json(&mut all, &result)?;
+        for (name, bytes) in RESULTS.iter().zip([table, all]) {
+            let path = folder.join(name);
+            write_whole(&path, &bytes).map_err(|source| CommandError::File {
+                what: "cannot write",
+                path,
+                source,
+            })?;
+        }
+    }
     match arguments.format {
         TableFormat::Json => output::json(out, &result),
         TableFormat::Csv => result.write_csv(out),

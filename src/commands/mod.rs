@@ -2,16 +2,19 @@
 
 mod auto_choice;
 mod branches;
+mod branches_manifest;
 mod branches_output;
 mod compare;
 mod impulse;
 mod impulse_output;
 mod impulse_text;
+mod kept_files;
 mod loads;
 mod mesh;
 mod modes;
 mod needs;
 mod report;
+mod result_folder;
 mod rules;
 mod scene;
 mod scene_summary;

@@ -16,12 +16,14 @@ use crate::arguments::{Model, Sweep as SweepArguments, TableFormat};
 use crate::error::CommandError;
 use crate::output;
 
+use super::kept_files::{KeptFiles, write_whole};
 use super::needs::not_ring_pair;
+use super::result_folder::{Claim, PLAN};
 use super::sweep_auto;
-use super::sweep_claim::{Claim, PEAKS, PLAN};
-use super::sweep_manifest::Manifest;
+use super::sweep_claim::{PEAKS, POINTS, claim};
+use super::sweep_manifest::SweepManifest;
 use super::sweep_output::{SweepOutput, text, write_csv, write_failed};
-use super::sweep_store::{Folder, write_whole};
+use super::sweep_store::Points;
 use super::working::Working;
 use super::{fe_refused, loads, needs, read_scene, refused, turning, unfit};
 
@@ -185,15 +187,15 @@ impl<'a> Task<'a> {
     }
 
     /// What a folder of a plan's points says that they were computed from.
-    fn manifest(&self, plan: &Plan) -> Manifest {
+    fn manifest(&self, plan: &Plan) -> SweepManifest {
         let (text, fidelity) = (self.text.clone(), self.fidelity.clone());
-        Manifest::new(text, fidelity, self.case.sun_torque_nm, plan.clone())
+        SweepManifest::new(text, fidelity, self.case.sun_torque_nm, plan.clone())
     }
 
     /// The folder of `--out` for this process alone; `None` without that argument.
     fn claim(&self) -> Result<Option<Claim>, CommandError> {
         let Some(folder) = &self.arguments.out else { return Ok(None) };
-        Claim::of(folder, &self.manifest(&self.plan), self.arguments.refine).map(Some)
+        claim(folder, &self.manifest(&self.plan), self.arguments.refine).map(Some)
     }
 
     /// Runs one plan and stores its points if a folder is given.
@@ -205,7 +207,9 @@ impl<'a> Task<'a> {
     ) -> Result<Sweep, CommandError> {
         let bar = progress(plan.points() as u64);
         let store: Box<dyn PointStore> = match &self.arguments.out {
-            Some(folder) => Box::new(Folder::open(folder, manifest, &self.manifest(plan))?),
+            Some(folder) => {
+                Box::new(Points(KeptFiles::open(folder, (manifest, POINTS), &self.manifest(plan))?))
+            }
             None => Box::new(Memory),
         };
         let done = |_: &Kept| bar.inc(1);

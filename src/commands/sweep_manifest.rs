@@ -3,6 +3,8 @@
 use experiments::sweep::{Plan, SteadyMethod};
 use serde::{Deserialize, Serialize};
 
+use super::result_folder::Manifest;
+
 /// Format of the folder; another one is refused. 4: points say how they were found and
 /// carry Floquet multipliers.
 pub(super) const FORMAT: u32 = 4;
@@ -12,7 +14,7 @@ const LONGEST: usize = 60;
 
 /// What the points in a folder were computed from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Manifest {
+pub(super) struct SweepManifest {
     /// Format of the folder.
     format: u32,
     /// Version of the program that computed the points.
@@ -27,19 +29,22 @@ pub(super) struct Manifest {
     pub(super) plan: Plan,
 }
 
-impl Manifest {
+impl SweepManifest {
     /// Of this version of the program.
     pub(super) fn new(scene: String, fidelity: String, sun_torque_nm: f64, plan: Plan) -> Self {
         let version = env!("CARGO_PKG_VERSION").to_owned();
         Self { format: FORMAT, version, scene, fidelity, sun_torque_nm, plan }
     }
+}
 
-    /// The first difference of a manifest read from a folder from this one, as a clause about the folder;
-    /// `None` if they are the same.
-    pub(super) fn difference(&self, text: &str) -> Option<String> {
+impl Manifest for SweepManifest {
+    fn difference(&self, text: &str) -> Option<String> {
         let Ok(value) = serde_json::from_str::<serde_json::Value>(text) else {
             return Some("its manifest is no JSON".into());
         };
+        if value.get("branches").is_some() {
+            return Some("it is of branches, not of a sweep".into());
+        }
         let format = value.get("format").and_then(serde_json::Value::as_u64);
         if format != Some(u64::from(FORMAT)) {
             let found = format.map_or("none".to_owned(), |f| f.to_string());
@@ -67,7 +72,7 @@ impl Manifest {
 }
 
 /// The first line in which the scene files differ.
-fn of_scenes(found: &str, own: &str) -> String {
+pub(super) fn of_scenes(found: &str, own: &str) -> String {
     let shown = |line: Option<&str>| match line {
         Some(line) if line.chars().count() > LONGEST => {
             format!("`{}…`", line.chars().take(LONGEST).collect::<String>())
@@ -156,17 +161,17 @@ mod tests {
         directions: &[Direction],
         speeds: &[f64],
         harmonics: usize,
-    ) -> Manifest {
+    ) -> SweepManifest {
         let steady = SteadySettings { harmonics, ..SteadySettings::default() };
         let plan = Plan::new(speeds, directions, steady).unwrap();
-        Manifest::new(scene.into(), "quasi-static".into(), 1130.0, plan)
+        SweepManifest::new(scene.into(), "quasi-static".into(), 1130.0, plan)
     }
 
     #[test]
     fn what_differs_is_named() {
         let (up, both) = ([Direction::Up], [Direction::Up, Direction::Down]);
         let own = manifest("a = 1\nb = 2\n", &up, &[100.0, 150.0, 200.0], 5);
-        let of = |found: &Manifest| own.difference(&serde_json::to_string(found).unwrap());
+        let of = |found: &SweepManifest| own.difference(&serde_json::to_string(found).unwrap());
         assert_eq!(of(&own), None);
         let speeds = [100.0, 150.0, 200.0];
         for (found, words) in [
@@ -183,9 +188,12 @@ mod tests {
                 manifest("a = 1\nb = 2\n", &up, &[100.0, 160.0, 200.0], 5),
                 "160 rpm in chain up_00, not 150",
             ),
-            (Manifest { sun_torque_nm: 5.0, ..own.clone() }, "under 5 N·m on the sun, not 1130"),
-            (Manifest { fidelity: "lumped".into(), ..own.clone() }, "the model lumped"),
-            (Manifest { version: "0.0.0".into(), ..own.clone() }, "version 0.0.0"),
+            (
+                SweepManifest { sun_torque_nm: 5.0, ..own.clone() },
+                "under 5 N·m on the sun, not 1130",
+            ),
+            (SweepManifest { fidelity: "lumped".into(), ..own.clone() }, "the model lumped"),
+            (SweepManifest { version: "0.0.0".into(), ..own.clone() }, "version 0.0.0"),
         ] {
             let reason = of(&found).unwrap();
             assert!(reason.contains(words), "{words}: {reason}");

@@ -1,10 +1,13 @@
 //! A branch of solutions.
 
+use serde::{Deserialize, Serialize};
+
 use super::error::ContinuationError;
 use super::family::Judgement;
 
 /// What a point of a branch is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum PointKind {
     /// Any point.
     Regular,
@@ -15,7 +18,7 @@ pub enum PointKind {
 }
 
 /// A solution on a branch.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BranchPoint {
     /// Unknowns.
     pub y: Vec<f64>,

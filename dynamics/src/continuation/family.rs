@@ -1,6 +1,7 @@
 //! Families of equations over one parameter.
 
 use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 
 /// Residual of F(y, λ) and its derivatives.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,7 +15,7 @@ pub struct Evaluation {
 }
 
 /// What a family says about one of its solutions.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Judgement {
     /// Whether the solution is stable, if the family knows.
     pub is_stable: Option<bool>,

@@ -23,9 +23,10 @@ pub(super) struct Corrected {
 }
 
 impl Corrected {
-    /// Turns the tangent round.
-    pub(super) fn turn_back(&mut self) {
-        self.tangent.iter_mut().for_each(|t| *t = -*t);
+    /// The same point with the tangent turned round.
+    pub(super) fn turned_back(&self) -> Self {
+        let tangent = self.tangent.iter().map(|t| -t).collect();
+        Self { u: self.u.clone(), tangent, iterations: self.iterations }
     }
 }
 

@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::branch::{Branch, BranchPoint, End, PointKind};
 use super::error::ContinuationError;
 use super::family::Family;
+use super::kept_step::{KeptStep, StepEnd, StepStore, Unkept};
 use super::kink::past_kink;
 use super::locate::{Judged, crossed, locate};
 use super::options::{ContinuationOptions, Scales};
@@ -43,11 +44,9 @@ pub fn trace<F: Family>(
     options: &ContinuationOptions,
 ) -> Result<Branch<F::Error>, ContinuationError<F::Error>> {
     let mut space = Space::new(family, scales)?;
-    let mut first = begin(&mut space, start, lambda, options)?;
-    if direction == Direction::Down {
-        first.turn_back();
-    }
-    let (points, end) = follow(&mut space, first, options)?;
+    let first = begin(&mut space, start, lambda, options)?;
+    let first = if direction == Direction::Down { first.turned_back() } else { first };
+    let (points, end) = follow(&mut space, first, options, (direction, &mut Unkept))?;
     Ok(Branch { points, ends: [End::Start, end] })
 }
 
@@ -63,11 +62,30 @@ pub fn trace_both<F: Family>(
     scales: &Scales,
     options: &ContinuationOptions,
 ) -> Result<Branch<F::Error>, ContinuationError<F::Error>> {
+    trace_both_kept(family, (start, lambda), scales, options, &mut Unkept)
+}
+
+/// The same from `start` = (y, λ), with every step kept in `store` and those found there not taken again: the same start,
+/// scales and options must have been used.
+///
+/// # Errors
+/// As [`trace`], or if the store fails.
+pub fn trace_both_kept<F: Family>(
+    family: &mut F,
+    start: (&[f64], f64),
+    scales: &Scales,
+    options: &ContinuationOptions,
+    store: &mut dyn StepStore<F>,
+) -> Result<Branch<F::Error>, ContinuationError<F::Error>> {
     let mut space = Space::new(family, scales)?;
-    let first = begin(&mut space, start, lambda, options)?;
-    let mut back = first.clone();
-    back.turn_back();
-    let (mut points, down) = follow(&mut space, back, options)?;
+    let (first, back) = match loaded(store, Direction::Down, (0, start.1))?.and_then(reached) {
+        Some(Judged { at: back, .. }) => (back.turned_back(), back),
+        None => {
+            let first = begin(&mut space, start.0, start.1, options)?;
+            (first.clone(), first.turned_back())
+        }
+    };
+    let (mut points, down) = follow(&mut space, back, options, (Direction::Down, store))?;
     points.reverse();
     for point in &mut points {
         point.arc = -point.arc;
@@ -76,7 +94,7 @@ pub fn trace_both<F: Family>(
     if matches!(down, End::Closed) {
         return Ok(Branch { points, ends: [End::Closed, End::Closed] });
     }
-    let (further, up) = follow(&mut space, first, options)?;
+    let (further, up) = follow(&mut space, first, options, (Direction::Up, store))?;
     points.extend(further.into_iter().skip(1));
     Ok(Branch { points, ends: [down, up] })
 }
@@ -96,6 +114,20 @@ pub fn branch_off<F: Family>(
     scales: &Scales,
     options: &ContinuationOptions,
 ) -> Result<Branch<F::Error>, ContinuationError<F::Error>> {
+    branch_off_kept(family, (from, direction), scales, options, &mut Unkept)
+}
+
+/// The same with every step kept in `store`, as by [`trace_both_kept`]; its direction is [`Direction::Up`].
+///
+/// # Errors
+/// As [`branch_off`], or if the store fails.
+pub fn branch_off_kept<F: Family>(
+    family: &mut F,
+    (from, direction): (&BranchPoint, &[f64]),
+    scales: &Scales,
+    options: &ContinuationOptions,
+    store: &mut dyn StepStore<F>,
+) -> Result<Branch<F::Error>, ContinuationError<F::Error>> {
     options.check()?;
     let mut space = Space::new(family, scales)?;
     let wanted = scales.unknowns.len();
@@ -114,6 +146,11 @@ pub fn branch_off<F: Family>(
         return Err(ContinuationError::NoTangent { lambda: from.lambda });
     }
     let off: Vec<f64> = off.iter().map(|o| o / length).collect();
+    let towards = Direction::Up;
+    if let Some(first) = loaded(store, towards, (0, from.lambda))?.and_then(reached) {
+        let (points, end) = follow(&mut space, first.at, options, (towards, store))?;
+        return Ok(Branch { points, ends: [End::Start, end] });
+    }
     let mut last = ContinuationError::NoTangent { lambda: from.lambda };
     for share in BESIDE {
         let h = share * options.first_step;
@@ -121,7 +158,7 @@ pub fn branch_off<F: Family>(
         match space.correct(&predicted, &off, stop(options)) {
             Ok(mut first) if distance(&first.u, &predicted) <= h => {
                 first.tangent = space.tangent(&first.u, &off)?;
-                let (points, end) = follow(&mut space, first, options)?;
+                let (points, end) = follow(&mut space, first, options, (towards, store))?;
                 return Ok(Branch { points, ends: [End::Start, end] });
             }
             Ok(_) => {}
@@ -160,30 +197,71 @@ fn begin<F: Family>(
         }
     };
     at.tangent = space.tangent(&at.u, &border)?;
-    if at.tangent.last().is_some_and(|t| *t < 0.0) {
-        at.turn_back();
-    }
-    Ok(at)
+    Ok(if at.tangent.last().is_some_and(|t| *t < 0.0) { at.turned_back() } else { at })
 }
 
 fn stop(options: &ContinuationOptions) -> Stop {
     Stop { correction: options.correction, most_iterations: options.most_iterations }
 }
 
-/// Points along a branch from its first one, and why they end.
+/// A step that was kept; `at`: its number, and a parameter for messages.
+fn loaded<F: Family>(
+    store: &mut dyn StepStore<F>,
+    towards: Direction,
+    (number, lambda): (usize, f64),
+) -> Result<Option<KeptStep>, ContinuationError<F::Error>> {
+    let found = store.load(towards, number);
+    found.map_err(|cause| ContinuationError::Family { lambda, cause })
+}
+
+/// The point that a kept step ends at.
+fn reached(step: KeptStep) -> Option<Judged> {
+    let BranchPoint { tangent, judgement, iterations, .. } = step.points.into_iter().next_back()?;
+    Some(Judged { at: Corrected { u: step.scaled, tangent, iterations }, judgement })
+}
+
+/// Points along a branch from its first one, and why they end. Steps that are in the store are not taken again.
 #[allow(clippy::type_complexity)]
 fn follow<F: Family>(
     space: &mut Space<'_, F>,
     first: Corrected,
     options: &ContinuationOptions,
+    (towards, store): (Direction, &mut dyn StepStore<F>),
 ) -> Result<(Vec<BranchPoint>, End<F::Error>), ContinuationError<F::Error>> {
     let stop = stop(options);
-    let mut last = judge(space, first)?;
-    let mut points = vec![point(space, &last, PointKind::Regular, 0.0)];
-    let (first, first_tangent) = (last.at.u.clone(), last.at.tangent.clone());
-    let mut arc = 0.0;
+    let (first, first_tangent, at_first) = (first.u.clone(), first.tangent.clone(), first);
+    let mut points: Vec<BranchPoint> = Vec::new();
     let mut h = options.first_step.clamp(options.steps[0], options.steps[1]);
     let mut was_away = false;
+    let (mut kept, mut number) = (None, 0);
+    while let Some(step) = loaded(store, towards, (number, space.lambda(&first)))? {
+        points.extend(step.points.iter().cloned());
+        (h, was_away, number) = (step.next_step, step.was_away, number + 1);
+        match step.end {
+            Some(StepEnd::Bound) => return Ok((points, End::Bound)),
+            Some(StepEnd::Closed) => return Ok((points, End::Closed)),
+            None => kept = reached(step),
+        }
+    }
+    let mut save = |space: &mut Space<'_, F>, last: &Judged, step: KeptStep| {
+        let lambda = space.lambda(&last.at.u);
+        let saved = store.save(space.family, towards, number, &step);
+        number += 1;
+        saved.map_err(|cause| ContinuationError::Family { lambda, cause })
+    };
+    let mut last = match kept {
+        Some(last) => last,
+        None => {
+            let last = judge(space, at_first)?;
+            points = vec![point(space, &last, PointKind::Regular, 0.0)];
+            let scaled = last.at.u.clone();
+            let step =
+                KeptStep { points: points.clone(), scaled, next_step: h, was_away, end: None };
+            save(space, &last, step)?;
+            last
+        }
+    };
+    let mut arc = points.last().map_or(0.0, |p| p.arc);
     // Turn of the last step refused, and that allowed.
     let (mut refused, mut most_turn) = (f64::INFINITY, options.most_turn);
     let end = loop {
@@ -227,7 +305,7 @@ fn follow<F: Family>(
         (refused, most_turn) = (f64::INFINITY, options.most_turn);
         let turn = dot(&next.at.tangent, &last.at.tangent).clamp(-1.0, 1.0).acos();
         let whole = distance(&next.at.u, &last.at.u);
-        let mut between = Vec::new();
+        let (mut between, before) = (Vec::new(), points.len());
         for kind in crossed(&last, &next) {
             match locate(space, (&last, &next), kind, options.location, stop) {
                 Ok((found, along)) => {
@@ -250,20 +328,27 @@ fn follow<F: Family>(
         let near = distance(&next.at.u, &first);
         let crossed_first = dot(&minus(&first, &last.at.u), &minus(&next.at.u, &first)) > 0.0;
         last = next;
-        if is_last {
-            break End::Bound;
-        }
         was_away |= near > 4.0 * options.steps[1].min(whole.max(options.first_step));
         // Beyond a sharp turn the branch may pass its first point closely, in the other sense.
         let is_along_first = dot(&last.at.tangent, &first_tangent) > 0.0;
-        if was_away && near <= whole && crossed_first && is_along_first {
-            break End::Closed;
-        }
+        let is_closed = was_away && near <= whole && crossed_first && is_along_first;
         // Longer where Newton's method is quick and the branch straight.
         let by_iterations = options.wanted_iterations as f64 / iterations as f64;
         let by_turn = 0.5 * options.most_turn / turn.max(1e-12);
         h = (h * by_iterations.min(by_turn).clamp(0.5, GROWTH))
             .clamp(options.steps[0], options.steps[1]);
+        let end = match (is_last, is_closed) {
+            (true, _) => Some(StepEnd::Bound),
+            (false, true) => Some(StepEnd::Closed),
+            (false, false) => None,
+        };
+        let (points, scaled) = (points[before..].to_vec(), last.at.u.clone());
+        save(space, &last, KeptStep { points, scaled, next_step: h, was_away, end })?;
+        match end {
+            Some(StepEnd::Bound) => break End::Bound,
+            Some(StepEnd::Closed) => break End::Closed,
+            None => {}
+        }
     };
     Ok((points, end))
 }

@@ -1,18 +1,20 @@
 //! Follows branches of periodic motions over speed, torque or damping.
 
 use dynamics::continuation::{
-    self, ContinuationError, ContinuationOptions, End, Scales, branch_off, trace_both,
+    self, ContinuationError, ContinuationOptions, End, Scales, branch_off_kept, trace_both_kept,
 };
 
 use super::branch::{Branch, BranchEnd, BranchOrigin, Branches, NotFollowed};
 use super::direction::critical_direction;
 use super::family::PeriodicFamily;
 use super::first::{first, no_start};
-use super::judged_point::{drop_doubles, point};
+use super::judged_point::drop_doubles;
+use super::kept::{self, BranchStore, Steps};
 use super::point::{BranchPoint, BranchPointKind};
+use super::search::Search;
 use super::settings::BranchSettings;
 use crate::error::ExperimentError;
-use crate::sweep::SweepModel;
+use crate::sweep::{Memory, SweepModel};
 use crate::table_growth::{Outgrown, large_enough};
 
 /// A branch with its points as continuation has them.
@@ -34,7 +36,7 @@ pub fn branch(
 ) -> Result<Branch, ExperimentError> {
     settings.check()?;
     model.prepare()?;
-    large_enough(|size| Ok(Follower::new(model, settings, size)?.trunk()?.0))
+    large_enough(|size| Ok(Follower::new(model, settings, size, &Memory)?.trunk()?.0))
 }
 
 /// The same with the branches that leave it at its period doublings and branch points. Those that leave these are not
@@ -46,13 +48,62 @@ pub fn branches(
     model: &dyn SweepModel,
     settings: &BranchSettings,
 ) -> Result<Branches, ExperimentError> {
+    branches_kept(model, settings, &Search { switch: true }, &Memory)
+}
+
+/// The branches asked for, with every finished step kept in `store` and none taken again that is there: it must be that of
+/// the same model, settings and search. A run that was interrupted and gone on with has the result of one that was not, to
+/// the last bit. Complete, the result itself is kept: [`finished`](super::finished) has it without a model.
+///
+/// # Errors
+/// As [`branch`], or if the store fails.
+pub fn branches_kept(
+    model: &dyn SweepModel,
+    settings: &BranchSettings,
+    search: &Search,
+    store: &dyn BranchStore,
+) -> Result<Branches, ExperimentError> {
     settings.check()?;
     model.prepare()?;
-    large_enough(|size| {
-        let follower = Follower::new(model, settings, size)?;
-        let (trunk, points) = follower.trunk()?;
+    let found = large_enough(|size| Follower::new(model, settings, size, store)?.all(search))?;
+    kept::keep_whole(store, &found)?;
+    Ok(found)
+}
+
+/// A model and how its branches are followed.
+struct Follower<'a> {
+    model: &'a dyn SweepModel,
+    settings: &'a BranchSettings,
+    /// As in [`SweepModel::turning`].
+    size: usize,
+    store: &'a dyn BranchStore,
+    start: Vec<f64>,
+    scales: Scales,
+    options: ContinuationOptions,
+}
+
+impl<'a> Follower<'a> {
+    fn new(
+        model: &'a dyn SweepModel,
+        settings: &'a BranchSettings,
+        size: usize,
+        store: &'a dyn BranchStore,
+    ) -> Result<Self, ExperimentError> {
+        let (start, scales) = kept::start(store, size, || first(model, settings, size))?;
+        let options = ContinuationOptions {
+            most_points: settings.most_points,
+            steps: [1e-6, settings.longest_step],
+            ..ContinuationOptions::within(settings.range)
+        };
+        Ok(Self { model, settings, size, store, start, scales, options })
+    }
+
+    /// Everything that a search asks for.
+    fn all(&self, search: &Search) -> Result<Branches, ExperimentError> {
+        let (trunk, points) = self.trunk()?;
         let mut found = Branches { branches: Vec::new(), not_followed: Vec::new() };
-        for (own, raw) in trunk.points.iter().zip(&points) {
+        let located = trunk.points.iter().zip(&points).enumerate();
+        for (number, (own, raw)) in located.filter(|_| search.switch) {
             let sides: &[f64] = match own.kind {
                 // The other side is the same motion one mesh cycle later.
                 BranchPointKind::PeriodDoubling => &[1.0],
@@ -60,7 +111,7 @@ pub fn branches(
                 _ => continue,
             };
             for side in sides {
-                match follower.off(own, raw, *side)? {
+                match self.off((number, own, raw), *side)? {
                     Ok((branch, _)) => found.branches.push(branch),
                     Err(reason) => found.not_followed.push(NotFollowed {
                         parameter: own.parameter,
@@ -72,33 +123,13 @@ pub fn branches(
         }
         found.branches.insert(0, trunk);
         Ok(found)
-    })
-}
+    }
 
-/// A model and how its branches are followed.
-struct Follower<'a> {
-    model: &'a dyn SweepModel,
-    settings: &'a BranchSettings,
-    /// As in [`SweepModel::turning`].
-    size: usize,
-    start: Vec<f64>,
-    scales: Scales,
-    options: ContinuationOptions,
-}
-
-impl<'a> Follower<'a> {
-    fn new(
-        model: &'a dyn SweepModel,
-        settings: &'a BranchSettings,
-        size: usize,
-    ) -> Result<Self, ExperimentError> {
-        let (start, scales) = first(model, settings, size)?;
-        let options = ContinuationOptions {
-            most_points: settings.most_points,
-            steps: [1e-6, settings.longest_step],
-            ..ContinuationOptions::within(settings.range)
-        };
-        Ok(Self { model, settings, size, start, scales, options })
+    /// Where the steps of a branch are kept.
+    fn steps(&self, place: String, repeats_after: usize) -> Steps<'a> {
+        let Self { store, model, settings, size, .. } = *self;
+        let points = [Vec::new(), Vec::new()];
+        Steps { store, model, settings, repeats_after, size, place, points }
     }
 
     fn family(&self, repeats_after: usize) -> PeriodicFamily<'a> {
@@ -109,24 +140,25 @@ impl<'a> Follower<'a> {
 
     /// The branch through the first motion.
     fn trunk(&self) -> Result<Followed, ExperimentError> {
-        let (settings, mut family) = (self.settings, self.family(1));
-        let found =
-            trace_both(&mut family, &self.start, settings.start, &self.scales, &self.options);
+        let Self { settings, start, scales, options, .. } = self;
+        let (mut family, mut steps) = (self.family(1), self.steps("first".into(), 1));
+        let start = (start.as_slice(), settings.start);
+        let found = trace_both_kept(&mut family, start, scales, options, &mut steps);
         let found = found.map_err(|error| match error {
             ContinuationError::Family { cause, .. } => cause,
             other => no_start(settings, other.to_string()),
         })?;
-        self.kept(&family, found, BranchOrigin::Start(settings.start), 1)
+        self.kept(steps, found, BranchOrigin::Start(settings.start))
     }
 
-    /// The branch that leaves at a period doubling or branch point, to one side; the inner error is the reason why none
-    /// was found.
+    /// The branch that leaves at a period doubling or branch point, `at` its number along the first branch, to one side; the
+    /// inner error is the reason why none was found.
     fn off(
         &self,
-        own: &BranchPoint,
-        raw: &continuation::BranchPoint,
+        at: (usize, &BranchPoint, &continuation::BranchPoint),
         side: f64,
     ) -> Result<Result<Followed, String>, ExperimentError> {
+        let (number, own, raw) = at;
         let (repeats_after, multiplier, origin) = match own.kind {
             BranchPointKind::PeriodDoubling => {
                 (2, -1.0, BranchOrigin::PeriodDoubling(own.parameter))
@@ -140,19 +172,21 @@ impl<'a> Follower<'a> {
         };
         direction.iter_mut().for_each(|d| *d *= side);
         let mut family = self.family(repeats_after);
-        match branch_off(&mut family, raw, &direction, &self.scales, &self.options) {
-            Ok(found) => self.kept(&family, found, origin, repeats_after).map(Ok),
-            Err(ContinuationError::Family { cause, .. }) if cause.is_too_small() => Err(cause),
+        let which = if side > 0.0 { "a" } else { "b" };
+        let mut steps = self.steps(format!("off_{number:04}{which}"), repeats_after);
+        let (from, Self { scales, options, .. }) = ((raw, direction.as_slice()), self);
+        match branch_off_kept(&mut family, from, scales, options, &mut steps) {
+            Ok(found) => self.kept(steps, found, origin).map(Ok),
+            Err(ContinuationError::Family { cause, .. }) if ends_all(&cause) => Err(cause),
             Err(error) => Ok(Err(error.to_string())),
         }
     }
 
     fn kept(
         &self,
-        family: &PeriodicFamily<'_>,
+        steps: Steps<'_>,
         found: continuation::Branch<ExperimentError>,
         origin: BranchOrigin,
-        repeats_after: usize,
     ) -> Result<Followed, ExperimentError> {
         let mut ends = [BranchEnd::Bound, BranchEnd::Bound];
         for (own, end) in ends.iter_mut().zip(found.ends) {
@@ -161,21 +195,29 @@ impl<'a> Follower<'a> {
                 End::Bound => BranchEnd::Bound,
                 End::Closed => BranchEnd::Closed,
                 End::MostPoints => BranchEnd::MostPoints,
-                End::Stuck(ContinuationError::Family { cause, .. }) if cause.is_too_small() => {
+                End::Stuck(ContinuationError::Family { cause, .. }) if ends_all(&cause) => {
                     return Err(cause);
                 }
                 End::Stuck(why) => BranchEnd::Stuck(why.to_string()),
             };
         }
-        let mut points = Vec::with_capacity(found.points.len());
-        for raw in found.points {
-            let own =
-                point(self.model, &family.judged, &raw, self.settings, repeats_after, self.size)?;
-            points.push((own, raw));
-        }
+        let repeats_after = steps.repeats_after;
+        // Downwards from the end reached, then upwards without the first point, which both ways have.
+        let [down, up] = steps.points;
+        let both = usize::from(!down.is_empty());
+        let own = down.into_iter().rev().chain(up.into_iter().skip(both)).map(|(own, _)| own);
+        // Arc lengths and tangents in the sense of the whole.
+        let points =
+            own.zip(found.points).map(|(own, raw)| (BranchPoint { arc: raw.arc, ..own }, raw));
+        let mut points: Vec<_> = points.collect();
         drop_doubles(&mut points);
         let (points, raw) = points.into_iter().unzip();
         let (fidelity, over) = (self.model.name(), self.settings.over);
         Ok((Branch { fidelity, over, origin, repeats_after, points, ends }, raw))
     }
+}
+
+/// Whether an error ends all branches: tables that are too small, which are laid out anew, or a store that fails.
+fn ends_all(error: &ExperimentError) -> bool {
+    error.is_too_small() || matches!(error, ExperimentError::Store(_))
 }

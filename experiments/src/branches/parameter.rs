@@ -27,6 +27,15 @@ impl BranchParameter {
         }
     }
 
+    /// As the argument `--over` calls it.
+    pub fn argument(self) -> &'static str {
+        match self {
+            Self::Speed => "speed",
+            Self::Torque => "torque",
+            Self::Damping => "damping",
+        }
+    }
+
     /// Its unit with a space before it, empty for the factor.
     pub fn unit(self) -> &'static str {
         match self {
