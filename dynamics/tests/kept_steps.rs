@@ -85,7 +85,7 @@ fn interrupted(
 ) -> (Branch<Interrupted>, usize, [usize; 2]) {
     let kept = RefCell::new(BTreeMap::new());
     let mut interruptions = 0;
-    let mut run = |most| {
+    let run = |most| {
         let mut family = Counted { equation, evaluations: 0 };
         let found = follow(&mut family, &mut Steps { kept: &kept, most });
         (found, family.evaluations)

@@ -24,7 +24,7 @@ pub enum Kept {
     /// A point with the state its chain goes on from.
     Found {
         /// The point.
-        point: SweepPoint,
+        point: Box<SweepPoint>,
         /// State after it.
         state: Vec<f64>,
     },
@@ -204,7 +204,7 @@ pub fn run(
             done(&kept);
             match kept {
                 Kept::Found { point, state: after } => {
-                    points.push(point);
+                    points.push(*point);
                     state = Some(after);
                 }
                 Kept::Failed(point) => failed.push(point),
@@ -250,7 +250,7 @@ fn one(
             rest.check()?;
         }
         let point = SweepPoint::new(case, &found, settings, size)?;
-        Ok(Kept::Found { point, state: set.state() })
+        Ok(Kept::Found { point: Box::new(point), state: set.state() })
     };
     let found = large_enough(|size| {
         attempt(size).inspect_err(|error: &ExperimentError| {
