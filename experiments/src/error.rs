@@ -54,6 +54,16 @@ pub enum ExperimentError {
         /// Torque of the model, N m.
         own_nm: f64,
     },
+    /// A value of a varied scene key that the scene does not allow.
+    #[error("{key} = {value:?}: {reason}")]
+    KeyValue {
+        /// Its path.
+        key: &'static str,
+        /// Its value.
+        value: f64,
+        /// What the reader of scenes says.
+        reason: String,
+    },
     /// A branch of periodic motions that could not be begun.
     #[error(transparent)]
     Branch(#[from] crate::branches::BranchError),

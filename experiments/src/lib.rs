@@ -10,6 +10,7 @@ pub mod modal;
 mod model;
 pub mod models;
 mod natural_mode;
+mod scene_keys;
 pub mod stability;
 pub mod study;
 pub mod sweep;

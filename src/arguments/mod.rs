@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-pub(crate) use steady::{Branches, Model, Over, SteadyMethod, Sweep};
+pub(crate) use steady::{Branches, Model, SteadyMethod, Sweep};
 pub(crate) use values::DAMPING_FACTORS;
 use values::{elements, tolerance, two};
 

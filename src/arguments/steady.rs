@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use experiments::branches::BranchParameter;
 
 use super::TableFormat;
-use super::values::{damping_factor, range, small, span};
+use super::values::{damping_factor, over, range, small, span};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Model {
@@ -77,23 +78,15 @@ pub(crate) struct Sweep {
     pub format: TableFormat,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Over {
-    /// Speed of the input member.
-    Speed,
-    /// Torque on the sun.
-    Torque,
-    /// Factor on every damping of the scene.
-    Damping,
-}
-
 #[derive(Debug, Args)]
 pub(crate) struct Branches {
     /// Scene file of a whole set, or a sun–planet gear pair; its `[dynamics]` gives fidelity and steps per mesh cycle.
     pub scene: PathBuf,
-    /// What is varied along the branch.
-    #[arg(long, value_enum, default_value_t = Over::Speed)]
-    pub over: Over,
+    /// What is varied along the branch: speed (of the input member), torque (on the sun), damping (a factor on every damping
+    /// of the scene), or a scene key of damping, of the stiffness of a support, or of a mass or inertia, as
+    /// planet.bearing_n_per_m.
+    #[arg(long, value_name = "WHAT", default_value = "speed", value_parser = over)]
+    pub over: BranchParameter,
     /// Least and greatest speed of the input member, rpm; with --over speed, which needs it.
     #[arg(long, value_name = "FROM:TO", value_parser = span, allow_hyphen_values = true)]
     pub speeds_rpm: Option<[f64; 2]>,
@@ -103,11 +96,17 @@ pub(crate) struct Branches {
     /// Least and greatest factor on every damping of the scene; with --over damping, which needs it.
     #[arg(long, value_name = "FROM:TO", value_parser = span, allow_hyphen_values = true)]
     pub damping_factors: Option<[f64; 2]>,
-    /// Speed (rpm), torque (N·m) or factor at which the branch begins, with the motion found from rest; the greatest if
+    /// Least value of the key, in its unit; with --over KEY, which needs it.
+    #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
+    pub from: Option<f64>,
+    /// Greatest value of the key, in its unit; with --over KEY, which needs it.
+    #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
+    pub to: Option<f64>,
+    /// Speed (rpm), torque (N·m), factor or value of the key at which the branch begins, with the motion found from rest; the greatest if
     /// left out.
     #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
     pub start: Option<f64>,
-    /// Speed of the input member, rpm, with --over torque and damping. The operating speed if left out.
+    /// Speed of the input member, rpm; not with --over speed. The operating speed if left out.
     #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
     pub rpm: Option<f64>,
     /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out. With --over torque the one under
@@ -117,7 +116,7 @@ pub(crate) struct Branches {
     /// Model whose motion is followed.
     #[arg(long, value_enum, default_value_t = Model::FeContact)]
     pub model: Model,
-    /// Factor on every damping of the scene, with --over speed and torque.
+    /// Factor on every damping of the scene; not with --over damping.
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = damping_factor,
           allow_negative_numbers = true)]
     pub damping_factor: f64,

@@ -1,5 +1,8 @@
 //! Values of the command line with their bounds.
 
+use experiments::branches::BranchParameter;
+use experiments::sweep::VariedKey;
+
 pub(super) fn elements(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(x) if (1.0..=100.0).contains(&x) => Ok(x),
@@ -41,6 +44,19 @@ pub(super) fn damping_factor(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(x) if (DAMPING_FACTORS[0]..=DAMPING_FACTORS[1]).contains(&x) => Ok(x),
         _ => Err("a number from 1e-6 to 100".into()),
+    }
+}
+
+/// What is varied along a branch: a word, or the path of a scene key.
+pub(super) fn over(text: &str) -> Result<BranchParameter, String> {
+    match text {
+        "speed" => Ok(BranchParameter::Speed),
+        "torque" => Ok(BranchParameter::Torque),
+        "damping" => Ok(BranchParameter::Damping),
+        path if path.contains('.') => {
+            VariedKey::named(path).map(BranchParameter::Key).map_err(|e| e.to_string())
+        }
+        _ => Err("speed, torque, damping, or a scene key with its table".into()),
     }
 }
 

@@ -1,4 +1,4 @@
-//! `branches SCENE`: periodic motions over speed, torque or damping, stable or not.
+//! `branches SCENE`: periodic motions over speed, torque, damping or a number of the scene, stable or not.
 
 use std::io::Write;
 
@@ -6,11 +6,11 @@ use experiments::ExperimentError;
 use experiments::branches::{
     BranchError, BranchParameter, BranchSettings, BranchStore, Search, branches_kept, finished,
 };
-use experiments::sweep::{LUMPED, Memory, SteadySettings, fidelity_name};
+use experiments::sweep::{KeyedModel, LUMPED, Memory, SteadySettings, SweepModel, fidelity_name};
 use fe_contact::statics::Bodies;
 use gearset::{Fidelity, LoadCase, MOST_SCENE_BYTES, Scene, Verb};
 
-use crate::arguments::{Branches, DAMPING_FACTORS, Model, Over, TableFormat};
+use crate::arguments::{Branches, DAMPING_FACTORS, Model, TableFormat};
 use crate::error::CommandError;
 use crate::output;
 
@@ -45,11 +45,17 @@ pub(super) fn run(
         Model::Lumped => LUMPED.into(),
     };
     // Bodies and tables take minutes: a folder that cannot be used is refused before.
+    let failed = |source| CommandError::File { what: "cannot read", path: path.into(), source };
+    let text = gearset::read_text(path, MOST_SCENE_BYTES).map_err(failed)?;
+    if let BranchParameter::Key(key) = settings.over {
+        for (argument, value) in ["--from", "--to"].into_iter().zip(settings.range) {
+            KeyedModel::check(&text, key, value).map_err(|e| refused(argument, e.to_string()))?;
+        }
+    }
     let mut kept = None;
     if let Some(folder) = &arguments.out {
-        let failed = |source| CommandError::File { what: "cannot read", path: path.into(), source };
-        let text = gearset::read_text(path, MOST_SCENE_BYTES).map_err(failed)?;
-        let manifest = BranchesManifest::new(text, fidelity, &fixed, settings.clone(), search);
+        let (own, text) = (settings.clone(), text.clone());
+        let manifest = BranchesManifest::new(text, fidelity, &fixed, own, search);
         kept = Some(manifest.open(folder)?);
     }
     let store: &dyn BranchStore = kept.as_ref().map_or(&Memory, |(_, steps)| steps);
@@ -59,7 +65,15 @@ pub(super) fn run(
         None => {
             let working = Working::new("meshing the bodies and laying out tables");
             let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
-            let model = turning::model(arguments.model, &scene, &bodies, case)?;
+            let model: Box<dyn SweepModel + '_> = match settings.over {
+                BranchParameter::Key(key) => {
+                    let (at, factor) = ((key, settings.start), arguments.damping_factor);
+                    let is_lumped = arguments.model == Model::Lumped;
+                    let own = KeyedModel::new(&text, at, factor, &bodies, case, is_lumped);
+                    Box::new(own.map_err(|e| unfit(path, e.to_string()))?)
+                }
+                _ => turning::model(arguments.model, &scene, &bodies, case)?,
+            };
             working.now("following the branch");
             branches_kept(model.as_ref(), &settings, &search, store).map_err(|e| match e {
                 ExperimentError::Fe(e) => unfit(path, e.to_string()),
@@ -68,6 +82,9 @@ pub(super) fn run(
                 }
                 ExperimentError::Branch(e @ BranchError::NoStart { .. }) => {
                     refused("--start", e.to_string())
+                }
+                ExperimentError::Branch(e @ BranchError::NoEffect { .. }) => {
+                    refused("--over", e.to_string())
                 }
                 other => other.into(),
             })?
@@ -101,59 +118,63 @@ pub(super) fn run(
 }
 
 /// The option that gives the range of a parameter.
-fn option(over: Over) -> &'static str {
+fn option(over: BranchParameter) -> &'static str {
     match over {
-        Over::Speed => "--speeds-rpm",
-        Over::Torque => "--torques-nm",
-        Over::Damping => "--damping-factors",
+        BranchParameter::Speed => "--speeds-rpm",
+        BranchParameter::Torque => "--torques-nm",
+        BranchParameter::Damping => "--damping-factors",
+        BranchParameter::Key(_) => "--from",
     }
 }
 
 /// Range and start, checked before anything is computed; options that belong to another parameter are refused.
 fn settings(arguments: &Branches) -> Result<BranchSettings, CommandError> {
-    let own = arguments.over;
-    let name = |over: Over| match over {
-        Over::Speed => "speed",
-        Over::Torque => "torque",
-        Over::Damping => "damping",
-    };
+    let over = arguments.over;
+    let name = over.argument();
     let ranges = [
-        (Over::Speed, arguments.speeds_rpm),
-        (Over::Torque, arguments.torques_nm),
-        (Over::Damping, arguments.damping_factors),
+        (BranchParameter::Speed, arguments.speeds_rpm),
+        (BranchParameter::Torque, arguments.torques_nm),
+        (BranchParameter::Damping, arguments.damping_factors),
     ];
-    let other = ranges.iter().find(|(over, range)| *over != own && range.is_some());
+    let other = ranges.iter().find(|(own, range)| *own != over && range.is_some());
     if let Some((other, _)) = other {
-        let reason = format!("the range for --over {}; this is --over {}", name(*other), name(own));
+        let reason = format!("the range for --over {}; this is --over {name}", other.argument());
         return Err(refused(option(*other), reason));
     }
-    if own == Over::Speed && arguments.rpm.is_some() {
-        let reason = "one speed, for --over torque and damping; this is --over speed".to_owned();
+    let is_key = matches!(over, BranchParameter::Key(_));
+    for (argument, value) in [("--from", arguments.from), ("--to", arguments.to)] {
+        if value.is_some() != is_key {
+            let reason = match is_key {
+                true => format!("missing: --over {name} needs --from and --to"),
+                false => format!("a value for --over KEY; this is --over {name}"),
+            };
+            return Err(refused(argument, reason));
+        }
+    }
+    if over == BranchParameter::Speed && arguments.rpm.is_some() {
+        let reason =
+            "one speed, for --over torque, damping and KEY; this is --over speed".to_owned();
         return Err(refused("--rpm", reason));
     }
-    if own == Over::Damping && arguments.damping_factor != 1.0 {
-        let reason = "one factor, for --over speed and torque; --over damping takes its factors from --damping-factors";
+    if over == BranchParameter::Damping && arguments.damping_factor != 1.0 {
+        let reason = "one factor; --over damping takes its factors from --damping-factors";
         return Err(refused("--damping-factor", reason.to_owned()));
     }
-    let given = ranges.iter().find(|(over, _)| *over == own).and_then(|(_, range)| *range);
+    let of_key = arguments.from.zip(arguments.to).map(|(from, to)| [from, to]);
+    let given = ranges.iter().find(|(own, _)| *own == over).map_or(of_key, |(_, range)| *range);
     let Some([from, to]) = given else {
-        let reason = format!("missing: --over {} needs its range as FROM:TO", name(own));
-        return Err(refused(option(own), reason));
+        let reason = format!("missing: --over {name} needs its range as FROM:TO");
+        return Err(refused(option(over), reason));
     };
     let is_factor = |x: &f64| (DAMPING_FACTORS[0]..=DAMPING_FACTORS[1]).contains(x);
-    if own == Over::Damping && ![from, to].iter().all(is_factor) {
+    if over == BranchParameter::Damping && ![from, to].iter().all(is_factor) {
         let reason = format!("{from:?} to {to:?}: allowed are factors from 1e-6 to 100");
-        return Err(refused(option(own), reason));
+        return Err(refused(option(over), reason));
     }
-    let over = match own {
-        Over::Speed => BranchParameter::Speed,
-        Over::Torque => BranchParameter::Torque,
-        Over::Damping => BranchParameter::Damping,
-    };
     let most_points = arguments.max_points as usize;
     let whole =
         BranchSettings { start: to, most_points, ..BranchSettings::along(over, [from, to]) };
-    whole.check().map_err(|e| refused(option(own), e.to_string()))?;
+    whole.check().map_err(|e| refused(option(over), e.to_string()))?;
     let own = BranchSettings { start: arguments.start.unwrap_or(to), ..whole };
     own.check().map_err(|e| refused("--start", e.to_string()))?;
     Ok(own)

@@ -36,6 +36,7 @@ impl Fixed {
                 format!("{speed} rpm, set up under {torque} N·m on the sun{damping}")
             }
             BranchParameter::Damping => format!("{speed} rpm, {torque} N·m on the sun"),
+            BranchParameter::Key(_) => format!("{speed} rpm, {torque} N·m on the sun{damping}"),
         }
     }
 }
@@ -51,7 +52,7 @@ pub(super) struct BranchesOutput {
     fidelity: String,
     /// What is varied.
     over: BranchParameter,
-    /// Its least and greatest value: rpm, N·m, or the factor on the damping.
+    /// Its least and greatest value: rpm, N·m, the factor on the damping, or a number of the scene in the unit of its key.
     range: [f64; 2],
     /// Its value at which the first branch was begun.
     start: f64,
@@ -123,15 +124,25 @@ impl BranchesOutput {
         for [from, to] in &self.coexisting {
             writeln!(
                 out,
-                "More than one stable motion was found from {from:.4} to {to:.4}{unit}."
+                "More than one stable motion was found from {} to {}{unit}.",
+                self.value(*from),
+                self.value(*to)
             )?;
         }
         for lost in &self.found.not_followed {
-            let (at, kind, reason) = (lost.parameter, lost.kind.name(), &lost.reason);
+            let (at, kind, reason) = (self.value(lost.parameter), lost.kind.name(), &lost.reason);
             let kind = kind.replace('_', " ");
-            writeln!(out, "No branch was found off the {kind} at {at:.4}{unit}: {reason}.")?;
+            writeln!(out, "No branch was found off the {kind} at {at}{unit}: {reason}.")?;
         }
         Ok(())
+    }
+
+    /// A value of the parameter in a sentence.
+    fn value(&self, value: f64) -> String {
+        match self.over {
+            BranchParameter::Key(_) => format!("{value:.6e}"),
+            _ => format!("{value:.4}"),
+        }
     }
 
     fn write_branch(&self, branch: &Branch, out: &mut dyn Write) -> Result<(), CommandError> {
@@ -146,13 +157,13 @@ impl BranchesOutput {
                 1 => "every mesh cycle".to_owned(),
                 cycles => format!("after {cycles} mesh cycles"),
             };
-            writeln!(out, "Off the {kind} at {at:.4}{unit}, repeating {cycles}:")?;
+            writeln!(out, "Off the {kind} at {}{unit}, repeating {cycles}:", self.value(at))?;
         }
         let header = [
-            match self.over {
-                BranchParameter::Speed => "rpm",
-                BranchParameter::Torque => "N·m",
-                BranchParameter::Damping => "damping",
+            match (self.over, self.over.plain_unit()) {
+                (BranchParameter::Damping, _) => "damping",
+                (_, "") => "value",
+                (_, unit) => unit,
             },
             "point",
             "stable",
@@ -175,6 +186,7 @@ impl BranchesOutput {
                     BranchParameter::Torque | BranchParameter::Damping => {
                         format!("{:.5}", p.parameter)
                     }
+                    BranchParameter::Key(_) => format!("{:.5e}", p.parameter),
                 },
                 match p.kind {
                     BranchPointKind::Regular => String::new(),

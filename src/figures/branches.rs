@@ -57,16 +57,20 @@ pub fn of_branches(found: &Branches, title: &str, harmonics: usize) -> Vec<Figur
         let labels = Labels {
             title,
             subtitle: format!("{}, harmonic {strongest} of the mesh frequency", first.fidelity),
-            x: match first.over {
-                BranchParameter::Speed => "speed of the input member, rpm",
-                BranchParameter::Torque => "torque on the sun, N·m",
-                BranchParameter::Damping => "factor on the damping",
-            },
+            x: &axis_of(first.over),
             y: axis,
         };
         Some(Figure::new(*name, chart(&labels, &curves)))
     });
     all.collect()
+}
+
+/// Name and unit of what is varied.
+fn axis_of(over: BranchParameter) -> String {
+    match over.plain_unit() {
+        "" => over.name().to_owned(),
+        unit => format!("{}, {unit}", over.name()),
+    }
 }
 
 /// Parts of one stability, each ending where the next begins.

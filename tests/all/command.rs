@@ -68,6 +68,13 @@ fn every_verb(folder: &Path) -> Vec<(&'static str, bool, Vec<String>)> {
                 "branches {plain} --over damping --damping-factors 0.9:1 --rpm 990 --model lumped"
             )),
         ),
+        (
+            "branches",
+            true,
+            words(&format!(
+                "branches {plain} --over damping.bearing_s --from 2e-6 --to 2.2e-6 --rpm 990 --model lumped"
+            )),
+        ),
         ("stability", true, words("stability explicit-step")),
         ("stability", true, words("stability integrators")),
         ("stability", true, words(&format!("stability mode-types --scene {set}"))),
@@ -179,6 +186,17 @@ fn a_branch_without_speeds_or_start_is_refused() {
             format!("branches {plain} --over torque --torques-nm 5:9 --sun-torque-nm -7"),
             "--sun-torque-nm",
         ),
+        (format!("branches {plain} --over planet.bearing_n_per_m"), "--from"),
+        (format!("branches {plain} --over planet.bearing_n_per_m --from 8e7"), "--to"),
+        (format!("branches {plain} --over planet.bearing_n_per_m --from 9e7 --to 8e7"), "--from"),
+        (format!("branches {plain} --over planet.bearing_n_per_m --from 0 --to 8e7"), "--from"),
+        (format!("branches {plain} --over planet.torsional_n_per_m --from 1 --to 2"), "--from"),
+        (format!("branches {plain} --over teeth.sun --from 20 --to 30"), "teeth.sun"),
+        (
+            format!("branches {plain} --over damping.friction --from 1 --to 2"),
+            "allowed are damping",
+        ),
+        (format!("branches {plain} --speeds-rpm 800:900 --from 1"), "--from"),
         (format!("branches {plain} --over damping"), "--damping-factors"),
         (format!("branches {plain} --over damping --damping-factors 0:1"), "--damping-factors"),
         (

@@ -252,9 +252,12 @@ fn settings_that_meet_no_tolerance_are_refused_with_their_estimates() {
     ] {
         assert!(err.contains(words), "{words}: {err}");
     }
-    for line in ["sweep F --speeds-rpm 800:900:10", "impulse F", "branches F --speeds-rpm 800:900"]
-    {
-        let line = line.replace('F', &with("1"));
+    for line in [
+        "sweep @scene --speeds-rpm 800:900:10",
+        "impulse @scene",
+        "branches @scene --speeds-rpm 800:900",
+    ] {
+        let line = line.replace("@scene", &with("1"));
         let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
         assert_eq!((code, out.as_str()), (2, ""), "{line}");
         assert!(err.contains("`dynamics.fidelity`: \"auto\""), "{line}: {err}");
@@ -287,26 +290,28 @@ fn settings_are_chosen_for_transmission_errors_and_amplitudes() {
         "quantity = \"amplitude\"\nresponse = \"sun_translation\"\ntolerance_percent = 40\n",
     );
     let cases = [
-        ("static R --positions 28", "--positions"),
-        ("static R --solver lemke", "--solver"),
-        ("static R --sun-torque-nm 500,1000", "--sun-torque-nm"),
-        ("modes R", "`static` gives"),
-        ("sweep R --speeds-rpm 800:900:10", "`static` gives"),
-        ("modes M", "`sweep` gives"),
-        ("branches M --speeds-rpm 800:900", "`sweep` gives"),
-        ("sweep M --speeds-rpm 800:900:10 --model lumped", "--model"),
-        ("sweep M --speeds-rpm 800:900:10 --refine 3", "--refine"),
-        ("sweep M --speeds-rpm 800:900:10 --both-ways", "--both-ways"),
-        ("sweep M --speeds-rpm 800:900:10 --out O", "--out"),
+        ("static @rest --positions 28", "--positions"),
+        ("static @rest --solver lemke", "--solver"),
+        ("static @rest --sun-torque-nm 500,1000", "--sun-torque-nm"),
+        ("modes @rest", "`static` gives"),
+        ("sweep @rest --speeds-rpm 800:900:10", "`static` gives"),
+        ("modes @motion", "`sweep` gives"),
+        ("branches @motion --speeds-rpm 800:900", "`sweep` gives"),
+        ("sweep @motion --speeds-rpm 800:900:10 --model lumped", "--model"),
+        ("sweep @motion --speeds-rpm 800:900:10 --refine 3", "--refine"),
+        ("sweep @motion --speeds-rpm 800:900:10 --both-ways", "--both-ways"),
+        ("sweep @motion --speeds-rpm 800:900:10 --out O", "--out"),
     ];
     for (line, words) in cases {
-        let line = line.replace('R', &rest).replace('M', &motion);
+        let line = line.replace("@rest", &rest).replace("@motion", &motion);
         let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
         assert_eq!((code, out.as_str()), (2, ""), "{line}: {err}");
         assert!(err.contains(words) && !err.contains("unexpected argument"), "{line}: {err}");
     }
-    for line in ["static R --format json", "sweep M --speeds-rpm 800:840:40 --format json"] {
-        let line = line.replace('R', &rest).replace('M', &motion);
+    for line in
+        ["static @rest --format json", "sweep @motion --speeds-rpm 800:840:40 --format json"]
+    {
+        let line = line.replace("@rest", &rest).replace("@motion", &motion);
         let (code, out, err) = run(&line.split(' ').collect::<Vec<_>>());
         assert_eq!(code, 0, "{line}: {err}");
         let found: Value = serde_json::from_str(&out).unwrap();

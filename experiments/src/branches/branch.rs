@@ -134,6 +134,7 @@ impl Branch {
                 speed_rpm: p.state.case.speed_rpm,
                 mesh_frequency_hz: p.state.case.mesh_frequency_hz,
                 damping_factor: p.damping_factor,
+                parameter: p.parameter,
                 branch,
                 repeats_after: self.repeats_after,
                 point: index,

@@ -34,6 +34,20 @@ pub enum BranchError {
         /// What is allowed.
         allowed: &'static str,
     },
+    /// A scene key on which the motion does not depend.
+    #[error(
+        "{key}: the motion of the model {model} is the same from {from:?} to {to:?}: the key has no effect there"
+    )]
+    NoEffect {
+        /// Its path.
+        key: &'static str,
+        /// Name of the model.
+        model: String,
+        /// Least value.
+        from: f64,
+        /// Greatest value.
+        to: f64,
+    },
     /// Too few points.
     #[error("{0} points: a branch needs at least 2")]
     Points(usize),

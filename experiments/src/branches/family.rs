@@ -1,4 +1,4 @@
-//! Periodic motions of a set as a family of equations over speed, torque or damping.
+//! Periodic motions of a set as a family of equations over speed, torque, damping or a number of the scene.
 
 use dynamics::continuation::{Evaluation, Family, Judgement};
 use dynamics::{MapDerivative, Multiplier, PeriodMap, multipliers};
@@ -14,7 +14,7 @@ pub const PARAMETER_CHANGE: f64 = 1e-6;
 
 /// F(y; λ) = Φᵖ(y; λ) − y for motions that repeat after p mesh cycles: y the coordinates at the start of a mesh cycle (as
 /// [`CycleDerivative::coordinates`](crate::sweep::CycleDerivative::coordinates)), λ the speed of the input member in
-/// rpm, the torque on the sun in N·m or the factor on the damping. ∂F/∂y is the derivative of the steps, ∂F/∂λ a
+/// rpm, the torque on the sun in N·m, the factor on the damping or a number of the scene. ∂F/∂y is the derivative of the steps, ∂F/∂λ a
 /// central difference over λ (1 ± [`PARAMETER_CHANGE`]).
 pub struct PeriodicFamily<'m> {
     model: &'m dyn SweepModel,
@@ -95,11 +95,12 @@ impl<'m> PeriodicFamily<'m> {
     }
 
     fn set(&self, lambda: f64) -> Result<Box<dyn Marching + '_>, ExperimentError> {
-        let (case, damping) = self.over.at(&self.model.case(), lambda);
-        let mut set = self.model.turning_damped(&case, damping, self.size)?;
-        // The load belongs to the set, not to its coordinates.
-        set.rest()?;
-        Ok(set)
+        self.over.set(self.model, lambda, self.size)
+    }
+
+    /// Whether the motion from y has ended at the same place after a period at two values of the parameter.
+    pub(super) fn is_same(&self, y: &[f64], [a, b]: [f64; 2]) -> Result<bool, ExperimentError> {
+        Ok(self.end(y, a)? == self.end(y, b)?)
     }
 
     fn cycles<'s>(&self, set: &'s mut dyn Marching) -> RecordedCycles<'s> {

@@ -24,8 +24,7 @@ pub(super) fn first(
     settings: &BranchSettings,
     size: usize,
 ) -> Result<(Vec<f64>, Scales), ExperimentError> {
-    let (case, damping) = settings.over.at(&model.case(), settings.start);
-    let mut set = model.turning_damped(&case, damping, size)?;
+    let mut set = settings.over.set(model, settings.start, size)?;
     let lost = || BranchError::NoDerivative(model.name());
     let (shape, psi, steps) = (model.shape(), model.first_planet_rad(), model.steps_per_cycle());
     let mut last = String::new();

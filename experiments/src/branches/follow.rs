@@ -1,4 +1,4 @@
-//! Follows branches of periodic motions over speed, torque or damping.
+//! Follows branches of periodic motions over speed, torque, damping or a number of the scene.
 
 use dynamics::continuation::{
     self, ContinuationError, ContinuationOptions, End, Scales, branch_off_kept, trace_both_kept,
@@ -6,10 +6,12 @@ use dynamics::continuation::{
 
 use super::branch::{Branch, BranchEnd, BranchOrigin, Branches, NotFollowed};
 use super::direction::critical_direction;
+use super::error::BranchError;
 use super::family::PeriodicFamily;
 use super::first::{first, no_start};
 use super::judged_point::drop_doubles;
 use super::kept::{self, BranchStore, Steps};
+use super::parameter::BranchParameter;
 use super::point::{BranchPoint, BranchPointKind};
 use super::search::Search;
 use super::settings::BranchSettings;
@@ -95,7 +97,15 @@ impl<'a> Follower<'a> {
             steps: [1e-6, settings.longest_step],
             ..ContinuationOptions::within(settings.range)
         };
-        Ok(Self { model, settings, size, store, start, scales, options })
+        let own = Self { model, settings, size, store, start, scales, options };
+        if let BranchParameter::Key(key) = settings.over {
+            let [from, to] = settings.range;
+            if own.family(1).is_same(&own.start, settings.range)? {
+                let (key, model) = (key.path(), model.name());
+                return Err(BranchError::NoEffect { key, model, from, to }.into());
+            }
+        }
+        Ok(own)
     }
 
     /// Everything that a search asks for.

@@ -4,6 +4,9 @@ use gearset::LoadCase;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::error::ExperimentError;
+use crate::sweep::{Marching, SweepModel, VariedKey};
+
 /// What is varied along a branch; everything else is held fixed, above all what the model was made under
 /// ([`SweepModel::turning`](crate::sweep::SweepModel::turning)).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -15,6 +18,8 @@ pub enum BranchParameter {
     Torque,
     /// Factor on every damping of the scene.
     Damping,
+    /// A number of the scene, in the unit of its key; everything else is that of a scene with this value.
+    Key(VariedKey),
 }
 
 impl BranchParameter {
@@ -24,6 +29,7 @@ impl BranchParameter {
             Self::Speed => "speed of the input member",
             Self::Torque => "torque on the sun",
             Self::Damping => "factor on the damping",
+            Self::Key(key) => key.path(),
         }
     }
 
@@ -33,15 +39,25 @@ impl BranchParameter {
             Self::Speed => "speed",
             Self::Torque => "torque",
             Self::Damping => "damping",
+            Self::Key(key) => key.path(),
         }
     }
 
-    /// Its unit with a space before it, empty for the factor.
-    pub fn unit(self) -> &'static str {
+    /// Its unit, empty for a pure number.
+    pub fn plain_unit(self) -> &'static str {
         match self {
-            Self::Speed => " rpm",
-            Self::Torque => " N·m",
+            Self::Speed => "rpm",
+            Self::Torque => "N·m",
             Self::Damping => "",
+            Self::Key(key) => key.unit(),
+        }
+    }
+
+    /// Its unit with a space before it, empty for a pure number.
+    pub fn unit(self) -> String {
+        match self.plain_unit() {
+            "" => String::new(),
+            unit => format!(" {unit}"),
         }
     }
 
@@ -50,8 +66,27 @@ impl BranchParameter {
     pub(super) fn share(self) -> f64 {
         match self {
             Self::Speed => 0.02,
-            Self::Torque | Self::Damping => 0.2,
+            Self::Torque | Self::Damping | Self::Key(_) => 0.2,
         }
+    }
+
+    /// The set of a model at one value, at rest under its load; `size` as in [`SweepModel::turning`].
+    pub(super) fn set(
+        self,
+        model: &dyn SweepModel,
+        value: f64,
+        size: usize,
+    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+        let mut set = match self {
+            Self::Key(key) => model.turning_with(key, value, size)?,
+            _ => {
+                let (case, damping) = self.at(&model.case(), value);
+                model.turning_damped(&case, damping, size)?
+            }
+        };
+        // The load belongs to the set, not to its coordinates.
+        set.rest()?;
+        Ok(set)
     }
 
     /// Load case and factor on the damping at one value; `fixed` says the rest.
@@ -60,6 +95,7 @@ impl BranchParameter {
             Self::Speed => (fixed.at_speed(value), 1.0),
             Self::Torque => (fixed.with_sun_torque(value), 1.0),
             Self::Damping => (*fixed, value),
+            Self::Key(_) => (*fixed, 1.0),
         }
     }
 }

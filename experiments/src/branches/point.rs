@@ -43,7 +43,8 @@ pub struct BranchPoint {
     /// Harmonics of everything, with speed and load.
     #[serde(flatten)]
     pub state: SteadyState,
-    /// Value of what is varied along the branch: speed in rpm, torque on the sun in N m, or the factor on the damping.
+    /// Value of what is varied along the branch: speed in rpm, torque on the sun in N m, the factor on the damping, or a
+    /// number of the scene in the unit of its key.
     pub parameter: f64,
     /// Factor on every damping of the scene that is varied along the branch; 1 where it is not.
     pub damping_factor: f64,
@@ -97,6 +98,8 @@ pub struct BranchRow {
     pub mesh_frequency_hz: f64,
     /// Factor on every damping of the scene that is varied along the branch.
     pub damping_factor: f64,
+    /// Value of what is varied along the branch: rpm, N m, a factor, or the unit of a scene key.
+    pub parameter: f64,
     /// Number of the branch, from 0.
     pub branch: usize,
     /// Mesh cycles after which the motions of the branch repeat.

@@ -54,6 +54,11 @@ impl BranchSettings {
                     "torques must be finite and of one sign: at 0 no flank is pressed, and the other sense presses others",
                 );
             }
+            BranchParameter::Key(_) if !are(|v| v.is_finite() && v > 0.0) => {
+                return refuse(
+                    "values must be finite and above 0: the derivative in the key is a difference over a share of its value",
+                );
+            }
             BranchParameter::Damping if !are(|d| d.is_finite() && d > 0.0) => {
                 return refuse(
                     "factors must be finite and above 0: without damping periodic motions are not isolated",

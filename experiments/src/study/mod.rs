@@ -16,7 +16,6 @@ mod extrapolation;
 mod quantity;
 mod result;
 mod run;
-mod scene_keys;
 mod setting;
 mod study_file;
 mod truth;

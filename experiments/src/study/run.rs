@@ -11,10 +11,10 @@ use super::quantity::Quantity;
 use super::result::{
     QuantityResult, QuantityTime, Row, RowTime, SettingResult, StudyResult, StudyTime, TruthResult,
 };
-use super::scene_keys::flat;
 use super::study_file::{CostKind, StudyFile};
 use super::truth::{Way, truth};
 use super::yardstick::{Yardstick, yardstick};
+use crate::scene_keys::flat;
 
 /// Runs a study on one thread; `now` hears what is being done.
 ///

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use super::error::StudyError;
-use super::scene_keys::{flat, merge, nested, scene_with};
+use crate::scene_keys::{flat, merge, nested, scene_with};
 use crate::sweep::SteadyMethod;
 
 /// The model that answers.

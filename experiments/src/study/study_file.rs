@@ -10,9 +10,9 @@ use toml::{Table, Value};
 
 use super::error::StudyError;
 use super::quantity::{Quantity, QuantityInput};
-use super::scene_keys::scene_with;
 use super::setting::{Choices, ContactSolver, Setting, StudyModel};
 use super::truth::{Route, RouteInput};
+use crate::scene_keys::scene_with;
 use crate::sweep::SteadyMethod;
 
 /// Longest study file or scene that is read, bytes.

@@ -9,9 +9,9 @@ use super::error::StudyError;
 use super::extrapolation::extrapolate;
 use super::quantity::Quantity;
 use super::result::{RouteResult, TruthResult};
-use super::scene_keys::at;
 use super::setting::{Choices, ContactSolver, Setting, StudyModel, number};
 use super::study_file::{read, with_choices};
+use crate::scene_keys::at;
 use crate::sweep::SteadyMethod;
 
 /// Kinds of routes.

@@ -48,6 +48,34 @@ impl<'s> MeshLawModel<'s> {
     pub fn lumped(&self) -> MeshLawModel<'static> {
         MeshLawModel::lumped_with(&self.scene, self.case, Arc::clone(&self.law))
     }
+
+    /// A set of a scene that differs from the model's own in nothing that the law or the loaded set depends on: damping,
+    /// masses.
+    pub(super) fn set_of(
+        &self,
+        scene: &Scene,
+        case: &LoadCase,
+    ) -> Result<Box<dyn Marching + 's>, ExperimentError> {
+        check_sense(&self.case, case)?;
+        let (law, torque) = (Arc::clone(&self.law), case.sun_load_nm());
+        let has_backside = law.has_backside();
+        let (sense, mesh_frequency) = (self.case.sense(), case.mesh_frequency_hz);
+        let rate = scaling_rate(mesh_frequency);
+        let Some(loaded) = &self.loaded else {
+            let set = TimeVarying::new(scene, sense, law, mesh_frequency)?;
+            return Ok(Box::new(LumpedMarching {
+                set,
+                torque,
+                has_backside,
+                rate,
+                passed: PassedSteps::default(),
+                part: None,
+            }));
+        };
+        let set = MeshLawSet::on(scene, loaded, mesh_frequency, law)?;
+        let passed = PassedSteps::default();
+        Ok(Box::new(LawMarching { set, torque, has_backside, rate, passed, part: None }))
+    }
 }
 
 impl MeshLawModel<'static> {
@@ -88,26 +116,7 @@ impl SweepModel for MeshLawModel<'_> {
         damping_factor: f64,
         _: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
-        check_sense(&self.case, case)?;
-        let scene = damped(&self.scene, damping_factor);
-        let (law, torque) = (Arc::clone(&self.law), case.sun_load_nm());
-        let has_backside = law.has_backside();
-        let (sense, mesh_frequency) = (self.case.sense(), case.mesh_frequency_hz);
-        let rate = scaling_rate(mesh_frequency);
-        let Some(loaded) = &self.loaded else {
-            let set = TimeVarying::new(&scene, sense, law, mesh_frequency)?;
-            return Ok(Box::new(LumpedMarching {
-                set,
-                torque,
-                has_backside,
-                rate,
-                passed: PassedSteps::default(),
-                part: None,
-            }));
-        };
-        let set = MeshLawSet::on(&scene, loaded, mesh_frequency, law)?;
-        let passed = PassedSteps::default();
-        Ok(Box::new(LawMarching { set, torque, has_backside, rate, passed, part: None }))
+        self.set_of(&damped(&self.scene, damping_factor), case)
     }
 }
 

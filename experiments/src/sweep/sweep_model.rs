@@ -8,6 +8,7 @@ use gearset::{Fidelity, LoadCase, Scene};
 
 use super::marching::{FeMarching, Marching};
 use super::set_shape::SetShape;
+use super::varied_key::VariedKey;
 use crate::error::ExperimentError;
 use crate::table_growth::SIZES;
 
@@ -68,6 +69,21 @@ pub trait SweepModel: Sync {
         damping_factor: f64,
         size: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError>;
+
+    /// The set at the speed and under the torque of the model's own case, of a scene with another value of a key; only
+    /// of a model that is made for this key ([`KeyedModel`](super::KeyedModel)).
+    ///
+    /// # Errors
+    /// As [`turning`](Self::turning), if the scene does not allow the value, or of any other model.
+    fn turning_with(
+        &self,
+        key: VariedKey,
+        value: f64,
+        size: usize,
+    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+        let _ = (key, value, size);
+        Err(ExperimentError::Incomplete("varied key: the model is of one scene"))
+    }
 }
 
 /// Refuses a torque that presses other flanks than those a model was made for.
@@ -151,6 +167,22 @@ impl<'s> FeModel<'s> {
         Ok(slot.get_or_init(|| made))
     }
 
+    /// A set of a scene that differs from the model's own in nothing that [`Prepared`] depends on: damping, masses.
+    pub(super) fn set_of(
+        &self,
+        scene: &Scene,
+        case: &LoadCase,
+        size: usize,
+    ) -> Result<Box<dyn Marching + 's>, ExperimentError> {
+        check_sense(&self.case, case)?;
+        let (steps_per_cycle, mesh_frequency) = (self.steps_per_cycle(), case.mesh_frequency_hz);
+        let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle };
+        let torque_nm = case.sun_load_nm();
+        let set = VibratingSet::on(scene, self.shared(size)?, rotation)?;
+        let rate = scaling_rate(mesh_frequency);
+        Ok(Box::new(FeMarching { set, torque_nm, rate }))
+    }
+
     /// Mesh force that tables of a size are made for, N.
     fn force(&self, size: usize) -> Result<f64, ExperimentError> {
         let sun = self.bodies.geometry.sun.as_ref();
@@ -195,13 +227,6 @@ impl SweepModel for FeModel<'_> {
         damping_factor: f64,
         size: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
-        check_sense(&self.case, case)?;
-        let (steps_per_cycle, mesh_frequency) = (self.steps_per_cycle(), case.mesh_frequency_hz);
-        let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle };
-        let torque_nm = case.sun_load_nm();
-        let scene = damped(&self.scene, damping_factor);
-        let set = VibratingSet::on(&scene, self.shared(size)?, rotation)?;
-        let rate = scaling_rate(mesh_frequency);
-        Ok(Box::new(FeMarching { set, torque_nm, rate }))
+        self.set_of(&damped(&self.scene, damping_factor), case, size)
     }
 }

@@ -7,14 +7,14 @@ use toml::{Table, Value};
 ///
 /// # Errors
 /// All faults of what results, by key.
-pub(super) fn scene_with(base: &Table, keys: &[&Table]) -> Result<Scene, SceneError> {
+pub(crate) fn scene_with(base: &Table, keys: &[&Table]) -> Result<Scene, SceneError> {
     let mut whole = base.clone();
     keys.iter().for_each(|own| merge(&mut whole, own));
     // What was read as TOML can be written as TOML.
     Scene::from_toml(&toml::to_string(&whole).unwrap_or_default())
 }
 
-pub(super) fn merge(onto: &mut Table, own: &Table) {
+pub(crate) fn merge(onto: &mut Table, own: &Table) {
     for (key, value) in own {
         match (onto.get_mut(key), value) {
             (Some(Value::Table(below)), Value::Table(own)) => merge(below, own),
@@ -26,7 +26,7 @@ pub(super) fn merge(onto: &mut Table, own: &Table) {
 }
 
 /// `a.b.c = value` as nested tables.
-pub(super) fn nested(path: &str, value: Value) -> Table {
+pub(crate) fn nested(path: &str, value: Value) -> Table {
     let mut parts: Vec<&str> = path.split('.').collect();
     let last = parts.pop().unwrap_or_default();
     let mut table = Table::from_iter([(last.to_owned(), value)]);
@@ -37,7 +37,7 @@ pub(super) fn nested(path: &str, value: Value) -> Table {
 }
 
 /// Keys with dots and their values, as text in order.
-pub(super) fn flat(table: &Table) -> Vec<String> {
+pub(crate) fn flat(table: &Table) -> Vec<String> {
     let mut list = Vec::new();
     for (key, value) in table {
         match value {
@@ -49,7 +49,7 @@ pub(super) fn flat(table: &Table) -> Vec<String> {
 }
 
 /// The value at `a.b.0.c`: names of tables and places in lists.
-pub(super) fn at<'t>(table: &'t Table, path: &str) -> Option<&'t Value> {
+pub(crate) fn at<'t>(table: &'t Table, path: &str) -> Option<&'t Value> {
     let mut parts = path.split('.');
     let first = table.get(parts.next()?)?;
     parts.try_fold(first, |value, part| match value {
