@@ -38,7 +38,7 @@ pub use lowest_modes::{LowMode, ModalOperator, lowest_modes};
 pub use newmark::{AverageAcceleration, Motion, StepError};
 pub use periodic::{
     Correction, MapDerivative, Multiplier, MultiplierKind, PeriodMap, PeriodicSolution,
-    ShootingError, ShootingSettings, multipliers, shoot,
+    ShootingError, ShootingSettings, floquet_vector, multipliers, shoot,
 };
 pub use rotating_frame::RotatingFrame;
 pub use spectrum::{Spectrum, Window, spectrum};

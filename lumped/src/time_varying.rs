@@ -79,6 +79,8 @@ pub(crate) struct Layout {
     sign: f64,
     /// Angles of the planets, of a set mirrored to counter-clockwise torque on the sun, rad.
     psi_rad: Vec<f64>,
+    /// Inertias of carrier, ring, sun and planets along their displacements, kg, kg, kg m²; 0 where held.
+    inertias: Vec<[f64; 3]>,
 }
 
 impl Parts {
@@ -158,10 +160,23 @@ impl Parts {
             side_loads.iter_mut().for_each(|load| *load = relative.reduced(load));
             by_torque = relative.reduced(&by_torque);
         }
+        let inertias = inertias(&model, radii);
         let (coordinates, psi_rad) = (model.coordinates, model.psi);
-        let layout = Layout { coordinates, radii, by_torque, relative, sign, psi_rad };
+        let layout = Layout { coordinates, radii, by_torque, relative, sign, psi_rad, inertias };
         Ok(Self { layout, linear, front, backside, side_loads })
     }
+}
+
+/// Inertias of all bodies along their displacements; `radii` as in [`Layout`].
+fn inertias(model: &LumpedModel, radii: [f64; 4]) -> Vec<[f64; 3]> {
+    let of = |body: Body, radius: f64| {
+        let [first, second, turning] =
+            Axis::ALL.map(|axis| model.coordinates.of(body, axis).map_or(0.0, |i| model.mass[i]));
+        [first, second, turning * radius * radius]
+    };
+    let central = [Body::Carrier, Body::Ring, Body::Sun].into_iter().zip(radii);
+    let planets = (0..model.psi.len()).map(|n| (Body::Planet(n), radii[3]));
+    central.chain(planets).map(|(body, radius)| of(body, radius)).collect()
 }
 
 impl TimeVarying {
@@ -238,6 +253,16 @@ impl TimeVarying {
         let [carrier, ring, sun, planet] = self.layout.radii;
         let central = [of(Body::Carrier, carrier), of(Body::Ring, ring), of(Body::Sun, sun)];
         (central, (0..self.layout.psi_rad.len()).map(|n| of(Body::Planet(n), planet)).collect())
+    }
+
+    /// Inertias of carrier, ring, sun and planets along these displacements, kg, kg, kg m²; 0 where held.
+    pub fn inertias(&self) -> &[[f64; 3]] {
+        &self.layout.inertias
+    }
+
+    /// Angles of the planets, of the set mirrored to counter-clockwise torque on the sun, rad.
+    pub fn planet_angles_rad(&self) -> &[f64] {
+        &self.layout.psi_rad
     }
 
     /// Force of each mesh: sun meshes, ring meshes, then their backside flanks if the law has them, N.

@@ -168,6 +168,7 @@ impl BranchesOutput {
             "point",
             "stable",
             "μ",
+            "mode",
             OF_SUN[0],
             OF_SUN[1],
             OF_SUN[2],
@@ -177,7 +178,7 @@ impl BranchesOutput {
             "grazing",
             "residual",
         ];
-        let mut table = output::table(&header, &[0, 3, 4, 5, 6, 7, 8, 9, 10, 11]);
+        let mut table = output::table(&header, &[0, 3, 5, 6, 7, 8, 9, 10, 11, 12]);
         for p in &branch.points {
             let [rotation, l, translation, of_translation] = of_sun(&p.state, self.harmonics);
             table.add_row([
@@ -194,6 +195,7 @@ impl BranchesOutput {
                 },
                 if p.is_stable { "yes".into() } else { "no".into() },
                 format!("{:.4}", p.largest_multiplier()),
+                p.critical.as_ref().map_or("–".into(), |own| own.mode_type.clone()),
                 rotation,
                 l,
                 translation,
@@ -229,6 +231,7 @@ impl BranchesOutput {
 const LEGEND: &str = "\
 points are in order along each branch, which turns back at folds
 μ: size of the largest Floquet multiplier, below 1 if the motion is stable
+mode: type, by kinetic energy, of the perturbation whose multiplier is nearest in size to 1
 rotation, translation: the sun's strongest harmonic, and its number l as a multiple of the mesh frequency
 lowest N: lowest force of any mesh during a cycle, N
 no contact: largest part of the time in which a mesh carries nothing; – for never

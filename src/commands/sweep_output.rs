@@ -4,7 +4,7 @@ use std::io::Write;
 
 use experiments::auto::Choice;
 use experiments::sweep::{
-    FailedPoint, MOST_REPEATS, SteadyMethod, SteadySettings, Sweep, SweepPoint,
+    CriticalMotion, FailedPoint, MOST_REPEATS, SteadyMethod, SteadySettings, Sweep, SweepPoint,
 };
 use gearset::Scene;
 use schemars::JsonSchema;
@@ -85,6 +85,8 @@ struct PointHead<'a> {
     cycles: usize,
     derivatives: usize,
     multipliers: &'a [[f64; 2]],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    critical: Option<&'a CriticalMotion>,
     residual: f64,
     is_steady: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -183,6 +185,7 @@ impl SweepOutput {
             cycles: p.cycles,
             derivatives: p.derivatives,
             multipliers: &p.multipliers,
+            critical: p.critical.as_ref(),
             residual: p.residual,
             is_steady: p.is_steady,
             transient: p.transient,
@@ -375,6 +378,7 @@ mod tests {
                 cycles: 40,
                 derivatives: 0,
                 multipliers: Vec::new(),
+                critical: None,
                 residual: 1e-10,
                 is_steady: repeats_after == Some(1),
                 transient: None,

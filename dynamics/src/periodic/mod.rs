@@ -14,5 +14,5 @@ mod shooting;
 
 pub use derivative::{Correction, MapDerivative};
 pub use map::PeriodMap;
-pub use multipliers::{Multiplier, MultiplierKind, multipliers};
+pub use multipliers::{Multiplier, MultiplierKind, floquet_vector, multipliers};
 pub use shooting::{PeriodicSolution, ShootingError, ShootingSettings, shoot};

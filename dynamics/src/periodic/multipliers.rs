@@ -4,7 +4,8 @@
 //! it loses stability, μ = 1 means a fold (or a symmetry-breaking branch point), μ = −1 a period doubling, and
 //! a complex pair on the unit circle a Neimark–Sacker bifurcation, towards quasi-periodic motion.
 
-use faer::Mat;
+use faer::linalg::solvers::Solve;
+use faer::{Mat, c64};
 
 use super::derivative::MapDerivative;
 use crate::error::EigenError;
@@ -59,6 +60,56 @@ impl Multiplier {
             MultiplierKind::Fold
         }
     }
+}
+
+/// Share of the size of a multiplier by which the shift of the inverse iteration is off it, so that the shifted matrix can
+/// be factorised.
+const SHIFTED: f64 = 1e-9;
+
+/// Steps of the inverse iteration. Each leaves at most a share of [`SHIFTED`] over the relative distance to the next
+/// multiplier; of those that coincide any combination is an eigenvector.
+const ITERATIONS: usize = 3;
+
+/// Real and imaginary part of an eigenvector of DΦ: how the perturbation with a multiplier moves at the start of a period.
+/// All n coordinates of [`MapDerivative`]; those without a column of their own, which follow, are left 0. In scaled
+/// coordinates the vector has the norm 1 and its parts are orthogonal, the real one the longer.
+///
+/// # Errors
+/// If an entry is not finite or the iteration meets a singular matrix.
+pub fn floquet_vector(
+    derivative: &MapDerivative,
+    multiplier: Multiplier,
+) -> Result<[Vec<f64>; 2], EigenError> {
+    let m = derivative.scaled();
+    let n = m.nrows();
+    let shift = c64::new(multiplier.re, multiplier.im) * (1.0 + SHIFTED);
+    let shifted = Mat::<c64>::from_fn(n, n, |i, j| {
+        let own = c64::new(m[(i, j)], 0.0);
+        if i == j { own - shift } else { own }
+    });
+    let factor = shifted.partial_piv_lu();
+    // A start that is no eigenvector of any symmetry of the set.
+    let mut v = Mat::<c64>::from_fn(n, 1, |i, _| {
+        let x = i as f64;
+        c64::new(1.0 + 0.3 * (1.7 * x).sin(), 0.5 * (2.3 * x + 0.4).cos())
+    });
+    for _ in 0..ITERATIONS {
+        factor.solve_in_place(&mut v);
+        let norm = v.norm_l2();
+        if !(norm > 0.0 && norm.is_finite()) {
+            return Err(EigenError::NoConvergence { size: n });
+        }
+        v *= faer::Scale(c64::new(1.0 / norm, 0.0));
+    }
+    // The phase of a complex vector is free: its parts are made orthogonal, the first one the longer.
+    let square: c64 = (0..n).map(|i| v[(i, 0)] * v[(i, 0)]).sum();
+    let turn = c64::from_polar(1.0, -0.5 * square.arg());
+    let mut parts = [(); 2].map(|()| vec![0.0; derivative.scales.len()]);
+    for (k, i) in derivative.active.iter().enumerate() {
+        let value = v[(k, 0)] * turn * derivative.scales[*i];
+        (parts[0][*i], parts[1][*i]) = (value.re, value.im);
+    }
+    Ok(parts)
 }
 
 /// All multipliers that are not zero to rounding, by descending size; both of each conjugate pair, and each as
@@ -132,6 +183,23 @@ mod tests {
         let expected = [(1.5, 0.0), (0.9 * cos, 0.9 * sin), (0.9 * cos, -0.9 * sin), (-0.25, 0.0)];
         for (found, (re, im)) in found.iter().zip(expected) {
             assert!((found.re - re).abs() < 1e-12 && (found.im - im).abs() < 1e-12, "{found:?}");
+        }
+        // M v = μ v with the real and imaginary parts of v, for each of them.
+        let scales: Vec<f64> = (0..7).map(|i| 10f64.powi(i % 3)).collect();
+        let derivative = MapDerivative { scales: scales.clone(), ..derivative };
+        for own in &found[..4] {
+            let [re, im] = floquet_vector(&derivative, *own).unwrap();
+            let [re, im] = [re, im].map(nalgebra::DVector::from_vec);
+            let m = &derivative.columns;
+            let off =
+                [m * &re - (&re * own.re - &im * own.im), m * &im - (&re * own.im + &im * own.re)];
+            assert!(off.iter().all(|o| o.norm() < 1e-10), "{own:?}: {off:?}");
+            let [re, im] =
+                [re, im].map(|part| nalgebra::DVector::from_fn(7, |i, _| part[i] / scales[i]));
+            assert!((re.norm_squared() + im.norm_squared() - 1.0).abs() < 1e-12);
+            assert!(re.dot(&im).abs() < 1e-12 && re.norm() >= im.norm());
+            // A real multiplier has a real vector.
+            assert!(own.im != 0.0 || im.norm() < 1e-10, "{im}");
         }
         use MultiplierKind::{Fold, NeimarkSacker, PeriodDoubling};
         let kinds: Vec<_> = found[..4].iter().map(|m| m.kind()).collect();

@@ -171,6 +171,7 @@ mod tests {
             kind,
             is_stable,
             multipliers: Vec::new(),
+            critical: None,
             between: None,
             residual: 0.0,
             arc: parameter,

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::parameter::BranchParameter;
 use crate::error::ExperimentError;
-use crate::sweep::{Marching, Record, RecordedCycles, SMALL, SweepModel};
+use crate::sweep::{CriticalMotion, Marching, Record, RecordedCycles, SMALL, SweepModel};
 
 /// Share of the parameter by which it is changed to either side for the derivative in it.
 pub const PARAMETER_CHANGE: f64 = 1e-6;
@@ -40,6 +40,7 @@ pub(super) struct Judged {
     pub(super) y: Vec<f64>,
     pub(super) lambda: f64,
     pub(super) multipliers: Vec<Multiplier>,
+    pub(super) critical: Option<CriticalMotion>,
     pub(super) residual: f64,
     pub(super) record: Record,
 }
@@ -163,8 +164,9 @@ impl Family for PeriodicFamily<'_> {
         let record = record.ok_or(LOST)?;
         let off: Vec<f64> = cycles.coordinates().iter().zip(y).map(|(e, s)| e - s).collect();
         let residual = cycles.relative(&off);
-        drop(set);
         let all = multipliers(&map)?;
+        let critical = CriticalMotion::of(set.as_ref(), &map, &all, 1)?;
+        drop(set);
         let tests = vec![
             all.first().map_or(0.0, |m| m.size()) - 1.0,
             product(&all, 1.0),
@@ -173,7 +175,7 @@ impl Family for PeriodicFamily<'_> {
         let is_stable = Some(tests[0] < 0.0);
         let multipliers = all.into_iter().filter(|m| m.size() >= SMALL).collect();
         let y = y.to_vec();
-        self.judged.push(Judged { y, lambda, multipliers, residual, record });
+        self.judged.push(Judged { y, lambda, multipliers, critical, residual, record });
         Ok(Judgement { is_stable, tests })
     }
 }

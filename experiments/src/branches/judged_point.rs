@@ -35,12 +35,14 @@ pub(super) fn point(
         found.record.clone(),
         repeats_after,
         found.multipliers.clone(),
+        found.critical.clone(),
         found.residual,
     )?;
     let settings = SteadySettings { harmonics: settings.harmonics, ..SteadySettings::default() };
     let SweepPoint {
         state,
         multipliers,
+        critical,
         between,
         lowest_force_n,
         contact_loss,
@@ -60,6 +62,7 @@ pub(super) fn point(
         kind,
         is_stable: own.judgement.is_stable.unwrap_or(false),
         multipliers,
+        critical,
         residual: found.residual,
         between,
         arc: own.arc,

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::sweep::SteadyState;
+use crate::sweep::{CriticalMotion, SteadyState};
 
 /// What a point of a branch is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -54,6 +54,9 @@ pub struct BranchPoint {
     pub is_stable: bool,
     /// Floquet multipliers of size 1e-3 and above (real and imaginary part) by descending size.
     pub multipliers: Vec<[f64; 2]>,
+    /// How the perturbation moves whose multiplier is nearest in size to 1; absent for sets of fewer than three planets.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub critical: Option<CriticalMotion>,
     /// Energy between harmonics of the mesh frequency over all vibration; absent for motions that repeat with the mesh
     /// cycle.
     pub between: Option<f64>,

@@ -7,7 +7,7 @@ use fe_contact::statics::{Bodies, CARRIER, PLANETS, Races, SUN};
 use fe_contact::vibration::VibratingSet;
 use gearset::Scene;
 
-use super::kinds::{RaceKinds, type_of};
+use super::kinds::{MotionKinds, type_of};
 use super::linear::preloaded;
 use super::mode::FeMode;
 use super::settings::ImpulseSettings;
@@ -223,7 +223,7 @@ fn typed(
     set: &VibratingSet<'_>,
     identification: &Identification,
 ) -> Result<Vec<FeMode>, ExperimentError> {
-    let kinds = RaceKinds::new(set.races(), set.masses());
+    let kinds = MotionKinds::of_races(set.races(), set.masses());
     let mut modes = Vec::new();
     let list = &identification.modes;
     let mut first = 0;

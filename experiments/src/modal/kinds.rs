@@ -1,4 +1,4 @@
-//! Kinds of modes as subspaces of the races' motion.
+//! Kinds of motion of a set as subspaces: rotational, translational, and planet motion.
 
 use dynamics::{EigenError, orthonormal_basis, split};
 use fe_contact::statics::{CARRIER, PLANETS, Races, SUN};
@@ -8,36 +8,56 @@ use lumped::ModeType;
 /// the meshes of different planets differ, so that kinds mix a little.
 const MAJORITY: f64 = 0.5;
 
-/// Bases of the rotational and the translational kind on the races' coordinates scaled by √mass; the rest of
-/// the space is the planet kind.
+/// Bases of the rotational and the translational kind on coordinates scaled by √mass; the rest of the space is the
+/// planet kind.
 #[derive(Debug)]
-pub(super) struct RaceKinds {
+pub struct MotionKinds {
     bases: [Vec<Vec<f64>>; 2],
     root: Vec<f64>,
 }
 
-impl RaceKinds {
-    pub(super) fn new(races: &Races, mass: &[f64]) -> Self {
-        let n = races.count;
+impl MotionKinds {
+    /// On the coordinates of the races with their masses (n, kg).
+    pub(super) fn of_races(races: &Races, mass: &[f64]) -> Self {
+        // Rotations of a pair that are one coordinate are in the basis of the central members already.
+        let is_one = races.is_pair() && races.of(PLANETS, 2) == races.of(SUN, 2);
+        let of = |body: usize, axis: usize| match body {
+            PLANETS.. if axis == 2 && is_one => None,
+            _ => races.of(body, axis),
+        };
+        Self::new(mass, &races.psi, &of)
+    }
+
+    /// On displacements of carrier, ring, sun (x, y, m; θ, rad) and planets (ζ, η, θ) one after another, with the inertias
+    /// along them (kg, kg, kg m²; 0 where held) and the angles of the planets (rad).
+    pub fn of_bodies(inertias: &[[f64; 3]], psi: &[f64]) -> Self {
+        let mass = inertias.as_flattened();
+        let of = |body: usize, axis: usize| {
+            let place = 3 * body + axis;
+            mass.get(place).filter(|m| **m > 0.0).map(|_| place)
+        };
+        Self::new(mass, psi, &of)
+    }
+
+    /// `of`: place of a body's coordinate (carrier 0, ring, sun, planets; x, y or ζ, η, rotation), `None` if it is held.
+    fn new(mass: &[f64], psi: &[f64], of: &dyn Fn(usize, usize) -> Option<usize>) -> Self {
+        let n = mass.len();
         let root: Vec<f64> = mass.iter().map(|m| m.sqrt()).collect();
         let unit = |i: usize| (0..n).map(|k| f64::from(u8::from(k == i))).collect::<Vec<f64>>();
         let central =
-            |axis: usize| (CARRIER..PLANETS).filter_map(move |body| races.of(body, axis)).map(unit);
+            |axis: usize| (CARRIER..PLANETS).filter_map(move |body| of(body, axis)).map(unit);
         let mut rotational: Vec<Vec<f64>> = central(2).collect();
         let mut translational: Vec<Vec<f64>> = central(0).chain(central(1)).collect();
         for axis in 0..3 {
             let pattern = |weight: &dyn Fn(f64) -> f64| {
                 let mut v = vec![0.0; n];
-                for (planet, psi) in races.psi.iter().enumerate() {
-                    if let Some(i) = races.of(PLANETS + planet, axis) {
+                for (planet, psi) in psi.iter().enumerate() {
+                    if let Some(i) = of(PLANETS + planet, axis) {
                         v[i] = root[i] * weight(*psi);
                     }
                 }
                 v
             };
-            if races.is_pair() && axis == 2 && races.of(PLANETS, 2) == races.of(SUN, 2) {
-                continue; // One coordinate, which is in the basis already, or none.
-            }
             let alike = orthonormal_basis(&[pattern(&|_| 1.0)], &[]);
             let around = orthonormal_basis(&[pattern(&f64::cos), pattern(&f64::sin)], &alike);
             rotational.extend(alike);
@@ -63,10 +83,28 @@ impl RaceKinds {
         let directions = split(q.len(), &projections)?;
         Ok(directions.iter().map(|d| [d.shares[0], d.shares[1], d.shares[2]]).collect())
     }
+
+    /// Shares of rotational, translational and planet motion in the kinetic energy of a vibration with the displacements
+    /// Re((a + i b) e^{iωt}), the mean over its period; `None` without motion.
+    pub(crate) fn shares_of(&self, parts: [&[f64]; 2]) -> Option<[f64; 3]> {
+        let scaled =
+            parts.map(|part| part.iter().zip(&self.root).map(|(x, r)| x * r).collect::<Vec<f64>>());
+        let square = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
+        let whole: f64 = scaled.iter().map(|v| square(v)).sum();
+        let [rotational, translational] = [0, 1].map(|kind: usize| {
+            let along = |basis: &Vec<f64>, v: &Vec<f64>| {
+                basis.iter().zip(v).map(|(a, b)| a * b).sum::<f64>().powi(2)
+            };
+            let bases = self.bases[kind].iter();
+            bases.map(|b| scaled.iter().map(|v| along(b, v)).sum::<f64>()).sum::<f64>() / whole
+        });
+        let planet = (1.0 - rotational - translational).max(0.0);
+        (whole > 0.0 && whole.is_finite()).then_some([rotational, translational, planet])
+    }
 }
 
 /// Type by majority of kinetic energy.
-pub(super) fn type_of(shares: &[f64; 3]) -> ModeType {
+pub(crate) fn type_of(shares: &[f64; 3]) -> ModeType {
     match shares {
         [r, _, _] if *r > MAJORITY => ModeType::Rotational,
         [_, t, _] if *t > MAJORITY => ModeType::Translational,

@@ -5,7 +5,7 @@ use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{LinearSet, Loading, NominalRotation, VibratingSet};
 use gearset::{LoadCase, Scene};
 
-use super::kinds::{RaceKinds, type_of};
+use super::kinds::{MotionKinds, type_of};
 use super::mode::FeMode;
 use crate::error::ExperimentError;
 use crate::table_growth::large_enough;
@@ -55,7 +55,7 @@ pub fn linear_modes(
     linear: &LinearSet,
 ) -> Result<Vec<FeMode>, ExperimentError> {
     let (frequencies, shapes) = linear.undamped()?;
-    let kinds = RaceKinds::new(set.races(), set.masses());
+    let kinds = MotionKinds::of_races(set.races(), set.masses());
     let races = linear.races;
     let squares: Vec<f64> = frequencies.iter().map(|f| f * f).collect();
     let damped = linear.damped()?;

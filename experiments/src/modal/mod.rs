@@ -14,6 +14,8 @@ pub use agreement::{Agreement, agreement, agreement_after, with_rigid_carrier};
 pub use band::{FrequencyBand, ModeBand, Spread, frequency_band};
 pub use beside::beside;
 pub use impulse::{Contents, Decay, ImpulseTest, Pulse, impulse_test, pulses};
+pub use kinds::MotionKinds;
+pub(crate) use kinds::type_of;
 pub use linear::{MeshInfluence, Preload, linear_modes, mesh_influence, preloaded};
 pub use lumped_from_fe::{lumped_frequencies, lumped_from_fe, lumped_from_tangents, majority};
 pub use mode::{FeMode, of_type};

@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use super::marching::{Effort, Marching};
 use super::shooting::CycleDerivative;
 use crate::error::ExperimentError;
+use crate::modal::MotionKinds;
 
 /// A set without a derivative, or whose coordinates do not determine its displacements.
 const UNFIT: ExperimentError =
@@ -117,6 +118,10 @@ impl Marching for FixedBasis<'_> {
 
     fn derivative(&mut self) -> Option<&mut dyn CycleDerivative> {
         if self.set.derivative().is_some() { Some(self) } else { None }
+    }
+
+    fn kinds(&self) -> Option<MotionKinds> {
+        self.set.kinds()
     }
 
     fn displacements_of(&self, coordinates: &[f64]) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {

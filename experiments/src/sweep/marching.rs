@@ -7,6 +7,7 @@ use gearset::Symmetry;
 
 use super::shooting::CycleDerivative;
 use crate::error::ExperimentError;
+use crate::modal::MotionKinds;
 
 /// Computational effort of the steps of a set so far.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -82,6 +83,12 @@ pub trait Marching {
         None
     }
 
+    /// Rotational, translational and planet motion of the set, on its displacements one after another; `None` of a set of
+    /// fewer than three planets, whose motion has no such types.
+    fn kinds(&self) -> Option<MotionKinds> {
+        None
+    }
+
     /// Displacements as [`displacements`](Self::displacements) in other coordinates of
     /// [`CycleDerivative::coordinates`]; only of a model with a derivative.
     fn displacements_of(&self, coordinates: &[f64]) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
@@ -152,9 +159,22 @@ impl Marching for FeMarching<'_> {
         if self.set.has_derivative() { Some(self) } else { None }
     }
 
+    fn kinds(&self) -> Option<MotionKinds> {
+        let races = self.set.races();
+        motion_kinds(&races.inertias(self.set.masses()), &races.psi)
+    }
+
     fn displacements_of(&self, coordinates: &[f64]) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
         self.set.displacements_of(coordinates)
     }
+}
+
+/// Fewest planets with rotational, translational and planet motion.
+const FEWEST_PLANETS: usize = 3;
+
+/// Types of motion of a set with such inertias and angles of its planets.
+pub(super) fn motion_kinds(inertias: &[[f64; 3]], psi: &[f64]) -> Option<MotionKinds> {
+    (psi.len() >= FEWEST_PLANETS).then(|| MotionKinds::of_bodies(inertias, psi))
 }
 
 impl CycleDerivative for FeMarching<'_> {

@@ -9,11 +9,12 @@ use fe_contact::vibration::{Along, MeshLawSet, MeshLawSettings, mesh_law};
 use gearset::{Fidelity, LoadCase, MeshLaw, Scene, Symmetry};
 use lumped::TimeVarying;
 
-use super::marching::{Effort, Marching};
+use super::marching::{Effort, Marching, motion_kinds};
 use super::set_shape::SetShape;
 use super::shooting::CycleDerivative;
 use super::sweep_model::{SweepModel, check_sense, damped, fidelity_name, scaling_rate};
 use crate::error::ExperimentError;
+use crate::modal::MotionKinds;
 
 /// Name of the lumped model, as tables print it.
 pub const LUMPED: &str = "lumped";
@@ -174,7 +175,7 @@ struct LumpedMarching {
 }
 
 macro_rules! marching {
-    ($which:ty, $coordinates:ident) => {
+    ($which:ty, $coordinates:ident, $kinds:expr) => {
         impl Marching for $which {
             fn rest(&mut self) -> Result<(), ExperimentError> {
                 Ok(self.set.rest(self.torque)?)
@@ -218,6 +219,10 @@ macro_rules! marching {
 
             fn derivative(&mut self) -> Option<&mut dyn CycleDerivative> {
                 Some(self)
+            }
+
+            fn kinds(&self) -> Option<MotionKinds> {
+                $kinds(&self.set)
             }
 
             fn displacements_of(&self, coordinates: &[f64]) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
@@ -270,5 +275,10 @@ macro_rules! marching {
     };
 }
 
-marching!(LawMarching<'_>, coordinates);
-marching!(LumpedMarching, coordinates_of_motion);
+marching!(LawMarching<'_>, coordinates, |set: &MeshLawSet<'_>| {
+    let races = set.races();
+    motion_kinds(&races.inertias(set.masses()), &races.psi)
+});
+marching!(LumpedMarching, coordinates_of_motion, |set: &TimeVarying| {
+    motion_kinds(set.inertias(), set.planet_angles_rad())
+});

@@ -1,6 +1,7 @@
 //! Speed sweeps: steady states of a turning set by marching, their harmonics, as fixed plans.
 
 mod coexisting;
+mod critical_motion;
 mod damped_model;
 mod extrapolation;
 mod failed_point;
@@ -22,6 +23,7 @@ mod steady;
 mod sweep_model;
 mod varied_key;
 
+pub use critical_motion::CriticalMotion;
 pub use damped_model::DampedModel;
 pub use failed_point::FailedPoint;
 pub use judge::{Assigned, Content, assigned, contents, peak_speeds};

@@ -4,6 +4,7 @@ use gearset::LoadCase;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::critical_motion::CriticalMotion;
 use super::state::{Coordinate, Line, Part, SteadyState};
 use super::steady::{Steady, SteadyMethod};
 use crate::error::ExperimentError;
@@ -29,6 +30,10 @@ pub struct SweepPoint {
     /// Floquet multipliers of size 1e-3 and above (real and imaginary part) by descending size; empty for a
     /// motion that was marched. The motion is stable if all are smaller than 1.
     pub multipliers: Vec<[f64; 2]>,
+    /// How the perturbation moves whose multiplier is nearest in size to 1; absent for a motion that was marched and for
+    /// sets of fewer than three planets.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub critical: Option<CriticalMotion>,
     /// Change of the last two cycles over the largest peak-to-peak vibration.
     pub residual: f64,
     /// Whether that is within the tolerance and the transient, where that is a question, within 1 %.
@@ -196,6 +201,7 @@ impl SweepPoint {
             cycles: found.cycles,
             derivatives: found.derivatives,
             multipliers: found.multipliers.iter().map(|m| [m.re, m.im]).collect(),
+            critical: found.critical.clone(),
             residual: found.residual,
             is_steady: found.residual <= settings.tolerance
                 && found.transient.is_none_or(|left| left <= MOST_TRANSIENT),

@@ -7,6 +7,7 @@ use dynamics::{
 use fe_contact::vibration::Along;
 use gearset::Symmetry;
 
+use super::critical_motion::CriticalMotion;
 use super::marching::Marching;
 use super::record::Record;
 use super::set_shape::SetShape;
@@ -163,6 +164,7 @@ pub(crate) struct Shot {
     pub(super) derivatives: usize,
     pub(super) residual: f64,
     pub(super) multipliers: Vec<Multiplier>,
+    pub(super) critical: Option<CriticalMotion>,
 }
 
 /// Shoots from the present state; the inner error is the reason why there is no periodic solution near it.
@@ -188,9 +190,11 @@ pub(crate) fn shot(
         Ok(found) => found,
         Err(why) => return Ok(Err(why)),
     };
-    let mut multipliers = of_whole_cycle(&found.derivative, parts)?;
+    let of_part = multipliers(&found.derivative)?;
+    let RecordedCycles { now, before, set, .. } = cycles;
+    let critical = CriticalMotion::of(&*set, &found.derivative, &of_part, parts)?;
+    let mut multipliers = of_whole_cycle(of_part, parts);
     multipliers.retain(|m| m.size() >= SMALL);
-    let RecordedCycles { now, before, .. } = cycles;
     let [record, mut both] = [now, before].map(|part| match &symmetry {
         Some(own) => part.of_whole_cycle(own),
         None => part,
@@ -206,17 +210,15 @@ pub(crate) fn shot(
         derivatives: found.derivatives,
         residual: found.residual,
         multipliers,
+        critical,
     }))
 }
 
-/// Multipliers of a whole cycle from the derivative of one of its equal parts: the map of a cycle is the p-th power of
-/// that of a part.
-fn of_whole_cycle(
-    derivative: &MapDerivative,
-    parts: usize,
-) -> Result<Vec<Multiplier>, ExperimentError> {
+/// Multipliers of a whole cycle from those of one of its equal parts: the map of a cycle is the p-th power of that of a
+/// part.
+fn of_whole_cycle(of_part: Vec<Multiplier>, parts: usize) -> Vec<Multiplier> {
     let of_cycle = |m: Multiplier| (1..parts).fold(m, |power, _| power.times(m));
-    Ok(multipliers(derivative)?.into_iter().map(of_cycle).collect())
+    of_part.into_iter().map(of_cycle).collect()
 }
 
 /// Multipliers of the cycle that begins at the present state; `None` for a model without derivative.
@@ -233,5 +235,5 @@ pub(super) fn multipliers_of_next_cycle(
     let parts = own.symmetry()?.map_or(1, |own| own.parts);
     let mut cycle = RecordedCycles::new(set, shape, first_planet_rad, steps / parts);
     cycle.advance()?;
-    Ok(Some(of_whole_cycle(&cycle.derivative()?, parts)?))
+    Ok(Some(of_whole_cycle(multipliers(&cycle.derivative()?)?, parts)))
 }

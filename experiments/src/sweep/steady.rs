@@ -5,6 +5,7 @@ use fe_contact::statics::KinematicRest;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::critical_motion::CriticalMotion;
 use super::extrapolation::Extrapolation;
 use super::marching::Marching;
 use super::record::{Record, SUN};
@@ -73,6 +74,8 @@ pub struct Steady {
     pub derivatives: usize,
     /// Floquet multipliers of size 1e-3 and above of a motion found by shooting, by descending size.
     pub multipliers: Vec<Multiplier>,
+    /// How the perturbation moves whose multiplier is nearest in size to 1, of a motion found by shooting.
+    pub critical: Option<CriticalMotion>,
     /// The last cycle.
     pub record: Record,
     /// Cycles marched, the last of which is recorded.
@@ -111,6 +114,7 @@ impl Steady {
         whole: Record,
         cycles: usize,
         multipliers: Vec<Multiplier>,
+        critical: Option<CriticalMotion>,
         residual: f64,
     ) -> Result<Self, ExperimentError> {
         let (record, between, further) = match cycles {
@@ -122,6 +126,7 @@ impl Steady {
             why_marched: None,
             derivatives: 1,
             multipliers,
+            critical,
             record,
             cycles,
             residual,
@@ -208,6 +213,7 @@ impl Shot {
             derivatives: self.derivatives,
             rest: part_rest(set, &self.record, steps, self.parts)?,
             multipliers: self.multipliers,
+            critical: self.critical,
             record: self.record,
             cycles: self.cycles,
             residual: self.residual,
@@ -286,6 +292,7 @@ fn march(
         why_marched: None,
         derivatives: 0,
         multipliers: Vec::new(),
+        critical: None,
         record: now,
         cycles,
         residual,

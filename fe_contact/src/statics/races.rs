@@ -145,6 +145,17 @@ impl Races {
         self.index[3 * body + axis]
     }
 
+    /// Inertias of carrier, ring, sun and planets along their displacements (x, y or ζ, η: kg; θ: kg m²; 0 where held), from
+    /// the masses of the coordinates (n, kg).
+    pub fn inertias(&self, mass: &[f64]) -> Vec<[f64; 3]> {
+        let of = |body: usize, axis: usize| {
+            let own = self.of(body, axis).map_or(0.0, |i| mass[i]);
+            // A coordinate of rotation is u = r θ.
+            if axis == 2 { own * self.radii[body.min(PLANETS)].powi(2) } else { own }
+        };
+        (0..PLANETS + self.planets()).map(|body| [0, 1, 2].map(|axis| of(body, axis))).collect()
+    }
+
     /// Displacements of one body's race from those of all, x (n, m); 0 for held coordinates.
     pub(crate) fn displaced(&self, x: &DVector<f64>, body: usize) -> [f64; 3] {
         [0, 1, 2].map(|axis| self.of(body, axis).map_or(0.0, |i| x[i]))
