@@ -14,6 +14,7 @@ mod mesh;
 mod modes;
 mod needs;
 mod report;
+mod report_charts;
 mod result_folder;
 mod rules;
 mod scene;

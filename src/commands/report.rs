@@ -1,6 +1,6 @@
 //! The report folder: verdict as Markdown and JSON, the steps that explain the printed four-planet
 //! frequencies, a Campbell chart of either set, growth with torque and its map, error against cost and, from
-//! the full profile, the error of the fidelities.
+//! the full profile, the error of the fidelities. What studies and stability maps show is in `report_charts`.
 
 use std::fmt::Write as _;
 use std::path::Path;

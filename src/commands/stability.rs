@@ -111,7 +111,7 @@ fn name(argument: MapArgument) -> MapName {
 }
 
 /// Five equally spaced planets: the set that shows every kind of mode and of phasing.
-fn built_in() -> Result<Scene, CommandError> {
+pub(super) fn built_in() -> Result<Scene, CommandError> {
     validation::scene(PublishedScene::FivePlanets)
         .map_err(|source| CommandError::Scene { path: "the scene built in".into(), source })
 }
@@ -161,7 +161,7 @@ fn write_csv(map: &StabilityMap, out: &mut dyn Write) -> Result<(), CommandError
     output::csv(out, &HEADER, map.borders.iter().map(row))
 }
 
-fn write_text(map: &StabilityMap, out: &mut dyn Write) -> Result<(), CommandError> {
+pub(super) fn write_text(map: &StabilityMap, out: &mut dyn Write) -> Result<(), CommandError> {
     writeln!(out, "{}: {}\n", map.map, map.system)?;
     let mut table =
         output::table(&["of", "what", "measured", "theory", "difference %"], &[2, 3, 4]);

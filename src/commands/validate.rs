@@ -17,7 +17,7 @@ use crate::error::CommandError;
 use crate::output;
 
 use super::suite_progress::SuiteProgress;
-use super::{report, verdict_table, verdict_text};
+use super::{report, report_charts, verdict_table, verdict_text};
 
 pub(crate) fn run(
     arguments: &Validate,
@@ -58,6 +58,10 @@ pub(crate) fn run(
     }
     if let Some(folder) = &arguments.report {
         report::write(&verdict, folder)?;
+        // A part of the verdict, or that on another model, has a report of its own only.
+        if arguments.only.is_empty() && arguments.recorded.is_none() {
+            report_charts::write(folder)?;
+        }
     }
     match arguments.format {
         Format::Json => output::json(out, &verdict)?,

@@ -12,6 +12,15 @@ pub enum ReferenceError {
         #[source]
         cause: Box<toml::de::Error>,
     },
+    /// A file of `kept/` is not what this program writes.
+    #[error("{file} cannot be read: {cause}")]
+    UnreadableJson {
+        /// File name.
+        file: &'static str,
+        /// What the JSON reader said.
+        #[source]
+        cause: Box<serde_json::Error>,
+    },
     /// A check or control that is declared nowhere.
     #[error("checks/registry.toml declares no check or control `{0}`")]
     Undeclared(String),

@@ -2,7 +2,7 @@
 
 use gearset::Scene;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{
     bouncing_bar, contact_cells, contact_loss, explicit_step, hammering, integrators, lag, locking,
@@ -147,7 +147,7 @@ impl MapName {
 }
 
 /// One border, or one number along it.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Border {
     /// Of what: scheme, modes or tongue.
     pub of: String,
@@ -179,7 +179,7 @@ impl Border {
 }
 
 /// A curve of the map's figure.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MapCurve {
     /// Panel of the figure it belongs to.
     pub panel: String,
@@ -194,7 +194,7 @@ pub struct MapCurve {
 }
 
 /// A map: its borders and the curves of its figure.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StabilityMap {
     /// Name as on the command line.
     pub map: String,

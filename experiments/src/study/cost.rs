@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Tells the time.
 pub trait Stopwatch: Send {
@@ -32,7 +32,7 @@ impl Stopwatch for CpuTime {
 }
 
 /// Lower quartile, median, upper quartile.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Quartiles {
     /// Lower quartile.
     pub low: f64,

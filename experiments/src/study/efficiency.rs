@@ -1,7 +1,7 @@
 //! Which settings are efficient, and which of the ranks can be believed.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// A setting as the ranking sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,7 +15,7 @@ pub struct Candidate {
 }
 
 /// Why a small error may be luck.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Doubt {
     /// A finer setting of the same series is farther off, on the other side of the truth: the error crosses zero near

@@ -2,7 +2,7 @@
 
 use gearset::MeshKind;
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::quantity::WorkKind;
 use crate::sweep::Response;
@@ -31,7 +31,7 @@ pub(super) enum Action {
 }
 
 /// Counted work: it depends on the setting and on no clock. What an experiment does not have is 0.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Work {
     /// Time steps.
     pub steps: f64,

@@ -1,7 +1,7 @@
 //! What a study gives. Everything that depends on a clock is in fields called `time`; the rest is the same in every run.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::cost::Quartiles;
 use super::efficiency::Doubt;
@@ -10,7 +10,7 @@ use super::quantity::{QuantityKind, WorkKind};
 use super::study_file::CostKind;
 
 /// A study that has been run.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StudyResult {
     /// Title of the study.
     pub title: String,
@@ -35,7 +35,7 @@ pub struct StudyResult {
 }
 
 /// A setting.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SettingResult {
     /// Name.
     pub name: String,
@@ -46,7 +46,7 @@ pub struct SettingResult {
 }
 
 /// The yardstick: one mesh cycle of the lumped model of the scene, 140 steps.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StudyTime {
     /// Time of one mesh cycle of the lumped model, s.
     pub yardstick_s: Quartiles,
@@ -55,7 +55,7 @@ pub struct StudyTime {
 }
 
 /// A route to the truth.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RouteResult {
     /// Name.
     pub name: String,
@@ -70,7 +70,7 @@ pub struct RouteResult {
 }
 
 /// The truth of a quantity.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TruthResult {
     /// Value by the first route, in the unit of the quantity.
     pub value: f64,
@@ -83,7 +83,7 @@ pub struct TruthResult {
 }
 
 /// A quantity.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct QuantityResult {
     /// Name.
     pub name: String,
@@ -107,7 +107,7 @@ pub struct QuantityResult {
 }
 
 /// A setting and a quantity.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Row {
     /// Name of the setting.
     pub setting: String,
@@ -136,7 +136,7 @@ pub struct Row {
 }
 
 /// Costs of a setting, in mesh cycles of the lumped model; absent without value.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RowTime {
     /// Gears and contact tables.
     pub set_up_cycles: Option<Quartiles>,
@@ -151,7 +151,7 @@ pub struct RowTime {
 }
 
 /// What times say of a quantity.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct QuantityTime {
     /// The cheapest setting whose guarded error and U together are within the tolerance.
     pub answer: Option<String>,

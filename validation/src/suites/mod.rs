@@ -95,7 +95,7 @@ pub(crate) const ASKABLE: [Askable; 16] = [
 type Own = (&'static [&'static str], fn(&Lab<'_>) -> Checks);
 
 /// All suites in the order of the report.
-const OWN: [Own; 31] = [
+const OWN: [Own; 32] = [
     (&["table2.lumped", "table3.lumped"], own_lumped_tables),
     (&["table2.geometry_consistent", "table3.geometry_consistent"], own_geometry),
     (&["table3.explained"], |lab| own_modes(lab, "table3.explained", explained::controls)),
@@ -127,6 +127,7 @@ const OWN: [Own; 31] = [
     (&["sweep"], fe::sweeps::checks),
     (&["truth"], fe::truth::checks),
     (&["torque"], fe::torque::checks),
+    (&["contact_loss"], fe::contact_loss::checks),
 ];
 
 /// Scenes and question of a suite that can be asked of anybody's model.

@@ -2,6 +2,7 @@
 
 pub(crate) mod bodies;
 pub(crate) mod calculix;
+pub(crate) mod contact_loss;
 pub(crate) mod convergence;
 pub(crate) mod fidelity;
 pub(crate) mod fig12;

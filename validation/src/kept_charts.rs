@@ -1,0 +1,67 @@
+//! Results behind charts that take minutes to compute, as kept in `kept/` with the commands that remake them.
+
+use experiments::stability::StabilityMap;
+use experiments::study::StudyResult;
+use serde::Deserialize;
+use serde::de::DeserializeOwned;
+
+use crate::reference_file::ReferenceError;
+
+/// A study as it was run on an otherwise idle machine by
+/// `epicyclic study studies/NAME.toml --format json > kept/studies/NAME.json`.
+#[derive(Debug, Clone)]
+pub struct KeptStudy {
+    /// Name of its file.
+    pub name: &'static str,
+    /// Version of the program that ran it.
+    pub version: String,
+    /// What it gave.
+    pub result: StudyResult,
+}
+
+/// What the program writes with `--format json`.
+#[derive(Debug, Deserialize)]
+struct Written<T> {
+    version: String,
+    #[serde(flatten)]
+    result: T,
+}
+
+fn read<T: DeserializeOwned>(file: &'static str, text: &str) -> Result<Written<T>, ReferenceError> {
+    serde_json::from_str(text)
+        .map_err(|cause| ReferenceError::UnreadableJson { file, cause: Box::new(cause) })
+}
+
+/// The shipped studies, that of the main question first.
+///
+/// # Errors
+/// If a file is not what the program writes.
+pub fn kept_studies() -> Result<Vec<KeptStudy>, ReferenceError> {
+    macro_rules! kept {
+        ($($name:literal),*) => {
+            vec![$({
+                let text = include_str!(concat!("../kept/studies/", $name, ".json"));
+                let Written { version, result } = read(concat!("kept/studies/", $name, ".json"), text)?;
+                KeptStudy { name: $name, version, result }
+            }),*]
+        };
+    }
+    Ok(kept![
+        "models",
+        "fidelity",
+        "steps_per_cycle",
+        "contact_cells",
+        "elements",
+        "matching",
+        "steady_state_method"
+    ])
+}
+
+/// The map of contact loss over torque and damping of OH-58 with four planets, by
+/// `epicyclic stability contact-loss --scene scenes/oh58_4p.toml --format json > kept/contact_loss.json`.
+///
+/// # Errors
+/// If the file is not what the program writes.
+pub fn kept_contact_loss() -> Result<StabilityMap, ReferenceError> {
+    Ok(read("kept/contact_loss.json", include_str!("../kept/contact_loss.json"))?.result)
+}
