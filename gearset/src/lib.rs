@@ -7,6 +7,7 @@ mod check;
 mod check_geometry;
 mod check_load;
 mod choices;
+mod corner_gap;
 mod displaced;
 mod estimates;
 mod fault;

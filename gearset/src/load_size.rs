@@ -74,6 +74,11 @@ impl LoadSize {
         Some(format!("{load:e} {unit}: allowed is a magnitude {bound}; {}{why}", self.words()))
     }
 
+    /// The largest deflection that is accepted, m.
+    pub fn most_deflection(&self) -> f64 {
+        MOST_MODULES * self.module
+    }
+
     /// The load with which teeth give way by a module, for a load that gives this size.
     pub fn most(&self, load: f64) -> f64 {
         MOST_MODULES * load.abs() * self.module / self.deflection

@@ -177,7 +177,8 @@ fn load(scene: &Scene, geometry: &Geometry, found: &mut Found) {
         );
         let likely = match scene.kind {
             SceneKind::Planetary => {
-                "likely the torque is in N·mm, or `planet.bearing_n_per_m` is not in N/m"
+                "likely the torque is in N·mm, or `planet.bearing_n_per_m` is not in N/m; if neither, lines of action turn so far \
+                 under load that natural frequencies of the lumped model, which has those of the unloaded set, are up to 1 % off"
             }
             SceneKind::GearPair => "likely the torque is in N·mm",
         };

@@ -354,3 +354,28 @@ fn linear_kinematics_misses_the_corners_of_a_wound_up_mesh() {
         assert!(least.iter().all(|&off| off > 0.5e-6 && off < 1e-3), "{least:?}");
     }
 }
+
+/// The gap of a tip corner grows by the closed form: exact kinematics at a distance e beyond the path give ½ G'' e² but for a
+/// part of the order of e over the radii of curvature, which halves with e.
+#[test]
+fn corner_gaps_start_with_the_curvature_of_the_closed_form() {
+    let geometry = oh58();
+    for mesh in MESHES.map(|kind| geometry.mesh(kind).unwrap()) {
+        for corner in [MeshMember::Driver, MeshMember::Driven] {
+            let off = [0.2e-3, 0.1e-3].map(|e: f64| {
+                // Pair 0 rolled on to e beyond the end of the path, or back to e before its start.
+                let phase = match corner {
+                    MeshMember::Driver => mesh.contact_ratio + e / mesh.base_pitch,
+                    MeshMember::Driven => -e / mesh.base_pitch,
+                };
+                let there = mesh.displaced(phase, &[0.0; 6]).unwrap();
+                assert_eq!(there.location(0), PairLocation::Corner(corner));
+                assert!((there.beyond(0)[corner as usize] - e).abs() < 1e-12);
+                let gap = there.clearance(mesh, 0).unwrap();
+                gap / (0.5 * mesh.corner_gap_curvature(corner) * e * e) - 1.0
+            });
+            assert!(off[1].abs() < 0.02, "{:?} {corner:?}: {off:?}", mesh.kind);
+            assert!((off[0] / off[1] - 2.0).abs() < 0.1, "{:?} {corner:?}: {off:?}", mesh.kind);
+        }
+    }
+}

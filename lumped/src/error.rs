@@ -74,6 +74,16 @@ pub enum LumpedError {
         /// The part.
         part: f64,
     },
+    /// Displacements of planets in angle that are not one finite number for each planet.
+    #[error(
+        "{given} displacements for {count} planets: allowed is one finite number for each planet"
+    )]
+    Displaced {
+        /// Planets.
+        count: usize,
+        /// Displacements given.
+        given: usize,
+    },
     /// Teeth are needed for contact ratios and mesh phases, and the scene has none.
     #[error("[teeth] and [geometry] are absent: contact ratios and mesh phases come from them")]
     NoTeeth,

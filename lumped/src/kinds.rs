@@ -5,6 +5,7 @@
 //! members with planet motions proportional to cos ψ_n and sin ψ_n; and planet motions without net force or
 //! torque on the central members. Held coordinates are left out of them.
 
+use nalgebra::DMatrix;
 use serde::Serialize;
 
 use dynamics::orthonormal_basis;
@@ -77,6 +78,17 @@ impl Kinds {
             translational.extend(around.into_iter().map(sparse));
         }
         Self([rotational, translational])
+    }
+
+    /// The bases as matrices (n×m), in M^½-scaled coordinates.
+    pub(crate) fn bases(&self, n: usize) -> [DMatrix<f64>; 2] {
+        self.0.each_ref().map(|basis| {
+            let mut matrix = DMatrix::zeros(n, basis.len());
+            for (column, vector) in basis.iter().enumerate() {
+                vector.iter().for_each(|&(i, b)| matrix[(i, column)] = b);
+            }
+            matrix
+        })
     }
 
     /// Rows of B_kᵀ Q of both kinds for a Q (n×m) given by its entries.

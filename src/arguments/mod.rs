@@ -268,6 +268,10 @@ pub(crate) enum MapArgument {
     TruncatedStiffness,
     /// The lag of damped flexibility without inertia, over the step, by rule of integration.
     Lag,
+    /// Errors of kinematics linear about the unloaded and the loaded configuration, over the windup.
+    LinearKinematics,
+    /// Splits and types of modes when planets are displaced in angle.
+    Spacing,
 }
 
 #[derive(Debug, Args)]
@@ -278,8 +282,8 @@ pub(crate) struct Stability {
     /// List the guards of the program: what it says on either side of each border.
     #[arg(long, conflicts_with_all = ["map", "scene", "out"])]
     pub guards: bool,
-    /// Set for which the map is computed (explicit-step, parametric, mode-types, contact-loss, transients); five equally spaced
-    /// planets if left out.
+    /// Set for which the map is computed (explicit-step, parametric, mode-types, contact-loss, transients,
+    /// linear-kinematics, spacing); five equally spaced planets if left out.
     #[arg(long, value_name = "FILE")]
     pub scene: Option<PathBuf>,
     /// Also write table (CSV), result (JSON) and figure (SVG, PNG) into this folder.

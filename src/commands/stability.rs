@@ -107,6 +107,8 @@ fn name(argument: MapArgument) -> MapName {
         MapArgument::Transients => MapName::Transients,
         MapArgument::TruncatedStiffness => MapName::TruncatedStiffness,
         MapArgument::Lag => MapName::Lag,
+        MapArgument::LinearKinematics => MapName::LinearKinematics,
+        MapArgument::Spacing => MapName::Spacing,
     }
 }
 

@@ -78,6 +78,74 @@ fn an_unfinished_transient_is_as_large_as_multipliers_say() {
     }
 }
 
+/// Kinematics about the unloaded configuration are off as theory says, and those about the loaded one are not: a windup is a
+/// shift of time (harmonic l off by 2 sin πlw), gaps of corners are off by ½ G'' w², and lines of action that do not turn move
+/// natural frequencies to first order in the load. Coarse elements and cells, which both sides of every comparison share.
+#[test]
+fn kinematics_about_the_unloaded_set_are_off_as_theory_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("coarse.toml");
+    let text = std::fs::read_to_string(scene("five_planets.toml")).unwrap();
+    let coarse = "\n[fe_contact]\nflank_elements = 8\ncontact_cells = 20\n";
+    std::fs::write(&path, text + coarse).unwrap();
+    let path = path.to_str().unwrap();
+    let result = json(&["stability", "linear-kinematics", "--scene", path, "--format", "json"]);
+    let borders = result["borders"].as_array().unwrap();
+    let of = |of: &str, quantity: &str| {
+        let own = |b: &&Value| {
+            b["of"].as_str().unwrap().contains(of)
+                && b["quantity"].as_str().unwrap().starts_with(quantity)
+        };
+        borders.iter().find(own).unwrap_or_else(|| panic!("{of}: {quantity}"))
+    };
+    let ending = |words: &str, quantity: &str, name: &str| {
+        let own = |b: &&Value| {
+            let asked = b["quantity"].as_str().unwrap();
+            b["of"].as_str().unwrap().contains(words)
+                && asked.starts_with(quantity)
+                && asked.ends_with(name)
+        };
+        borders.iter().find(own).unwrap_or_else(|| panic!("{words}: {quantity} {name}"))
+    };
+    let off = |b: &Value| b["difference_percent"].as_f64().unwrap().abs();
+    let measured = |b: &Value| b["measured"].as_f64().unwrap();
+    // Lumped mesh stiffnesses are rounded: a tenth of the part that teeth have in the windup, which is a tenth of it.
+    assert!(off(of("by torque", "windup under the scene's own load")) < 3.0);
+    // The rest of the error is some per cent of the harmonic, a tenth of its shift.
+    let shifted = ending("by soft", "error at the least", "with its phase");
+    assert!(off(shifted) < 15.0, "{shifted}");
+    let frequencies = ending("by torque", "windup from which", "bearings and supports");
+    assert!(off(frequencies) < 20.0, "{frequencies}");
+    let gaps = ending("by soft", "windup from which", "of the mean approach");
+    assert!(off(gaps) < 20.0, "{gaps}");
+    for words in ["by torque", "by soft bearings"] {
+        let about = |which: &str| {
+            let words = format!("{words}, linear about the {which}");
+            measured(ending(&words, "error at the least", "shift of time taken out"))
+        };
+        assert!(about("loaded") < 0.2 * about("unloaded"), "{words}");
+        assert!(about("loaded") < 0.01, "{words}");
+    }
+}
+
+/// Splits, shares and borders of displaced planets are those of perturbation theory within 1 %.
+#[test]
+fn unequal_spacing_splits_and_mixes_as_theory_says() {
+    let result = json(&["stability", "spacing", "--format", "json"]);
+    let borders = result["borders"].as_array().unwrap();
+    let compared: Vec<f64> =
+        borders.iter().filter_map(|b| b["difference_percent"].as_f64()).collect();
+    assert!(compared.len() > 60 && compared.iter().all(|x| x.abs() < 1.0), "{compared:?}");
+    // Displacements from which on a mode is listed as mixed: found for each.
+    let mixed =
+        borders.iter().filter(|b| b["quantity"].as_str().unwrap().starts_with("listed as mixed"));
+    assert!(mixed.clone().count() > 15 && mixed.into_iter().all(|b| b["measured"].is_f64()));
+    // Planet modes do not split.
+    let unmoved = borders.iter().filter(|b| b["of"].as_str().unwrap().ends_with("planet modes"));
+    let splits: Vec<f64> = unmoved.map(|b| b["measured"].as_f64().unwrap()).collect();
+    assert!(splits.len() == 3 && splits.iter().all(|x| *x < 1e-12), "{splits:?}");
+}
+
 /// The trapezoidal rule rings above 2β, the program's rule at no step.
 #[test]
 fn the_lag_of_the_program_does_not_ring() {

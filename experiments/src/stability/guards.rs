@@ -36,7 +36,7 @@ type Said = Result<Option<String>, MapError>;
 /// What is tried: `true` beyond the border.
 type Attempt = fn(bool) -> Said;
 
-const ALL: [(&str, &str, Attempt); 20] = [
+const ALL: [(&str, &str, Attempt); 22] = [
     ("explicit step", "Δt·ω_max of central difference 1.999 and 2.001", explicit_step),
     ("parameter of a scheme", "HHT-α with α = −0.333 and −0.334", parameter),
     ("mass at an obstacle", "Moreau–Jean on a flank with and without mass", massless),
@@ -55,10 +55,20 @@ const ALL: [(&str, &str, Attempt); 20] = [
     ("matching depth, above", "0.1 % within and beyond the least depth", shallow),
     ("matching depth, below", "0.1 % within and beyond the greatest depth", deep),
     ("linear kinematics", "rest of 9.9 % and 10.1 % of the sun's motion of 10 µm", linear),
+    (
+        "lines of action of the unloaded set",
+        "0.1 % within and beyond a deflection of a quarter of a module",
+        turned_lines,
+    ),
     ("heavy load", "0.1 % within and beyond a deflection of one module", heavy),
     ("light load", "0.1 % within and beyond a millionth of a module", light),
     ("mesh stiffness below 0", "variation 0.1 % within and beyond what closes the mesh", variation),
     ("types of modes", "equal planets, and one heavier than the border of mode-types", types),
+    (
+        "types of modes, spacing",
+        "equal spacing, and one planet displaced beyond the border of spacing",
+        types_by_spacing,
+    ),
     (
         "unfinished transient",
         "a march at a resonance to the change that leaves at most 1 % of transient, and to three times that",
@@ -226,6 +236,15 @@ fn at_load(limit: fn(&LoadSize, f64) -> f64, factor: f64) -> Said {
     Ok(size(torque)?.refusal(torque, "N·m"))
 }
 
+/// A quarter of the load with which teeth give way by a module.
+fn turned_lines(beyond: bool) -> Said {
+    let scene = accepted(SceneKind::Planetary, TORQUE, TORQUE)?;
+    let size = scene.size_of_sun_torque(1.0).ok_or(MapError::NoOperation)?;
+    let torque = 0.25 * if beyond { 1.001 } else { 0.999 } * size.most(1.0);
+    let scene = accepted(SceneKind::Planetary, TORQUE, &format!("torque_nm = {torque}"))?;
+    Ok(warned(&scene, "operation.torque_nm"))
+}
+
 fn heavy(beyond: bool) -> Said {
     at_load(LoadSize::most, if beyond { 1.001 } else { 0.999 })
 }
@@ -252,6 +271,21 @@ fn types(beyond: bool) -> Said {
             .map(|t| t.pure_up_to)
             .fold(f64::INFINITY, f64::min);
         model = model.with_heavier_planet(0, 2.0 * least)?;
+    }
+    let modes = NaturalModes::of(&model)?;
+    Ok(type_warnings(&model, &modes).into_iter().next())
+}
+
+fn types_by_spacing(beyond: bool) -> Said {
+    let scene = accepted(SceneKind::Planetary, TORQUE, TORQUE)?;
+    let mut model = LumpedModel::from_scene(&scene)?;
+    if beyond {
+        let pattern: Vec<f64> =
+            (0..model.psi.len()).map(|n| if n == 0 { 1.0 } else { 0.0 }).collect();
+        let changes = model.spacing_changes(&NaturalModes::of(&model)?, &pattern)?;
+        let least = changes.iter().map(|c| c.pure_up_to).fold(f64::INFINITY, f64::min);
+        model = model
+            .with_displaced_planets(&pattern.iter().map(|a| 2.0 * least * a).collect::<Vec<_>>())?;
     }
     let modes = NaturalModes::of(&model)?;
     Ok(type_warnings(&model, &modes).into_iter().next())

@@ -5,8 +5,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    bouncing_bar, contact_cells, contact_loss, explicit_step, hammering, integrators, lag, locking,
-    mode_types, parametric, resolution, transients, truncated_stiffness,
+    bouncing_bar, contact_cells, contact_loss, explicit_step, hammering, integrators, lag,
+    linear_kinematics, locking, mode_types, parametric, resolution, spacing, transients,
+    truncated_stiffness,
 };
 
 /// The maps.
@@ -38,11 +39,15 @@ pub enum MapName {
     TruncatedStiffness,
     /// The lag of damped flexibility without inertia, by rule of integration.
     Lag,
+    /// Kinematics linear about the unloaded and the loaded configuration, over windup.
+    LinearKinematics,
+    /// Splits and types of modes with planets displaced in angle.
+    Spacing,
 }
 
 impl MapName {
     /// All of them.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 15] = [
         Self::Integrators,
         Self::ExplicitStep,
         Self::BouncingBar,
@@ -56,6 +61,8 @@ impl MapName {
         Self::Transients,
         Self::TruncatedStiffness,
         Self::Lag,
+        Self::LinearKinematics,
+        Self::Spacing,
     ];
 
     /// As on the command line.
@@ -74,6 +81,8 @@ impl MapName {
             Self::Transients => "transients",
             Self::TruncatedStiffness => "truncated-stiffness",
             Self::Lag => "lag",
+            Self::LinearKinematics => "linear-kinematics",
+            Self::Spacing => "spacing",
         }
     }
 
@@ -130,6 +139,14 @@ impl MapName {
                 "flexibility without inertia follows its load within microseconds: with steps longer than that the \
                  trapezoidal rule makes it ring"
             }
+            Self::LinearKinematics => {
+                "bearings give way under the load by far more than teeth: beyond this windup, kinematics linear about the \
+                 unloaded set, or about the loaded one, are more than 1 % off in harmonics at rest and natural frequencies"
+            }
+            Self::Spacing => {
+                "with a planet displaced in angle by this a mode has lost its type, and modes of equal frequency have split to \
+                 first or second order by the pattern of the displacement"
+            }
         }
     }
 
@@ -142,6 +159,8 @@ impl MapName {
                 | Self::ModeTypes
                 | Self::ContactLoss
                 | Self::Transients
+                | Self::LinearKinematics
+                | Self::Spacing
         )
     }
 }
@@ -249,6 +268,8 @@ pub fn stability_map(which: MapName, scene: &Scene) -> Result<StabilityMap, MapE
         MapName::Transients => transients::map(scene),
         MapName::TruncatedStiffness => truncated_stiffness::map(),
         MapName::Lag => lag::map(),
+        MapName::LinearKinematics => linear_kinematics::map(scene),
+        MapName::Spacing => spacing::map(scene),
     }
 }
 

@@ -8,14 +8,17 @@ mod guards;
 mod hammering;
 mod integrators;
 mod lag;
+mod linear_kinematics;
 mod locking;
 mod map;
 mod mode_types;
 mod parametric;
 mod resolution;
 mod resonance;
+mod spacing;
 mod transients;
 mod truncated_stiffness;
+mod windup;
 
 pub use guards::{Guard, guards};
 pub use map::{Border, MapCurve, MapError, MapName, StabilityMap, stability_map};

@@ -7,7 +7,7 @@
 use std::borrow::Cow;
 
 use gearset::{DisplacedMesh, Mesh};
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::equilibrium::{Equilibrium, System};
@@ -31,8 +31,21 @@ const FOUND: f64 = 1e-11;
 /// Change of displacements (m) from which on the slopes of the flanks are computed again.
 const SLOPES_HOLD: f64 = 1e-7;
 
+/// Displacement to either side between which the tangent is taken, m: a thousandth of a tooth's deflection, and far
+/// above the rounding of the forces.
+const APART: f64 = 1e-8;
+
 /// Most iterations.
 const MOST: usize = 40;
+
+/// Tables from which the slopes of the flanks are taken.
+#[derive(Debug, Clone, Copy)]
+enum SlopeTables {
+    /// As fine as those of contact.
+    Full,
+    /// Those of the linearised set, with fewer cells.
+    AsLinearised,
+}
 
 /// A mesh of the displaced gears.
 struct There {
@@ -53,6 +66,19 @@ impl StaticSet<'_> {
         self.exact_cycle_with(torque_nm, &DVector::zeros(0), positions)
     }
 
+    /// The same with the slopes of the flanks from the coarser tables that the linearised set takes them from: what
+    /// differs from [`StaticSet::cycle_here`] is kinematics alone.
+    ///
+    /// # Errors
+    /// As [`StaticSet::cycle`].
+    pub fn exact_kinematics_cycle(
+        &self,
+        torque_nm: f64,
+        positions: usize,
+    ) -> Result<SetCycle, FeError> {
+        self.cycle_by(torque_nm, &DVector::zeros(0), positions, SlopeTables::AsLinearised)
+    }
+
     /// The same with further loads on the races' coordinates (N, one each, or an empty vector).
     ///
     /// # Errors
@@ -63,13 +89,23 @@ impl StaticSet<'_> {
         further: &DVector<f64>,
         positions: usize,
     ) -> Result<SetCycle, FeError> {
+        self.cycle_by(torque_nm, further, positions, SlopeTables::Full)
+    }
+
+    fn cycle_by(
+        &self,
+        torque_nm: f64,
+        further: &DVector<f64>,
+        positions: usize,
+        tables: SlopeTables,
+    ) -> Result<SetCycle, FeError> {
         let f = self.load_with(torque_nm, further);
         let settings = self.bodies.cells(self.share(torque_nm).max(1.0));
         let mut states = Vec::with_capacity(positions);
         let mut q = self.reference.q.clone();
         for i in 0..positions {
             let position = i as f64 / positions as f64;
-            let (state, end) = self.exact(&f, position, &settings, q)?;
+            let (state, end) = self.exact(&f, position, &settings, q, tables)?;
             states.push(state);
             q = end;
         }
@@ -83,6 +119,7 @@ impl StaticSet<'_> {
         position: f64,
         settings: &CellSettings,
         mut q: DVector<f64>,
+        tables: SlopeTables,
     ) -> Result<(SetState, DVector<f64>), FeError> {
         let solver = &ActiveSet;
         let mut slopes: Vec<Slopes> = Vec::new();
@@ -97,7 +134,7 @@ impl StaticSet<'_> {
             let mut load = DVector::zeros(self.races.count);
             let hold = |at: &DVector<f64>| (at - &q).amax() < SLOPES_HOLD;
             if !slopes_at.as_ref().is_some_and(hold) {
-                slopes = self.slopes_there(&there, &meshes, &q, settings, solver)?;
+                slopes = self.slopes_there(&there, &meshes, &q, (settings, tables), solver)?;
                 slopes_at = Some(q.clone());
             }
             for (k, (t, own)) in there.iter().zip(&slopes).enumerate() {
@@ -126,6 +163,30 @@ impl StaticSet<'_> {
         Err(FeError::NotConverged { iterations, residual: change })
     }
 
+    /// Tangent stiffness K + ∂²Ψ/∂q² (n×n, N/m) of the set in the equilibrium that exact kinematics give at a
+    /// position (cycles) under a torque on the sun (N·m, magnitude): central differences of the gradient of the
+    /// energy Ψ of the meshes, so that it shares no derivative with the linearised set.
+    ///
+    /// # Errors
+    /// As [`StaticSet::exact_cycle`].
+    pub fn exact_tangent(&self, torque_nm: f64, position: f64) -> Result<DMatrix<f64>, FeError> {
+        let f = self.load(torque_nm);
+        let settings = self.bodies.cells(self.share(torque_nm).max(1.0));
+        let start = self.reference.q.clone();
+        let (_, q) = self.exact(&f, position, &settings, start, SlopeTables::Full)?;
+        let gradient = |coordinate: usize, by: f64| {
+            let mut moved = q.clone();
+            moved[coordinate] += by;
+            self.mesh_potential(torque_nm, position, &moved).map(|found| found.1)
+        };
+        let mut tangent = self.races.stiffness.clone();
+        for i in 0..q.len() {
+            let column = (gradient(i, APART)? - gradient(i, -APART)?) / (2.0 * APART);
+            tangent.column_mut(i).axpy(1.0, &column, 1.0);
+        }
+        Ok(0.5 * (&tangent + tangent.transpose()))
+    }
+
     /// Energy Ψ (J) of all meshes with the races at q (n, m) at a position (cycles), and its
     /// gradient (n, N), the negative of the generalised forces of the meshes on the races. Grids
     /// are sized for a torque on the sun (N·m).
@@ -143,7 +204,8 @@ impl StaticSet<'_> {
         let placed = there.iter().enumerate();
         let placed = placed.map(|(k, t)| self.place_there(k, t, position, q));
         let mut meshes: Vec<PlacedMesh<'_>> = placed.collect::<Result<_, _>>()?;
-        let slopes = self.slopes_there(&there, &meshes, q, &settings, &ActiveSet)?;
+        let full = (&settings, SlopeTables::Full);
+        let slopes = self.slopes_there(&there, &meshes, q, full, &ActiveSet)?;
         let mut load = DVector::zeros(q.len());
         let mut energy = 0.0;
         for (k, (t, own)) in there.iter().zip(&slopes).enumerate() {
@@ -297,7 +359,7 @@ impl StaticSet<'_> {
         there: &[There],
         meshes: &[PlacedMesh<'_>],
         q: &DVector<f64>,
-        settings: &CellSettings,
+        (settings, tables): (&CellSettings, SlopeTables),
         solver: &(dyn ComplementaritySolver + Sync),
     ) -> Result<Vec<Slopes>, FeError> {
         let answers: Vec<MeshAnswer> =
@@ -306,7 +368,13 @@ impl StaticSet<'_> {
             .into_par_iter()
             .map(|k| {
                 let There { mesh, table, .. } = &there[k];
-                let beside = NeighbourTables::new(self.bodies, mesh, table.phase, settings, STEPS)?;
+                let (bodies, phase) = (self.bodies, table.phase);
+                let beside = match tables {
+                    SlopeTables::Full => NeighbourTables::new(bodies, mesh, phase, settings, STEPS),
+                    SlopeTables::AsLinearised => {
+                        NeighbourTables::coarse(bodies, mesh, phase, settings)
+                    }
+                }?;
                 beside.slopes(table, &answers[k].pair_forces, solver)
             })
             .collect()

@@ -1,0 +1,393 @@
+//! How far a set may be wound up by its load before kinematics linear about the unloaded, and about the mean loaded
+//! configuration are wrong.
+//!
+//! F is the force of a mesh, k_b the stiffness of a planet bearing. A planet gives way by η along the circle of the centres,
+//! its lines of centres turn by ψ, and the path is w farther on than in the unloaded set, in base pitches p_b:
+//!
+//! ```text
+//! η = F (cos α_s + cos α_r)/k_b,   ψ = η/a,   w = Z_r ψ/2π + (δ_s/2 + δ_r)/p_b,   δ = F/k of either mesh
+//! ```
+//!
+//! 1. A windup common to all meshes is a shift of time. What is linear about the unloaded configuration counts positions
+//!    without it: amplitudes stay, harmonic l is off by |1 − e^(2πi l w)| = 2 |sin πlw|.
+//! 2. It leaves the ends of the path where they were, and gaps of corners near them are off by up to ½ G'' (w p_b)². Harmonics
+//!    are off by the order of that over δ.
+//! 3. It presses along lines that do not turn, α_s − ψ and α_r + ψ, and has no stiffness Σ F ∂²δ of forces that turn with
+//!    their lines: frequencies are off to first order in the load.
+//!
+//! About the mean loaded configuration all three are left for the motion within a mesh cycle only.
+
+use std::f64::consts::{PI, TAU};
+
+use dynamics::generalized_symmetric;
+use fe_contact::statics::Bodies;
+use gearset::{Fidelity, Geometry, LoadCase, MeshKind, MeshKinematics, MeshMember, Scene};
+use lumped::{Axis, Body, LumpedModel, ModeGroup, NaturalModes, SpringId, strain_energy};
+use nalgebra::DMatrix;
+use rayon::prelude::*;
+
+use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::windup::{Left, WoundUp, of_slopes};
+use crate::error::ExperimentError;
+
+/// An error that counts.
+const WANTED: f64 = 0.01;
+
+/// Torque, and stiffness of the planet bearings, over those of the scene; the last load of either list is that of
+/// [`LARGEST`].
+const TORQUES: [f64; 6] = [0.1, 0.2, 0.5, 1.0, 2.0, 4.0];
+const BEARINGS: [f64; 7] = [100.0, 30.0, 10.0, 3.0, 1.0, 0.5, 0.25];
+
+/// The largest deflection that is tried, of the largest that the program accepts.
+const LARGEST: f64 = 0.99;
+
+/// How the windup is made larger.
+#[derive(Debug, Clone, Copy)]
+enum By {
+    Torque,
+    SofterBearings,
+}
+
+impl By {
+    fn words(self) -> &'static str {
+        match self {
+            Self::Torque => "by torque",
+            Self::SofterBearings => "by soft bearings",
+        }
+    }
+}
+
+/// A set under one load, with theory.
+struct Load {
+    factor: f64,
+    found: WoundUp,
+    /// w.
+    windup: Option<f64>,
+    /// ½ G'' (w p_b)² with the w that was found, m.
+    corner: f64,
+    /// Largest error of a frequency of bearings and supports about the unloaded configuration.
+    frequency: Option<f64>,
+}
+
+pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
+    let case = LoadCase::of_scene(scene).map_err(|_| MapError::NoOperation)?;
+    let mut scene = scene.clone();
+    scene.dynamics.fidelity = Fidelity::QuasiStatic;
+    scene.dynamics.kinematics = MeshKinematics::AboutMean;
+    let bodies = Bodies::new(&scene).map_err(ExperimentError::from)?;
+    let axis = "log₁₀ of the windup over the base pitch";
+    let mut map = empty(MapName::LinearKinematics, scene.title.clone(), axis);
+    for by in [By::Torque, By::SofterBearings] {
+        let one = |factor: f64| at(&scene, &bodies, &case, by, factor);
+        let factors = factors(&scene, &case, by)?;
+        let loads: Vec<Load> = factors.into_par_iter().map(one).collect::<Result<_, _>>()?;
+        write(&mut map, by, &loads);
+    }
+    let quantity = "part of harmonics that the coarser tables for the slopes of flanks change";
+    let slopes = of_slopes(&scene, &bodies, &case)?;
+    map.borders.push(Border::new("the scene's own load", quantity, "", Some(slopes), None));
+    Ok(map)
+}
+
+/// The scene and its load with torque or planet bearings times a factor.
+fn changed(scene: &Scene, case: &LoadCase, by: By, factor: f64) -> (Scene, LoadCase) {
+    let mut scene = scene.clone();
+    match by {
+        By::Torque => (scene, case.with_sun_torque(factor * case.sun_torque_nm)),
+        By::SofterBearings => {
+            scene.supports.planet_bearing *= factor;
+            (scene, *case)
+        }
+    }
+}
+
+/// Factors up to the largest deflection that the program accepts.
+fn factors(scene: &Scene, case: &LoadCase, by: By) -> Result<Vec<f64>, MapError> {
+    let deflection = |by: By, factor: f64| {
+        let (scene, case) = changed(scene, case, by, factor);
+        let size = scene.size_of_sun_torque(case.sun_torque_nm);
+        size.ok_or(ExperimentError::Incomplete("path of the torque through its meshes"))
+    };
+    let own = deflection(by, 1.0)?;
+    let most = LARGEST * own.most_deflection();
+    let (list, last) = match by {
+        By::Torque => (TORQUES.as_slice(), most / own.deflection),
+        By::SofterBearings => {
+            // deflection = A + B/factor
+            let b = deflection(by, 0.5)?.deflection - own.deflection;
+            (BEARINGS.as_slice(), b / (most - (own.deflection - b)))
+        }
+    };
+    let is_within = |factor: &f64| match by {
+        By::Torque => *factor < last,
+        By::SofterBearings => *factor > last,
+    };
+    Ok(list.iter().copied().filter(is_within).chain([last]).collect())
+}
+
+fn at(
+    scene: &Scene,
+    bodies: &Bodies,
+    case: &LoadCase,
+    by: By,
+    factor: f64,
+) -> Result<Load, MapError> {
+    let (scene, case) = changed(scene, case, by, factor);
+    let found = WoundUp::of(&scene, bodies, &case)?;
+    let theory = Theory::new(&scene, &bodies.geometry, &case);
+    let along = found.windup * bodies.geometry.base_pitch;
+    let corner = 0.5 * largest_curvature(&bodies.geometry) * along * along;
+    let windup = theory.as_ref().and_then(Theory::windup);
+    let frequency = match &theory {
+        Some(theory) => theory.frequency_error(&scene)?,
+        None => None,
+    };
+    Ok(Load { factor, found, windup, corner, frequency })
+}
+
+/// G'' of the corner whose gap grows fastest, 1/m.
+fn largest_curvature(geometry: &Geometry) -> f64 {
+    let meshes = [geometry.sun_planet.as_ref(), geometry.ring_planet.as_ref()];
+    let corners = [MeshMember::Driver, MeshMember::Driven];
+    let each = meshes.into_iter().flatten();
+    each.flat_map(|mesh| corners.map(|corner| mesh.corner_gap_curvature(corner)))
+        .fold(0.0, f64::max)
+}
+
+/// The formulas of a set under a load.
+struct Theory<'g> {
+    geometry: &'g Geometry,
+    /// F, N.
+    force: f64,
+    /// ψ, rad.
+    turned: f64,
+    /// δ_s and δ_r, m; `None` without lumped stiffnesses.
+    approach: Option<[f64; 2]>,
+}
+
+impl<'g> Theory<'g> {
+    /// `None` of a set without sun or ring, or with a carrier or a ring that turns under the load.
+    fn new(scene: &Scene, geometry: &'g Geometry, case: &LoadCase) -> Option<Self> {
+        let [sun, ring] = [geometry.sun_planet.as_ref()?, geometry.ring_planet.as_ref()?];
+        if scene.supports.carrier.motion.rotates() || scene.supports.ring.motion.rotates() {
+            return None;
+        }
+        let radius = geometry.sun.as_ref()?.base_radius;
+        let force = case.sun_load_nm() / radius / scene.planets.count() as f64;
+        let along = force * (sun.pressure_angle.cos() + ring.pressure_angle.cos());
+        let turned = along / scene.supports.planet_bearing / geometry.center_distance;
+        let stiffness = scene.lumped.as_ref().map(|l| l.mesh);
+        let approach = stiffness.map(|k| [force / k.sun_planet, force / k.ring_planet]);
+        Some(Self { geometry, force, turned, approach })
+    }
+
+    /// w = Z_r ψ/2π + (δ_s/2 + δ_r)/p_b
+    fn windup(&self) -> Option<f64> {
+        let [sun, ring] = self.approach?;
+        let teeth = f64::from(self.geometry.ring.as_ref()?.teeth);
+        Some(teeth * self.turned / TAU + (0.5 * sun + ring) / self.geometry.base_pitch)
+    }
+
+    /// Largest relative error of the lumped frequencies of bearings and supports with lines of action that do not turn.
+    fn frequency_error(&self, scene: &Scene) -> Result<Option<f64>, MapError> {
+        if scene.lumped.is_none() {
+            return Ok(None);
+        }
+        let unturned = LumpedModel::from_scene(scene)?;
+        let mut turned = scene.clone();
+        if let Some(lumped) = &mut turned.lumped {
+            lumped.pressure_angle.sun_planet -= self.turned;
+            lumped.pressure_angle.ring_planet += self.turned;
+        }
+        let turned = LumpedModel::from_scene(&turned)?;
+        let stiffness = turned.stiffness() + self.force_stiffness(&turned);
+        let exact =
+            generalized_symmetric(&stiffness, &turned.mass).map_err(ExperimentError::from)?;
+        let modes = NaturalModes::of(&unturned)?;
+        let of_meshes = |g: &ModeGroup| {
+            let energy = strain_energy(&unturned, g);
+            let is_mesh = |id: SpringId| matches!(id, SpringId::SunMesh(_) | SpringId::RingMesh(_));
+            energy.iter().filter(|e| is_mesh(e.of)).map(|e| e.share).sum::<f64>() > 0.5
+        };
+        let each = modes.groups.iter().flat_map(|g| {
+            let own = (g.lambda, of_meshes(g));
+            std::iter::repeat_n(own, g.multiplicity)
+        });
+        let mut each: Vec<(f64, bool)> = each.collect();
+        each.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let pairs = each.into_iter().zip(exact.lambda);
+        let supports = pairs.filter(|((own, of_meshes), _)| !of_meshes && *own > 0.0);
+        let off = supports.map(|((own, _), exact)| ((own / exact).sqrt() - 1.0).abs());
+        Ok(Some(off.fold(0.0, f64::max)))
+    }
+
+    /// Σ F ∂²δ on the coordinates of a lumped model, n×n, N/m.
+    fn force_stiffness(&self, model: &LumpedModel) -> DMatrix<f64> {
+        let n = model.mass.len();
+        let mut sum = DMatrix::zeros(n, n);
+        for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
+            let Some(Ok(still)) = self.geometry.mesh(kind).map(|m| m.displaced(0.0, &[0.0; 6]))
+            else {
+                continue;
+            };
+            let hessian = still.hessians().approach;
+            for (planet, psi) in model.psi.iter().enumerate() {
+                let (sin, cos) = psi.sin_cos();
+                let central = match kind {
+                    MeshKind::SunPlanet => Body::Sun,
+                    MeshKind::RingPlanet => Body::Ring,
+                };
+                // Translations of central gear and planet in the frame of the mesh; rotations enter linearly.
+                let mut onto = DMatrix::zeros(6, n);
+                let (of_central, of_planet) = match kind {
+                    MeshKind::SunPlanet => (0, 3),
+                    MeshKind::RingPlanet => (3, 0),
+                };
+                let mut set = |row: usize, body: Body, axis: Axis, value: f64| {
+                    if let Some(i) = model.coordinates.of(body, axis) {
+                        onto[(row, i)] = value;
+                    }
+                };
+                set(of_central, central, Axis::First, cos);
+                set(of_central, central, Axis::Second, sin);
+                set(of_central + 1, central, Axis::First, -sin);
+                set(of_central + 1, central, Axis::Second, cos);
+                set(of_planet, Body::Planet(planet), Axis::First, 1.0);
+                set(of_planet + 1, Body::Planet(planet), Axis::Second, 1.0);
+                let turning = DMatrix::from_fn(6, 6, |i, j| self.force * hessian[i][j]);
+                sum += onto.transpose() * turning * &onto;
+            }
+        }
+        sum
+    }
+}
+
+/// (windup, value) of the loads that have one.
+fn over_windup(loads: &[Load], of: impl Fn(&Load) -> Option<f64>) -> Vec<(f64, f64)> {
+    loads.iter().filter_map(|l| Some((l.found.windup, of(l)?))).collect()
+}
+
+/// Windup from which on a value stays above 1 %, between two loads in proportion of the logarithms; `None` if it is
+/// above at the least windup or not above at the largest.
+fn crossing(points: &[(f64, f64)]) -> Option<f64> {
+    let last_within = points.iter().rposition(|p| p.1 <= WANTED)?;
+    let (a, b) = (points.get(last_within)?, points.get(last_within + 1)?);
+    let part = (WANTED / a.1).ln() / (b.1 / a.1).ln();
+    Some(a.0 * (b.0 / a.0).powf(part))
+}
+
+/// A quantity over the loads: what was measured, and theory where there is one.
+struct Curve {
+    panel: usize,
+    name: &'static str,
+    measured: Vec<(f64, f64)>,
+    theory: Option<Vec<(f64, f64)>>,
+}
+
+const PANELS: [&str; 4] = [
+    "log₁₀ of the error of harmonics at rest",
+    "log₁₀ of the error of natural frequencies of bearings and supports",
+    "log₁₀ of the error of natural frequencies of the meshes",
+    "log₁₀ of the error of an approach, over the mean approach",
+];
+
+const SHIFTED: &str = "largest harmonic of the sun's rotation, with its phase";
+const HARMONICS: &str = "harmonics, the shift of time taken out";
+const SUPPORTS: &str = "natural frequencies of bearings and supports";
+const MESHES: &str = "natural frequencies of the meshes";
+const APPROACHES: &str = "approaches of tooth pairs, of the mean approach";
+
+/// Curves of the kinematics about one configuration.
+fn curves(loads: &[Load], is_about_unloaded: bool) -> Vec<Curve> {
+    let own = |l: &Load| match is_about_unloaded {
+        true => l.found.about_unloaded,
+        false => Some(l.found.about_loaded),
+    };
+    let left = |of: fn(&Left) -> f64| over_windup(loads, |l| own(l).as_ref().map(of));
+    let approaches = over_windup(loads, |l| Some(own(l)?.approach / l.found.deflection));
+    // Theory is that of kinematics about the unloaded configuration.
+    let theory = |of: &dyn Fn(&Load) -> Option<f64>| {
+        let points = over_windup(loads, of);
+        (is_about_unloaded && !points.is_empty()).then_some(points)
+    };
+    // |1 − e^(2πi l w)|
+    let shift = |l: &Load| Some(2.0 * (PI * l.found.strongest as f64 * l.found.windup).sin().abs());
+    let mut all = vec![
+        Curve { panel: 0, name: HARMONICS, measured: left(|l| l.harmonics), theory: None },
+        Curve {
+            panel: 1,
+            name: SUPPORTS,
+            measured: left(|l| l.frequencies.supports),
+            theory: theory(&|l| l.frequency),
+        },
+        Curve { panel: 2, name: MESHES, measured: left(|l| l.frequencies.meshes), theory: None },
+        Curve {
+            panel: 3,
+            name: APPROACHES,
+            measured: approaches,
+            theory: theory(&|l| Some(l.corner / l.found.deflection)),
+        },
+    ];
+    if is_about_unloaded {
+        let measured = left(|l| l.shifted);
+        all.insert(0, Curve { panel: 0, name: SHIFTED, measured, theory: theory(&shift) });
+    }
+    all
+}
+
+fn write(map: &mut StabilityMap, by: By, loads: &[Load]) {
+    let words = by.words();
+    let windups = || loads.iter().map(|l| l.found.windup);
+    let own = loads.iter().find(|l| l.factor == 1.0);
+    // What is not reached between the least and the largest windup is not listed.
+    let push = |map: &mut StabilityMap, of: &str, quantity: &str, values: [Option<f64>; 2]| {
+        let [measured, theory] = values;
+        if measured.is_none() && theory.is_none() {
+            return;
+        }
+        map.borders.push(Border::new(of, quantity, "", measured, theory));
+    };
+    if let Some(own) = own {
+        let quantity = "windup under the scene's own load, base pitches";
+        push(map, words, quantity, [Some(own.found.windup), own.windup]);
+    }
+    let quantity = "largest windup that the accepted deflection allows, base pitches";
+    push(map, words, quantity, [Some(windups().fold(0.0, f64::max)), None]);
+    for (is_about_unloaded, configuration) in [(true, "unloaded"), (false, "loaded")] {
+        let of = format!("{words}, linear about the {configuration} configuration");
+        for curve in curves(loads, is_about_unloaded) {
+            let Curve { panel, name, measured, theory } = curve;
+            let quantity =
+                format!("windup from which on the error is above 1 %, base pitches: {name}");
+            let border = |points: &[(f64, f64)]| crossing(points);
+            push(map, &of, &quantity, [border(&measured), theory.as_deref().and_then(border)]);
+            for (which, found) in [("least", measured.first()), ("largest", measured.last())] {
+                let Some((windup, error)) = found else { continue };
+                let same = |p: &&(f64, f64)| p.0 == *windup;
+                let exact = theory.as_ref().and_then(|t| t.iter().find(same)).map(|p| p.1);
+                let quantity =
+                    format!("error at the {which} windup, {windup:.4} base pitches: {name}");
+                push(map, &of, &quantity, [Some(*error), exact]);
+            }
+            let kept = if name == SHIFTED { ", shift of time kept" } else { "" };
+            let name = format!("{configuration}{kept}, {words}");
+            let drawn = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
+                let above = points.iter().filter(|p| p.1 > 0.0);
+                above.map(|p| (p.0.log10(), p.1.log10())).collect()
+            };
+            for (points, is_theory) in [(Some(measured), false), (theory, true)] {
+                let Some(points) = points else { continue };
+                let (panel, name, points) = (PANELS[panel].into(), name.clone(), drawn(&points));
+                map.curves.push(MapCurve { panel, name, is_theory, is_points: false, points });
+            }
+        }
+    }
+    let lost = loads.iter().find(|l| l.found.about_unloaded.is_none());
+    let of = format!("{words}, linear about the unloaded configuration");
+    let quantity = "windup at which no equilibrium is found, base pitches";
+    push(map, &of, quantity, [lost.map(|l| l.found.windup), None]);
+    let rest = loads.iter().map(|l| l.found.rest).fold(0.0, f64::max);
+    let of = format!("{words}, linear about the loaded configuration");
+    let quantity = "largest kinematic rest over the transmission error (warned of above 0.01)";
+    push(map, &of, quantity, [Some(rest), None]);
+}
