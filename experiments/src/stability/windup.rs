@@ -68,7 +68,7 @@ pub(super) struct WoundUp {
 
 /// The least number from `from` on that has no divisor in common with `with`.
 fn coprime(from: usize, with: usize) -> usize {
-    let divides_both = |n: usize| (2..=with).any(|d| n % d == 0 && with % d == 0);
+    let divides_both = |n: usize| (2..=with).any(|d| n.is_multiple_of(d) && with.is_multiple_of(d));
     (from..).find(|n| !divides_both(*n)).unwrap_or(from)
 }
 
