@@ -66,6 +66,27 @@ pub enum LumpedError {
     /// A mesh frequency that gives no time step.
     #[error("mesh frequency {0} Hz: it must be positive and finite")]
     Frequency(f64),
+    /// Damping of the meshes where a scheme steps undamped ones.
+    #[error(
+        "`damping.stiffness_proportional_s` is {0}: schemes step meshes without damping, so that it must be 0"
+    )]
+    MeshDamping(f64),
+    /// Steps of a law that are no whole number of steps of a scheme.
+    #[error(
+        "a law of {0} steps in a cycle: a scheme takes two of them in a step, so that they must be even"
+    )]
+    LawSteps(usize),
+    /// Numbers that are not the state of a set.
+    #[error("a state of {got} numbers for a set that has {wanted}")]
+    State {
+        /// Numbers given.
+        got: usize,
+        /// Numbers of a state.
+        wanted: usize,
+    },
+    /// A scheme or one of its steps.
+    #[error(transparent)]
+    Integrator(#[from] dynamics::integrators::IntegratorError),
     /// A planet whose mass would not be positive and finite.
     #[error(
         "a planet heavier by a part {part} has no positive mass: allowed is a finite part above -1"

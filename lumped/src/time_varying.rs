@@ -179,6 +179,25 @@ fn inertias(model: &LumpedModel, radii: [f64; 4]) -> Vec<[f64; 3]> {
     central.chain(planets).map(|(body, radius)| of(body, radius)).collect()
 }
 
+impl Layout {
+    /// Displacements of carrier, ring, sun (x, y, m; θ, rad) and of the planets from coordinates x.
+    pub(crate) fn by_body(&self, x: impl Fn(usize) -> f64) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
+        let of = |body: Body, radius: f64| {
+            let at = |i: usize| match &self.relative {
+                Some(relative) => relative.full(i, &x),
+                None => x(i),
+            };
+            let value = |axis| self.coordinates.of(body, axis).map_or(0.0, at);
+            let [first, second, u] = Axis::ALL.map(value);
+            // Mirrored back: y and θ change sign.
+            [first, self.sign * second, self.sign * u / radius]
+        };
+        let [carrier, ring, sun, planet] = self.radii;
+        let central = [of(Body::Carrier, carrier), of(Body::Ring, ring), of(Body::Sun, sun)];
+        (central, (0..self.psi_rad.len()).map(|n| of(Body::Planet(n), planet)).collect())
+    }
+}
+
 impl TimeVarying {
     /// A set at rest without load at step 0 of a mesh cycle, for torques on the sun of the given sense, with
     /// as many steps per cycle as the law has.
@@ -230,29 +249,13 @@ impl TimeVarying {
     /// Displacements of carrier, ring, sun (x, y, m; θ, rad; carrier frame) and of the planets
     /// (ζ, η, θ), counter-clockwise.
     pub fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
-        self.by_body(|i| self.system.displacement(i))
+        self.layout.by_body(|i| self.system.displacement(i))
     }
 
     /// The same in coordinates `y` as those of [`TimeVarying::coordinates_of_motion`].
     pub fn displacements_of(&self, y: &[f64]) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
         let x = self.system.displacements_of(y);
-        self.by_body(|i| x[i])
-    }
-
-    fn by_body(&self, x: impl Fn(usize) -> f64) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
-        let of = |body: Body, radius: f64| {
-            let at = |i: usize| match &self.layout.relative {
-                Some(relative) => relative.full(i, &x),
-                None => x(i),
-            };
-            let value = |axis| self.layout.coordinates.of(body, axis).map_or(0.0, at);
-            let [first, second, u] = Axis::ALL.map(value);
-            // Mirrored back: y and θ change sign.
-            [first, self.layout.sign * second, self.layout.sign * u / radius]
-        };
-        let [carrier, ring, sun, planet] = self.layout.radii;
-        let central = [of(Body::Carrier, carrier), of(Body::Ring, ring), of(Body::Sun, sun)];
-        (central, (0..self.layout.psi_rad.len()).map(|n| of(Body::Planet(n), planet)).collect())
+        self.layout.by_body(|i| x[i])
     }
 
     /// Inertias of carrier, ring, sun and planets along these displacements, kg, kg, kg m²; 0 where held.

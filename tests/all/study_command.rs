@@ -125,6 +125,13 @@ fn faults_of_a_study_file_name_the_key_and_what_is_allowed() {
         (replaced("values = [40, 80, 160]", "values = [160, 80, 40]"), ["values", "ascending"]),
         (replaced("key = \"fe_contact.contact_cells\"", "key = \"cells\""), ["key", "table_size"]),
         (
+            replaced(
+                "key = \"fe_contact.contact_cells\"",
+                "integrator = \"bathe\"\nkey = \"fe_contact.contact_cells\"",
+            ),
+            ["integrator", "lumped"],
+        ),
+        (
             replaced("key = \"fe_contact.contact_cells\"", "key = \"fe_contact.cells\""),
             ["fe_contact.cells", "allowed"],
         ),

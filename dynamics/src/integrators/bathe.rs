@@ -11,7 +11,7 @@ use nalgebra::DVector;
 
 use super::error::IntegratorError;
 use super::factor::{Factor, check_step};
-use super::integrator::Integrator;
+use super::integrator::{Integrator, StepForces};
 use super::obstacles::Obstacles;
 use super::state::StepState;
 use super::system::VibratingSystem;
@@ -38,8 +38,9 @@ impl Substep {
         system: &VibratingSystem,
         a_star: &DVector<f64>,
         v_star: &DVector<f64>,
+        beside: &DVector<f64>,
     ) -> Result<(DVector<f64>, DVector<f64>), IntegratorError> {
-        let force = &system.load + &system.mass * a_star + &system.damping * v_star;
+        let force = &system.load + beside + &system.mass * a_star + &system.damping * v_star;
         let mut x = self.factor.solve(force);
         let forces = self.obstacles.push_out(&mut x, 1.0)?;
         Ok((x, forces))
@@ -72,23 +73,29 @@ impl Integrator for Bathe {
         self.h
     }
 
-    fn step(&self, state: &mut StepState) -> Result<(), IntegratorError> {
+    fn step_under(
+        &self,
+        state: &mut StepState,
+        forces_beside: &StepForces,
+    ) -> Result<Option<DVector<f64>>, IntegratorError> {
         let h = self.h;
         let StepState { x: x0, v: v0, a: a0, .. } = &*state;
         // a_m = (16/h²) x_m − a*, v_m = (4/h) x_m − v*
         let a_star = x0 * (16.0 / (h * h)) + v0 * (8.0 / h) + a0;
         let v_star = x0 * (4.0 / h) + v0;
-        let (xm, _) = self.trapezoidal.solve(&self.system, &a_star, &v_star)?;
+        let (xm, _) =
+            self.trapezoidal.solve(&self.system, &a_star, &v_star, &forces_beside.middle)?;
         let vm = &xm * (4.0 / h) - v_star;
         // a₁ = (9/h²) x₁ − a*, v₁ = (3/h) x₁ − v*
         let v_star = (&xm * 4.0 - x0) / h;
         let a_star = (&v_star * 3.0 + &vm * 4.0 - v0) / h;
-        let (x1, forces) = self.backward.solve(&self.system, &a_star, &v_star)?;
+        let (x1, forces) =
+            self.backward.solve(&self.system, &a_star, &v_star, &forces_beside.end)?;
         state.v = &x1 * (3.0 / h) - v_star;
         state.a = &x1 * (9.0 / (h * h)) - a_star;
         state.x = x1;
         state.forces = forces.iter().copied().collect();
         state.time += h;
-        Ok(())
+        Ok(Some(xm))
     }
 }

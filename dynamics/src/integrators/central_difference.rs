@@ -8,9 +8,11 @@
 //! This is M (x₁ − 2x₀ + x₋₁)/h² + C (x₁ − x₋₁)/2h + K x₀ = f + Gᵀ λ with velocities and accelerations kept
 //! (contact as in Carpenter, Taylor & Katona 1991); v and a are those without the contact force of the instant.
 
+use nalgebra::DVector;
+
 use super::error::IntegratorError;
 use super::factor::{Factor, check_step};
-use super::integrator::Integrator;
+use super::integrator::{Integrator, StepForces};
 use super::obstacles::Obstacles;
 use super::state::StepState;
 use super::system::VibratingSystem;
@@ -73,7 +75,11 @@ impl Integrator for CentralDifference {
         self.h
     }
 
-    fn step(&self, state: &mut StepState) -> Result<(), IntegratorError> {
+    fn step_under(
+        &self,
+        state: &mut StepState,
+        forces_beside: &StepForces,
+    ) -> Result<Option<DVector<f64>>, IntegratorError> {
         let (h, system) = (self.h, &self.system);
         let (x0, v0, a0) = (&state.x, &state.v, &state.a);
         let mut x1 = x0 + v0 * h + a0 * (0.5 * h * h);
@@ -82,12 +88,13 @@ impl Integrator for CentralDifference {
             0 => v0 + a0 * (0.5 * h),
             _ => (&x1 - x0) / h,
         };
-        let a1 =
-            self.factor.solve(&system.load - &system.damping * &half - &system.stiffness * &x1);
+        let a1 = self.factor.solve(
+            &system.load + &forces_beside.end - &system.damping * &half - &system.stiffness * &x1,
+        );
         state.v = half + &a1 * (0.5 * h);
         (state.x, state.a) = (x1, a1);
         state.forces = forces.iter().copied().collect();
         state.time += h;
-        Ok(())
+        Ok(None)
     }
 }

@@ -9,9 +9,11 @@
 //! (Deuflhard, Krause & Ertel 2008.) Without obstacles it is the trapezoidal rule; with them the energy
 //! never grows.
 
+use nalgebra::DVector;
+
 use super::error::IntegratorError;
 use super::factor::{Factor, check_step};
-use super::integrator::Integrator;
+use super::integrator::{Integrator, StepForces};
 use super::obstacles::Obstacles;
 use super::state::StepState;
 use super::system::VibratingSystem;
@@ -50,13 +52,18 @@ impl Integrator for ContactStabilised {
         self.h
     }
 
-    fn step(&self, state: &mut StepState) -> Result<(), IntegratorError> {
+    fn step_under(
+        &self,
+        state: &mut StepState,
+        forces_beside: &StepForces,
+    ) -> Result<Option<DVector<f64>>, IntegratorError> {
         let (h, system) = (self.h, &self.system);
         let (x0, v0) = (&state.x, &state.v);
         let mut y = x0 + v0 * h;
         self.predicted.push_out(&mut y, 1.0)?;
         let force = &system.load * (0.5 * h * h) - &system.stiffness * x0 * (0.25 * h * h)
-            + &system.damping * x0 * (0.5 * h);
+            + &system.damping * x0 * (0.5 * h)
+            + (&forces_beside.start + &forces_beside.end) * (0.25 * h * h);
         let mut x1 = self.factor.solve(&system.mass * &y + force);
         let forces = self.obstacles.push_out(&mut x1, 0.5 * h * h)?;
         let v1 = v0 + (&x1 - y) * (2.0 / h);
@@ -64,6 +71,6 @@ impl Integrator for ContactStabilised {
         (state.x, state.v) = (x1, v1);
         state.forces = forces.iter().copied().collect();
         state.time += h;
-        Ok(())
+        Ok(None)
     }
 }

@@ -69,6 +69,16 @@ pub enum IntegratorError {
         /// Cause.
         why: &'static str,
     },
+    /// Forces that depend on displacements and the step under them did not agree.
+    #[error(
+        "{scheme}: the forces of a step still change by {change:e} of their size after all iterations: take a smaller step"
+    )]
+    Unsettled {
+        /// Scheme.
+        scheme: &'static str,
+        /// Change over the largest force.
+        change: f64,
+    },
     /// Natural frequencies were not found.
     #[error(transparent)]
     Eigen(#[from] EigenError),

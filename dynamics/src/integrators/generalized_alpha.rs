@@ -12,7 +12,7 @@ use nalgebra::DVector;
 
 use super::error::IntegratorError;
 use super::factor::{Factor, check_step};
-use super::integrator::Integrator;
+use super::integrator::{Integrator, StepForces};
 use super::obstacles::Obstacles;
 use super::state::StepState;
 use super::system::VibratingSystem;
@@ -89,7 +89,11 @@ impl Integrator for GeneralizedAlpha {
         self.h
     }
 
-    fn step(&self, state: &mut StepState) -> Result<(), IntegratorError> {
+    fn step_under(
+        &self,
+        state: &mut StepState,
+        forces_beside: &StepForces,
+    ) -> Result<Option<DVector<f64>>, IntegratorError> {
         let Weights { alpha_m, alpha_f, beta, gamma } = self.weights;
         let (h, system) = (self.h, &self.system);
         let StepState { x, v, a, forces, .. } = &*state;
@@ -99,6 +103,7 @@ impl Integrator for GeneralizedAlpha {
         let xf = &xp * (1.0 - alpha_f) + x * alpha_f;
         let vf = &vp * (1.0 - alpha_f) + v * alpha_f;
         let mut force = &system.load - &system.mass * a * alpha_m;
+        force += &forces_beside.end * (1.0 - alpha_f) + &forces_beside.start * alpha_f;
         force -= &system.damping * vf + &system.stiffness * xf;
         if alpha_f != 0.0 && self.obstacles.count() > 0 {
             let before = DVector::from_column_slice(forces);
@@ -117,6 +122,6 @@ impl Integrator for GeneralizedAlpha {
         (state.x, state.a) = (x1, a1);
         state.forces = forces.iter().copied().collect();
         state.time += h;
-        Ok(())
+        Ok(None)
     }
 }

@@ -24,6 +24,7 @@ mod central_difference;
 mod characteristic;
 mod complementarity;
 mod contact_stabilised;
+mod driven;
 mod error;
 mod factor;
 mod generalized_alpha;
@@ -36,8 +37,9 @@ mod system;
 
 pub use amplification::{Amplification, amplification};
 pub use characteristic::closed_form;
+pub use driven::{Instant, driven_step};
 pub use error::IntegratorError;
-pub use integrator::Integrator;
+pub use integrator::{Integrator, StepForces};
 pub use scheme::Scheme;
 pub use state::StepState;
 pub use system::{Obstacle, VibratingSystem};

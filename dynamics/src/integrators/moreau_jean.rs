@@ -7,9 +7,11 @@
 //!
 //! (Acary 2016.) Without damping the energy changes by ½ (1 − e) (G v₀)ᵀ p ≤ 0 in a step for θ = ½.
 
+use nalgebra::DVector;
+
 use super::error::IntegratorError;
 use super::factor::{Factor, check_step};
-use super::integrator::Integrator;
+use super::integrator::{Integrator, StepForces};
 use super::obstacles::Obstacles;
 use super::state::StepState;
 use super::system::VibratingSystem;
@@ -57,14 +59,20 @@ impl Integrator for MoreauJean {
         self.h
     }
 
-    fn step(&self, state: &mut StepState) -> Result<(), IntegratorError> {
+    fn step_under(
+        &self,
+        state: &mut StepState,
+        forces_beside: &StepForces,
+    ) -> Result<Option<DVector<f64>>, IntegratorError> {
         let (h, theta, system) = (self.h, self.theta, &self.system);
         let (x0, v0) = (&state.x, &state.v);
         let rest = 1.0 - theta;
         // S v₁ = M v₀ + h (f − (1−θ) C v₀ − K (x₀ + h θ (1−θ) v₀)) + Gᵀ p
         let force = &system.load
             - &system.damping * v0 * rest
-            - &system.stiffness * (x0 + v0 * (h * theta * rest));
+            - &system.stiffness * (x0 + v0 * (h * theta * rest))
+            + &forces_beside.end * theta
+            + &forces_beside.start * rest;
         let mut v1 = self.factor.solve(&system.mass * v0 + force * h);
         let ahead = self.obstacles.gaps(&(x0 + v0 * (0.5 * h)));
         let own: Vec<usize> = (0..ahead.len()).filter(|&i| ahead[i] <= 0.0).collect();
@@ -75,6 +83,6 @@ impl Integrator for MoreauJean {
         (state.x, state.v) = (x1, v1);
         state.forces = impulses.iter().map(|p| p / h).collect();
         state.time += h;
-        Ok(())
+        Ok(None)
     }
 }

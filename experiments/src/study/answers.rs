@@ -2,9 +2,13 @@
 
 use std::f64::consts::TAU;
 
+use dynamics::harmonic_balance::BalanceOptions;
+use dynamics::integrators::Scheme;
 use fe_contact::contact::Location;
 use fe_contact::statics::{Bodies, Imperfections, SetCycle, StaticSet, at_phase, estimate};
+use fe_contact::vibration::{MeshLawSettings, mesh_law};
 use gearset::{Fidelity, LoadCase, MeshKind};
+use lumped::{Axis, BalancedSet, Body};
 
 use super::cost::Stopwatch;
 use super::experiment::{Action, Experiment, Work};
@@ -16,8 +20,8 @@ use crate::model::ModelError;
 use crate::models::Lumped;
 use crate::natural_mode::{NaturalMode, frequencies_of};
 use crate::sweep::{
-    FeModel, MeshLawModel, Response, SteadySettings, SteadyState, SweepModel, SweepPoint, steady,
-    top_of_three,
+    FeModel, MeshLawModel, Part, Response, SchemeModel, SteadySettings, SteadyState, SweepModel,
+    SweepPoint, steady, top_of_three,
 };
 use crate::table_growth::large_enough;
 use crate::{DistinctMode, ModalModel};
@@ -104,7 +108,12 @@ struct Bench<'b> {
 impl Bench<'_> {
     fn outcome(&mut self, action: &Action) -> Result<Outcome, ModelError> {
         let is_lumped = self.setting.choices.model == StudyModel::Lumped;
+        let is_balanced = self.setting.choices.model == StudyModel::HarmonicBalance;
         match action {
+            Action::Peak { speeds_rpm, response, harmonic, is_refined } if is_balanced => {
+                self.balanced_peak(speeds_rpm, *is_refined, (*response, *harmonic))
+            }
+            _ if is_balanced => Err("harmonic balance answers for resonant peaks only".into()),
             Action::Modes if is_lumped => Ok(Outcome::Modes(
                 Lumped::default().natural_modes(&self.setting.scene, &self.case)?,
             )),
@@ -170,30 +179,84 @@ impl Bench<'_> {
     ) -> Result<Outcome, ModelError> {
         let bodies = self.bodies;
         let model = self.model(bodies)?;
-        let (mut found, mut last): (Vec<(f64, f64)>, Option<Vec<f64>>) = Default::default();
-        for speed in speeds_rpm {
-            let (point, state) = self.point(model.as_ref(), *speed, last.as_deref())?;
-            found.push((*speed, amplitude(&point.state)));
-            last = Some(state);
-        }
-        let no_peak =
-            "the highest amplitude is at an end of `speeds_rpm`: there is no peak among them";
-        let (top, height) = top_of_three(found.iter().copied()).ok_or(no_peak)?;
-        if !is_refined {
-            return Ok(Outcome::Peak(top, height));
-        }
-        // The parabola of the amplitude's inverse square is of third order in the distance of its points.
-        let spacing = found.windows(2).map(|w| w[1].0 - w[0].0).fold(f64::INFINITY, f64::min);
-        for speed in [-NEARER, 0.0, NEARER].map(|share| top + share * spacing) {
+        let mut last: Option<Vec<f64>> = None;
+        peak(speeds_rpm, is_refined, &mut |speed| {
             let (point, state) = self.point(model.as_ref(), speed, last.as_deref())?;
-            found.push((speed, amplitude(&point.state)));
             last = Some(state);
-        }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let (top, height) = top_of_three(found.into_iter()).ok_or(no_peak)?;
-        Ok(Outcome::Peak(top, height))
+            Ok(amplitude(&point.state))
+        })
     }
 
+    /// The same by harmonic balance of the lumped model.
+    fn balanced_peak(
+        &mut self,
+        speeds_rpm: &[f64],
+        is_refined: bool,
+        (response, harmonic): (Response, usize),
+    ) -> Result<Outcome, ModelError> {
+        let Response::Rotation(part) = response else {
+            return Err("harmonic balance answers for rotations only".into());
+        };
+        let start = self.stopwatch.seconds();
+        let mut scene = self.setting.scene.clone();
+        scene.dynamics.fidelity = Fidelity::MeshLaw;
+        let (scene, case) = (&scene, self.case);
+        let (law_settings, steps) =
+            (MeshLawSettings::at(case.sun_load_nm()), scene.dynamics.steps_per_cycle as usize);
+        let law = mesh_law(scene, self.bodies, case.sense(), steps, &law_settings)?;
+        let set = BalancedSet::new(scene, case.sense(), law, case.sun_load_nm())?;
+        self.prepared_s += self.stopwatch.seconds() - start;
+        let lumped = scene.lumped.as_ref().ok_or("the scene has no lumped parameters")?;
+        let (body, radius) = match part {
+            Part::Carrier => (Body::Carrier, lumped.radius.carrier),
+            Part::Ring => (Body::Ring, lumped.radius.ring),
+            Part::Sun => (Body::Sun, lumped.radius.sun),
+            Part::Planet(n) => (Body::Planet(n), lumped.radius.planet),
+            _ => return Err("meshes have no rotation".into()),
+        };
+        let held = "this body does not rotate";
+        let coordinate = set.coordinates().of(body, Axis::Rotation).ok_or(held)?;
+        let radius = radius.ok_or("the lumped parameters have no radius of this body")?;
+        let options = BalanceOptions { tail: TAIL, ..BalanceOptions::default() };
+        let mut last: Option<Vec<f64>> = None;
+        self.work.coordinates = set.coordinates().count() as f64;
+        peak(speeds_rpm, is_refined, &mut |speed| {
+            let frequency = case.at_speed(speed).mesh_frequency_hz;
+            let found = set.solve(frequency, last.as_deref(), &options)?;
+            self.work.iterations += found.iterations as f64;
+            let line = found.coordinates[coordinate].lines.get(harmonic).copied();
+            last = Some(found.unknowns);
+            Ok(line.map_or(0.0, |x| x.norm()) / radius)
+        })
+    }
+}
+
+/// Place and height of the highest of amplitudes over speeds, three more about it if it is refined.
+fn peak(
+    speeds_rpm: &[f64],
+    is_refined: bool,
+    amplitude: &mut dyn FnMut(f64) -> Result<f64, ModelError>,
+) -> Result<Outcome, ModelError> {
+    let mut found: Vec<(f64, f64)> = Vec::new();
+    for speed in speeds_rpm {
+        found.push((*speed, amplitude(*speed)?));
+    }
+    let no_peak = "the highest amplitude is at an end of `speeds_rpm`: there is no peak among them";
+    let (top, height) = top_of_three(found.iter().copied()).ok_or(no_peak)?;
+    if !is_refined {
+        return Ok(Outcome::Peak(top, height));
+    }
+    // The parabola of the amplitude's inverse square is of third order in the distance of its points.
+    let spacing = found.windows(2).map(|w| w[1].0 - w[0].0).fold(f64::INFINITY, f64::min);
+    for speed in [-NEARER, 0.0, NEARER].map(|share| top + share * spacing) {
+        found.push((speed, amplitude(speed)?));
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (top, height) = top_of_three(found.into_iter()).ok_or(no_peak)?;
+    Ok(Outcome::Peak(top, height))
+}
+
+impl Bench<'_> {
     /// The model in time; its tables are part of the set-up.
     fn model<'s>(
         &mut self,
@@ -202,6 +265,10 @@ impl Bench<'_> {
         let start = self.stopwatch.seconds();
         let (scene, choices) = (&self.setting.scene, &self.setting.choices);
         let model: Box<dyn SweepModel + 's> = match (choices.model, scene.dynamics.fidelity) {
+            (StudyModel::Lumped, _) if choices.integrator.is_some() => {
+                let own = choices.integrator.map_or(Scheme::AverageAcceleration, |i| i.scheme());
+                Box::new(SchemeModel::new(scene, bodies, self.case, own)?)
+            }
             (StudyModel::Lumped, _) => {
                 Box::new(MeshLawModel::new(scene, bodies, self.case)?.lumped())
             }
@@ -274,6 +341,9 @@ impl Bench<'_> {
         Ok(sun.ok_or(ExperimentError::Incomplete("sun"))?.base_radius)
     }
 }
+
+/// Share of the highest harmonics in a balanced motion.
+const TAIL: f64 = 1e-4;
 
 /// Distance of the speeds of a refined peak from its first estimate, in spacings of the first speeds.
 const NEARER: f64 = 0.125;

@@ -32,5 +32,5 @@ pub use result::{
     TruthResult,
 };
 pub use run::{run_study, run_study_with};
-pub use setting::{ContactSolver, StudyModel};
+pub use setting::{ContactSolver, StudyIntegrator, StudyModel};
 pub use study_file::StudyFile;

@@ -1,5 +1,6 @@
 //! Settings: scene keys, model, and how answers are found.
 
+use dynamics::integrators::Scheme;
 use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, Lemke};
 use gearset::Scene;
 use schemars::JsonSchema;
@@ -19,6 +20,43 @@ pub enum StudyModel {
     FeContact,
     /// The lumped model: constant mesh stiffness for natural frequencies, mesh forces tabulated by FE/contact in time.
     Lumped,
+    /// Its steady states by harmonic balance, without a time step: resonant peaks of rotations.
+    HarmonicBalance,
+}
+
+/// The rule by which the lumped model is stepped, with the parameters of [`Scheme::ALL`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum StudyIntegrator {
+    /// Newmark's method with γ = ½, β = ¼.
+    AverageAcceleration,
+    /// HHT-α with α = −0.1.
+    HhtAlpha,
+    /// Generalised-α with ρ∞ = 0.8.
+    GeneralisedAlpha,
+    /// Bathe's composite scheme.
+    Bathe,
+    /// Contact-stabilised Newmark; the same rule as average acceleration where no obstacle is touched.
+    ContactStabilised,
+    /// Moreau–Jean with θ = ½; likewise.
+    MoreauJean,
+    /// Explicit central difference.
+    CentralDifference,
+}
+
+impl StudyIntegrator {
+    pub(super) fn scheme(self) -> Scheme {
+        let [average, hht, generalised, bathe, stabilised, moreau, central] = Scheme::ALL;
+        match self {
+            Self::AverageAcceleration => average,
+            Self::HhtAlpha => hht,
+            Self::GeneralisedAlpha => generalised,
+            Self::Bathe => bathe,
+            Self::ContactStabilised => stabilised,
+            Self::MoreauJean => moreau,
+            Self::CentralDifference => central,
+        }
+    }
 }
 
 /// The solver of contact at rest.
@@ -66,6 +104,8 @@ pub(super) struct Choices {
     /// Solver of contact at rest.
     #[serde(default)]
     pub(super) contact_solver: ContactSolver,
+    /// Rule by which the lumped model is stepped; its own average acceleration if left out.
+    pub(super) integrator: Option<StudyIntegrator>,
 }
 
 /// Keys of a series that are no scene keys.
@@ -104,6 +144,10 @@ impl Choices {
             let allowed = "a number from 1e-12 to 0.1";
             return Err(StudyError::key(format!("{of}.steady_tolerance"), tolerance, allowed));
         }
+        if self.integrator.is_some() && self.model != StudyModel::Lumped {
+            let allowed = "only with model = \"lumped\": FE/contact has one rule of its own";
+            return Err(StudyError::key(format!("{of}.integrator"), "given", allowed));
+        }
         let size = self.size();
         if size >= crate::SIZES {
             let allowed = format!("a whole number from 0 to {}", crate::SIZES - 1);
@@ -124,9 +168,14 @@ impl Choices {
     pub(super) fn described(&self) -> Vec<String> {
         let mut list = flat(&self.keys);
         let with = |name: &str, value: String| format!("{name} = {value}");
-        if self.model == StudyModel::Lumped {
-            list.push(with("model", "\"lumped\"".into()));
+        match self.model {
+            StudyModel::FeContact => {}
+            StudyModel::Lumped => list.push(with("model", "\"lumped\"".into())),
+            StudyModel::HarmonicBalance => {
+                list.push(with("model", "\"harmonic_balance\"".into()));
+            }
         }
+        list.extend(self.integrator.map(|own| with("integrator", own.scheme().label())));
         if self.steady_method == SteadyMethod::Marching {
             list.push(with("steady_method", "\"marching\"".into()));
         }

@@ -10,7 +10,7 @@ use toml::{Table, Value};
 
 use super::error::StudyError;
 use super::quantity::{Quantity, QuantityInput};
-use super::setting::{Choices, ContactSolver, Setting, StudyModel};
+use super::setting::{Choices, ContactSolver, Setting, StudyIntegrator, StudyModel};
 use super::truth::{Route, RouteInput};
 use crate::scene_keys::scene_with;
 use crate::sweep::SteadyMethod;
@@ -50,6 +50,7 @@ macro_rules! with_choices {
             table_size: Option<usize>,
             #[serde(default)]
             contact_solver: ContactSolver,
+            integrator: Option<StudyIntegrator>,
         }
 
         impl $name {
@@ -61,6 +62,7 @@ macro_rules! with_choices {
                     steady_tolerance: self.steady_tolerance,
                     table_size: self.table_size,
                     contact_solver: self.contact_solver,
+                    integrator: self.integrator,
                 }
             }
         }

@@ -9,7 +9,7 @@ use super::error::StudyError;
 use super::extrapolation::extrapolate;
 use super::quantity::Quantity;
 use super::result::{RouteResult, TruthResult};
-use super::setting::{Choices, ContactSolver, Setting, StudyModel, number};
+use super::setting::{Choices, ContactSolver, Setting, StudyIntegrator, StudyModel, number};
 use super::study_file::{read, with_choices};
 use crate::scene_keys::at;
 use crate::sweep::SteadyMethod;
