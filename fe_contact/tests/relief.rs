@@ -315,7 +315,7 @@ fn without_relief_the_grid_is_centred_at_the_contact_point() {
     assert!((one.x[0] + one.x[one.x.len() - 1]).abs() < 1e-12);
     assert_eq!(one.index, other.index);
     assert!(other.centre.abs() < 1e-9 && other.relief.abs() < 1e-12);
-    assert!((other.width / one.width - 1.0).abs() < 0.03);
+    assert!((other.length / one.length - 1.0).abs() < 0.03);
 }
 
 fn set_scene(amount_um: f64, fidelity: Fidelity) -> Scene {

@@ -1,6 +1,6 @@
 //! Choices of the FE/contact model and of simulation in time, as a scene gives them.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::scene::PerMesh;
 
@@ -144,6 +144,18 @@ pub enum ElementFamily {
     Quadratic,
 }
 
+/// Contact cells of a tooth pair in tables of which forces and their slopes are asked: in time, and
+/// beside a position for the slopes of the flanks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CellLayout {
+    /// Narrower towards the end of a flank where the grid ends there, a quarter of a cell off the
+    /// middle elsewhere; slopes from cells laid out for the load at rest.
+    Graded,
+    /// All of one width about the contact point; slopes from cells laid out for the largest load.
+    Even,
+}
+
 /// Choices of the FE/contact model; a value of `None` is derived from the geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct FeContactInput {
@@ -155,6 +167,8 @@ pub struct FeContactInput {
     pub flank_elements: u32,
     /// Contact cells of one tooth pair.
     pub contact_cells: u32,
+    /// Where these cells are, in tables of which forces and their slopes are asked.
+    pub cell_layout: CellLayout,
     /// Depth below the flank at which half-plane and FE are matched, m.
     pub matching_depth: Option<f64>,
     /// Matching points below each cell: 1 as in eq. (1) of Parker, Agashe & Vijayakar (2000), 2 to
@@ -171,6 +185,7 @@ impl Default for FeContactInput {
             element: ElementFamily::Quadratic,
             flank_elements: 14,
             contact_cells: 40,
+            cell_layout: CellLayout::Graded,
             matching_depth: None,
             matching_points: 2,
             flexibility_factor: PerMesh { sun_planet: 1.0, ring_planet: 1.0 },

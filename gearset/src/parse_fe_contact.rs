@@ -1,7 +1,7 @@
 //! The `[fe_contact]` table.
 
 use crate::bound::Bound;
-use crate::choices::{ElementFamily, FeContactInput, PlaneState};
+use crate::choices::{CellLayout, ElementFamily, FeContactInput, PlaneState};
 use crate::reader::Section;
 use crate::scene::PerMesh;
 
@@ -17,6 +17,8 @@ pub(crate) fn fe_contact(s: Section<'_, '_>) -> FeContactInput {
     let element = s.choice("element", &elements, "quadrilateral behind the flanks");
     let flank = s.integer("flank_elements", (3, 64), "elements along one flank");
     let cells = s.integer("contact_cells", (8, 400), "contact cells of one tooth pair");
+    let layouts = [("graded", CellLayout::Graded), ("even", CellLayout::Even)];
+    let cell_layout = s.choice("cell_layout", &layouts, "contact cells in time");
     let why = "depth below the flank at which half-plane and FE are matched";
     let matching_depth = s.number("matching_depth_mm", Bound::Positive, why).map(|d| d * 1e-3);
     let points = s.integer("matching_points", (1, 2), "1: the paper's eq. (1); 2: extrapolated");
@@ -33,6 +35,7 @@ pub(crate) fn fe_contact(s: Section<'_, '_>) -> FeContactInput {
         element: element.unwrap_or(default.element),
         flank_elements: flank.map_or(default.flank_elements, |n| n as u32),
         contact_cells: cells.map_or(default.contact_cells, |n| n as u32),
+        cell_layout: cell_layout.unwrap_or(default.cell_layout),
         matching_depth,
         matching_points: points.map_or(default.matching_points, |n| n as u32),
         flexibility_factor: flexibility_factor.unwrap_or(default.flexibility_factor),

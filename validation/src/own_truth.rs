@@ -1,6 +1,7 @@
 //! Results of this program that take too long to be computed by every run, as kept in `reference/` with
 //! the commands that remake them.
 
+use gearset::CellLayout;
 use serde::Deserialize;
 
 use crate::reference_file::{ReferenceError, parse};
@@ -65,6 +66,8 @@ pub struct FullSweep {
     pub command: String,
     pub torque_nm: f64,
     pub flank_elements: u32,
+    /// Layout of the contact cells: models are compared on the same.
+    pub cell_layout: CellLayout,
     /// Tables of contact laid out for twice the usual load, this often.
     pub table_size: usize,
     pub point: Vec<FullSweepPoint>,

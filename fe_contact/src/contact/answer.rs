@@ -85,15 +85,13 @@ impl MeshTable {
     /// Pressure in each cell of a pair (entry of [`Self::pairs`]), Pa; `forces`: of all cells, N.
     pub fn pressures(&self, pair: usize, forces: &[f64]) -> Vec<f64> {
         let cells = &self.pairs[pair];
-        let area = cells.width * self.face_width;
-        forces[cells.first..cells.first + cells.x.len()].iter().map(|f| f / area).collect()
+        let own = &forces[cells.first..cells.first + cells.x.len()];
+        own.iter().zip(&cells.widths).map(|(f, width)| f / (width * self.face_width)).collect()
     }
 
     /// Largest cell pressure of a pair, Pa.
     pub fn peak_pressure(&self, pair: usize, forces: &[f64]) -> f64 {
-        let cells = &self.pairs[pair];
-        let own = &forces[cells.first..cells.first + cells.x.len()];
-        own.iter().fold(0.0f64, |a, f| a.max(*f)) / (cells.width * self.face_width)
+        self.pressures(pair, forces).into_iter().fold(0.0, f64::max)
     }
 
     /// Sum of force times row over all pairs: generalised forces on (x, y, θ) of driver, then
@@ -132,7 +130,7 @@ impl MeshTable {
             let own = &answer.active[cells.first..cells.first + cells.x.len()];
             let ends = [own[0], own[own.len() - 1]];
             if (0..2).any(|i| ends[i] && !cells.ends_at_tip[i]) {
-                let reach_mm = 0.5e3 * cells.width * cells.x.len() as f64;
+                let reach_mm = 0.5e3 * cells.length;
                 return Err(FeError::GridOverflow { phase: self.phase, pair, reach_mm, force_n });
             }
             let loaded = own.iter().filter(|a| **a).count();

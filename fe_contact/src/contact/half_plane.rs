@@ -7,7 +7,7 @@
 use crate::material::Elastic;
 
 /// Half-plane z ≥ 0 of unit thickness.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfPlane {
     /// (1 + ν)/(π E), 1/Pa.
     scale: f64,
@@ -28,14 +28,36 @@ impl HalfPlane {
     /// over the strip:
     /// ∫ = [−(1 − ν)(ξ ln(ξ² + z²) − 2ξ) − (1 − 2ν) z atan(ξ/z)] from ξ = x − h to x + h.
     pub fn strip(&self, x: f64, z: f64, h: f64) -> f64 {
+        self.scale * (self.up_to(x + h, z) - self.up_to(x - h, z))
+    }
+
+    /// The bracket of the integral over a strip, at ξ = `xi`, m.
+    fn up_to(&self, xi: f64, z: f64) -> f64 {
         let nu = self.poisson;
-        let part = |xi: f64| {
-            let r2 = xi * xi + z * z;
-            let log = if r2 > 0.0 { xi * r2.ln() } else { 0.0 };
-            let angle = if z > 0.0 { z * (xi / z).atan() } else { 0.0 };
-            -(1.0 - nu) * (log - 2.0 * xi) - (1.0 - 2.0 * nu) * angle
-        };
-        self.scale * (part(x + h) - part(x - h))
+        let r2 = xi * xi + z * z;
+        let log = if r2 > 0.0 { xi * r2.ln() } else { 0.0 };
+        let angle = if z > 0.0 { z * (xi / z).atan() } else { 0.0 };
+        -(1.0 - nu) * (log - 2.0 * xi) - (1.0 - 2.0 * nu) * angle
+    }
+
+    /// Displacement of the surface under unit pressure up to an edge, at `xi` = x less the edge's coordinate, up to a
+    /// constant, m/Pa: that of a strip is this at its low edge less this at its high edge.
+    pub(super) fn surface_up_to(&self, xi: f64) -> f64 {
+        self.scale * self.up_to(xi, 0.0)
+    }
+
+    /// Displacement at (x, z) under a unit force per length on a strip whose width squared is `width2` (m²) and which
+    /// is narrow beside its distance r = √(x² + z²), up to a constant, m/(N/m).
+    ///
+    /// Mean over the strip of Flamant's f = (1 + ν)/(πE) [z²/r² − 2 (1 − ν) ln r]: f + w²/24 ∂²f/∂x², whose first
+    /// term left out is of the order (w/r)⁴/1920.
+    pub(super) fn narrow_strip(&self, x: f64, z: f64, width2: f64) -> f64 {
+        let (x2, z2) = (x * x, z * z);
+        let (r2, nu) = (x2 + z2, self.poisson);
+        let f = z2 / r2 - (1.0 - nu) * r2.ln();
+        let bent =
+            z2 * (6.0 * x2 - 2.0 * z2) / (r2 * r2 * r2) - 2.0 * (1.0 - nu) * (z2 - x2) / (r2 * r2);
+        self.scale * (f + width2 / 24.0 * bent)
     }
 
     /// Surface displacement at x relative to the point at depth `depth` below it, under unit
@@ -85,6 +107,21 @@ mod tests {
             // ∂/∂z (z/r²) = (x² − z²)/r⁴
             let divergence = -2.0 * half.scale * (x * x - z * z) / (r2 * r2);
             assert!((laplace + divergence).abs() < 2e-3 * divergence.abs(), "{x} {z}");
+        }
+    }
+
+    /// The series of a narrow strip is the strip up to its first term left out.
+    #[test]
+    fn a_narrow_strip_is_a_strip() {
+        let half = HalfPlane::new(&steel(PlaneState::Strain));
+        let z = 5e-4;
+        for w in [1e-4, 5e-5] {
+            for x in [0.0, 2e-4, -7e-4] {
+                let whole = half.strip(x, z, 0.5 * w) / w;
+                let off = (half.narrow_strip(x, z, w * w) - whole).abs();
+                // ∂⁴f/∂x⁴ is at most 3! · 2 (1 − ν)/z⁴ from the logarithm and 4!/z⁴ from z²/r².
+                assert!(off < 40.0 * half.scale / 1920.0 * (w / z).powi(4), "{w} {x} {off:e}");
+            }
         }
     }
 

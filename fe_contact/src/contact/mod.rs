@@ -1,6 +1,7 @@
 //! Contact between flanks: matching of half-plane and FE, contact cells, forces.
 
 mod answer;
+mod cells;
 pub mod cylinders;
 pub mod half_plane;
 pub mod hertz;

@@ -307,6 +307,22 @@ impl PairFrame<'_> {
         let ends = [low, high].map(|end| (end, outwards(centre, end, is_beyond)));
         (ends.map(|(end, grown)| grown.unwrap_or(end)), ends.map(|(_, grown)| grown.is_none()))
     }
+
+    /// How much graded cells crowd at either end of a grid of this `reach` (m): not where the flanks continue, and
+    /// where a flank ends
+    ///
+    /// ```text
+    /// c = 1 − (g_end − g_least)/(reach²/(2R))
+    /// ```
+    ///
+    /// 0 if the grid just reaches that end, 1 if the gap is least there: in corner contact.
+    pub(super) fn crowding(&self, reach: f64, ends: [f64; 2], ends_at_tip: [bool; 2]) -> [f64; 2] {
+        let most = 0.5 * reach * reach / self.radius();
+        [0, 1].map(|i| match ends_at_tip[i] {
+            true => (1.0 - (self.gap_at(ends[i]) - self.least_gap()) / most).clamp(0.0, 1.0),
+            false => 0.0,
+        })
+    }
 }
 
 /// Distance over which the slope of a gap is taken, m: a hundredth of the width of a contact cell,

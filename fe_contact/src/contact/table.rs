@@ -2,8 +2,9 @@
 
 use nalgebra::DMatrix;
 
-use gearset::{Mesh, MeshMember, PerMesh};
+use gearset::{CellLayout, Mesh, MeshMember, PerMesh};
 
+use super::cells::Cells;
 use super::half_plane::HalfPlane;
 use super::hertz::Hertz;
 use super::pair::{Location, PairFrame, candidates, members};
@@ -16,6 +17,8 @@ use crate::error::FeError;
 pub struct CellSettings {
     /// Cells of one pair.
     pub cells: usize,
+    /// Where they are.
+    pub layout: CellLayout,
     /// Where half-plane and FE are matched.
     pub matching: Matching,
     /// Force of the whole mesh for which the grids are sized, N.
@@ -77,8 +80,12 @@ pub struct PairCells {
     pub relief: f64,
     /// Tangential coordinates of the cells' middles, m.
     pub x: Vec<f64>,
-    /// Width of one cell, m.
-    pub width: f64,
+    /// Widths of the cells, m.
+    pub widths: Vec<f64>,
+    /// Edges of the cells, m; `None` if all have one width.
+    edges: Option<Vec<f64>>,
+    /// Length of the grid, m.
+    pub length: f64,
     /// Whether the grid ends where a flank does, at its low and at its high end.
     pub ends_at_tip: [bool; 2],
 }
@@ -133,11 +140,10 @@ impl MeshTable {
         for frame in &frames {
             let hertz = Hertz::new(settings.force / face_width, frame.radius(), &driver.material);
             let reach = GRID_MARGIN * hertz.half_width;
-            let ([low, high], ends_at_tip) = frame.grid(reach);
+            let cells = Cells::new(frame, reach, settings.cells, settings.layout);
+            let Cells { x, widths, edges, length, ends_at_tip } = cells;
             let centre = frame.least_gap_at();
             let relief = frame.least_gap() - frame.rigid_gap();
-            let width = (high - low) / settings.cells as f64;
-            let x: Vec<f64> = (0..settings.cells).map(|i| low + (i as f64 + 0.5) * width).collect();
             let first = gaps.len();
             let own: Vec<_> = x.iter().map(|x| frame.flank_points(*x)).collect();
             gaps.extend(own.iter().map(|ends| frame.gap_between(ends)));
@@ -153,7 +159,9 @@ impl MeshTable {
                 centre,
                 relief,
                 x,
-                width,
+                widths,
+                edges,
+                length,
                 ends_at_tip,
             });
         }
@@ -193,7 +201,11 @@ impl MeshTable {
         let asymmetry = if largest > 0.0 { 0.5 * skew / largest } else { 0.0 };
         let half = bodies.map(|body| HalfPlane::new(&body.material));
         for cells in &pairs {
-            add_half_planes(&mut compliance, &half, cells, &settings.matching, face_width);
+            let surface = (&half, &settings.matching, face_width);
+            match &cells.edges {
+                None => add_half_planes(&mut compliance, surface, cells),
+                Some(edges) => add_graded_half_planes(&mut compliance, surface, cells, edges),
+            }
         }
         Ok(Self { phase, pairs, gaps, compliance, asymmetry, face_width, next_gap })
     }
@@ -222,23 +234,25 @@ impl MeshTable {
     }
 }
 
-/// Half-plane part of eq. (1) in both bodies, within one pair.
+/// Half-planes of both bodies, where they are matched with the FE part, and the face width, m.
+type Surface<'s> = (&'s [HalfPlane; 2], &'s Matching, f64);
+
+/// Half-plane part of eq. (1) in both bodies, within one pair on cells of one width.
 fn add_half_planes(
     compliance: &mut DMatrix<f64>,
-    half: &[HalfPlane; 2],
+    (half, matching, face_width): Surface<'_>,
     cells: &PairCells,
-    matching: &Matching,
-    face_width: f64,
 ) {
     let n = cells.x.len();
+    let width = cells.length / n as f64;
     // One unit of force is a pressure of 1/(width · face width).
-    let pressure = 1.0 / (cells.width * face_width);
+    let pressure = 1.0 / (width * face_width);
     let by_distance: Vec<f64> = (0..n)
         .map(|d| {
-            let x = d as f64 * cells.width;
+            let x = d as f64 * width;
             let one = |half: &HalfPlane| {
                 let matched = matching.weights().iter().enumerate().map(|(i, weight)| {
-                    weight * half.strip_above_depth(x, matching.depth(i), 0.5 * cells.width)
+                    weight * half.strip_above_depth(x, matching.depth(i), 0.5 * width)
                 });
                 matched.sum::<f64>()
             };
@@ -248,6 +262,57 @@ fn add_half_planes(
     for i in 0..n {
         for j in 0..n {
             compliance[(cells.first + i, cells.first + j)] += by_distance[i.abs_diff(j)];
+        }
+    }
+}
+
+/// The same on cells of different widths, between `edges` (m).
+///
+/// The displacement in the middle of cell i under a unit force on cell j is that of the surface loaded up to the low
+/// edge of j less that up to its high edge. The middles stand for the cells' means, so that reciprocity holds up to
+/// the change of width from cell to cell; the symmetric part is taken, as of the FE part.
+fn add_graded_half_planes(
+    compliance: &mut DMatrix<f64>,
+    (half, matching, face_width): Surface<'_>,
+    cells: &PairCells,
+    edges: &[f64],
+) {
+    if matching.points == 0 {
+        // Matched at the surface: nothing of the half-plane is left.
+        return;
+    }
+    let (n, widths) = (cells.x.len(), &cells.widths);
+    // Mostly both bodies are of one material.
+    let bodies = if half[0] == half[1] { &half[..1] } else { &half[..] };
+    let times = half.len() as f64 / bodies.len() as f64;
+    let mut surface = DMatrix::zeros(n, n);
+    let mut up_to = vec![0.0; n + 1];
+    for (i, x) in cells.x.iter().enumerate() {
+        for (up_to, edge) in up_to.iter_mut().zip(edges) {
+            *up_to = bodies.iter().map(|half| half.surface_up_to(x - edge)).sum::<f64>();
+        }
+        for (j, width) in widths.iter().enumerate() {
+            // One unit of force is a pressure of 1/(width · face width).
+            surface[(i, j)] = (up_to[j] - up_to[j + 1]) / width;
+        }
+    }
+    for i in 0..n {
+        for j in 0..=i {
+            let x = cells.x[i] - cells.x[j];
+            // What the symmetric part of a displacement below the surface has.
+            let width2 = 0.5 * (widths[i] * widths[i] + widths[j] * widths[j]);
+            let below = |(k, weight): (usize, &f64)| {
+                let z = matching.depth(k);
+                let one = |half: &HalfPlane| half.narrow_strip(x, z, width2);
+                weight * bodies.iter().map(one).sum::<f64>()
+            };
+            let even = 0.5 * (surface[(i, j)] + surface[(j, i)]);
+            let matched = even - matching.weights().iter().enumerate().map(below).sum::<f64>();
+            let own = times * matched / face_width;
+            compliance[(cells.first + i, cells.first + j)] += own;
+            if i != j {
+                compliance[(cells.first + j, cells.first + i)] += own;
+            }
         }
     }
 }

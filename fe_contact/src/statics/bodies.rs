@@ -1,6 +1,6 @@
 //! The flexible gears of a scene.
 
-use gearset::{FeContactInput, Gear, Geometry, Mesh, MeshKind, MeshMember, Scene};
+use gearset::{CellLayout, FeContactInput, Gear, Geometry, Mesh, MeshKind, MeshMember, Scene};
 
 use crate::body::GearBody;
 use crate::contact::{CellSettings, Matching};
@@ -151,7 +151,7 @@ impl Bodies {
         self.settings.input.flexibility_factor.of(kind)
     }
 
-    /// Cells for meshes that carry up to `force` (N).
+    /// Cells of one width for meshes that carry up to `force` (N).
     ///
     /// The window for corner contact is the deflection of a mesh (E b/80) six times softer than one
     /// pair of steel teeth usually is (E b/13), so that no corner that could touch is left out. The
@@ -160,11 +160,18 @@ impl Bodies {
         let stiffness = self.material.young * self.geometry.face_width / 80.0;
         CellSettings {
             cells: self.settings.input.contact_cells as usize,
+            layout: CellLayout::Even,
             matching: self.settings.matching,
             force,
             window: force / stiffness,
             flexibility_factor: self.settings.input.flexibility_factor,
         }
+    }
+
+    /// The same in time, where forces and their slopes are asked and no pressures: in the layout of the scene
+    /// (`fe_contact.cell_layout`).
+    pub fn cells_in_time(&self, force: f64) -> CellSettings {
+        CellSettings { layout: self.settings.input.cell_layout, ..self.cells(force) }
     }
 }
 

@@ -8,6 +8,7 @@ use super::reference::ReferenceConfiguration;
 use super::set::StaticSet;
 use super::state::{MeshState, SetCycle, SetState};
 use crate::complementarity::{ActiveSet, ComplementaritySolver};
+use crate::contact::CellSettings;
 use crate::error::FeError;
 
 /// Most times that the grids of contact cells are laid out again, each time for four times the
@@ -175,7 +176,8 @@ impl<'s> StaticSet<'s> {
         solver: &(dyn ComplementaritySolver + Sync),
     ) -> Result<SetCycle, FeError> {
         let set = self.clone().under(torque_nm)?;
-        set.cycle_on(torque_nm, &DVector::zeros(0), positions, mesh_force, solver)
+        let cells = set.bodies.cells_in_time(mesh_force);
+        set.cycle_on(torque_nm, &DVector::zeros(0), positions, cells, solver)
     }
 
     /// [`StaticSet::cycle_here`] with further loads on the races' coordinates (N, one each, or an
@@ -193,7 +195,7 @@ impl<'s> StaticSet<'s> {
         // Grids are sized for an even share of the load. Where a mesh carries far more (a displaced
         // planet), all grids are laid out again for a larger force.
         resized(self.share(torque_nm).max(1.0), |sized_for| {
-            self.cycle_on(torque_nm, further, positions, sized_for, solver)
+            self.cycle_on(torque_nm, further, positions, self.bodies.cells(sized_for), solver)
         })
     }
 
@@ -202,11 +204,11 @@ impl<'s> StaticSet<'s> {
         torque_nm: f64,
         further: &DVector<f64>,
         positions: usize,
-        sized_for: f64,
+        cells: CellSettings,
         solver: &(dyn ComplementaritySolver + Sync),
     ) -> Result<SetCycle, FeError> {
         let list: Vec<f64> = (0..positions).map(|i| i as f64 / positions as f64).collect();
-        let tables = self.tables(sized_for, &list)?;
+        let tables = self.tables_of(cells, &list)?;
         let f = self.load_with(torque_nm, further);
         if f.amax() > 0.0 {
             self.lay_out_beside(&tables)?;

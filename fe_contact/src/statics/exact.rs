@@ -100,7 +100,7 @@ impl StaticSet<'_> {
         tables: SlopeTables,
     ) -> Result<SetCycle, FeError> {
         let f = self.load_with(torque_nm, further);
-        let settings = self.bodies.cells(self.share(torque_nm).max(1.0));
+        let settings = self.bodies.cells_in_time(self.share(torque_nm).max(1.0));
         let mut states = Vec::with_capacity(positions);
         let mut q = self.reference.q.clone();
         for i in 0..positions {
@@ -199,7 +199,7 @@ impl StaticSet<'_> {
         position: f64,
         q: &DVector<f64>,
     ) -> Result<(f64, DVector<f64>), FeError> {
-        let settings = self.bodies.cells(self.share(torque_nm).max(1.0));
+        let settings = self.bodies.cells_in_time(self.share(torque_nm).max(1.0));
         let there = self.there(position, q, &settings)?;
         let placed = there.iter().enumerate();
         let placed = placed.map(|(k, t)| self.place_there(k, t, position, q));

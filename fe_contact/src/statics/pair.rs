@@ -64,7 +64,7 @@ impl PairAtPhase {
         Some(PressureProfile {
             index: cells.index,
             ellipse: hertz::fit(&cells.x, &pressures),
-            half_length: 0.5 * cells.width * cells.x.len() as f64,
+            half_length: 0.5 * cells.length,
             places: cells.x.clone(),
             pressures,
         })

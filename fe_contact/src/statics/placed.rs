@@ -114,7 +114,7 @@ impl PlacedMesh<'_> {
     pub(crate) fn guess(&self) -> Vec<bool> {
         let mut active = Vec::with_capacity(self.table.gaps.len());
         for pair in &self.table.pairs {
-            let reach = 0.5 * pair.width * pair.x.len() as f64;
+            let reach = 0.5 * pair.length;
             active.extend(pair.x.iter().map(|x| (x - pair.centre).abs() < 0.5 * reach));
         }
         active

@@ -12,9 +12,10 @@
 //! five per cent of the second harmonic of the sun's rotation at rest; without it the forces of a
 //! mesh are not the gradient of its energy. κ and rest are differences between contact tables to
 //! either side: distributed loads, as at ports, would miss the effect of the tip edge on a patch
-//! near it.
+//! near it. On even cells that edge makes κ wrong by an amount proportional to the width of a cell
+//! (`contact/cells.rs`), so that these tables have graded ones.
 
-use gearset::{DisplacedMesh, Mesh};
+use gearset::{CellLayout, DisplacedMesh, Mesh};
 use nalgebra::{DMatrix, DVector};
 
 use super::bodies::Bodies;
@@ -37,37 +38,50 @@ pub(crate) struct Slopes {
 pub(crate) struct NeighbourTables {
     tables: Vec<(Mesh, MeshTable)>,
     steps: [f64; 2],
+    is_graded: bool,
 }
 
 /// Steps of the differences along the line of action and of the centre distance, m.
 const STEPS: [f64; 2] = [2e-5, 2e-5];
 
-/// Most cells per pair in tables of which only differences are taken.
-const CELLS: usize = 20;
+/// Cells per pair in tables of which only differences are taken, if the tables between them have `count`: fewer, but more
+/// if these are more than the default 40, so that one number of cells governs the error of both.
+fn few_cells(layout: CellLayout, count: usize) -> usize {
+    match layout {
+        CellLayout::Graded => count.min((2 * count / 5).max(16)),
+        CellLayout::Even => count.min(20),
+    }
+}
 
 impl NeighbourTables {
-    /// Tables with at most 20 cells per pair, which suffice for differences.
+    /// Tables with few cells per pair, which suffice for differences.
     pub(crate) fn coarse(
         bodies: &Bodies,
         mesh: &Mesh,
         phase: f64,
         settings: &CellSettings,
     ) -> Result<Self, FeError> {
-        let cells = settings.cells.min(CELLS);
+        let cells = few_cells(bodies.settings.input.cell_layout, settings.cells);
         Self::new(bodies, mesh, phase, &CellSettings { cells, ..*settings }, STEPS)
     }
 
-    /// The same for pairs with gaps up to a quarter of the window only: up to the deflection of a mesh a
-    /// third softer than one pair of steel teeth usually is. Pairs with larger gaps hardly ever carry
-    /// load, and without load they change nothing; [`NeighbourTables::hold`] tells whether that suffices.
+    /// The same for meshes that carry `at_rest` (N) if that is less than what the settings are for, and for pairs
+    /// with gaps up to a quarter of that load's window only: up to the deflection of a mesh a third softer than one
+    /// pair of steel teeth usually is. Pairs with larger gaps hardly ever carry load, and without load they change
+    /// nothing; [`NeighbourTables::hold`] tells whether that suffices.
     pub(crate) fn nearest(
         bodies: &Bodies,
         mesh: &Mesh,
         phase: f64,
         settings: &CellSettings,
+        at_rest: f64,
     ) -> Result<Self, FeError> {
-        let window = 0.25 * settings.window;
-        Self::coarse(bodies, mesh, phase, &CellSettings { window, ..*settings })
+        // Even cells are those of kept results, laid out for the largest load.
+        let is_graded = bodies.settings.input.cell_layout == CellLayout::Graded;
+        let is_less = is_graded && at_rest > 0.0 && at_rest < settings.force;
+        let force = if is_less { at_rest } else { settings.force };
+        let window = 0.25 * settings.window * (force / settings.force);
+        Self::coarse(bodies, mesh, phase, &CellSettings { force, window, ..*settings })
     }
 
     /// Whether all tables have all pairs of the table `between` them that carry `forces` (N).
@@ -78,7 +92,7 @@ impl NeighbourTables {
         })
     }
 
-    /// Tables beside a phase (cycles) of a mesh, with steps in σ and a' (m).
+    /// Tables beside a phase (cycles) of a mesh, with steps in σ and a' (m), on cells in the layout of the scene.
     pub(super) fn new(
         bodies: &Bodies,
         mesh: &Mesh,
@@ -87,6 +101,7 @@ impl NeighbourTables {
         steps: [f64; 2],
     ) -> Result<Self, FeError> {
         let (_, pair) = bodies.joined(mesh.kind)?;
+        let settings = &CellSettings { layout: bodies.settings.input.cell_layout, ..*settings };
         let roll_length = mesh.path_start + phase * mesh.base_pitch;
         let mut tables = Vec::with_capacity(4);
         for (which, step) in steps.into_iter().enumerate() {
@@ -103,10 +118,34 @@ impl NeighbourTables {
                 tables.push((mesh, table));
             }
         }
-        Ok(Self { tables, steps })
+        Ok(Self { tables, steps, is_graded: settings.layout == CellLayout::Graded })
+    }
+
+    /// [`NeighbourTables::slopes`] on tables of the nearest pairs; `None` if these lack a pair that carries load, or are
+    /// too small for it.
+    ///
+    /// # Errors
+    /// If contact cannot be solved.
+    pub(crate) fn slopes_of(
+        &self,
+        between: &MeshTable,
+        forces: &[f64],
+        solver: &dyn ComplementaritySolver,
+    ) -> Result<Option<Slopes>, FeError> {
+        if !self.hold(between, forces) {
+            return Ok(None);
+        }
+        match self.slopes(between, forces, solver) {
+            Err(FeError::GridOverflow { .. }) => Ok(None),
+            found => found.map(Some),
+        }
     }
 
     /// Slopes if the pairs of the table `between` the neighbours carry `forces` (N).
+    ///
+    /// # Errors
+    /// If contact cannot be solved, or a patch reaches the end of its grid of graded cells
+    /// ([`FeError::GridOverflow`]).
     pub(crate) fn slopes(
         &self,
         between: &MeshTable,
@@ -120,7 +159,11 @@ impl NeighbourTables {
         let mut found: Vec<Elastic> = Vec::with_capacity(self.tables.len());
         for (mesh, table) in &self.tables {
             // Each starts from the one before, a few hundredths of a millimetre away.
-            found.push(elastic((mesh, table), between, forces, found.last(), solver)?);
+            let (own, answer) = elastic((mesh, table), between, forces, found.last(), solver)?;
+            if self.is_graded {
+                table.check_patches(&answer, 0, 0.0)?;
+            }
+            found.push(own);
         }
         for (which, (step, ends)) in self.steps.into_iter().zip(found.chunks(2)).enumerate() {
             let [after, before] = ends else { continue };
@@ -165,7 +208,7 @@ fn elastic(
     forces: &[f64],
     near: Option<&Elastic>,
     solver: &dyn ComplementaritySolver,
-) -> Result<Elastic, FeError> {
+) -> Result<(Elastic, MeshAnswer), FeError> {
     let still = unrelieved(mesh, table.phase)?;
     let pairs: Vec<(usize, usize)> = (0..forces.len())
         .filter(|k| forces[*k] > 0.0)
@@ -197,7 +240,8 @@ fn elastic(
                 of_pairs[*k] = approaches[*j] - gap(*j);
                 energy += p * of_pairs[*k];
             }
-            return Ok(Elastic { of_pairs, energy, active: now.active });
+            let active = now.active.clone();
+            return Ok((Elastic { of_pairs, energy, active }, now));
         }
         let step = ascent(&pairs, &off, &now);
         let slope = off.dot(&step);
@@ -254,4 +298,65 @@ fn ascent(pairs: &[(usize, usize)], off: &DVector<f64>, now: &MeshAnswer) -> DVe
         }
     }
     step
+}
+
+#[cfg(test)]
+mod tests {
+    use gearset::{MeshKind, Scene};
+
+    use super::*;
+    use crate::complementarity::ActiveSet;
+    use crate::statics::press;
+
+    /// Force of a mesh, N: the even share of 1413 N·m on four sun meshes of OH-58.
+    const FORCE: f64 = 8900.0;
+
+    /// Where tips cut patches short, even cells give slopes that are off by an amount proportional to their width,
+    /// though a pair's force is long converged; graded cells do not, and few suffice.
+    #[test]
+    fn slopes_at_tips_need_graded_cells() {
+        let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
+        let mut scene = Scene::from_file(path.as_ref()).unwrap();
+        scene.fe_contact.flank_elements = 8;
+        let mut bodies = Bodies::new(&scene).unwrap();
+        let mesh = bodies.geometry.mesh(MeshKind::SunPlanet).unwrap().clone();
+        let phases = (0..20).map(|i| f64::from(i) / 20.0);
+        let cells = bodies.cells(FORCE);
+        let loaded: Vec<(MeshTable, Vec<f64>)> = phases
+            .map(|phase| {
+                let pair = bodies.pair(MeshKind::SunPlanet).unwrap();
+                let table = MeshTable::new(&mesh, pair, phase, &cells).unwrap();
+                let (_, answer) = press(&table, &mesh, FORCE, &ActiveSet).unwrap();
+                (table, answer.pair_forces)
+            })
+            .collect();
+        // κ with respect to σ of all pairs at all phases.
+        let mut kappas = |layout: CellLayout, count: usize| -> Vec<f64> {
+            bodies.settings.input.cell_layout = layout;
+            let settings = CellSettings { cells: count, ..cells };
+            let of = |(table, forces): &(MeshTable, Vec<f64>)| {
+                let phase = table.phase;
+                let beside = NeighbourTables::new(&bodies, &mesh, phase, &settings, STEPS).unwrap();
+                let slopes = beside.slopes(table, forces, &ActiveSet).unwrap();
+                slopes.of_pairs.into_iter().map(|of| of[0])
+            };
+            loaded.iter().flat_map(of).collect()
+        };
+        let fine = kappas(CellLayout::Graded, 120);
+        let size: f64 = fine.iter().map(|k| k.abs()).sum();
+        let mut off = |layout: CellLayout, count: usize| {
+            let own = kappas(layout, count);
+            let off: f64 = own.iter().zip(&fine).map(|(a, b)| (a - b).abs()).sum();
+            println!("{layout:?} {count} cells: slopes off by {:.2} %", 100.0 * off / size);
+            off / size
+        };
+        let [even, graded] = [CellLayout::Even, CellLayout::Graded]
+            .map(|layout| [16, 20, 40, 80].map(|count| off(layout, count)));
+        let order = |off: [f64; 2], times: f64| (off[0] / off[1]).log2() / times;
+        let of_even = order([even[1], even[3]], 2.0);
+        assert!((0.7..1.4).contains(&of_even), "{of_even} {even:?}");
+        let of_graded = order([graded[1], graded[2]], 1.0);
+        assert!(of_graded > 1.5, "{of_graded} {graded:?}");
+        assert!(graded[0] < 0.5 * even[1] && graded[2] < 0.5 * even[3], "{graded:?} {even:?}");
+    }
 }

@@ -28,12 +28,12 @@ pub struct SetTables {
     pub settings: CellSettings,
 }
 
-/// Which pairs tables beside another have.
+/// Which pairs tables beside another have, and for which load they are laid out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Beside {
-    /// Those with the smallest gaps.
+    /// Those with the smallest gaps, for the load at rest.
     Nearest,
-    /// All that the other may have.
+    /// All that the other may have, for its load.
     All,
 }
 
@@ -65,7 +65,18 @@ impl StaticSet<'_> {
     /// # Errors
     /// If a matching point lies outside its tooth.
     pub fn tables(&self, force: f64, positions: &[f64]) -> Result<SetTables, FeError> {
-        let settings = self.bodies.cells(force);
+        self.tables_of(self.bodies.cells(force), positions)
+    }
+
+    /// The same on given cells.
+    ///
+    /// # Errors
+    /// As [`StaticSet::tables`].
+    pub(crate) fn tables_of(
+        &self,
+        settings: CellSettings,
+        positions: &[f64],
+    ) -> Result<SetTables, FeError> {
         let mut wanted: Vec<(usize, f64)> = Vec::new();
         let mut seen = std::collections::HashSet::new();
         for position in positions {
@@ -113,12 +124,15 @@ impl StaticSet<'_> {
         if let Some(beside) = slot.get() {
             return Ok(beside);
         }
-        let make = match which {
-            Beside::Nearest => NeighbourTables::nearest,
-            Beside::All => NeighbourTables::coarse,
-        };
         let mesh = &self.reference.loaded[group].mesh;
-        let made = make(self.bodies, mesh, tables.list[place].phase, &tables.settings)?;
+        let (phase, settings) = (tables.list[place].phase, &tables.settings);
+        let made = match which {
+            Beside::Nearest => {
+                let at_rest = self.share(self.reference.torque_nm);
+                NeighbourTables::nearest(self.bodies, mesh, phase, settings, at_rest)
+            }
+            Beside::All => NeighbourTables::coarse(self.bodies, mesh, phase, settings),
+        }?;
         Ok(slot.get_or_init(|| Arc::new(made)))
     }
 
@@ -136,11 +150,11 @@ impl StaticSet<'_> {
         let place = self.place_of(tables, mesh, position);
         let group = self.reference.meshes[mesh].group;
         let between = &tables.list[place];
-        let mut beside = self.beside(tables, place, group, Beside::Nearest)?;
-        if !beside.hold(between, forces) {
-            beside = self.beside(tables, place, group, Beside::All)?;
+        let nearest = self.beside(tables, place, group, Beside::Nearest)?;
+        if let Some(slopes) = nearest.slopes_of(between, forces, &ActiveSet)? {
+            return Ok(slopes);
         }
-        beside.slopes(between, forces, &ActiveSet)
+        self.beside(tables, place, group, Beside::All)?.slopes(between, forces, &ActiveSet)
     }
 
     /// One table of the meshes of a group.

@@ -41,7 +41,7 @@ pub(crate) fn pair_ends(
 ) -> Option<[PairEnd; 2]> {
     let gears = bodies.pair(mesh.kind)?;
     let frame = PairFrame::new(mesh, phase, cells.index)?;
-    let reach = 0.5 * cells.width * cells.x.len() as f64;
+    let reach = 0.5 * cells.length;
     let spread = (SPREAD_IN_DEPTHS * bodies.settings.matching.depth).max(SPREAD_IN_GRIDS * reach);
     Some([MeshMember::Driver, MeshMember::Driven].map(|member| {
         let gear = gears[member as usize];

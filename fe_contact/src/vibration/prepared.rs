@@ -61,15 +61,16 @@ impl<'s> Prepared<'s> {
         let mut statics = statics.under(loading.torque_nm)?;
         let positions = rotation.positions();
         let patterns = Arc::new(FramePatterns::new(positions.len()));
+        let cells = bodies.cells_in_time(loading.mesh_force);
         if is_exact {
             // The actual lines of action are used, so that the linearised turning of mesh forces is
             // dropped; tables are laid out in the run, at the phases that occur.
             statics.reference.stiffness.fill(0.0);
-            let tables = statics.tables(loading.mesh_force, &positions[..1])?;
+            let tables = statics.tables_of(cells, &positions[..1])?;
             let leaning = vec![Leaning::none(&statics); positions.len()].into();
             return Ok(Self { statics, tables, leaning, is_exact, patterns, turns });
         }
-        let tables = statics.tables(loading.mesh_force, &positions)?;
+        let tables = statics.tables_of(cells, &positions)?;
         let leaning = Leaning::at(&statics, &tables, &positions)?.into();
         Ok(Self { statics, tables, leaning, is_exact, patterns, turns })
     }

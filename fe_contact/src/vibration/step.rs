@@ -259,7 +259,7 @@ impl VibratingSet<'_> {
             if let Some(pair) = mesh.map(&self.contact.maps).and_then(|map| map.overflows) {
                 let (cells, force_n) = (&table.pairs[pair], self.pairs.forces[mesh.first + pair]);
                 if force_n > 0.0 {
-                    let reach_mm = 0.5e3 * cells.width * cells.x.len() as f64;
+                    let reach_mm = 0.5e3 * cells.length;
                     let (phase, pair) = (table.phase, cells.index);
                     return Err(FeError::GridOverflow { phase, pair, reach_mm, force_n });
                 }

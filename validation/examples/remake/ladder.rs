@@ -107,6 +107,7 @@ pub(crate) fn remake() -> crate::Outcome {
     let truth = FullSweep::load()?;
     let (torque, mut scene) = (truth.torque_nm, scene(PublishedScene::Oh58FourPlanets)?);
     scene.fe_contact.flank_elements = truth.flank_elements;
+    scene.fe_contact.cell_layout = truth.cell_layout;
     let at_timed = LoadCase::of_scene(&scene)?.with_sun_torque(torque).at_speed(TIMED_RPM);
     let peak = truth.rotational_peak().ok_or("the truth has no peak")?;
     println!("# Fidelities of the ladder by error and cost, four planets.");

@@ -75,8 +75,9 @@ pub fn mesh_law(
     let plan = MeshLawPlan::new(&statics.law_starts(settings.has_backside), steps)?;
     let job = Job {
         at_rest: at_rest(&statics, steps, mean_force)?,
-        cells: bodies.cells(reach * mean_force),
+        cells: bodies.cells_in_time(reach * mean_force),
         largest: reach * mean_force,
+        mean_force,
         nodes: settings.nodes.max(1),
         statics: &statics,
     };
@@ -145,6 +146,8 @@ struct Job<'j, 's> {
     cells: CellSettings,
     /// Largest force, N.
     largest: f64,
+    /// Force at rest, N.
+    mean_force: f64,
     nodes: usize,
 }
 
@@ -218,8 +221,16 @@ impl Job<'_, '_> {
         let statics = self.statics;
         let pose = &statics.reference().meshes[which];
         let own = &statics.reference().loaded[pose.group];
-        let beside = NeighbourTables::coarse(statics.bodies, &own.mesh, table.phase, &self.cells)?;
-        let slopes = beside.slopes(table, &found.pair_forces, &ActiveSet)?;
+        let (bodies, mesh, phase) = (statics.bodies, &own.mesh, table.phase);
+        let near = NeighbourTables::nearest(bodies, mesh, phase, &self.cells, self.mean_force)?;
+        let slopes = match near.slopes_of(table, &found.pair_forces, &ActiveSet)? {
+            Some(slopes) => slopes,
+            None => NeighbourTables::coarse(bodies, mesh, phase, &self.cells)?.slopes(
+                table,
+                &found.pair_forces,
+                &ActiveSet,
+            )?,
+        };
         let mut along = slopes.rest;
         for ((pair, force), kappa) in
             table.pairs.iter().zip(&found.pair_forces).zip(&slopes.of_pairs)

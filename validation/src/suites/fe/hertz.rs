@@ -69,9 +69,7 @@ fn mid_flank(lab: &Lab<'_>) -> Checks {
             .zip(PairFrame::new(mesh, phase, 0))
             .ok_or(ValidationError::Incomplete("pair on the path"))?;
         let cells = &at.table.pairs[k];
-        let own = &at.answer.cell_forces[cells.first..cells.first + cells.x.len()];
-        let area = cells.width * at.table.face_width;
-        let pressures: Vec<f64> = own.iter().map(|f| f / area).collect();
+        let pressures = at.table.pressures(k, &at.answer.cell_forces);
         let found = fit(&cells.x, &pressures).ok_or(ValidationError::Incomplete("patch"))?;
         let line_load = at.answer.pair_forces[k] / at.table.face_width;
         let hertz = Hertz::new(line_load, frame.radius(), m);

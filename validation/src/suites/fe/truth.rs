@@ -94,11 +94,12 @@ fn judged(
     Ok(checks)
 }
 
-/// A fidelity at the speeds of the kept points, on the same flanks and tables.
+/// A fidelity at the speeds of the kept points, on the same flanks, cells and tables.
 fn swept(lab: &Lab<'_>, fidelity: Fidelity, steps: u32) -> Result<Sweep, ValidationError> {
     let kept = &lab.reference.full_sweep;
     let mut scene = lab.four.clone();
     scene.fe_contact.flank_elements = kept.flank_elements;
+    scene.fe_contact.cell_layout = kept.cell_layout;
     scene.dynamics.steps_per_cycle = steps;
     scene.dynamics.fidelity = fidelity;
     let bodies = lab.gears.of(&scene)?;
