@@ -109,9 +109,9 @@ mod tests {
         let edges = one.edges.as_ref().unwrap();
         assert_eq!((edges[0], edges[n]), (-1.0, 3.0));
         assert!((one.widths.iter().sum::<f64>() - 4.0).abs() < 1e-14);
-        for i in 0..=n {
+        for (i, edge) in edges.iter().enumerate() {
             let share = 1.0 - i as f64 / n as f64;
-            assert!((3.0 - edges[i] - 4.0 * share * share).abs() < 1e-14, "{i}");
+            assert!((3.0 - edge - 4.0 * share * share).abs() < 1e-14, "{i}");
         }
         let both = Cells::graded([-1.0, 3.0], [true; 2], [0.6; 2], n);
         for i in 0..n {
