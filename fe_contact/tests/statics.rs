@@ -347,7 +347,8 @@ fn pressures_and_loads_of_tooth_pairs_add_up() {
     let (p, k) = cycle.heaviest_pair().unwrap();
     let profile = p.pressure_profile(k).unwrap();
     let cells = &p.table.pairs[k];
-    let force = profile.pressures.iter().sum::<f64>() * cells.width * p.table.face_width;
+    let per_width = profile.pressures.iter().zip(&cells.widths).map(|(p, w)| p * w);
+    let force = per_width.sum::<f64>() * p.table.face_width;
     assert!((force / p.answer.pair_forces[k] - 1.0).abs() < 1e-12);
     let peak = profile.pressures.iter().copied().fold(0.0, f64::max);
     let load = p.pairs.iter().find(|l| l.index == profile.index).unwrap();

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use experiments::stability::{MapName, StabilityMap, stability_map};
-use validation::{KeptStudy, ValidationError, kept_contact_loss, kept_studies};
+use experiments::stability::{MapError, MapName, StabilityMap, stability_maps};
+use validation::{KeptStudy, ValidationError, kept_maps, kept_studies};
 
 use crate::error::CommandError;
 
@@ -16,7 +16,8 @@ use super::{save, stability, study_text, unfit};
 pub(super) fn write(folder: &Path) -> Result<(), CommandError> {
     let _working = Working::new("computing the stability maps of the report");
     let studies = kept_studies().map_err(ValidationError::from)?;
-    let maps = MapName::ALL.into_iter().map(map).collect::<Result<Vec<_>, _>>()?;
+    let kept = kept_maps().map_err(ValidationError::from)?;
+    let maps = maps(kept)?;
     save(&folder.join("charts.md"), &page(&studies, &maps)?)?;
     #[cfg(feature = "charts")]
     {
@@ -27,14 +28,15 @@ pub(super) fn write(folder: &Path) -> Result<(), CommandError> {
     Ok(())
 }
 
-/// A map of the set built in; that of contact loss, which takes minutes, as it is kept.
-fn map(which: MapName) -> Result<StabilityMap, CommandError> {
-    if which == MapName::ContactLoss {
-        return Ok(kept_contact_loss().map_err(ValidationError::from)?);
-    }
-    let refused =
-        |e: experiments::stability::MapError| unfit(Path::new("the scene built in"), e.to_string());
-    stability_map(which, &built_in()?).map_err(refused)
+/// All maps, of the set built in; those that take minutes as they are `kept`.
+fn maps(kept: Vec<StabilityMap>) -> Result<Vec<StabilityMap>, CommandError> {
+    let is_kept = |which: &MapName| kept.iter().any(|map| map.map == which.name());
+    let others: Vec<MapName> = MapName::ALL.into_iter().filter(|which| !is_kept(which)).collect();
+    let refused = |e: MapError| unfit(Path::new("the scene built in"), e.to_string());
+    let mut all = stability_maps(&others, &built_in()?).map_err(refused)?;
+    all.extend(kept);
+    all.sort_by_key(|map| MapName::ALL.iter().position(|which| which.name() == map.map));
+    Ok(all)
 }
 
 fn page(studies: &[KeptStudy], maps: &[StabilityMap]) -> Result<String, CommandError> {
@@ -71,7 +73,7 @@ fn write_maps(maps: &[StabilityMap], out: &mut Vec<u8>) -> Result<(), CommandErr
     writeln!(
         out,
         "## Stability\n\nMethods and sets pushed until they fail, what was measured beside theory. `epicyclic stability MAP` \
-         computes one anew; the map of contact loss is kept.\n"
+         computes one anew; those of contact loss and of linear kinematics are kept.\n"
     )?;
     for map in maps {
         writeln!(out, "### {}\n", map.map)?;

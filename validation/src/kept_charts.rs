@@ -53,15 +53,23 @@ pub fn kept_studies() -> Result<Vec<KeptStudy>, ReferenceError> {
         "contact_cells",
         "elements",
         "matching",
-        "steady_state_method"
+        "steady_state_method",
+        "integrator"
     ])
 }
 
-/// The map of contact loss over torque and damping of OH-58 with four planets, by
-/// `epicyclic stability contact-loss --scene scenes/oh58_4p.toml --format json > kept/contact_loss.json`.
+/// The stability maps that take minutes: contact loss over torque and damping of OH-58 with four planets, by
+/// `epicyclic stability contact-loss --scene scenes/oh58_4p.toml --format json > kept/stability/contact-loss.json`, and
+/// linear kinematics, by `epicyclic stability linear-kinematics --format json > kept/stability/linear-kinematics.json`.
 ///
 /// # Errors
-/// If the file is not what the program writes.
-pub fn kept_contact_loss() -> Result<StabilityMap, ReferenceError> {
-    Ok(read("kept/contact_loss.json", include_str!("../kept/contact_loss.json"))?.result)
+/// If a file is not what the program writes.
+pub fn kept_maps() -> Result<Vec<StabilityMap>, ReferenceError> {
+    macro_rules! kept {
+        ($name:literal) => {{
+            let text = include_str!(concat!("../kept/stability/", $name, ".json"));
+            read(concat!("kept/stability/", $name, ".json"), text)?.result
+        }};
+    }
+    Ok(vec![kept!("contact-loss"), kept!("linear-kinematics")])
 }

@@ -30,7 +30,7 @@ pub use check::{Check, ReferenceKind, Status, Subject, Tolerance, Value};
 pub use compare::{Comparison, ListedMode, Match, ModelMode, compare};
 pub use error::ValidationError;
 pub use judged::Judged;
-pub use kept_charts::{KeptStudy, kept_contact_loss, kept_studies};
+pub use kept_charts::{KeptStudy, kept_maps, kept_studies};
 pub use ledger::{Assumption, Figure, Ledger};
 pub use own_truth::{
     ExactPeak, ExactPeaks, FullSweep, FullSweepPoint, Ladder, LadderFidelity, MapCell,

@@ -1,6 +1,7 @@
 //! What a stability map is, and which there are.
 
 use gearset::Scene;
+use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -271,6 +272,14 @@ pub fn stability_map(which: MapName, scene: &Scene) -> Result<StabilityMap, MapE
         MapName::LinearKinematics => linear_kinematics::map(scene),
         MapName::Spacing => spacing::map(scene),
     }
+}
+
+/// Several maps side by side, in the order in which they are named.
+///
+/// # Errors
+/// As [`stability_map`].
+pub fn stability_maps(which: &[MapName], scene: &Scene) -> Result<Vec<StabilityMap>, MapError> {
+    which.par_iter().map(|own| stability_map(*own, scene)).collect()
 }
 
 /// A map without borders and curves.

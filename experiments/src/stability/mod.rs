@@ -21,4 +21,4 @@ mod truncated_stiffness;
 mod windup;
 
 pub use guards::{Guard, guards};
-pub use map::{Border, MapCurve, MapError, MapName, StabilityMap, stability_map};
+pub use map::{Border, MapCurve, MapError, MapName, StabilityMap, stability_map, stability_maps};
