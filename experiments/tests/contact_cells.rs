@@ -35,6 +35,7 @@ fn both_widths_of_the_patch_give_one_peak() {
     let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
     let mut scene = Scene::from_file(path.as_ref()).unwrap();
     scene.fe_contact.flank_elements = 8;
+    scene.fe_contact.cell_layout = CellLayout::Graded;
     scene.dynamics.steps_per_cycle = 140;
     let bodies = Bodies::new(&scene).unwrap();
     let fine_scene = {

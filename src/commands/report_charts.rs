@@ -50,9 +50,9 @@ fn write_studies(studies: &[KeptStudy], out: &mut Vec<u8>) -> Result<(), Command
     use std::io::Write as _;
     writeln!(
         out,
-        "# Charts\n\n## Error against cost\n\nEvery study as it was run on an otherwise idle machine: costs are those of that run; values, \
-         truth with its uncertainty U, errors and counted work are the same in every run. `epicyclic study studies/NAME.toml` runs one \
-         anew.\n"
+        "# Charts\n\n## Error against cost\n\nEvery study as it was run once: costs are those of that run; values, \
+         truth with its uncertainty U, errors and counted work are the same in every run. `epicyclic study` \
+         with the file of a study runs it anew.\n"
     )?;
     for KeptStudy { name, version, result } in studies {
         writeln!(out, "### {}\n\nstudies/{name}.toml, version {version}\n", result.title)?;

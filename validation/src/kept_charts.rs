@@ -7,8 +7,8 @@ use serde::de::DeserializeOwned;
 
 use crate::reference_file::ReferenceError;
 
-/// A study as it was run on an otherwise idle machine by
-/// `epicyclic study studies/NAME.toml --format json > kept/studies/NAME.json`.
+/// A study as it was run, that of models for instance by
+/// `epicyclic study studies/models.toml --rounds 3 --format json > kept/studies/models.json`.
 #[derive(Debug, Clone)]
 pub struct KeptStudy {
     /// Name of its file.

@@ -100,7 +100,11 @@ impl StaticSet<'_> {
         tables: SlopeTables,
     ) -> Result<SetCycle, FeError> {
         let f = self.load_with(torque_nm, further);
-        let settings = self.bodies.cells_in_time(self.share(torque_nm).max(1.0));
+        let force = self.share(torque_nm).max(1.0);
+        let settings = match tables {
+            SlopeTables::Full => self.bodies.cells_in_time(force),
+            SlopeTables::AsLinearised => self.bodies.cells(force),
+        };
         let mut states = Vec::with_capacity(positions);
         let mut q = self.reference.q.clone();
         for i in 0..positions {

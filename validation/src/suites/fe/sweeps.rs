@@ -329,17 +329,13 @@ fn reduced(lab: &Lab<'_>, ratios: [f64; 2]) -> Checks {
     Ok(checks)
 }
 
-/// Steps of a mesh cycle at 20 rpm: with 140, of a millisecond, the steps alone are up to 0.9 % of one.
-const SLOW_STEPS: u32 = 280;
-
 /// Harmonics 0…5 of the sun's motion (radial, tangential, rotation) at rest, on the sweep's grids.
 fn static_harmonics(lab: &Lab<'_>) -> Result<[Vec<[f64; 2]>; 3], ValidationError> {
     let sun = lab.bodies.geometry.sun.as_ref().ok_or(ValidationError::Incomplete("sun"))?;
     let share = TORQUE / sun.base_radius / lab.four.planets.count() as f64;
     let (sense, none) = (LoadCase::standing(TORQUE).sense(), Imperfections::default());
     let set = StaticSet::new(&lab.four, &lab.bodies, sense, none)?;
-    let cycle =
-        set.cycle_on_grids_for(HEADROOM * share, TORQUE, SLOW_STEPS as usize, &ActiveSet)?;
+    let cycle = set.cycle_on_grids_for(HEADROOM * share, TORQUE, 140, &ActiveSet)?;
     let one = |axis: usize| -> Result<Vec<[f64; 2]>, ValidationError> {
         let record: Vec<f64> = cycle.states.iter().map(|s| s.central[2][axis]).collect();
         let lines = spectrum(&record, 1.0, Window::Rectangular, 1)?.lines;
@@ -352,9 +348,7 @@ fn static_harmonics(lab: &Lab<'_>) -> Result<[Vec<[f64; 2]>; 3], ValidationError
 fn slow(lab: &Lab<'_>) -> Checks {
     let settings = SteadySettings { between_cycles: 0, ..steady_settings() };
     let case = under(&lab.four, TORQUE)?.at_speed(20.0);
-    let mut scene = lab.four.clone();
-    scene.dynamics.steps_per_cycle = SLOW_STEPS;
-    let found = at_speed(lab, &scene, Imperfections::default(), case, settings)?;
+    let found = at_speed(lab, &lab.four, Imperfections::default(), case, settings)?;
     let still = static_harmonics(lab)?;
     let mut off_percent = Vec::new();
     for point in found.states() {
