@@ -191,7 +191,7 @@ impl KindsBySpacing {
             basis
         };
         let (rotational, translational) = (plain(rotational), plain(translational));
-        // The projection on (cos ψ_n, sin ψ_n) of a planet coordinate determines its T: Aᵀ of each row, turned.
+        // A column of T moves planet n along an axis by c cos ψ_n + s sin ψ_n, with ψ_n + ε a_n for ψ_n once it is displaced.
         let mut change = DMatrix::zeros(model.mass.len(), translational.ncols());
         for (i, (body, axis)) in model.coordinates.free().iter().enumerate() {
             let Body::Planet(n) = body else { continue };
@@ -209,33 +209,31 @@ impl KindsBySpacing {
         out
     }
 
-    /// B Bᵀ M x
-    fn onto(&self, basis: &DMatrix<f64>, x: &DMatrix<f64>) -> DMatrix<f64> {
+    /// M x
+    fn weighted(&self, x: &DMatrix<f64>) -> DMatrix<f64> {
         let mut weighted = x.clone();
         for (mut row, m) in weighted.row_iter_mut().zip(self.mass.iter()) {
             row *= *m;
         }
-        basis * (basis.transpose() * weighted)
+        weighted
+    }
+
+    /// B Bᵀ M x
+    fn onto(&self, basis: &DMatrix<f64>, x: &DMatrix<f64>) -> DMatrix<f64> {
+        basis * (basis.transpose() * self.weighted(x))
     }
 
     /// The part of modes φ with changes φ' that leaves their kind, to first order in ε.
     fn left(&self, mode_type: ModeType, phi: &DMatrix<f64>, change: &DMatrix<f64>) -> DMatrix<f64> {
         let (r, t) = (&self.rotational, &self.translational);
-        let weighted = |x: &DMatrix<f64>| {
-            let mut weighted = x.clone();
-            for (mut row, m) in weighted.row_iter_mut().zip(self.mass.iter()) {
-                row *= *m;
-            }
-            weighted
-        };
         match mode_type {
             ModeType::Rotational => change - self.onto(r, change),
             ModeType::Translational => {
-                let follows = &self.change * (t.transpose() * weighted(phi));
+                let follows = &self.change * (t.transpose() * self.weighted(phi));
                 change - self.onto(t, change) - follows
             }
             _ => {
-                let follows = t * (self.change.transpose() * weighted(phi));
+                let follows = t * (self.change.transpose() * self.weighted(phi));
                 self.onto(r, change) + self.onto(t, change) + follows
             }
         }

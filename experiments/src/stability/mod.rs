@@ -1,6 +1,7 @@
 //! Stability maps: a method or a set pushed until it fails, the border found from the program itself, theory beside it.
 
 mod bouncing_bar;
+mod changed_group;
 mod contact_cells;
 mod contact_loss;
 mod explicit_step;

@@ -1,8 +1,9 @@
 //! Types of modes with one planet heavier.
 
 use gearset::Scene;
-use lumped::{LumpedModel, ModeGroup, ModeType, NaturalModes, TypeTolerance, tolerances_to};
+use lumped::{LumpedModel, ModeGroup, NaturalModes, tolerances_to};
 
+use super::changed_group::ChangedGroup;
 use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
 
 /// The planet that is made heavier.
@@ -24,7 +25,14 @@ pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
         if !t.pure_up_to.is_finite() || t.pure_up_to > 0.1 || t.pure_up_to < 1e-9 {
             continue;
         }
-        let border = border(&model, &t, count)?;
+        let group = ChangedGroup {
+            frequency_hz: t.frequency_hz,
+            mode_type: t.mode_type,
+            multiplicity: count,
+            pure_up_to: t.pure_up_to,
+            modes: &|part| Ok(NaturalModes::of(&model.with_heavier_planet(PLANET, part)?)?),
+        };
+        let border = group.border()?;
         let quantity = "pure up to a planet heavier by";
         map.borders.push(Border::new(of.clone(), quantity, "", border, Some(t.pure_up_to)));
         // Leading order ends where a planet is heavier by a tenth.
@@ -36,7 +44,7 @@ pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
         let mut measured = Vec::new();
         for k in 0..=20 {
             let part = 10f64.powf(-6.0 + 0.25 * f64::from(k));
-            let lost = lost(&model, &t, count, part)?;
+            let lost = group.lost(part)?;
             // Below, a share of 1 is rounding.
             if lost > 1e-12 {
                 measured.push((part.log10(), lost.log10()));
@@ -54,51 +62,4 @@ pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
         }
     }
     Ok(map)
-}
-
-/// The `count` modes nearest a frequency: largest share outside a kind, 0 to 1, and whether all are still of it.
-fn nearest(
-    model: &LumpedModel,
-    t: &TypeTolerance,
-    count: usize,
-    part: f64,
-) -> Result<Vec<(f64, ModeType)>, MapError> {
-    let found = NaturalModes::of(&model.with_heavier_planet(PLANET, part)?)?;
-    let share = |g: &ModeGroup| {
-        let p = g.participation;
-        match t.mode_type {
-            ModeType::Rotational => p.rotational,
-            ModeType::Translational => p.translational,
-            _ => p.planet,
-        }
-    };
-    let each = |g: &ModeGroup| {
-        let own = (g.frequency_hz, share(g), g.mode_type);
-        std::iter::repeat_n(own, g.multiplicity).collect::<Vec<_>>()
-    };
-    let mut all: Vec<_> = found.groups.iter().flat_map(each).collect();
-    all.sort_by(|a, b| (a.0 - t.frequency_hz).abs().total_cmp(&(b.0 - t.frequency_hz).abs()));
-    Ok(all.into_iter().take(count).map(|(_, share, kind)| (1.0 - share, kind)).collect())
-}
-
-fn lost(model: &LumpedModel, t: &TypeTolerance, count: usize, part: f64) -> Result<f64, MapError> {
-    Ok(nearest(model, t, count, part)?.iter().fold(0.0f64, |a, (lost, _)| a.max(*lost)))
-}
-
-/// The part at which the program first lists one of the modes as another type; `None` if not within a factor of four of
-/// the formula.
-fn border(model: &LumpedModel, t: &TypeTolerance, count: usize) -> Result<Option<f64>, MapError> {
-    let keeps = |part: f64| {
-        let near = nearest(model, t, count, part)?;
-        Ok::<_, MapError>(near.iter().all(|(_, kind)| *kind == t.mode_type))
-    };
-    let (mut low, mut high) = (0.25 * t.pure_up_to, 4.0 * t.pure_up_to);
-    if !keeps(low)? || keeps(high)? {
-        return Ok(None);
-    }
-    while high - low > 1e-5 * high {
-        let middle = 0.5 * (low + high);
-        if keeps(middle)? { low = middle } else { high = middle }
-    }
-    Ok(Some(low))
 }

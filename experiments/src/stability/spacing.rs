@@ -6,8 +6,9 @@
 use std::f64::consts::TAU;
 
 use gearset::{Geometry, Scene};
-use lumped::{LumpedModel, ModeGroup, ModeType, NaturalModes, SpacingChange};
+use lumped::{LumpedModel, ModeType, NaturalModes, SpacingChange};
 
+use super::changed_group::ChangedGroup;
 use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
 
 /// Displacements at which orders and coefficients are taken, rad: small enough for leading order, large enough for splits
@@ -194,45 +195,20 @@ impl Displaced<'_> {
         Ok((high - low) / own)
     }
 
-    /// The same modes: share outside the kind and type.
-    fn nearest(&self, change: &SpacingChange, by: f64) -> Result<Vec<(f64, ModeType)>, MapError> {
-        let found = self.modes(by)?;
-        let share = |g: &ModeGroup| match change.mode_type {
-            ModeType::Rotational => g.participation.rotational,
-            ModeType::Translational => g.participation.translational,
-            _ => g.participation.planet,
-        };
-        let each = |g: &ModeGroup| {
-            let own = (g.frequency_hz, 1.0 - share(g), g.mode_type);
-            std::iter::repeat_n(own, g.multiplicity).collect::<Vec<_>>()
-        };
-        let mut all: Vec<_> = found.groups.iter().flat_map(each).collect();
-        let off = |f: f64| (f - change.frequency_hz).abs();
-        all.sort_by(|a, b| off(a.0).total_cmp(&off(b.0)));
-        let own = all.into_iter().take(change.multiplicity);
-        Ok(own.map(|(_, lost, kind)| (lost, kind)).collect())
-    }
-
-    /// Largest share outside the kind.
     fn lost(&self, change: &SpacingChange, by: f64) -> Result<f64, MapError> {
-        Ok(self.nearest(change, by)?.iter().fold(0.0f64, |a, (lost, _)| a.max(*lost)))
+        self.group(change, &|by| self.modes(by)).lost(by)
     }
 
-    /// The displacement from which on the program lists a mode of the group as another type; `None` if not within a factor
-    /// of four of the formula.
     fn border(&self, change: &SpacingChange) -> Result<Option<f64>, MapError> {
-        let keeps = |by: f64| {
-            let near = self.nearest(change, by)?;
-            Ok::<_, MapError>(near.iter().all(|(_, kind)| *kind == change.mode_type))
-        };
-        let (mut low, mut high) = (0.25 * change.pure_up_to, 4.0 * change.pure_up_to);
-        if !keeps(low)? || keeps(high)? {
-            return Ok(None);
-        }
-        while high - low > 1e-5 * high {
-            let middle = 0.5 * (low + high);
-            if keeps(middle)? { low = middle } else { high = middle }
-        }
-        Ok(Some(low))
+        self.group(change, &|by| self.modes(by)).border()
+    }
+
+    fn group<'c>(
+        &self,
+        change: &SpacingChange,
+        modes: &'c dyn Fn(f64) -> Result<NaturalModes, MapError>,
+    ) -> ChangedGroup<'c> {
+        let SpacingChange { frequency_hz, mode_type, multiplicity, pure_up_to, .. } = *change;
+        ChangedGroup { frequency_hz, mode_type, multiplicity, pure_up_to, modes }
     }
 }

@@ -24,10 +24,6 @@ impl SweepModel for DampedModel<'_> {
         self.model.case()
     }
 
-    fn planets(&self) -> usize {
-        self.model.planets()
-    }
-
     fn shape(&self) -> SetShape {
         self.model.shape()
     }

@@ -154,10 +154,6 @@ impl SweepModel for KeyedModel<'_> {
         self.case
     }
 
-    fn planets(&self) -> usize {
-        self.first.model().planets()
-    }
-
     fn shape(&self) -> SetShape {
         self.first.model().shape()
     }

@@ -95,10 +95,6 @@ impl SweepModel for MeshLawModel<'_> {
         self.case
     }
 
-    fn planets(&self) -> usize {
-        self.scene.planets.psi_rad.len()
-    }
-
     fn shape(&self) -> SetShape {
         SetShape::of(&self.scene)
     }

@@ -52,10 +52,6 @@ impl SweepModel for SchemeModel {
         self.case
     }
 
-    fn planets(&self) -> usize {
-        self.scene.planets.psi_rad.len()
-    }
-
     fn shape(&self) -> SetShape {
         SetShape::of(&self.scene)
     }

@@ -20,12 +20,12 @@ pub trait SweepModel: Sync {
     /// What it is loaded with and driven by.
     fn case(&self) -> LoadCase;
 
-    /// Number of planets.
-    fn planets(&self) -> usize;
+    /// Number of planets, and whether there are ring meshes.
+    fn shape(&self) -> SetShape;
 
-    /// Number of planets, and whether there are ring meshes; by default there are.
-    fn shape(&self) -> SetShape {
-        self.planets().into()
+    /// Number of planets.
+    fn planets(&self) -> usize {
+        self.shape().planets
     }
 
     /// ψ₀: central members' radial direction is towards planet 0, rad.
@@ -199,10 +199,6 @@ impl SweepModel for FeModel<'_> {
 
     fn case(&self) -> LoadCase {
         self.case
-    }
-
-    fn planets(&self) -> usize {
-        self.scene.planets.psi_rad.len()
     }
 
     fn shape(&self) -> SetShape {

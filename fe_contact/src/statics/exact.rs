@@ -175,7 +175,7 @@ impl StaticSet<'_> {
     /// As [`StaticSet::exact_cycle`].
     pub fn exact_tangent(&self, torque_nm: f64, position: f64) -> Result<DMatrix<f64>, FeError> {
         let f = self.load(torque_nm);
-        let settings = self.bodies.cells(self.share(torque_nm).max(1.0));
+        let settings = self.bodies.cells_in_time(self.share(torque_nm).max(1.0));
         let start = self.reference.q.clone();
         let (_, q) = self.exact(&f, position, &settings, start, SlopeTables::Full)?;
         let gradient = |coordinate: usize, by: f64| {

@@ -12,8 +12,8 @@
 //! five per cent of the second harmonic of the sun's rotation at rest; without it the forces of a
 //! mesh are not the gradient of its energy. κ and rest are differences between contact tables to
 //! either side: distributed loads, as at ports, would miss the effect of the tip edge on a patch
-//! near it. On even cells that edge makes κ wrong by an amount proportional to the width of a cell
-//! (`contact/cells.rs`), so that these tables have graded ones.
+//! near it. On even cells that edge makes κ wrong by an amount proportional to the width of a cell, on
+//! graded ones (`contact/cells.rs`) hardly.
 
 use gearset::{CellLayout, DisplacedMesh, Mesh};
 use nalgebra::{DMatrix, DVector};

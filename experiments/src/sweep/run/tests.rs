@@ -9,6 +9,7 @@ use gearset::LoadCase;
 
 use super::super::marching::{Effort, Marching};
 use super::super::plan::{Direction, Plan};
+use super::super::set_shape::SetShape;
 use super::super::state::{Coordinate, Part};
 use super::super::steady::SteadyMethod;
 use super::*;
@@ -132,8 +133,8 @@ impl SweepModel for Prescribed {
         LoadCase::turning(1130.0, 100.0, 50.0)
     }
 
-    fn planets(&self) -> usize {
-        1
+    fn shape(&self) -> SetShape {
+        1.into()
     }
 
     fn first_planet_rad(&self) -> f64 {

@@ -36,37 +36,20 @@ const DOUBLINGS: &str = "periods double near a harmonic's resonance at which tee
 const NO_PHASING: &str =
     "planet phasing no longer suppresses the sun's translation where the period has doubled";
 
-/// Id, words, and whether the statement holds; `None` for one that was not judged.
-type Judged = (String, &'static str, Option<bool>);
-
 pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
-    let mut checks = Vec::new();
     let is_run = lab.runs("contact_loss.jumps.fe_contact")?;
-    let mut judged: Vec<Judged> = Vec::new();
+    let found = |name: &str, load, range| -> Result<Option<Branches>, ValidationError> {
+        is_run.then(|| followed(lab, name, load, range)).transpose()
+    };
+    let mut checks = Vec::new();
     for name in ["fe_contact", "lumped"] {
-        let (mut jump, mut doubled) = (None, None);
-        if is_run {
-            jump = Some(followed(lab, name, JUMP, jump_rpm(name))?);
-        }
-        if is_run && name == "lumped" {
-            let (load, range) = DOUBLING;
-            doubled = Some(followed(lab, name, load, range)?);
-        }
-        judged.extend(of_jump(lab, name, jump.as_ref())?);
-        if name == "lumped" {
-            judged.extend(of_doubling(lab, doubled.as_ref())?);
-        }
+        checks.extend(of_jump(lab, name, found(name, JUMP, jump_rpm(name))?.as_ref())?);
     }
-    for (id, words, holds) in &judged {
-        checks.push(stated(lab.reference, id, words, *holds)?);
-    }
-    if is_run {
-        // With the damping of the scene teeth stay together, and nothing jumps.
-        let damped = followed(lab, "lumped", (JUMP.0, 1.0), jump_rpm("lumped"))?;
-        let spoilt = of_jump(lab, "lumped", Some(&damped))?
-            .iter()
-            .map(|(id, words, holds)| stated(lab.reference, id, words, *holds))
-            .collect::<Result<Vec<Check>, _>>()?;
+    let (load, range) = DOUBLING;
+    checks.extend(of_doubling(lab, found("lumped", load, range)?.as_ref())?);
+    // With the damping of the scene teeth stay together, and nothing jumps.
+    if let Some(damped) = found("lumped", (JUMP.0, 1.0), jump_rpm("lumped"))? {
+        let spoilt = of_jump(lab, "lumped", Some(&damped))?;
         checks.push(lab.reference.control("contact_loss.control.damped", &spoilt)?);
     }
     Ok(checks)
@@ -104,45 +87,41 @@ fn followed(
     })
 }
 
-fn of_jump(
-    lab: &Lab<'_>,
-    name: &str,
-    found: Option<&Branches>,
-) -> Result<Vec<Judged>, ValidationError> {
+/// Stable motions of a branch in which teeth part.
+fn parting(branch: &Branch) -> impl Iterator<Item = &BranchPoint> {
+    branch.points.iter().filter(|p| p.is_stable && p.contact_loss > 0.0)
+}
+
+fn of_jump(lab: &Lab<'_>, name: &str, found: Option<&Branches>) -> Checks {
     let radius = sun_radius(lab)?;
-    let first = |found: &Branches| found.branches.first().cloned();
-    let parting = |branch: &Branch| -> Vec<BranchPoint> {
-        let parts = |p: &&BranchPoint| p.is_stable && p.contact_loss > 0.0;
-        branch.points.iter().filter(parts).cloned().collect()
-    };
-    let points = found.map(|own| first(own).map(|b| parting(&b)).unwrap_or_default());
-    let jumps = found.zip(points.as_ref()).map(|(own, parting)| {
+    let (mut jumps, mut suppressed) = (None, None);
+    if let Some(own) = found {
+        let points: Vec<&BranchPoint> =
+            own.branches.first().into_iter().flat_map(parting).collect();
         let within =
-            |[low, high]: &[f64; 2]| parting.iter().any(|p| (*low..=*high).contains(&p.parameter));
-        own.coexisting().iter().any(within)
-    });
-    let suppressed = points
-        .as_ref()
-        .map(|list| !list.is_empty() && list.iter().all(|p| translation(p, radius) < SUPPRESSED));
+            |[low, high]: &[f64; 2]| points.iter().any(|p| (*low..=*high).contains(&p.parameter));
+        jumps = Some(own.coexisting().iter().any(within));
+        let is_suppressed = points.iter().all(|p| translation(p, radius) < SUPPRESSED);
+        suppressed = Some(is_suppressed && !points.is_empty());
+    }
+    let of = |statement: &str| format!("contact_loss.{statement}.{name}");
     Ok(vec![
-        (format!("contact_loss.jumps.{name}"), JUMPS, jumps),
-        (format!("contact_loss.phasing.{name}"), PHASING, suppressed),
+        stated(lab.reference, &of("jumps"), JUMPS, jumps)?,
+        stated(lab.reference, &of("phasing"), PHASING, suppressed)?,
     ])
 }
 
-fn of_doubling(lab: &Lab<'_>, found: Option<&Branches>) -> Result<Vec<Judged>, ValidationError> {
+fn of_doubling(lab: &Lab<'_>, found: Option<&Branches>) -> Checks {
     let radius = sun_radius(lab)?;
-    let doubled = found.map(|own| {
-        let twice = own.branches.iter().filter(|b| b.repeats_after == 2);
-        let stable = |p: &&BranchPoint| p.is_stable && p.contact_loss > 0.0;
-        twice.flat_map(|b| b.points.iter().filter(stable).cloned()).collect::<Vec<BranchPoint>>()
-    });
-    let any = doubled.as_ref().map(|list| !list.is_empty());
-    let translates =
-        doubled.as_ref().map(|list| list.iter().any(|p| translation(p, radius) > SUPPRESSED));
+    let doubled = |own: &Branches, is: &dyn Fn(&BranchPoint) -> bool| {
+        let mut twice = own.branches.iter().filter(|b| b.repeats_after == 2).flat_map(parting);
+        twice.any(is)
+    };
+    let any = found.map(|own| doubled(own, &|_| true));
+    let translates = found.map(|own| doubled(own, &|p| translation(p, radius) > SUPPRESSED));
     Ok(vec![
-        ("contact_loss.period_doubling.lumped".into(), DOUBLINGS, any),
-        ("contact_loss.no_phasing_in_doubled.lumped".into(), NO_PHASING, translates),
+        stated(lab.reference, "contact_loss.period_doubling.lumped", DOUBLINGS, any)?,
+        stated(lab.reference, "contact_loss.no_phasing_in_doubled.lumped", NO_PHASING, translates)?,
     ])
 }
 
