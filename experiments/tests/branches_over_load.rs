@@ -154,39 +154,40 @@ fn derivatives_in_the_parameter_are_the_same_over_two_steps() {
 fn motions_that_repeat_after_two_cycles_are_followed_off_a_period_doubling() {
     let scene = scene(0.1);
     let bodies = Bodies::new(&scene).unwrap();
-    let model = law(&scene, &bodies, 100.0, 4200.0);
+    let model = law(&scene, &bodies, 80.0, 4200.0);
     let settings = BranchSettings {
-        start: 4300.0,
+        start: 4180.0,
         longest_step: 0.02,
-        ..BranchSettings::over([4140.0, 4310.0])
+        ..BranchSettings::over([4090.0, 4190.0])
     };
     let found = branches(&model, &settings).unwrap();
     println!("{:?} {:?}", found.not_followed, found.coexisting());
     assert!(found.not_followed.is_empty());
-    // The trunk has another doubling near 4220 rpm, beside a kink.
     let all: Vec<_> = found.branches.iter().filter(|b| b.repeats_after == 2).collect();
-    assert_eq!((found.branches.len(), all.len()), (3, 2));
+    assert_eq!((found.branches.len(), all.len()), (2, 1));
     let BranchOrigin::PeriodDoubling(at) = all[0].origin else { panic!("{:?}", all[0].origin) };
-    assert!((at - 4150.25).abs() < 0.01, "{at}");
+    assert!((at - 4122.66).abs() < 0.01, "{at}");
     println!("off {at}: {} points to {:?}", all[0].points.len(), all[0].ends);
-    assert_eq!(all[0].ends[0], BranchEnd::Origin);
     for p in &all[0].points {
         assert!(p.residual < 1e-8, "{:e}", p.residual);
         assert!(p.between.is_some_and(|share| share > 0.0), "{:?}", p.between);
     }
-    // Near the doubling the energy between harmonics vanishes.
+    // The branch comes back to the doubling from its other side, one mesh cycle later, and ends there: motions of the first
+    // branch would solve its equations, too. Near the doubling the energy between harmonics vanishes.
+    assert_eq!(all[0].ends, [BranchEnd::Origin, BranchEnd::Origin]);
     let share = |p: &BranchPoint| p.between.unwrap();
-    assert!((all[0].points[0].parameter - at).abs() < 5.0);
-    let last = &all[0].points[all[0].points.len() - 1];
-    assert!(share(last) > 10.0 * share(&all[0].points[0]));
+    let most = all[0].points.iter().map(share).fold(0.0f64, f64::max);
+    for p in [&all[0].points[0], &all[0].points[all[0].points.len() - 1]] {
+        println!("end at {}: {:e} of {most:e}", p.parameter, share(p));
+        assert!((p.parameter - at).abs() < 1.0 && share(p) < 0.01 * most && share(p) > 1e-15);
+    }
     // A located point is one at which stability is about to change.
-    let is_sound = |p: &&BranchPoint| p.is_stable && p.kind == BranchPointKind::Regular;
+    let is_sound = |p: &&BranchPoint| {
+        p.is_stable && p.kind == BranchPointKind::Regular && p.parameter < at - 1.0
+    };
     let least = |a: &&BranchPoint, b: &&BranchPoint| {
         a.largest_multiplier().total_cmp(&b.largest_multiplier())
     };
-    for p in &all[0].points {
-        println!("{}: {:?} {} {:?}", p.parameter, p.kind, p.is_stable, p.multipliers[0]);
-    }
     let p = all[0].points.iter().filter(is_sound).min_by(least).expect("a stable motion");
     let case = model.case().at_speed(p.parameter);
     let march = SteadySettings {

@@ -185,7 +185,7 @@ impl Default for FeContactInput {
             element: ElementFamily::Quadratic,
             flank_elements: 14,
             contact_cells: 40,
-            cell_layout: CellLayout::Even,
+            cell_layout: CellLayout::Graded,
             matching_depth: None,
             matching_points: 2,
             flexibility_factor: PerMesh { sun_planet: 1.0, ring_planet: 1.0 },

@@ -135,7 +135,7 @@ fn each_kind_of_fault_names_its_key_and_says_why() {
         ),
         (&[("contact_cells = 40", "contact_cells = 2")], "fe_contact.contact_cells", "8 to 400"),
         (
-            &[("cell_layout = \"even\"", "cell_layout = \"fine\"")],
+            &[("cell_layout = \"graded\"", "cell_layout = \"fine\"")],
             "fe_contact.cell_layout",
             "\"even\"",
         ),

@@ -221,10 +221,23 @@ impl<'a> Follower<'a> {
             own.zip(found.points).map(|(own, raw)| (BranchPoint { arc: raw.arc, ..own }, raw));
         let mut points: Vec<_> = points.collect();
         drop_doubles(&mut points);
+        if let Some(back) = points.iter().position(|(own, _)| is_back(own)) {
+            points.truncate(back);
+            ends[1] = BranchEnd::Origin;
+        }
         let (points, raw) = points.into_iter().unzip();
         let (fidelity, over) = (self.model.name(), self.settings.over);
         Ok((Branch { fidelity, over, origin, repeats_after, points, ends }, raw))
     }
+}
+
+/// Share of the energy between harmonics below which a motion repeats after one cycle: squares of rounding errors.
+const REPEATS_AT_ONCE: f64 = 1e-15;
+
+/// Whether a branch of motions that repeat after several cycles has come back to motions that repeat after one. These solve
+/// its equations as well, so that it would follow them from there on.
+fn is_back(own: &BranchPoint) -> bool {
+    own.between.is_some_and(|share| share < REPEATS_AT_ONCE)
 }
 
 /// Whether an error ends all branches: tables that are too small, which are laid out anew, or a store that fails.
