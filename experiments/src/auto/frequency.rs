@@ -223,10 +223,11 @@ impl Search<'_> {
             );
             return Err(ExperimentError::Model(why.into()));
         }
-        if total(&self.quasi_static_parts(&mode, settings)) > self.request.tolerance_percent {
-            if let Some(inertia) = ElasticInertia::new(&set)? {
-                self.change = elastic_change(&set, &linear, &inertia, &mode)?;
-            }
+        let is_enough =
+            total(&self.quasi_static_parts(&mode, settings)) <= self.request.tolerance_percent;
+        let inertia = if is_enough { None } else { ElasticInertia::new(&set)? };
+        if let Some(inertia) = inertia {
+            self.change = elastic_change(&set, &linear, &inertia, &mode)?;
         }
         Ok(mode)
     }

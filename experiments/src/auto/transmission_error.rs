@@ -200,6 +200,9 @@ fn compared_every(base: u32, distinct: u32) -> u32 {
 
 type Made = Result<Bodies, String>;
 
+/// Position (cycles) and value (m) of a candidate's curve, or why there is none.
+type Run = Result<Vec<[f64; 2]>, String>;
+
 struct Search<'s> {
     /// The scene on each mesh.
     scenes: &'s [Scene; MESHES.len()],
@@ -214,7 +217,7 @@ struct Search<'s> {
     /// Positions computed on each mesh.
     curves: [Option<Result<Curve<'s>, String>>; MESHES.len()],
     /// Curves by mesh and doublings, or why there is none.
-    run: BTreeMap<(usize, u32), Result<Vec<[f64; 2]>, String>>,
+    run: BTreeMap<(usize, u32), Run>,
     /// The coarsest mesh that has an answer, and the part of its elements and cells.
     compared: Option<Result<(usize, f64), String>>,
 }
