@@ -1,6 +1,6 @@
 //! Responses of gears from one sector against those from the whole gear.
 
-use fe_contact::body::GearBody;
+use fe_contact::body::{Accelerated, BodyMatrices, GearBody};
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use gearset::{ElementFamily, Facing, Scene};
@@ -102,4 +102,36 @@ fn statics_on_a_ring_of_sectors_are_those_on_whole_gears() {
     println!("{worst:.1e}");
     assert_eq!(compared, 14 * 17);
     assert!(worst < 1e-9, "{worst:e}");
+}
+
+/// The displacement of a gear under accelerations of its race from one sector: M_rf K⁻¹ M_fr and wᵀ M_ff w are those of the
+/// assembled whole gear, and their ratio is close above the first eigenvalue with the race held.
+#[test]
+fn an_accelerated_race_displaces_a_ring_of_sectors_as_the_whole_gear() {
+    for name in ["oh58_4p", "five_planets"] {
+        let scene = scene(name, ElementFamily::Quadratic);
+        let bodies = Bodies::new(&scene).unwrap();
+        for body in [bodies.sun.as_ref().unwrap(), &bodies.planet, bodies.ring.as_ref().unwrap()] {
+            let own = Accelerated::new(body).unwrap().unwrap();
+            let whole = BodyMatrices::of_gear(&body.mesh, &body.material, body.face_width).unwrap();
+            let factor = whole.stiffness.factorise(body.mesh.name).unwrap();
+            let mut quotients = Vec::new();
+            for (k, which) in [(0, 0), (1, 0), (2, 1)] {
+                let mut w = whole.coupling[k].clone();
+                factor.solve_one(&mut w);
+                let mut inertia = vec![0.0; whole.size];
+                whole.mass.multiply_add(1.0, &w, &mut inertia);
+                let dot = |a: &[f64]| a.iter().zip(&w).map(|(a, b)| a * b).sum::<f64>();
+                let (coupled, moved) = (dot(&whole.coupling[k]), dot(&inertia));
+                let off = [own.coupled[which] / coupled - 1.0, own.moved[which] / moved - 1.0];
+                assert!(off.iter().all(|x| x.abs() < 1e-9), "{} {k}: {off:?}", body.mesh.name);
+                quotients.push(coupled / moved);
+            }
+            let modes = fe_contact::vibration::fixed_race_modes(&whole, 4, 1.0, body.mesh.name);
+            let first = modes.unwrap()[0].lambda;
+            let ratio = own.first() / first;
+            println!("{name} {}: {quotients:?} {first} {ratio}", body.mesh.name);
+            assert!(ratio > 1.0 - 1e-6 && ratio < 1.05, "{} {ratio}", body.mesh.name);
+        }
+    }
 }

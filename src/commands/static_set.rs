@@ -128,7 +128,9 @@ pub(super) fn run(
         let load = LoadCase::standing(*torque);
         let set = StaticSet::new(scene, &bodies, load.sense(), Imperfections::default())
             .map_err(fe_refused(path))?;
-        let chosen = auto.as_ref().and_then(|choice| choice.settings.positions);
+        // Even positions that hold all of those that were refined about the extremes.
+        let chosen = auto.as_ref().map(|choice| &choice.settings);
+        let chosen = chosen.and_then(|own| own.positions_about_extremes.or(own.positions));
         let positions = chosen.map_or(arguments.position_count(), |positions| positions as usize);
         cycles.push(set.cycle(load.sun_load_nm(), positions, solver).map_err(fe_refused(path))?);
     }

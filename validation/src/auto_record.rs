@@ -15,9 +15,10 @@ const TOLERANCES: [f64; 6] = [0.2, 0.5, 1.0, 2.0, 5.0, 10.0];
 /// Elements and cells of the truth, finer than any candidate's.
 const TRUTH: AutoSettings = AutoSettings::quasi_static(20, 60);
 
-/// Modes of the truth, beside quasi-static bodies on the same mesh, which is the coarsest candidate's.
+/// Modes of the truth, beside quasi-static bodies on the same mesh, which is the coarsest candidate's. Frequencies that meshes
+/// govern converge slowly with the modes: of OH-58 at 8.3 kHz 12 modes are 0.43 % above 100, 40 modes 0.26 %.
 const TRUTH_MODES: [AutoSettings; 2] =
-    [AutoSettings::modal(12, 6, 20), AutoSettings::quasi_static(6, 20)];
+    [AutoSettings::modal(40, 6, 20), AutoSettings::quasi_static(6, 20)];
 
 /// A scene with what is asked of it.
 #[derive(Debug)]

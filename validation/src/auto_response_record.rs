@@ -23,8 +23,8 @@ const AT_REST: AutoSettings = AutoSettings::quasi_static(32, 80).at_positions(96
 /// on a coarse mesh: with modes, without.
 const IN_MOTION: AutoSettings = AutoSettings::quasi_static(20, 60).with_steps(480);
 const OF_MODES: [AutoSettings; 2] = [
-    AutoSettings::modal(8, 10, 30).with_steps(60),
-    AutoSettings::quasi_static(10, 30).with_steps(60),
+    AutoSettings::modal(30, 6, 20).with_steps(60),
+    AutoSettings::quasi_static(6, 20).with_steps(60),
 ];
 
 /// Harmonics of an amplitude.
@@ -70,7 +70,7 @@ impl Asked {
 
     fn candidates(&self, scene: &Scene) -> Vec<AutoSettings> {
         match self {
-            Self::Cycle(_) => CycleRequest::candidates(scene),
+            Self::Cycle(own) => own.candidates(scene),
             Self::Amplitude(_) => AmplitudeRequest::candidates(scene),
         }
     }

@@ -2,6 +2,7 @@
 
 mod auto_record;
 mod auto_response_record;
+mod auto_tables;
 mod catalogue;
 mod check;
 mod compare;
@@ -25,6 +26,7 @@ mod worst;
 
 pub use auto_record::{AutoRow, DrawnScene, auto_row, drawn_scene};
 pub use auto_response_record::{Asked, ResponseRow, drawn_response, response_row};
+pub use auto_tables::auto_tables;
 pub use catalogue::{PublishedScene, scene};
 pub use check::{Check, ReferenceKind, Status, Subject, Tolerance, Value};
 pub use compare::{Comparison, ListedMode, Match, ModelMode, compare};

@@ -7,7 +7,7 @@ use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use gearset::{Facing, LoadCase, MeshKind};
 use lumped::ModeType;
-use validation::{PublishedScene, drawn_response, drawn_scene, scene};
+use validation::{PublishedScene, auto_tables, drawn_response, drawn_scene, scene};
 
 /// Printed lumped mesh stiffness, N/m.
 const PRINTED: f64 = 350e6;
@@ -53,6 +53,16 @@ fn the_second_system_has_its_printed_frequencies() {
     assert!((rotational / 782.0 - 1.0).abs() < 0.02, "{rotational}");
 }
 
+/// The tables of `docs/auto.md` are those of the kept files: `remake -- auto_tables` prints them.
+#[test]
+fn the_page_of_auto_has_the_tables_of_the_kept_files() {
+    let read = |name: &str| {
+        std::fs::read_to_string(format!("{}/../{name}", env!("CARGO_MANIFEST_DIR"))).unwrap()
+    };
+    let tables = auto_tables(&read("kept/auto.csv"), &read("kept/auto_responses.csv")).unwrap();
+    assert!(read("docs/auto.md").contains(&tables), "{tables}");
+}
+
 /// `kept/auto.csv`: sixty sets; the answers of `auto` are within their tolerances in at least 95 %, their estimates are not
 /// below the errors more often than that, and a few cheap ones come out again.
 #[test]
@@ -64,7 +74,7 @@ fn the_record_of_auto_holds_and_comes_out_again() {
     assert_eq!(rows.len(), 60);
     let number = |row: &[&str], k: usize| row[k].parse::<f64>().unwrap();
     let answered: Vec<&Vec<&str>> = rows.iter().filter(|row| row[4] != "refused").collect();
-    assert!(answered.len() >= 40, "{}", answered.len());
+    assert!(answered.len() >= 30, "{}", answered.len());
     let (mut missed, mut below) = (0, 0);
     for row in &answered {
         let error = 100.0 * (number(row, 6) / number(row, 7) - 1.0).abs();

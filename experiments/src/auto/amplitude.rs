@@ -4,10 +4,11 @@ use gearset::{AutoResponse, LoadCase, MeshKind, Scene};
 
 use super::amplitude_run::{Motions, Turning, on};
 use super::choice::{AutoError, Choice, ErrorPart, total};
+use super::energy::of_linear;
 use super::error_parts::SetSize;
-use super::frequency::{BODY_INERTIA, modes_of};
+use super::frequency::BODY_INERTIA;
 use super::response::{mode_type, name};
-use super::settings::{AutoSettings, MESHES, divided, size_ratio};
+use super::settings::{AutoSettings, MESHES, phase_parts, size_ratio};
 use super::trial::Trial;
 use crate::error::ExperimentError;
 use crate::sweep::{SteadySettings, Sweep};
@@ -46,9 +47,15 @@ pub struct ChosenSweep {
     pub sweep: Sweep,
 }
 
-/// Fewest steps of a candidate, and of the runs with which candidates are compared; others are doubled. Fewer than 60
-/// have fewer than 12 in a period of harmonic 5.
-const STEPS: [u32; 2] = [60, 30];
+/// Fewest steps of a candidate; others are doubled. Fewer than 60 have fewer than 12 in a period of harmonic 5.
+const STEPS: u32 = 60;
+
+/// Numbers of steps are compared with one in so many of those of the coarsest candidate, which has the tables.
+const EVERY: u32 = 2;
+
+/// Meshes are compared with one in three of its steps, or one in two if all planets pass through the same phases with these
+/// alone.
+const EVERY_OF_MESHES: [u32; 2] = [3, 2];
 
 /// Quasi-static candidates from cheap to dear: number of the mesh, and how often the steps are doubled.
 const QUASI_STATIC: [(usize, u32); 9] =
@@ -81,7 +88,7 @@ const FORBIDDEN: f64 = 1e-7;
 impl AmplitudeRequest {
     /// All candidates for a scene, from cheap to dear.
     pub fn candidates(scene: &Scene) -> Vec<AutoSettings> {
-        let base = divided(scene, STEPS[0]);
+        let base = base(scene);
         let of = |list: &[(usize, u32)], modes| -> Vec<AutoSettings> {
             list.iter().map(|(mesh, doubled)| settings(base << doubled, *mesh, modes)).collect()
         };
@@ -91,6 +98,15 @@ impl AmplitudeRequest {
         let modal = if has_modes { of(&MODAL, Some(MODES)) } else { Vec::new() };
         of(&QUASI_STATIC, None).into_iter().chain(modal).collect()
     }
+}
+
+/// Steps of a candidate that are not doubled, so that all planets pass through the same phases: a multiple of those with which
+/// candidates are compared.
+fn base(scene: &Scene) -> u32 {
+    let parts = phase_parts(scene);
+    let least = |every: u32| STEPS.div_ceil(every * parts) * every * parts;
+    // A multiple of six and of the parts; parts that share a factor with six need no more steps for it.
+    (least(1)..=least(6)).find(|n| n.is_multiple_of(6) && n.is_multiple_of(parts)).unwrap_or(STEPS)
 }
 
 fn settings(steps: u32, mesh: usize, modes: Option<u32>) -> AutoSettings {
@@ -120,8 +136,8 @@ pub fn amplitude_with(
 
 /// The cheapest candidate whose estimated error is within the tolerance, with its answer and its sweep.
 ///
-/// Indicators are taken on the coarsest mesh that gives an answer: half as many steps, the next finer mesh, and speeds
-/// shifted by what the inertia that is left out may shift natural frequencies by.
+/// Indicators are taken on the coarsest mesh that gives an answer: half as many of its steps, the next finer mesh at some of
+/// them, and speeds shifted by what the inertia that is left out may shift natural frequencies by.
 ///
 /// # Errors
 /// If no candidate has the amplitude, or none is estimated to be within the tolerance.
@@ -132,10 +148,10 @@ pub fn choose_amplitude(
 ) -> Result<ChosenSweep, AutoError> {
     let mut trial = Trial::new(request.to_string(), "µm", request.tolerance_percent)?;
     let size = SetSize::new(scene, case)?;
-    let (of, base) = ((scene, case), divided(scene, STEPS[0]));
+    let (of, base) = ((scene, case), base(scene));
     let first = (0..MESHES.len() - 1).find_map(|mesh| {
         let own = settings(base, mesh, None);
-        match on(of, own, request, |turning| indicated(turning, case, &size, request)) {
+        match on(of, own, request, |turning| indicated(turning, case, (&size, mesh), request)) {
             Ok(found) => Some((mesh, found)),
             Err(e) => {
                 trial.refused(own, e);
@@ -143,28 +159,10 @@ pub fn choose_amplitude(
             }
         }
     });
-    let Some((mesh, Indicated { motions, inertia, speeds })) = first else {
+    let Some((mesh, Indicated { motions, inertia, speeds, of_mesh, of_steps })) = first else {
         return Err(trial.refusal());
     };
-    let half = divided(scene, STEPS[1]);
-    let beside = |mesh| {
-        let own = settings(half, mesh, None);
-        on(of, own, request, |turning| turning.motions(&speeds)).map_err(|e| (own, e.to_string()))
-    };
-    let (fewer, finer) = match (beside(mesh), beside(mesh + 1)) {
-        (Ok(fewer), Ok(finer)) => (fewer, finer),
-        (Err((own, e)), _) | (_, Err((own, e))) => {
-            trial.refused(own, format!("it is needed for the estimates of all others: {e}"));
-            return Err(trial.refusal());
-        }
-    };
-    let ratio = f64::from(base) / f64::from(half);
-    let parts = Parts {
-        mesh,
-        of_mesh: SAFETY * fewer.apart(&finer),
-        of_steps: SAFETY * motions.apart(&fewer) / (ratio.powf(STEP_ORDER) - 1.0),
-        inertia,
-    };
+    let parts = Parts { mesh, of_mesh, of_steps, inertia };
     let search = Search { of, request, size: &size, base, coarsest: &motions, speeds, parts };
     let found = search.quasi_static(&mut trial).or_else(|| search.modal(&mut trial));
     match found {
@@ -183,12 +181,16 @@ struct Indicated {
     inertia: f64,
     /// Speeds near the top, rpm.
     speeds: Vec<f64>,
+    /// Part of elements and cells.
+    of_mesh: f64,
+    /// Part of the steps.
+    of_steps: f64,
 }
 
 fn indicated(
     turning: &Turning<'_>,
     case: &LoadCase,
-    size: &SetSize,
+    (size, mesh): (&SetSize, usize),
     request: &AmplitudeRequest,
 ) -> Result<Indicated, ExperimentError> {
     let motions = turning.motions(&request.speeds_rpm)?;
@@ -216,7 +218,22 @@ fn indicated(
         }
         false => f64::INFINITY,
     };
-    Ok(Indicated { motions, inertia, speeds })
+    let fewer = turning.thinned(EVERY, |own| own.motions(&speeds))?;
+    let of_steps = SAFETY * motions.apart(&fewer) / (f64::from(EVERY).powf(STEP_ORDER) - 1.0);
+    let (steps, parts) = (turning.scene.dynamics.steps_per_cycle, phase_parts(turning.scene));
+    let every = EVERY_OF_MESHES.into_iter().find(|n| (steps / n).is_multiple_of(parts));
+    let every = every.unwrap_or(EVERY);
+    let beside = settings(steps / every, mesh + 1, None);
+    let needed = |e: ExperimentError| {
+        ExperimentError::Model(format!("{beside}, which its estimate needs: {e}").into())
+    };
+    let finer = turning.on_mesh(beside, |own| own.motions(&speeds)).map_err(needed)?;
+    let of_mesh = match every == EVERY {
+        true => fewer.apart(&finer),
+        false => turning.thinned(every, |own| own.motions(&speeds))?.apart(&finer),
+    };
+    let of_mesh = SAFETY * of_mesh;
+    Ok(Indicated { motions, inertia, speeds, of_mesh, of_steps })
 }
 
 /// What the inertia that is left out may shift the natural frequencies by which the response is excited (share): of each
@@ -232,7 +249,9 @@ fn shift(
     let (rpm, top) = motions.top().ok_or(ExperimentError::Incomplete("steady state"))?;
     let f_m = case.at_speed(*rpm).mesh_frequency_hz;
     let kind = mode_type(request.response);
-    let mut modes = modes_of(turning.scene, turning.bodies, case)?;
+    let set = turning.standing()?;
+    let linear = set.linearised()?;
+    let mut modes = of_linear(&set, &linear)?;
     modes.retain(|mode| mode.mode_type == kind);
     let mut sum = 0.0;
     for (share, l) in top.shares().into_iter().zip(1..).filter(|(share, _)| *share > MATTERS) {

@@ -1,12 +1,14 @@
 //! Steady states of one candidate for an amplitude.
 
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{LoadCase, Scene};
+use fe_contact::vibration::VibratingSet;
+use gearset::{LoadCase, MeshKinematics, Scene};
 
 use super::amplitude::AmplitudeRequest;
 use super::response::Harmonics;
 use super::settings::AutoSettings;
 use crate::error::ExperimentError;
+use crate::modal::{Preload, preloaded};
 use crate::sweep::{Direction, FeModel, Memory, Plan, Sweep, SweepModel, run};
 
 /// Candidates are compared at the speeds where the coarsest has at least this share of its largest amplitude, the
@@ -18,6 +20,7 @@ pub(super) struct Turning<'b> {
     pub(super) bodies: &'b Bodies,
     pub(super) scene: &'b Scene,
     model: FeModel<'b>,
+    case: &'b LoadCase,
     request: &'b AmplitudeRequest,
     /// Base radius of the sun, m.
     radius: f64,
@@ -38,7 +41,7 @@ pub(super) fn on<T>(
     let sun = bodies.geometry.sun.as_ref().ok_or(ExperimentError::Incomplete("sun"))?;
     let radius = sun.base_radius;
     let model = FeModel::new(&scene, &bodies, Imperfections::default(), *case);
-    work(&Turning { bodies: &bodies, scene: &scene, model, request, radius })
+    work(&Turning { bodies: &bodies, scene: &scene, model, case, request, radius })
 }
 
 /// Steady states at some speeds.
@@ -49,6 +52,51 @@ pub(super) struct Motions {
 }
 
 impl Turning<'_> {
+    /// What `work` gives with one in `every` of the steps, on the same tables.
+    ///
+    /// # Errors
+    /// If the steps are not a multiple of `every`, and as `work`.
+    pub(super) fn thinned<T>(
+        &self,
+        every: u32,
+        work: impl FnOnce(&Turning<'_>) -> Result<T, ExperimentError>,
+    ) -> Result<T, ExperimentError> {
+        self.model.prepare()?;
+        let model = self.model.thinned(every as usize)?;
+        work(&Turning { model, ..*self })
+    }
+
+    /// What `work` gives on another mesh with the steps of `settings`, about the mean configuration of this one.
+    ///
+    /// # Errors
+    /// If the settings are refused, and as `work`.
+    pub(super) fn on_mesh<T>(
+        &self,
+        settings: AutoSettings,
+        work: impl FnOnce(&Turning<'_>) -> Result<T, ExperimentError>,
+    ) -> Result<T, ExperimentError> {
+        let scene = settings.applied_to(self.scene);
+        let bodies = Bodies::new(&scene)?;
+        let model = self.model.on_bodies(&scene, &bodies)?;
+        let Self { case, request, radius, .. } = *self;
+        work(&Turning { bodies: &bodies, scene: &scene, model, case, request, radius })
+    }
+
+    /// The set at rest at position 0 of the mesh cycle: on the model's tables, or where kinematics are exact at every step on
+    /// its own.
+    ///
+    /// # Errors
+    /// If there is no equilibrium.
+    pub(super) fn standing(&self) -> Result<VibratingSet<'_>, ExperimentError> {
+        match self.scene.dynamics.kinematics {
+            MeshKinematics::AboutMean => self.model.standing(),
+            MeshKinematics::Exact => {
+                let preload = Preload { load: *self.case, position: 0.0, step_s: 5e-6 };
+                Ok(preloaded(self.scene, self.bodies, &preload)?)
+            }
+        }
+    }
+
     /// The steady states at some speeds, rpm.
     ///
     /// # Errors

@@ -1,11 +1,13 @@
 //! The cheapest settings for a natural frequency.
 
 use fe_contact::statics::Bodies;
+use fe_contact::vibration::ElasticInertia;
 use gearset::{AutoModeType, LoadCase, Scene};
 use lumped::{LumpedModel, ModeType, NaturalModes};
 
 use super::choice::{AutoError, Choice, ErrorPart, total};
-use super::energy::{ModeEnergy, of_group, of_linear};
+use super::elastic_change::elastic_change;
+use super::energy::{ModeEnergy, mixed, of_group, of_linear};
 use super::error_parts::SetSize;
 use super::settings::{AutoModel, AutoSettings};
 use super::trial::Trial;
@@ -47,6 +49,13 @@ const QUASI_STATIC: [AutoSettings; 3] = [
     AutoSettings::quasi_static(10, 30),
     AutoSettings::quasi_static(16, 40),
 ];
+
+/// Factor on a difference of two meshes whose order of convergence is not observed (Roache 1994).
+const NO_ORDER: f64 = 3.0;
+
+/// Least share of the estimates of elements and cells that a second mesh may show: frequencies on two meshes may agree by
+/// chance.
+const LEAST_SHARE: f64 = 1.0 / 3.0;
 
 /// FE/contact with modes of each body, from cheap to dear.
 const MODAL: [AutoSettings; 2] = [AutoSettings::modal(4, 6, 20), AutoSettings::modal(4, 10, 30)];
@@ -110,19 +119,14 @@ fn fe_mode(
     request: &FrequencyRequest,
 ) -> Result<ModeEnergy, ExperimentError> {
     let own = settings.applied_to(scene);
-    let modes = modes_of(&own, &Bodies::new(&own)?, case)?;
+    let bodies = Bodies::new(&own)?;
+    let set = preloaded(&own, &bodies, &standing(case))?;
+    let modes = of_linear(&set, &set.linearised()?)?;
     request.found(modes).map_err(|e| ExperimentError::Model(e.into()))
 }
 
-/// Modes about the load at position 0 of the mesh cycle, ascending.
-pub(super) fn modes_of(
-    scene: &Scene,
-    bodies: &Bodies,
-    case: &LoadCase,
-) -> Result<Vec<ModeEnergy>, ExperimentError> {
-    let standing = Preload { load: *case, position: 0.0, step_s: 5e-6 };
-    let set = preloaded(scene, bodies, &standing)?;
-    of_linear(&set, &set.linearised()?)
+fn standing(case: &LoadCase) -> Preload {
+    Preload { load: *case, position: 0.0, step_s: 5e-6 }
 }
 
 /// The cheapest candidate whose estimated error is within the tolerance, with its answer.
@@ -139,7 +143,7 @@ pub fn choose_frequency(
 ) -> Result<Choice, AutoError> {
     let trial = Trial::new(request.to_string(), "Hz", request.tolerance_percent)?;
     let size = SetSize::new(scene, case)?;
-    let mut search = Search { scene, case, request, size, trial };
+    let mut search = Search { scene, case, request, size, trial, change: None, seen: None };
     let found = match search.lumped() {
         Some(choice) => Some(choice),
         None => search.fe_contact(),
@@ -153,6 +157,10 @@ struct Search<'s> {
     request: &'s FrequencyRequest,
     size: SetSize,
     trial: Trial,
+    /// Relative change of the frequency by what quasi-static bodies lack, once it was computed.
+    change: Option<f64>,
+    /// Relative difference of the frequencies on the two coarsest meshes, once both were run.
+    seen: Option<f64>,
 }
 
 impl Search<'_> {
@@ -169,7 +177,7 @@ impl Search<'_> {
 
     fn fe_contact(&mut self) -> Option<Choice> {
         let first = QUASI_STATIC[0];
-        let probe = match fe_mode(self.scene, self.case, first, self.request) {
+        let probe = match self.probe() {
             Ok(mode) => mode,
             Err(e) => return self.refused(first, &e),
         };
@@ -178,11 +186,11 @@ impl Search<'_> {
             return Some(choice);
         }
         for settings in &QUASI_STATIC[1..] {
-            let expected = total(&self.quasi_static_parts(&probe, *settings));
+            let expected = self.least(&probe, *settings, self.body_inertia(&probe));
             if !self.trial.is_expected(*settings, expected) {
                 continue;
             }
-            match fe_mode(self.scene, self.case, *settings, self.request) {
+            match self.run(*settings, &probe) {
                 Ok(mode) => {
                     let parts = self.quasi_static_parts(&mode, *settings);
                     if let Some(choice) = self.judged(*settings, &mode, parts) {
@@ -193,50 +201,133 @@ impl Search<'_> {
             }
         }
         // Share that the inertia left out by modes is known to have, from modes on a coarser mesh.
-        let mut left_out = 0.0;
+        let mut left_out = self.change.map_or(0.0, |change| change * change);
         MODAL.iter().find_map(|settings| self.modal(*settings, &probe, &mut left_out))
     }
 
-    /// Modes of the bodies change the frequency by d from that of quasi-static bodies on the same mesh. If they leave a
-    /// third of the error of quasi-static bodies (saturation assumption), d/2 is left.
+    /// The mode with the first quasi-static candidate; where the bound of the inertia that is left out is more than the tolerance
+    /// leaves, with the change of its frequency by this inertia.
+    fn probe(&mut self) -> Result<ModeEnergy, ExperimentError> {
+        let settings = QUASI_STATIC[0];
+        let own = settings.applied_to(self.scene);
+        let bodies = Bodies::new(&own)?;
+        let set = preloaded(&own, &bodies, &standing(self.case))?;
+        let linear = set.linearised()?;
+        let modes = of_linear(&set, &linear)?;
+        let found = self.request.found(modes.clone());
+        let mode = found.map_err(|e| ExperimentError::Model(e.into()))?;
+        if let Some(mixed) = mixed(&modes, &mode, self.request.mode_type) {
+            let why = format!(
+                "its mode at {mixed:.0} Hz is about as much of another type: on another mesh or with inertia of the bodies                  the number {} may belong to another mode",
+                self.request.number
+            );
+            return Err(ExperimentError::Model(why.into()));
+        }
+        let is_enough =
+            total(&self.quasi_static_parts(&mode, settings)) <= self.request.tolerance_percent;
+        let inertia = if is_enough { None } else { ElasticInertia::new(&set)? };
+        if let Some(inertia) = inertia {
+            self.change = elastic_change(&set, &linear, &inertia, &mode)?;
+        }
+        Ok(mode)
+    }
+
+    /// The mode with other settings; the second mesh shows how far elements and cells of the first have converged.
+    fn run(
+        &mut self,
+        settings: AutoSettings,
+        probe: &ModeEnergy,
+    ) -> Result<ModeEnergy, ExperimentError> {
+        let mode = fe_mode(self.scene, self.case, settings, self.request)?;
+        if settings == QUASI_STATIC[1] {
+            self.seen = Some((mode.frequency_hz / probe.frequency_hz - 1.0).abs());
+        }
+        Ok(mode)
+    }
+
+    /// Least error that can be expected of settings: the parts of elements and cells as small as a second mesh may show
+    /// them to be, and the inertia that is left out.
+    fn least(&self, probe: &ModeEnergy, settings: AutoSettings, inertia: f64) -> f64 {
+        let share = if self.seen.is_some() { 1.0 } else { LEAST_SHARE };
+        share * total(&self.mesh_parts(probe, settings)) + 100.0 * inertia
+    }
+
+    /// What is left after modes of the bodies change the frequency from that of quasi-static bodies on the same mesh: of the
+    /// change by all of the inertia to first order, where it is known. Elsewhere, if they leave a third of the error of
+    /// quasi-static bodies (saturation assumption), half of their change.
     fn modal(
         &mut self,
         settings: AutoSettings,
         probe: &ModeEnergy,
         left_out: &mut f64,
     ) -> Option<Choice> {
-        let expected = total(&self.mesh_parts(probe, settings)) + 100.0 * *left_out;
-        if !self.trial.is_expected(settings, expected) {
+        if !self.trial.is_expected(settings, self.least(probe, settings, *left_out)) {
             return None;
         }
-        let of = |settings| fe_mode(self.scene, self.case, settings, self.request);
-        let coarse = QUASI_STATIC[0];
-        let found = of(settings).and_then(|mode| {
+        let (tolerance, coarse) = (self.request.tolerance_percent, QUASI_STATIC[0]);
+        let found = (|| {
             let without = settings.without_modes();
-            let rigid = if without == coarse { probe.clone() } else { of(without)? };
-            Ok((mode, rigid))
-        });
+            let is_needed = without == QUASI_STATIC[1]
+                || total(&self.mesh_parts(probe, settings)) + 100.0 * *left_out > tolerance;
+            // A second mesh costs a tenth of the modes, and may show that they are of no use.
+            let second = match is_needed {
+                true => Some(self.run(QUASI_STATIC[1], probe)?),
+                false => None,
+            };
+            let rigid = match second {
+                Some(second) if without != coarse => second,
+                _ => probe.clone(),
+            };
+            let expected = total(&self.mesh_parts(&rigid, settings)) + 100.0 * *left_out;
+            let mode = match expected <= tolerance {
+                true => Some(fe_mode(self.scene, self.case, settings, self.request)?),
+                false => None,
+            };
+            Ok::<_, ExperimentError>((expected, mode, rigid))
+        })();
         match found {
-            Ok((mode, rigid)) => {
-                let change = (mode.frequency_hz - rigid.frequency_hz).abs() / mode.frequency_hz;
-                *left_out = 0.5 * change;
+            Ok((_, Some(mode), rigid)) => {
+                let seen = mode.frequency_hz / rigid.frequency_hz - 1.0;
+                *left_out = match self.change {
+                    Some(change) => SetSize::left_by_modes(change, seen),
+                    None => 0.5 * seen.abs(),
+                };
                 let mut parts = self.mesh_parts(&rigid, settings);
                 parts.push(ErrorPart::new(BODY_INERTIA, *left_out));
                 self.judged(settings, &mode, parts)
+            }
+            Ok((expected, None, _)) => {
+                self.trial.is_expected(settings, expected);
+                None
             }
             Err(e) => self.refused(settings, &e),
         }
     }
 
+    /// Parts of elements and cells, and as small as a second mesh shows them to be: three times the difference (no order of
+    /// convergence is observed), at least a third of what is known without it.
     fn mesh_parts(&self, mode: &ModeEnergy, settings: AutoSettings) -> Vec<ErrorPart> {
         let (n, cells) =
             (settings.flank_elements.unwrap_or(1), settings.contact_cells.unwrap_or(1));
-        self.size.discretisation(mode, n, cells).into()
+        let mut parts: Vec<ErrorPart> = self.size.discretisation(mode, n, cells).into();
+        if let Some(seen) = self.seen {
+            let coarse = QUASI_STATIC[0].flank_elements.unwrap_or(n);
+            let shown = 100.0 * NO_ORDER * seen * f64::from(coarse) / f64::from(n);
+            let share = (shown / total(&parts)).clamp(LEAST_SHARE, 1.0);
+            parts.iter_mut().for_each(|part| part.percent *= share);
+        }
+        parts
+    }
+
+    /// Part of the inertia that quasi-static bodies leave out: its bound, or from its change of the frequency.
+    fn body_inertia(&self, mode: &ModeEnergy) -> f64 {
+        let bound = self.size.body_inertia(mode);
+        self.change.map_or(bound, |change| bound.min(SetSize::of_change(change)))
     }
 
     fn quasi_static_parts(&self, mode: &ModeEnergy, settings: AutoSettings) -> Vec<ErrorPart> {
         let mut parts = self.mesh_parts(mode, settings);
-        parts.push(ErrorPart::new(BODY_INERTIA, self.size.body_inertia(mode)));
+        parts.push(ErrorPart::new(BODY_INERTIA, self.body_inertia(mode)));
         parts
     }
 

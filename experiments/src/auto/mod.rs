@@ -8,6 +8,8 @@
 mod amplitude;
 mod amplitude_run;
 mod choice;
+mod cycle_curve;
+mod elastic_change;
 mod energy;
 mod error_parts;
 mod frequency;

@@ -33,6 +33,9 @@ pub struct AutoSettings {
     /// Evenly spaced positions of a mesh cycle at rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub positions: Option<u32>,
+    /// Positions of a mesh cycle at the spacing to which the surroundings of the extremes are refined.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub positions_about_extremes: Option<u32>,
     /// Time steps in a mesh cycle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_per_cycle: Option<u32>,
@@ -46,6 +49,7 @@ impl AutoSettings {
         flank_elements: None,
         contact_cells: None,
         positions: None,
+        positions_about_extremes: None,
         steps_per_cycle: None,
     };
 
@@ -62,6 +66,11 @@ impl AutoSettings {
     /// The same at so many positions of a mesh cycle at rest.
     pub const fn at_positions(self, positions: u32) -> Self {
         Self { positions: Some(positions), ..self }
+    }
+
+    /// The same with the surroundings of the extremes refined to the spacing of so many positions.
+    pub const fn about_extremes(self, positions: u32) -> Self {
+        Self { positions_about_extremes: Some(positions), ..self }
     }
 
     /// The same with so many time steps in a mesh cycle.
@@ -118,6 +127,9 @@ impl std::fmt::Display for AutoSettings {
         }
         if let Some(positions) = self.positions {
             write!(f, ", {positions} positions")?;
+        }
+        if let Some(positions) = self.positions_about_extremes {
+            write!(f, ", about the extremes as close as {positions}")?;
         }
         match self.steps_per_cycle {
             Some(steps) => write!(f, ", {steps} steps per mesh cycle"),

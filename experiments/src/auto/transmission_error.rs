@@ -3,11 +3,11 @@
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
-use fe_contact::complementarity::ActiveSet;
-use fe_contact::statics::{Bodies, Imperfections, StaticSet};
+use fe_contact::statics::Bodies;
 use gearset::{LoadCase, Scene};
 
 use super::choice::{AutoError, Choice, ErrorPart};
+use super::cycle_curve::{Curve, overshoot, range, undershoot};
 use super::settings::{AutoSettings, MESHES, divided, phase_parts, size_ratio};
 use super::trial::Trial;
 use crate::error::ExperimentError;
@@ -39,13 +39,16 @@ impl std::fmt::Display for CycleRequest {
     }
 }
 
-/// Fewest positions of a candidate; others have two, four and eight times as many, so that those of fewer are among
-/// those of more.
+/// Even positions of a candidate, those about the extremes apart; of a mean the fewest, others have two, four and eight times as
+/// many, so that those of fewer are among those of more.
 const POSITIONS: u32 = 60;
 
-/// Candidates from cheap to dear: number of the mesh, and how often the positions are doubled. A finer mesh costs as much as
-/// 5, 15, 60 or 200 positions: gears are meshed and factored, cells of a pair are more.
-const ORDER: [(usize, u32); 16] = [
+/// Most doublings of the positions, everywhere or about the extremes.
+const DOUBLINGS: u32 = 3;
+
+/// Candidates for a mean from cheap to dear: number of the mesh, and how often the positions are doubled. A finer mesh costs
+/// as much as 5, 15, 60 or 200 positions: gears are meshed and factored, cells of a pair are more.
+const ORDER_OF_MEANS: [(usize, u32); 16] = [
     (0, 0),
     (1, 0),
     (2, 0),
@@ -64,15 +67,35 @@ const ORDER: [(usize, u32); 16] = [
     (3, 3),
 ];
 
+/// The same for peak to peak, where each doubling about the extremes costs as much as some twenty positions.
+const ORDER_OF_PEAKS: [(usize, u32); 16] = [
+    (0, 0),
+    (1, 0),
+    (0, 1),
+    (1, 1),
+    (0, 2),
+    (1, 2),
+    (2, 0),
+    (0, 3),
+    (1, 3),
+    (2, 1),
+    (2, 2),
+    (2, 3),
+    (3, 0),
+    (3, 1),
+    (3, 2),
+    (3, 3),
+];
+
 /// Factor on estimates by extrapolation (grid convergence: Roache 1994).
 const SAFETY: f64 = 1.25;
 
 /// Factor on a difference of two means, whose order of convergence is not observed (Roache 1994).
 const NO_ORDER: f64 = 3.0;
 
-/// The two coarsest meshes are compared at every second to fifth position, the first of these with which all planets
-/// pass through the same phases.
-const EVERY: std::ops::RangeInclusive<u32> = 2..=5;
+/// Meshes are compared at the extremes of the coarser one and at one in so many of its even positions, but at least at so many
+/// in the period of the curve.
+const COMPARED: [u32; 2] = [5, 4];
 
 /// Doubling the positions divides the part of the positions by this at most, where they are not yet run: the error is of
 /// second order where the curve is smooth, of first order at a corner.
@@ -80,23 +103,36 @@ const QUARTERED: f64 = 0.25;
 
 impl CycleRequest {
     /// All candidates for a scene, from cheap to dear.
-    pub fn candidates(scene: &Scene) -> Vec<AutoSettings> {
+    pub fn candidates(&self, scene: &Scene) -> Vec<AutoSettings> {
         let base = divided(scene, POSITIONS);
-        ORDER.iter().map(|(mesh, doubled)| settings(base, *mesh, *doubled)).collect()
+        self.order().iter().map(|(mesh, doubled)| self.settings(base, *mesh, *doubled)).collect()
     }
 
-    /// The value of a curve at even positions, m.
-    fn of(&self, curve: &[f64]) -> f64 {
+    fn order(&self) -> [(usize, u32); 16] {
         match self.value {
-            CycleValue::PeakToPeak => range(curve),
-            CycleValue::Mean => mean(curve),
+            CycleValue::PeakToPeak => ORDER_OF_PEAKS,
+            CycleValue::Mean => ORDER_OF_MEANS,
         }
     }
-}
 
-fn settings(base: u32, mesh: usize, doubled: u32) -> AutoSettings {
-    let (elements, cells) = MESHES[mesh];
-    AutoSettings::quasi_static(elements, cells).at_positions(base << doubled)
+    fn settings(&self, base: u32, mesh: usize, doubled: u32) -> AutoSettings {
+        let (elements, cells) = MESHES[mesh];
+        let own = AutoSettings::quasi_static(elements, cells);
+        match self.value {
+            CycleValue::PeakToPeak if doubled > 0 => {
+                own.at_positions(base).about_extremes(base << doubled)
+            }
+            _ => own.at_positions(base << doubled),
+        }
+    }
+
+    /// The value of a curve, m.
+    fn of(&self, points: &[[f64; 2]]) -> f64 {
+        match self.value {
+            CycleValue::PeakToPeak => range(points),
+            CycleValue::Mean => mean(points),
+        }
+    }
 }
 
 /// The transmission error with given settings, µm.
@@ -110,21 +146,15 @@ pub fn transmission_error_with(
     request: &CycleRequest,
 ) -> Result<f64, ExperimentError> {
     let own = settings.applied_to(scene);
-    let positions = settings.positions.ok_or(ExperimentError::Incomplete("number of positions"))?;
-    Ok(1e6 * request.of(&curve(&own, &Bodies::new(&own)?, case, positions)?))
-}
-
-/// r_b θ of the sun at even positions of a mesh cycle, m.
-fn curve(
-    scene: &Scene,
-    bodies: &Bodies,
-    case: &LoadCase,
-    positions: u32,
-) -> Result<Vec<f64>, ExperimentError> {
-    let sun = bodies.geometry.sun.as_ref().ok_or(ExperimentError::Incomplete("sun"))?;
-    let set = StaticSet::new(scene, bodies, case.sense(), Imperfections::default())?;
-    let cycle = set.cycle(case.sun_load_nm(), positions as usize, &ActiveSet)?;
-    Ok(cycle.states.iter().map(|s| s.transmission_error(sun.base_radius)).collect())
+    let bodies = Bodies::new(&own)?;
+    let even = settings.positions.ok_or(ExperimentError::Incomplete("number of positions"))?;
+    let about = settings.positions_about_extremes.unwrap_or(even);
+    let mut curve = Curve::new(&own, &bodies, case, about)?;
+    match about > even {
+        true => curve.refine(even, about)?,
+        false => drop(curve.at(&curve.even(even))?),
+    }
+    Ok(1e6 * request.of(&curve.points()))
 }
 
 /// The cheapest candidate whose estimated error is within the tolerance, with its answer.
@@ -140,25 +170,42 @@ pub fn choose_transmission_error(
     request: &CycleRequest,
 ) -> Result<Choice, AutoError> {
     let trial = Trial::new(request.to_string(), "µm", request.tolerance_percent)?;
-    let (base, parts) = (divided(scene, POSITIONS), phase_parts(scene));
-    let every = EVERY.into_iter().find(|n| base.is_multiple_of(n * parts)).unwrap_or(1);
+    let base = divided(scene, POSITIONS);
+    let scenes = [0, 1, 2, 3].map(|mesh| request.settings(base, mesh, 0).applied_to(scene));
+    let bodies = [const { OnceCell::new() }; MESHES.len()];
     let mut search = Search {
-        scene,
+        scenes: &scenes,
         case,
         request,
         trial,
         base,
-        every,
-        bodies: Default::default(),
-        curves: BTreeMap::default(),
+        every: compared_every(base, base / phase_parts(scene)),
+        bodies: &bodies,
+        curves: [const { None }; MESHES.len()],
+        run: BTreeMap::default(),
         compared: None,
     };
-    let found = ORDER.iter().find_map(|(mesh, doubled)| search.tried(*mesh, *doubled));
+    let found = request.order().iter().find_map(|(mesh, doubled)| search.tried(*mesh, *doubled));
     search.trial.ended(found)
 }
 
+/// Meshes are compared at one in so many of `base` even positions, of which `distinct` are in the period of the curve: a
+/// divisor of these, so that all planets pass through the same phases.
+fn compared_every(base: u32, distinct: u32) -> u32 {
+    let [share, least] = COMPARED;
+    let wanted = (distinct / share).max(least);
+    let divides = |n: &u32| distinct.is_multiple_of(*n) && base.is_multiple_of(*n);
+    (1..=distinct).filter(divides).filter(|n| distinct / n >= wanted).max().unwrap_or(1)
+}
+
+type Made = Result<Bodies, String>;
+
+/// Position (cycles) and value (m) of a candidate's curve, or why there is none.
+type Run = Result<Vec<[f64; 2]>, String>;
+
 struct Search<'s> {
-    scene: &'s Scene,
+    /// The scene on each mesh.
+    scenes: &'s [Scene; MESHES.len()],
     case: &'s LoadCase,
     request: &'s CycleRequest,
     trial: Trial,
@@ -166,16 +213,18 @@ struct Search<'s> {
     base: u32,
     /// Meshes are compared at one in so many of them.
     every: u32,
-    bodies: [OnceCell<Result<Bodies, String>>; MESHES.len()],
-    /// Curves by mesh and number of positions, or why there is none.
-    curves: BTreeMap<(usize, u32), Result<Vec<f64>, String>>,
+    bodies: &'s [OnceCell<Made>; MESHES.len()],
+    /// Positions computed on each mesh.
+    curves: [Option<Result<Curve<'s>, String>>; MESHES.len()],
+    /// Curves by mesh and doublings, or why there is none.
+    run: BTreeMap<(usize, u32), Run>,
     /// The coarsest mesh that has an answer, and the part of its elements and cells.
     compared: Option<Result<(usize, f64), String>>,
 }
 
-impl Search<'_> {
+impl<'s> Search<'s> {
     fn tried(&mut self, mesh: usize, doubled: u32) -> Option<Choice> {
-        let settings = settings(self.base, mesh, doubled);
+        let settings = self.request.settings(self.base, mesh, doubled);
         let (coarsest, of_coarsest) = match self.compared() {
             Ok(found) => found,
             Err(why) => {
@@ -184,7 +233,7 @@ impl Search<'_> {
             }
         };
         if mesh < coarsest {
-            let why = self.curve(mesh, self.base).err().cloned().unwrap_or_default();
+            let why = self.curve(mesh, 0).err().unwrap_or_default();
             self.trial.refused(settings, why);
             return None;
         }
@@ -193,81 +242,124 @@ impl Search<'_> {
         if !self.trial.is_expected(settings, expected) {
             return None;
         }
-        let curve = match self.curve(mesh, self.base << doubled) {
-            Ok(curve) => curve.clone(),
+        let points = match self.curve(mesh, doubled) {
+            Ok(points) => points,
             Err(why) => {
-                let why = why.clone();
                 self.trial.refused(settings, why);
                 return None;
             }
         };
         // Beside a finer mesh the coarsest may prove to be worse than thought.
-        let nested: Vec<f64> = curve.iter().step_by(1 << doubled).copied().collect();
-        let coarse = self.curve(coarsest, self.base).cloned().unwrap_or_default();
         let seen = match mesh > coarsest {
-            true => between_meshes(self.request, &coarse, &nested),
+            true => self.beside_coarsest(coarsest, mesh),
             false => 0.0,
         };
         let of_mesh = of_mesh.max(seen * size_ratio(coarsest, mesh));
         let parts = vec![
             ErrorPart::new("finite elements and contact cells", of_mesh),
-            ErrorPart::new("positions of the mesh cycle", between_positions(self.request, &curve)),
+            ErrorPart::new("positions of the mesh cycle", between_positions(self.request, &points)),
         ];
-        let value = 1e6 * self.request.of(&curve);
+        let value = 1e6 * self.request.of(&points);
         self.trial.judged(settings, value, parts, || "the transmission error is constant".into())
     }
 
-    /// The curve on a mesh at so many positions, m.
-    fn curve(&mut self, mesh: usize, positions: u32) -> Result<&Vec<f64>, &String> {
-        let Self { scene, case, base, bodies, curves, .. } = self;
-        let found = curves.entry((mesh, positions)).or_insert_with(|| {
-            let own = settings(*base, mesh, 0).applied_to(scene);
-            let made = bodies[mesh].get_or_init(|| Bodies::new(&own).map_err(|e| e.to_string()));
-            let made = made.as_ref().map_err(Clone::clone)?;
-            curve(&own, made, case, positions).map_err(|e| e.to_string())
-        });
-        found.as_ref()
+    fn bodies(&self, mesh: usize) -> Result<&'s Bodies, String> {
+        let (all, scenes) = (self.bodies, self.scenes);
+        let made = all[mesh].get_or_init(|| Bodies::new(&scenes[mesh]).map_err(|e| e.to_string()));
+        made.as_ref().map_err(Clone::clone)
     }
 
-    /// The coarsest mesh that has an answer, and the part of its elements and cells by the next finer one.
-    fn compared(&mut self) -> Result<(usize, f64), String> {
-        if let Some(known) = &self.compared {
+    /// The positions computed on a mesh.
+    fn positions(&mut self, mesh: usize) -> Result<&mut Curve<'s>, String> {
+        if self.curves[mesh].is_none() {
+            let finest = self.base << DOUBLINGS;
+            let (scenes, case) = (self.scenes, self.case);
+            let made = self.bodies(mesh).and_then(|bodies| {
+                Curve::new(&scenes[mesh], bodies, case, finest).map_err(|e| e.to_string())
+            });
+            self.curves[mesh] = Some(made);
+        }
+        match &mut self.curves[mesh] {
+            Some(Ok(curve)) => Ok(curve),
+            Some(Err(why)) => Err(why.clone()),
+            None => Err(String::new()),
+        }
+    }
+
+    /// The curve of a candidate: position (cycles) and value (m).
+    fn curve(&mut self, mesh: usize, doubled: u32) -> Result<Vec<[f64; 2]>, String> {
+        if let Some(known) = self.run.get(&(mesh, doubled)) {
             return known.clone();
         }
-        let (base, every) = (self.base, self.every);
-        let mut why = String::new();
-        let mut coarsest = None;
-        for mesh in 0..MESHES.len() - 1 {
-            match self.curve(mesh, base) {
-                Ok(own) => {
-                    coarsest = Some((mesh, own.iter().step_by(every as usize).copied().collect()));
-                    break;
-                }
-                Err(e) => why = e.clone(),
-            }
-        }
-        let found: Result<(usize, f64), String> = match coarsest {
-            None => Err(why),
-            Some((mesh, own)) => {
-                let own: Vec<f64> = own;
-                let request = self.request;
-                let finer = self.curve(mesh + 1, base / every).map_err(Clone::clone);
-                finer.map(|finer| (mesh, between_meshes(request, &own, finer)))
-            }
-        };
-        self.compared = Some(found.clone());
+        let (base, value) = (self.base, self.request.value);
+        let found = self.positions(mesh).and_then(|curve| {
+            let found = match value {
+                CycleValue::PeakToPeak if doubled > 0 => curve.refine(base, base << doubled),
+                _ => curve.at(&curve.even(base << doubled)).map(drop),
+            };
+            found.map(|()| curve.points()).map_err(|e| e.to_string())
+        });
+        self.run.insert((mesh, doubled), found.clone());
         found
+    }
+
+    /// Part of elements and cells of the coarsest mesh beside a finer one that was run, at the even positions of both.
+    fn beside_coarsest(&mut self, coarsest: usize, mesh: usize) -> f64 {
+        let base = self.base;
+        let mut even = |mesh: usize| {
+            let found = self.positions(mesh).ok().map(|curve| curve.at(&curve.even(base)));
+            found.and_then(Result::ok).unwrap_or_default()
+        };
+        let (coarse, fine) = (even(coarsest), even(mesh));
+        between_meshes(self.request, &coarse, &fine)
+    }
+
+    /// The coarsest mesh that has an answer, and the part of its elements and cells by the next finer one, at some of its
+    /// positions and its extremes.
+    fn compared(&mut self) -> Result<(usize, f64), String> {
+        if self.compared.is_none() {
+            self.compared = Some(self.compare());
+        }
+        self.compared.clone().unwrap_or_else(|| Err(String::new()))
+    }
+
+    fn compare(&mut self) -> Result<(usize, f64), String> {
+        let mut why = String::new();
+        let answered = (0..MESHES.len() - 1).find(|mesh| {
+            let found = self.curve(*mesh, 0);
+            found.map_err(|e| why = e).is_ok()
+        });
+        let Some(mesh) = answered else { return Err(why) };
+        let finer = self.bodies(mesh + 1)?;
+        let (base, every, request) = (self.base, self.every, self.request);
+        let coarse = self.positions(mesh)?;
+        let even = coarse.even(base);
+        let values = coarse.at(&even).map_err(|e| e.to_string())?;
+        let mut list: Vec<u32> = even.iter().step_by(every as usize).copied().collect();
+        if request.value == CycleValue::PeakToPeak {
+            // p changes by as much as the curve at its extremes, to first order.
+            let place = |sign: f64| {
+                let of = |k: &usize| sign * values[*k];
+                (0..values.len()).max_by(|a, b| of(a).total_cmp(&of(b))).map(|k| even[k])
+            };
+            list.extend([place(1.0), place(-1.0)].into_iter().flatten());
+            list.sort_unstable();
+            list.dedup();
+        }
+        let own = coarse.at(&list).map_err(|e| e.to_string())?;
+        let fine = coarse.on_bodies(finer).at(&list).map_err(|e| e.to_string())?;
+        Ok((mesh, between_meshes(request, &own, &fine)))
     }
 
     /// The least part of the positions that is expected with so many; 0 if nothing is known.
     fn expected_of_positions(&self, doubled: u32) -> f64 {
         let at = |d: &u32| {
-            let mut own = self.curves.iter().filter(|((_, n), _)| *n == self.base << d);
-            own.find_map(|(_, curve)| Some((*d, curve.as_ref().ok()?)))
+            let mut own = self.run.iter().filter(|((_, n), _)| n == d);
+            own.find_map(|(_, points)| Some((*d, points.as_ref().ok()?)))
         };
         let nearest = (0..=doubled).rev().find_map(|d| at(&d));
-        nearest.map_or(0.0, |(d, curve)| {
-            between_positions(self.request, curve) * QUARTERED.powi((doubled - d) as i32)
+        nearest.map_or(0.0, |(d, points)| {
+            between_positions(self.request, points) * QUARTERED.powi((doubled - d) as i32)
         })
     }
 }
@@ -281,6 +373,11 @@ impl Search<'_> {
 ///
 /// so that no cancellation makes it small; of means three times their difference.
 fn between_meshes(request: &CycleRequest, coarse: &[f64], fine: &[f64]) -> f64 {
+    let range = |list: &[f64]| {
+        let high = list.iter().fold(f64::NEG_INFINITY, |a, x| a.max(*x));
+        high - list.iter().fold(f64::INFINITY, |a, x| a.min(*x))
+    };
+    let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
     let difference: Vec<f64> = coarse.iter().zip(fine).map(|(a, b)| a - b).collect();
     match request.value {
         CycleValue::PeakToPeak => {
@@ -294,43 +391,19 @@ fn between_meshes(request: &CycleRequest, coarse: &[f64], fine: &[f64]) -> f64 {
 /// Part of the positions. For peak to peak: between two positions the curve is taken to stay below the straight lines
 /// that it follows on either side; what their intersections exceed the highest position by, above and below. Of
 /// the mean: its difference to that at every second position.
-fn between_positions(request: &CycleRequest, curve: &[f64]) -> f64 {
+fn between_positions(request: &CycleRequest, points: &[[f64; 2]]) -> f64 {
     SAFETY
         * match request.value {
-            CycleValue::PeakToPeak => {
-                let mirrored: Vec<f64> = curve.iter().map(|x| -x).collect();
-                (overshoot(curve) + overshoot(&mirrored)) / range(curve)
-            }
+            CycleValue::PeakToPeak => (overshoot(points) + undershoot(points)) / range(points),
             CycleValue::Mean => {
-                let second: Vec<f64> = curve.iter().step_by(2).copied().collect();
-                (mean(&second) / mean(curve) - 1.0).abs()
+                let second: Vec<[f64; 2]> = points.iter().step_by(2).copied().collect();
+                (mean(&second) / mean(points) - 1.0).abs()
             }
         }
 }
 
-fn range(curve: &[f64]) -> f64 {
-    let high = curve.iter().fold(f64::NEG_INFINITY, |a, x| a.max(*x));
-    high - curve.iter().fold(f64::INFINITY, |a, x| a.min(*x))
-}
-
-fn mean(curve: &[f64]) -> f64 {
-    curve.iter().sum::<f64>() / curve.len() as f64
-}
-
-/// What the intersections of the lines through two positions before and two after each interval of a periodic curve
-/// exceed its highest position by, at least 0.
-fn overshoot(curve: &[f64]) -> f64 {
-    let n = curve.len();
-    let highest = curve.iter().fold(f64::NEG_INFINITY, |a, x| a.max(*x));
-    let top = |k: usize| {
-        let [before, left, right, after] = [0, 1, 2, 3].map(|i| curve[(k + i) % n]);
-        // y = left + rise x from the left, y = right + fall (1 − x) from the right
-        let (rise, fall) = (left - before, right - after);
-        let x = (right + fall - left) / (rise + fall);
-        let is_between = rise > 0.0 && fall > 0.0 && (0.0..=1.0).contains(&x);
-        if is_between { left + rise * x } else { highest }
-    };
-    (0..n).map(top).fold(highest, f64::max) - highest
+fn mean(points: &[[f64; 2]]) -> f64 {
+    points.iter().map(|[_, y]| y).sum::<f64>() / points.len() as f64
 }
 
 #[cfg(test)]
@@ -342,31 +415,6 @@ mod tests {
         CycleRequest { value, tolerance_percent }
     }
 
-    fn samples(n: usize, of: impl Fn(f64) -> f64) -> Vec<f64> {
-        (0..n).map(|i| of(i as f64 / n as f64)).collect()
-    }
-
-    /// The top of a corner wherever it lies between positions, exactly; of a sine at least what the positions miss, and
-    /// of second order.
-    #[test]
-    fn what_positions_miss_is_bounded_at_corners_and_where_the_curve_is_smooth() {
-        for place in [0.21, 0.2345, 0.249] {
-            let curve = samples(40, |x| 1.0 - (x - place).abs());
-            let missed = 1.0 - curve.iter().fold(0.0f64, |a, x| a.max(*x));
-            assert!((overshoot(&curve) - missed).abs() < 1e-12, "{place}");
-        }
-        let sine = |n: usize| samples(n, |x| (std::f64::consts::TAU * (x - 0.2341)).sin());
-        let parts = [30, 60, 120].map(|n| {
-            let curve = sine(n);
-            let missed = 1.0 - curve.iter().fold(0.0f64, |a, x| a.max(*x));
-            let part = overshoot(&curve);
-            assert!(part >= missed, "{n}: {part} {missed}");
-            part
-        });
-        assert!(parts[0] > 3.0 * parts[1] && parts[1] > 3.0 * parts[2], "{parts:?}");
-        assert_eq!(overshoot(&[2.0; 8]), 0.0);
-    }
-
     /// The estimates hold beside a finer mesh at more positions; a smaller tolerance has no cheaper choice, and the
     /// smallest none.
     #[test]
@@ -375,7 +423,7 @@ mod tests {
         let case = LoadCase::of_scene(&scene).unwrap();
         let finer = AutoSettings::quasi_static(20, 60).at_positions(divided(&scene, 480));
         for value in [CycleValue::PeakToPeak, CycleValue::Mean] {
-            let order = CycleRequest::candidates(&scene);
+            let order = request(value, 1.0).candidates(&scene);
             let mut last = 0;
             for tolerance in [30.0, 5.0] {
                 let asked = request(value, tolerance);
@@ -395,6 +443,6 @@ mod tests {
             panic!("{refusal:?}")
         };
         let tried: Vec<AutoSettings> = passed_over.iter().map(|p| p.settings).collect();
-        assert_eq!(tried, CycleRequest::candidates(&scene));
+        assert_eq!(tried, request(CycleValue::PeakToPeak, 1.0).candidates(&scene));
     }
 }

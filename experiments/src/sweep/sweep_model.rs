@@ -152,6 +152,53 @@ impl<'s> FeModel<'s> {
         Self { table_size: size, ..self }
     }
 
+    /// The same model with one in `every` of its steps, on the tables that it has.
+    ///
+    /// # Errors
+    /// If its steps are not a multiple of `every`.
+    pub(crate) fn thinned(&self, every: usize) -> Result<Self, ExperimentError> {
+        let mut scene = self.scene.clone();
+        scene.dynamics.steps_per_cycle /= every as u32;
+        let (imperfections, case) = (self.imperfections.clone(), self.case);
+        let own = Self::new(&scene, self.bodies, imperfections, case).with_tables(self.table_size);
+        for (slot, known) in own.prepared.iter().zip(&self.prepared) {
+            if let Some(prepared) = known.get() {
+                let thinned = prepared.thinned(every)?;
+                slot.get_or_init(|| thinned);
+            }
+        }
+        Ok(own)
+    }
+
+    /// A model of the same load with gears of other finite elements, about the mean configuration that this one has found;
+    /// `scene` has its steps.
+    ///
+    /// # Errors
+    /// If this model's or the other's tables cannot be laid out.
+    pub(crate) fn on_bodies<'t>(
+        &self,
+        scene: &Scene,
+        bodies: &'t Bodies,
+    ) -> Result<FeModel<'t>, ExperimentError> {
+        let own = FeModel::new(scene, bodies, self.imperfections.clone(), self.case);
+        let steps_per_cycle = own.steps_per_cycle();
+        let rotation = NominalRotation::Turning { mesh_frequency: 1.0, steps_per_cycle };
+        let made = self.shared(0)?.on_bodies(scene, bodies, rotation, own.force(0)?)?;
+        own.prepared[0].get_or_init(|| made);
+        Ok(own)
+    }
+
+    /// A set that stands under the torque of the model at position 0 of the mesh cycle, on the model's tables.
+    ///
+    /// # Errors
+    /// If there is no equilibrium, or kinematics are exact at every step: such tables hold no other set.
+    pub(crate) fn standing(&self) -> Result<VibratingSet<'s>, ExperimentError> {
+        let rotation = NominalRotation::Standing { position: 0.0, step: 5e-6 };
+        let mut set = VibratingSet::on(&self.scene, self.shared(0)?, rotation)?;
+        set.rest(self.case.sun_load_nm())?;
+        Ok(set)
+    }
+
     /// What sets share whose tables were found too small `size` times.
     fn shared(&self, size: usize) -> Result<&Prepared<'s>, ExperimentError> {
         let slot = &self.prepared[size.min(SIZES - 1)];

@@ -1,5 +1,6 @@
 //! Flexible bodies.
 
+mod accelerated;
 mod assembly;
 mod carrier_body;
 mod gear_body;
@@ -8,6 +9,7 @@ mod responses;
 mod sector_ring;
 mod whole_gear;
 
+pub use accelerated::{Accelerated, ToothForce};
 pub use assembly::{Factor, Sparse, Triplets};
 pub use carrier_body::CarrierBody;
 pub use gear_body::{Deep, FlankPoint, GearBody};

@@ -71,7 +71,18 @@ pub(super) fn responses(
     face_width: f64,
     loads: &LoadNodes,
 ) -> Result<Responses, FeError> {
-    let sector = Condensed::new(mesh, material, face_width, loads)?;
+    let (places, ..) = places(mesh.sector(0));
+    if loads.list.iter().any(|node| !matches!(places[*node], Place::Inner(_))) {
+        return Err(FeError::Factorisation {
+            body: mesh.name,
+            cause: "a node that takes load lies on the border of its tooth's sector".into(),
+        });
+    }
+    let mut unit = DMatrix::zeros(2 * places.len(), loads.columns());
+    for (column, node) in loads.list.iter().enumerate() {
+        (0..2).for_each(|axis| unit[(2 * node + axis, 2 * column + axis)] = 1.0);
+    }
+    let sector = Condensed::new(mesh, material, face_width, &unit)?;
     let cuts = sector.ring(mesh.name)?;
     let teeth = mesh.nodes.len();
     // Sectors follow each other clockwise on external gears, where tooth numbers go down.
@@ -100,15 +111,15 @@ pub(super) fn responses(
 }
 
 /// A sector condensed onto its cuts.
-struct Condensed {
+pub(super) struct Condensed {
     /// Displacements of all nodes of the sector (2 rows each) under unit displacements c of the cuts
     /// (first, then next, 2m columns).
-    carried: DMatrix<f64>,
-    /// The same under unit loads with both cuts held, m/N.
-    held: DMatrix<f64>,
+    pub(super) carried: DMatrix<f64>,
+    /// The same under the loads with both cuts held, m/N for unit loads.
+    pub(super) held: DMatrix<f64>,
     /// S, 2m×2m, N/m.
     stiffness: DMatrix<f64>,
-    /// g = Eᵀ f, 2m×loads.
+    /// g = Eᵀ f + f_c, 2m×loads.
     loads: DMatrix<f64>,
     /// Unknowns m of a cut.
     cut: usize,
@@ -117,18 +128,16 @@ struct Condensed {
 }
 
 impl Condensed {
-    fn new(
+    /// A sector under `loads`: 2 rows for each of its nodes in the frame of its tooth, one column a load; what acts on the
+    /// race is taken by it.
+    pub(super) fn new(
         mesh: &FeGearMesh,
         material: &Elastic,
         face_width: f64,
-        loads: &LoadNodes,
+        loads: &DMatrix<f64>,
     ) -> Result<Self, FeError> {
         let sector = mesh.sector(0);
         let (places, inner, cut) = places(sector);
-        let outside = || FeError::Factorisation {
-            body: mesh.name,
-            cause: "a node that takes load lies on the border of its tooth's sector".into(),
-        };
         // Tooth of the next sector less that of this one: T turns by that many pitches.
         let next = -mesh.outline.radial_sign();
         let (sin, cos) = (next * mesh.outline.gear().pitch_angle()).sin_cos();
@@ -177,15 +186,28 @@ impl Condensed {
         }
         let factor = triplets.matrix(inner, mesh.name)?.factorise(mesh.name)?;
         // K_ii⁻¹ (f, −K_ic)
-        let count = loads.columns();
+        let count = loads.ncols();
         let mut right = Mat::zeros(inner, count + 2 * cut);
-        let mut load_rows = Vec::with_capacity(count);
-        for node in &loads.list {
-            let Place::Inner(first) = places[*node] else { return Err(outside()) };
-            load_rows.extend([first, first + 1]);
-        }
-        for (column, row) in load_rows.iter().enumerate() {
-            right[(*row, column)] = 1.0;
+        let mut pressed = DMatrix::<f64>::zeros(inner, count);
+        let mut reduced = DMatrix::<f64>::zeros(2 * cut, count);
+        for (node, place) in places.iter().enumerate() {
+            for c in 0..count {
+                let own = [loads[(2 * node, c)], loads[(2 * node + 1, c)]];
+                for r in 0..2 {
+                    match *place {
+                        Place::Race => {}
+                        Place::Inner(at) => {
+                            right[(at + r, c)] = own[r];
+                            pressed[(at + r, c)] = own[r];
+                        }
+                        Place::First(at) => reduced[(at + r, c)] += own[r],
+                        // Tᵀ f
+                        Place::Last(at) => {
+                            reduced[(cut + at + r, c)] += turn[0][r] * own[0] + turn[1][r] * own[1];
+                        }
+                    }
+                }
+            }
         }
         for c in 0..2 * cut {
             for (r, value) in border.column(c).iter().enumerate() {
@@ -197,7 +219,7 @@ impl Condensed {
         // S = K_cc + K_ci E
         stiffness += border.tr_mul(&e);
         stiffness = 0.5 * (&stiffness + stiffness.transpose());
-        let reduced = e.select_rows(&load_rows).transpose();
+        reduced += e.tr_mul(&pressed);
         let (mut carried, mut held) =
             (DMatrix::zeros(2 * places.len(), 2 * cut), DMatrix::zeros(2 * places.len(), count));
         for (node, place) in places.iter().enumerate() {
@@ -220,13 +242,61 @@ impl Condensed {
         Ok(Self { carried, held, stiffness, loads: reduced, cut, sectors })
     }
 
+    /// Displacement of sector 0 (2 rows a node, in the frame of its tooth, 3 columns) where every sector carries the loads
+    /// of a body force: columns 0 and 1 of the loads are those along x and y of the tooth's frame, column 2 turns with the teeth.
+    ///
+    /// Forces along x or y of the fixed frame of tooth 0 are, in the frame of the tooth at the angle φ_j = ηj, the real and
+    /// imaginary part of (f_x + i f_y) e^{iηj}: one harmonic of the ring.
+    ///
+    /// ```text
+    /// (S_aa + S_bb + S_ab e^{iη} + S_ba e^{−iη}) V = g_a + g_b e^{−iη},   v_0 = V,   v_1 = V e^{iη}
+    /// ```
+    ///
+    /// # Errors
+    /// If a harmonic is not positive definite.
+    pub(super) fn everywhere(&self, mesh: &FeGearMesh) -> Result<DMatrix<f64>, FeError> {
+        let m = self.cut;
+        let blocks = self.blocks();
+        let g =
+            |of_next: bool, r: usize, c: usize| self.loads[(if of_next { m + r } else { r }, c)];
+        let (sin, cos) =
+            (-mesh.outline.radial_sign() * mesh.outline.gear().pitch_angle()).sin_cos();
+        let mut both = Mat::from_fn(2 * m, 1, |r, _| match r / m {
+            0 => g(false, r, 0) + cos * g(true, r, 0) + sin * g(true, r, 1),
+            _ => g(false, r - m, 1) + cos * g(true, r - m, 1) - sin * g(true, r - m, 0),
+        });
+        blocks.solve((sin, cos), &mut both, || "translation of the race".into(), mesh.name)?;
+        let mut turning = Mat::from_fn(m, 1, |r, _| g(false, r, 2) + g(true, r, 2));
+        blocks.solve((0.0, 1.0), &mut turning, || "rotation of the race".into(), mesh.name)?;
+        let cuts = DMatrix::from_fn(2 * m, 3, |row, column| {
+            let r = row % m;
+            let (re, im) = (both[(r, 0)], both[(m + r, 0)]);
+            match (row / m, column) {
+                (_, 2) => turning[(r, 0)],
+                (0, 0) => re,
+                (0, _) => im,
+                (_, 0) => cos * re - sin * im,
+                _ => cos * im + sin * re,
+            }
+        });
+        Ok(&self.carried * cuts + &self.held)
+    }
+
+    /// Blocks of S by which the harmonics of the ring are coupled.
+    fn blocks(&self) -> Blocks {
+        let m = self.cut;
+        let block = |r: usize, c: usize| self.stiffness.view((r * m, c * m), (m, m));
+        Blocks {
+            own: block(0, 0) + block(1, 1),
+            even: block(0, 1) + block(1, 0),
+            odd: block(0, 1) - block(1, 0),
+        }
+    }
+
     /// Displacements of all cuts under the loads on sector 0.
     fn ring(&self, body: &'static str) -> Result<Cuts, FeError> {
         let (m, z, count) = (self.cut, self.sectors, self.loads.ncols());
-        let block = |r: usize, c: usize| self.stiffness.view((r * m, c * m), (m, m));
-        let own = block(0, 0) + block(1, 1);
-        let even = block(0, 1) + block(1, 0);
-        let odd = block(0, 1) - block(1, 0);
+        let blocks = self.blocks();
         let (here, next) = (self.loads.rows(0, m), self.loads.rows(m, m));
         let angle = |k: usize| TAU * (k % z) as f64 / z as f64;
         // Re v̂₀, then Re and Im of v̂_n, one column for each, and the weights of these columns in
@@ -236,26 +306,20 @@ impl Condensed {
         let mut column = 0;
         for n in 0..=z / 2 {
             let (sin, cos) = angle(n).sin_cos();
-            // A = S_aa + S_bb + (S_ab + S_ba) cos nθ,  B = (S_ab − S_ba) sin nθ
-            let (a, b) = (&own + cos * &even, sin * &odd);
             // The first harmonic, and the last of an even number of sectors, are real.
             let is_real = n == 0 || 2 * n == z;
             let parts = if is_real { 1 } else { 2 };
-            let matrix = Mat::from_fn(parts * m, parts * m, |r, c| match (r / m, c / m) {
-                (0, 0) | (1, 1) => a[(r % m, c % m)],
-                (0, _) => -b[(r, c - m)],
-                _ => b[(r - m, c)],
-            });
             // g_a + g_b e^{−inθ}
             let mut right = Mat::from_fn(parts * m, count, |r, c| match r / m {
                 0 => here[(r, c)] + cos * next[(r, c)],
                 _ => -sin * next[(r - m, c)],
             });
-            let factor = matrix.llt(Side::Lower).map_err(|e| FeError::Factorisation {
+            blocks.solve(
+                (sin, cos),
+                &mut right,
+                || format!("harmonic {n} of the ring of teeth"),
                 body,
-                cause: format!("harmonic {n} of the ring of teeth: {e:?}"),
-            })?;
-            factor.solve_in_place(right.as_mut());
+            )?;
             let share = parts as f64 / z as f64;
             for part in 0..parts {
                 for c in 0..count {
@@ -271,6 +335,38 @@ impl Condensed {
             }
         }
         Ok(Cuts { list: spectrum * weights, cut: m, loads: count })
+    }
+}
+
+/// S_aa + S_bb, S_ab + S_ba and S_ab − S_ba, m×m, N/m.
+struct Blocks {
+    own: DMatrix<f64>,
+    even: DMatrix<f64>,
+    odd: DMatrix<f64>,
+}
+
+impl Blocks {
+    /// Solves the equations of a harmonic whose phase from one sector to the next has the given sine and cosine, for
+    /// the real part alone (m rows) or for both parts (2m rows).
+    fn solve(
+        &self,
+        (sin, cos): (f64, f64),
+        right: &mut Mat<f64>,
+        which: impl Fn() -> String,
+        body: &'static str,
+    ) -> Result<(), FeError> {
+        let m = self.own.nrows();
+        // A = S_aa + S_bb + (S_ab + S_ba) cos nθ,  B = (S_ab − S_ba) sin nθ
+        let (a, b) = (&self.own + cos * &self.even, sin * &self.odd);
+        let rows = right.nrows();
+        let matrix = Mat::from_fn(rows, rows, |r, c| match (r / m, c / m) {
+            (0, 0) | (1, 1) => a[(r % m, c % m)],
+            (0, _) => -b[(r, c - m)],
+            _ => b[(r - m, c)],
+        });
+        let failed = |e| FeError::Factorisation { body, cause: format!("{}: {e:?}", which()) };
+        matrix.llt(Side::Lower).map_err(failed)?.solve_in_place(right.as_mut());
+        Ok(())
     }
 }
 

@@ -2,6 +2,7 @@
 
 use nalgebra::DVector;
 
+use super::bodies::Bodies;
 use super::equilibrium::Equilibrium;
 use super::races::SUN;
 use super::reference::ReferenceConfiguration;
@@ -128,6 +129,20 @@ impl<'s> StaticSet<'s> {
         f
     }
 
+    /// The same set about the same reference with gears of other finite elements: of the same geometry, so that only their
+    /// flexibility differs. The mean configuration is not found anew.
+    pub fn on_bodies<'t>(&self, bodies: &'t Bodies) -> StaticSet<'t> {
+        StaticSet {
+            bodies,
+            races: self.races.clone(),
+            sign: self.sign,
+            nominal: self.nominal.clone(),
+            start_angle: self.start_angle,
+            imperfections: self.imperfections.clone(),
+            reference: self.reference.clone(),
+        }
+    }
+
     /// Equilibrium at `positions` evenly spaced positions of one mesh cycle; `torque_nm` is the
     /// magnitude of the sun's torque, whose sense is that of the set. The set is linearised about
     /// its mean configuration under that torque.
@@ -208,14 +223,41 @@ impl<'s> StaticSet<'s> {
         solver: &(dyn ComplementaritySolver + Sync),
     ) -> Result<SetCycle, FeError> {
         let list: Vec<f64> = (0..positions).map(|i| i as f64 / positions as f64).collect();
-        let tables = self.tables_of(cells, &list)?;
+        self.states_on(torque_nm, further, &list, cells, solver)
+    }
+
+    /// Equilibrium at given positions (cycles), linearised about the present reference.
+    ///
+    /// # Errors
+    /// As [`StaticSet::cycle`], except the check of linear kinematics.
+    pub fn at_positions(
+        &self,
+        torque_nm: f64,
+        positions: &[f64],
+        solver: &(dyn ComplementaritySolver + Sync),
+    ) -> Result<SetCycle, FeError> {
+        let none = DVector::zeros(0);
+        resized(self.share(torque_nm).max(1.0), |sized_for| {
+            self.states_on(torque_nm, &none, positions, self.bodies.cells(sized_for), solver)
+        })
+    }
+
+    fn states_on(
+        &self,
+        torque_nm: f64,
+        further: &DVector<f64>,
+        list: &[f64],
+        cells: CellSettings,
+        solver: &(dyn ComplementaritySolver + Sync),
+    ) -> Result<SetCycle, FeError> {
+        let tables = self.tables_of(cells, list)?;
         let f = self.load_with(torque_nm, further);
         if f.amax() > 0.0 {
             self.lay_out_beside(&tables)?;
         }
-        let mut states = Vec::with_capacity(positions);
+        let mut states = Vec::with_capacity(list.len());
         let mut start = (self.reference.torque_nm > 0.0).then(|| self.reference.q.clone());
-        for position in list {
+        for &position in list {
             let at = |cause: FeError| cause.at_position(torque_nm, position);
             let found = self.equilibrium(&f, position, &tables, start.as_ref(), solver);
             let mut found = found.map_err(at)?;

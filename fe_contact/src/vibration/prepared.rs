@@ -58,10 +58,21 @@ impl<'s> Prepared<'s> {
         let turns = matches!(rotation, NominalRotation::Turning { .. });
         let is_exact = turns && scene.dynamics.kinematics == MeshKinematics::Exact;
         let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
-        let mut statics = statics.under(loading.torque_nm)?;
+        let statics = statics.under(loading.torque_nm)?;
+        Self::of(statics, is_exact, &rotation, loading.mesh_force)
+    }
+
+    /// Data of a set about its mean configuration, its tables laid out for a mesh force, N.
+    fn of(
+        mut statics: StaticSet<'s>,
+        is_exact: bool,
+        rotation: &NominalRotation,
+        mesh_force: f64,
+    ) -> Result<Self, FeError> {
+        let turns = matches!(rotation, NominalRotation::Turning { .. });
         let positions = rotation.positions();
         let patterns = Arc::new(FramePatterns::new(positions.len()));
-        let cells = bodies.cells_in_time(loading.mesh_force);
+        let cells = statics.bodies.cells_in_time(mesh_force);
         if is_exact {
             // The actual lines of action are used, so that the linearised turning of mesh forces is
             // dropped; tables are laid out in the run, at the phases that occur.
@@ -73,6 +84,42 @@ impl<'s> Prepared<'s> {
         let tables = statics.tables_of(cells, &positions)?;
         let leaning = Leaning::at(&statics, &tables, &positions)?.into();
         Ok(Self { statics, tables, leaning, is_exact, patterns, turns })
+    }
+
+    /// The same data for one in `every` of the steps, whose positions are among them.
+    ///
+    /// # Errors
+    /// If the steps are not a multiple of `every`.
+    pub fn thinned(&self, every: usize) -> Result<Self, FeError> {
+        let count = self.leaning.len();
+        if every == 0 || !count.is_multiple_of(every) {
+            return Err(FeError::Unfit {
+                key: "steps".into(),
+                value: format!("one in {every} of {count}"),
+                allowed: "a divisor of the number of steps".into(),
+                why: "phases of the mesh cycle are never interpolated".into(),
+            });
+        }
+        let leaning: Arc<[Leaning]> = self.leaning.iter().step_by(every).cloned().collect();
+        let patterns = Arc::new(FramePatterns::new(leaning.len()));
+        Ok(Self { leaning, patterns, ..self.clone() })
+    }
+
+    /// Data of the same scene with gears of other finite elements, for a turning set about the same reference: the mean
+    /// configuration is not found anew.
+    ///
+    /// # Errors
+    /// As [`Prepared::new`].
+    pub fn on_bodies<'t>(
+        &self,
+        scene: &Scene,
+        bodies: &'t Bodies,
+        rotation: NominalRotation,
+        mesh_force: f64,
+    ) -> Result<Prepared<'t>, FeError> {
+        solves_contact(scene)?;
+        fit(scene, &rotation)?;
+        Prepared::of(self.statics.on_bodies(bodies), self.is_exact, &rotation, mesh_force)
     }
 
     /// The shared patterns, or none yet for another rotation: a standing set has its teeth numbered from its own

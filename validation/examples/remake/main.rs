@@ -24,7 +24,7 @@ type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
 type Remake = fn() -> Outcome;
 
 /// Name, what it makes, how.
-const ALL: [(&str, &str, Remake); 14] = [
+const ALL: [(&str, &str, Remake); 15] = [
     (
         "assumptions",
         "docs/assumptions.md from the ledger and the kept verdict",
@@ -35,6 +35,11 @@ const ALL: [(&str, &str, Remake); 14] = [
         "auto_responses",
         "kept/auto_responses.csv: the same for transmission errors at rest and amplitudes",
         auto::remake_responses,
+    ),
+    (
+        "auto_tables",
+        "tables of docs/auto.md from kept/auto.csv and kept/auto_responses.csv",
+        auto::remake_tables,
     ),
     (
         "effects",
