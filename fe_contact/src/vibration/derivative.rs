@@ -56,7 +56,6 @@ pub(super) struct Work {
     pub(super) acceleration: Vec<f64>,
     pub(super) velocity: Vec<f64>,
     pub(super) load: Vec<f64>,
-    pub(super) free: Vec<f64>,
     pub(super) next: Vec<f64>,
     pub(super) b: Vec<f64>,
     pub(super) forces: Vec<f64>,

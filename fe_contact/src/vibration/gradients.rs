@@ -1,8 +1,6 @@
 //! Gradients of a set's state: in place of each number, a column with its derivatives with respect to the
 //! changes at the start.
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::{DMatrix, DVector};
 
 use super::lag::WIDTH;
@@ -21,24 +19,6 @@ pub(super) fn column(all: &[f64], m: usize, j: usize) -> &[f64] {
 /// The same, to be changed.
 pub(super) fn column_mut(all: &mut [f64], m: usize, j: usize) -> &mut [f64] {
     &mut all[j * m..(j + 1) * m]
-}
-
-/// out = G Aᵀ for columns G of length `m`, as many as A has columns.
-pub(super) fn times_transposed(out: &mut [f64], g: &[f64], m: usize, a: &DMatrix<f64>) {
-    let (rows, columns) = a.shape();
-    let a = MatRef::from_column_major_slice(a.as_slice(), rows, columns);
-    let g = MatRef::from_column_major_slice(&g[..m * columns], m, columns);
-    let out = MatMut::from_column_major_slice_mut(&mut out[..m * rows], m, rows);
-    matmul(out, Accum::Replace, g, a.transpose(), 1.0, Par::Seq);
-}
-
-/// out = A B.
-pub(super) fn times(out: &mut DMatrix<f64>, a: &DMatrix<f64>, b: &DMatrix<f64>) {
-    let ((rows, inner), columns) = (a.shape(), b.ncols());
-    let a = MatRef::from_column_major_slice(a.as_slice(), rows, inner);
-    let b = MatRef::from_column_major_slice(b.as_slice(), inner, columns);
-    let out = MatMut::from_column_major_slice_mut(out.as_mut_slice(), rows, columns);
-    matmul(out, Accum::Replace, a, b, 1.0, Par::Seq);
 }
 
 /// Gradients of some coordinates: a row for each change at the start, a column for each quantity.
