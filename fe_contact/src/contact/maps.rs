@@ -9,6 +9,7 @@
 //! (E: which pair a cell belongs to, g: gaps at δ = 0). The map holds while p_A ≥ 0 and the other
 //! cells' gaps g − E δ + C p ≥ 0; only when none of the known ones does is contact solved anew.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, PoisonError, RwLock};
 
 use nalgebra::{Cholesky, DMatrix, Dyn};
@@ -71,6 +72,13 @@ impl Held {
     pub fn id(&self) -> u64 {
         self.id
     }
+
+    /// Keeps the smallest room (m) that a map has at approaches δ.
+    fn keep_room(&mut self, map: &ContactMap, delta: &[f64], room: f64) {
+        self.at.iter_mut().zip(delta).for_each(|(at, d)| *at = *d);
+        // Half the slack is far above rounding: looked at cell by cell, the map would hold as well.
+        self.within = room - 0.5 * map.slack_room[0];
+    }
 }
 
 /// Maps of one mesh at one phase that all sets with the same table share.
@@ -80,16 +88,27 @@ impl Held {
 #[derive(Debug, Default)]
 pub struct SharedMaps {
     maps: RwLock<Vec<Arc<ContactMap>>>,
+    /// Place of the map that was asked for last, which the next set is likely to ask for as well.
+    last: AtomicUsize,
 }
 
 impl SharedMaps {
-    /// The map that holds at approaches δ (less gap offsets), and not merely by its slack.
-    fn inside(&self, delta: &[f64]) -> Option<Arc<ContactMap>> {
+    /// The map that holds at approaches δ (less gap offsets), and not merely by its slack, with its smallest room (m).
+    fn inside(&self, delta: &[f64]) -> Option<(Arc<ContactMap>, f64)> {
         let maps = self.maps.read().unwrap_or_else(PoisonError::into_inner);
-        let is_inside = |map: &&Arc<ContactMap>| {
-            map.room_at(delta).is_some_and(|room| room > 2.0 * map.slack_room[1])
+        let inside = |place: usize| {
+            let map = maps.get(place)?;
+            let room = map.room_at(delta).filter(|room| *room > 2.0 * map.slack_room[1])?;
+            Some((Arc::clone(map), room))
         };
-        maps.iter().find(is_inside).cloned()
+        // At most one map holds beyond its slack, so that the order of the search is a matter of time only.
+        let last = self.last.load(Ordering::Relaxed);
+        inside(last).or_else(|| {
+            let others = (0..maps.len()).filter(|place| *place != last);
+            let (place, found) = others.filter_map(|place| Some((place, inside(place)?))).next()?;
+            self.last.store(place, Ordering::Relaxed);
+            Some(found)
+        })
     }
 
     fn add(&self, map: &Arc<ContactMap>) {
@@ -302,9 +321,7 @@ impl ContactMaps {
         let Some(Numbered { id, map }) = self.maps.get(place) else { return false };
         let Some(room) = map.room_at(delta) else { return false };
         (held.place, held.id) = (Some(place), *id);
-        held.at.iter_mut().zip(delta).for_each(|(at, d)| *at = *d);
-        // Half the slack is far above rounding: looked at cell by cell, the map would hold as well.
-        held.within = room - 0.5 * map.slack_room[0];
+        held.keep_room(map, delta, room);
         true
     }
 
@@ -324,12 +341,15 @@ impl ContactMaps {
         if self.holds(held, delta) {
             return Ok(());
         }
-        if (0..self.maps.len()).any(|place| self.holds_cell_by_cell(place, held, delta)) {
+        let asked = held.place.filter(|_| self.held(held).is_some());
+        let mut others = (0..self.maps.len()).filter(|place| Some(*place) != asked);
+        if others.any(|place| self.holds_cell_by_cell(place, held, delta)) {
             return Ok(());
         }
         self.solved += 1;
-        if let Some(map) = self.shared.inside(delta) {
-            self.take(map, held);
+        if let Some((map, room)) = self.shared.inside(delta) {
+            self.take(Arc::clone(&map), held);
+            held.keep_room(&map, delta, room);
             return Ok(());
         }
         let owner = table.pair_of_cells();

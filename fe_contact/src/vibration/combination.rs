@@ -39,6 +39,8 @@ pub(super) struct Combination {
     stiffness: Vec<f64>,
     /// P₀' of the touching pairs, N.
     preload: Vec<f64>,
+    /// Columns of E of the touching pairs, each with the rows of the pairs of its group, m/N.
+    excess: Vec<f64>,
     /// (A + Rᵀ S' R)⁻¹, m/N.
     pub(super) inverse: Packed,
 }
@@ -108,7 +110,10 @@ impl Combination {
     /// Memory, bytes.
     pub(super) fn bytes(&self) -> usize {
         let lists = [self.maps.len(), self.touching.len(), self.groups.len()];
-        let numbers = self.stiffness.len() + self.preload.len() + lists.iter().sum::<usize>();
+        let numbers = self.stiffness.len()
+            + self.preload.len()
+            + self.excess.len()
+            + lists.iter().sum::<usize>();
         self.inverse.bytes() + 8 * numbers
     }
 }
@@ -151,14 +156,16 @@ impl Computation for Solving<'_, '_> {
         }
         press(forces, approaches);
         // δ = R x + b − E P
-        let mut first = 0;
+        let (mut touching, mut columns) =
+            (combination.touching.as_slice(), combination.excess.as_slice());
         for (group, count) in frame.groups().zip(&combination.groups) {
-            for pair in &combination.touching[first..first + count] {
-                for i in group.clone() {
-                    approaches[i] -= frame.excess(i, *pair) * forces[*pair];
-                }
+            let (pairs, own);
+            (pairs, touching) = touching.split_at(*count);
+            (own, columns) = columns.split_at(count * group.len());
+            for (pair, column) in pairs.iter().zip(own.chunks_exact(group.len().max(1))) {
+                let of_group = approaches[group.clone()].iter_mut().zip(column);
+                of_group.for_each(|(delta, e)| *delta -= e * forces[*pair]);
             }
-            first += count;
         }
     }
 }
@@ -190,6 +197,7 @@ impl Computation for Combining<'_> {
             groups: Vec::with_capacity(of_meshes.len()),
             stiffness: Vec::with_capacity(2 * count),
             preload: Vec::with_capacity(count),
+            excess: Vec::with_capacity(4 * count),
             inverse: races.clone(),
         };
         let rows = frame.rows();
@@ -221,11 +229,15 @@ impl Computation for Combining<'_> {
                     }
                 }
             }
+            let columns = made.excess.len();
+            for pair in touching {
+                made.excess.extend(group.clone().map(|i| frame.excess(i, *pair)));
+            }
             // I + S E
             let mut matrix = DMatrix::from_fn(size, size, |i, j| f64::from(u8::from(i == j)));
-            for k in 0..size {
-                for j in 0..size {
-                    let excess = frame.excess(touching[k], touching[j]);
+            for (j, column) in made.excess[columns..].chunks_exact(group.len()).enumerate() {
+                for (k, pair) in touching.iter().enumerate() {
+                    let excess = column[pair - group.start];
                     for i in 0..size {
                         matrix[(i, j)] += right[(i, k)] * excess;
                     }
