@@ -64,12 +64,11 @@ impl VibratingSet<'_> {
         let mut work = std::mem::take(&mut d.work);
         d.races.write_histories(newmark, [&mut work.acceleration, &mut work.velocity]);
         // L' = m a*' + (α m + τ k + G + bearings) v*'
-        work.load.clear();
-        for (own, mass) in work.acceleration.chunks_exact(m).zip(&self.race_dynamics.mass) {
-            work.load.extend(own.iter().map(|a| mass * a));
-        }
-        for (i, j, c) in &d.velocity_load {
-            add(column_mut(&mut work.load, m, *i), *c, column(&work.velocity, m, *j));
+        work.load.resize(work.velocity.len(), 0.0);
+        d.velocity_load.times_transposed(&mut work.load, &work.velocity, m);
+        let columns = work.load.chunks_exact_mut(m).zip(work.acceleration.chunks_exact(m));
+        for ((load, a), mass) in columns.zip(&self.race_dynamics.mass) {
+            add(load, *mass, a);
         }
         let bodies = self.predict_bodies(d, frame, (k, cycles), &mut work);
         if !plain.bends.is_empty() || !frame.bends.is_empty() {
