@@ -28,7 +28,7 @@ impl RestSamples {
 
     /// Takes the state after a step, counted from 0, if it is among the sample.
     pub(super) fn take(&mut self, set: &dyn Marching, step: usize) {
-        if step % self.every != 0 {
+        if !step.is_multiple_of(self.every) {
             return;
         }
         if let Some([rest, base_radius]) = set.kinematic_rest() {
