@@ -15,6 +15,7 @@ mod peaks;
 mod plan;
 mod point;
 mod record;
+mod rest_samples;
 mod run;
 mod scheme_model;
 mod set_shape;

@@ -87,38 +87,27 @@ impl Record {
         first_planet_rad: f64,
         steps: usize,
     ) -> Result<(), ExperimentError> {
-        self.march_and(set, first_planet_rad, steps, false)
+        self.march_and(set, first_planet_rad, steps, &mut |_, _| ())
     }
 
-    /// The same with every step kept for the derivative of the set.
+    /// The same; `after` is called after every step with its number from 0.
     ///
     /// # Errors
     /// As [`Marching::step`].
-    pub(super) fn march_kept(
+    pub(super) fn march_and(
         &mut self,
         set: &mut dyn Marching,
         first_planet_rad: f64,
         steps: usize,
-    ) -> Result<(), ExperimentError> {
-        self.march_and(set, first_planet_rad, steps, true)
-    }
-
-    fn march_and(
-        &mut self,
-        set: &mut dyn Marching,
-        first_planet_rad: f64,
-        steps: usize,
-        is_kept: bool,
+        after: &mut dyn FnMut(&mut dyn Marching, usize),
     ) -> Result<(), ExperimentError> {
         self.samples.clear();
         self.backside.clear();
         self.has_backside = set.has_backside();
-        for _ in 0..steps {
+        for step in 0..steps {
             self.take(set, first_planet_rad);
             set.step()?;
-            if is_kept && let Some(derivative) = set.derivative() {
-                derivative.keep_step();
-            }
+            after(set, step);
         }
         Ok(())
     }

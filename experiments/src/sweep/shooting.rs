@@ -4,12 +4,14 @@ use dynamics::{
     MapDerivative, Multiplier, PeriodMap, ShootingError, ShootingSettings, multipliers, shoot,
 };
 
+use fe_contact::statics::KinematicRest;
 use fe_contact::vibration::Along;
 use gearset::Symmetry;
 
 use super::critical_motion::CriticalMotion;
 use super::marching::Marching;
 use super::record::Record;
+use super::rest_samples::RestSamples;
 use super::set_shape::SetShape;
 use super::steady::SteadySettings;
 use crate::error::ExperimentError;
@@ -72,6 +74,12 @@ pub(crate) struct RecordedCycles<'m> {
     before: Record,
     /// Whether the last cycle followed the one before, and the next will follow the last.
     follows: [bool; 2],
+    /// Whether a derivative was computed.
+    has_derivative: bool,
+    /// Steps of a whole cycle if its kinematic rest is sampled.
+    rest_of: Option<usize>,
+    /// Kinematic rest of the last cycle, if it may be the solution.
+    rest: Option<RestSamples>,
 }
 
 impl<'m> RecordedCycles<'m> {
@@ -83,7 +91,15 @@ impl<'m> RecordedCycles<'m> {
         steps: usize,
     ) -> Self {
         let (now, before) = (Record::new(shape), Record::new(shape));
-        Self { set, first_planet_rad, steps, now, before, follows: [false; 2] }
+        let (follows, has_derivative) = ([false; 2], false);
+        let (rest_of, rest) = (None, None);
+        Self { set, first_planet_rad, steps, now, before, follows, has_derivative, rest_of, rest }
+    }
+
+    /// Samples the kinematic rest of those cycles, of `steps` in all, that may be the solution: shooting ends with one
+    /// that follows another after a derivative was computed.
+    fn sample_rest(&mut self, steps: usize) {
+        self.rest_of = Some(steps);
     }
 
     /// The derivative of the last cycle.
@@ -91,6 +107,7 @@ impl<'m> RecordedCycles<'m> {
     /// # Errors
     /// If the bodies have no derivative.
     pub(crate) fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError> {
+        self.has_derivative = true;
         self.set.derivative().ok_or(LOST)?.of_cycle(along)
     }
 
@@ -117,9 +134,20 @@ impl PeriodMap for RecordedCycles<'_> {
 
     fn advance(&mut self) -> Result<(), ExperimentError> {
         std::mem::swap(&mut self.now, &mut self.before);
+        let is_solution = self.follows[1] && self.has_derivative;
         self.follows = [self.follows[1], true];
         self.set.derivative().ok_or(LOST)?.start();
-        self.now.march_kept(self.set, self.first_planet_rad, self.steps)?;
+        let steps = self.rest_of.filter(|_| is_solution);
+        let mut rest = steps.and_then(|steps| RestSamples::new(self.set, steps));
+        self.now.march_and(self.set, self.first_planet_rad, self.steps, &mut |set, step| {
+            if let Some(derivative) = set.derivative() {
+                derivative.keep_step();
+            }
+            if let Some(rest) = &mut rest {
+                rest.take(set, step);
+            }
+        })?;
+        self.rest = rest;
         self.set.derivative().ok_or(LOST)?.end()
     }
 
@@ -159,8 +187,8 @@ pub(crate) struct Shot {
     pub(super) between: Option<f64>,
     /// Whole cycles that the periods marched amount to.
     pub(super) cycles: usize,
-    /// Parts of a cycle, each of which was a period of the search.
-    pub(super) parts: usize,
+    /// Kinematic rest over the last cycle; `None` if the model has none.
+    pub(super) rest: Option<KinematicRest>,
     pub(super) derivatives: usize,
     pub(super) residual: f64,
     pub(super) multipliers: Vec<Multiplier>,
@@ -186,12 +214,13 @@ pub(crate) fn shot(
     let mut cycles = RecordedCycles::new(set, shape, first_planet_rad, steps / parts);
     let most_periods = parts * settings.most_cycles.clamp(2, MOST_CYCLES);
     let own = ShootingSettings { tolerance: settings.tolerance, settling: SETTLING, most_periods };
+    cycles.sample_rest(steps);
     let found = match shoot(&mut cycles, &own) {
         Ok(found) => found,
         Err(why) => return Ok(Err(why)),
     };
     let of_part = multipliers(&found.derivative)?;
-    let RecordedCycles { now, before, set, .. } = cycles;
+    let RecordedCycles { now, before, set, rest, .. } = cycles;
     let critical = CriticalMotion::of(&*set, &found.derivative, &of_part, parts)?;
     let mut multipliers = of_whole_cycle(of_part, parts);
     multipliers.retain(|m| m.size() >= SMALL);
@@ -204,9 +233,9 @@ pub(crate) fn shot(
     let between = is_asked.then(|| both.between_harmonics(2)).transpose()?;
     Ok(Ok(Shot {
         between,
+        rest: rest.map(|rest| rest.rest(&record)),
         record,
         cycles: found.periods.div_ceil(parts),
-        parts,
         derivatives: found.derivatives,
         residual: found.residual,
         multipliers,

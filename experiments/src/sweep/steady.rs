@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 use super::critical_motion::CriticalMotion;
 use super::extrapolation::Extrapolation;
 use super::marching::Marching;
-use super::record::{Record, SUN};
+use super::record::Record;
+use super::rest_samples::RestSamples;
 use super::set_shape::SetShape;
 use super::shooting::{Shot, multipliers_of_next_cycle, shot};
 use crate::error::ExperimentError;
@@ -150,9 +151,6 @@ const CLEARLY: f64 = 10.0;
 /// in a cycle to be 1 % of the vibration.
 const SETTLED: f64 = 1e-6;
 
-/// Number of positions of a mesh cycle at which exact kinematics are evaluated.
-const SAMPLED: usize = 14;
-
 /// A multiplier beyond 1 by more than this means that the motion is unstable: without damping, multipliers are of
 /// size 1 to rounding.
 const UNSTABLE: f64 = 1e-6;
@@ -177,7 +175,7 @@ pub fn steady(
             let start = set.state();
             match shot(set, shape, first_planet_rad, steps, settings)? {
                 Ok(found) if found.largest_multiplier() <= 1.0 + UNSTABLE => {
-                    return found.into_steady(set, steps);
+                    return Ok(found.into_steady());
                 }
                 Ok(found) => {
                     let largest = found.largest_multiplier();
@@ -206,12 +204,12 @@ impl Shot {
         self.multipliers.first().map_or(0.0, |m| m.size())
     }
 
-    fn into_steady(self, set: &mut dyn Marching, steps: usize) -> Result<Steady, ExperimentError> {
-        Ok(Steady {
+    fn into_steady(self) -> Steady {
+        Steady {
             method: SteadyMethod::Shooting,
             why_marched: None,
             derivatives: self.derivatives,
-            rest: part_rest(set, &self.record, steps, self.parts)?,
+            rest: self.rest,
             multipliers: self.multipliers,
             critical: self.critical,
             record: self.record,
@@ -221,7 +219,7 @@ impl Shot {
             transient: None,
             repeats_after: Some(1),
             further: None,
-        })
+        }
     }
 }
 
@@ -230,20 +228,6 @@ impl Shot {
 pub fn left_of_transient(multipliers: &[Multiplier]) -> f64 {
     let left = |m: &Multiplier| m.size() / (m.re - 1.0).hypot(m.im);
     multipliers.iter().map(left).fold(0.0, f64::max)
-}
-
-/// [`sampled_rest`] over a part of a cycle after which the set is itself.
-fn part_rest(
-    set: &mut dyn Marching,
-    record: &Record,
-    steps: usize,
-    parts: usize,
-) -> Result<Option<KinematicRest>, ExperimentError> {
-    let rest = sampled_rest(set, record, steps, parts)?;
-    if let Some(own) = set.derivative().filter(|_| parts > 1 && rest.is_some()) {
-        own.end()?;
-    }
-    Ok(rest)
 }
 
 /// Marches from the present state to the steady state.
@@ -280,7 +264,7 @@ fn march(
             Some(before.between_harmonics(count)?)
         }
     };
-    let rest = sampled_rest(set, &now, steps, 1)?;
+    let rest = sampled_rest(set, &now, steps)?;
     let is_question = residual > SETTLED && repeats_after == Some(1);
     let transient = match is_question {
         true => multipliers_of_next_cycle(set, shape, first_planet_rad, steps)?
@@ -335,30 +319,16 @@ fn period(
     Ok((None, watched))
 }
 
-/// Kinematic rest over one more cycle, or the first of some equal `parts` of it, also relative to the sun's largest peak-to-peak motion over the
-/// recorded cycle. This includes x and y, since the transmission error (rotation at the base circle) is small
-/// at resonances of translational modes.
+/// Kinematic rest over one more cycle.
 fn sampled_rest(
     set: &mut dyn Marching,
     record: &Record,
     steps: usize,
-    parts: usize,
 ) -> Result<Option<KinematicRest>, ExperimentError> {
-    if !set.has_kinematic_rest() {
-        return Ok(None);
-    }
-    let (mut largest, mut radius) = (0.0f64, 0.0);
-    for step in 0..steps / parts {
+    let Some(mut rest) = RestSamples::new(set, steps) else { return Ok(None) };
+    for step in 0..steps {
         set.step()?;
-        if step % (steps / SAMPLED).max(1) != 0 {
-            continue;
-        }
-        if let Some([rest, base_radius]) = set.kinematic_rest() {
-            radius = base_radius;
-            // NaN is kept.
-            largest = if largest.is_nan() || largest >= rest { largest } else { rest };
-        }
+        rest.take(set, step);
     }
-    let [x, y, rotation] = SUN.map(|channel| record.range(channel));
-    Ok(Some(KinematicRest::new(largest, x.max(y).max(radius * rotation))))
+    Ok(Some(rest.rest(record)))
 }

@@ -9,10 +9,12 @@
 //! (E: which pair a cell belongs to, g: gaps at δ = 0). The map holds while p_A ≥ 0 and the other
 //! cells' gaps g − E δ + C p ≥ 0; only when none of the known ones does is contact solved anew.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, PoisonError, RwLock};
 
 use nalgebra::{Cholesky, DMatrix, Dyn};
 
+use super::rooms::Rooms;
 use super::table::{CellSettings, MeshTable};
 use crate::complementarity::{ComplementaritySolver, Problem};
 use crate::error::FeError;
@@ -22,13 +24,6 @@ const MOST_MAPS: usize = 64;
 
 /// Maps that sets share of one mesh at one phase; those found later are not shared.
 const MOST_SHARED: usize = 64;
-
-/// Cells' forces and gaps may be this much below zero, in parts of the load and of the window that
-/// the table is made for: at the border between two sets either may be taken.
-const SLACK: f64 = 1e-11;
-
-/// Cells that are looked at side by side.
-const LANES: usize = 4;
 
 /// Most pairs of a mesh whose approaches are remembered; with more, cells are always looked at. Four come
 /// near at the usual load, five at twice that.
@@ -45,11 +40,8 @@ pub struct ContactMap {
     energy: f64,
     /// Cells that touch.
     active: Vec<bool>,
-    /// For every cell by how much δ may change before it leaves the set, in the norm of the largest
-    /// change of a pair, m: at δ = 0, then its k derivatives; slack included, in lanes of cells.
-    room: Vec<[f64; LANES]>,
-    /// What the slack makes of it at least and at most, m.
-    slack_room: [f64; 2],
+    /// By how much δ may change before the set does.
+    rooms: Rooms,
     /// Pair whose patch reaches the end of its grid.
     pub overflows: Option<usize>,
 }
@@ -71,6 +63,13 @@ impl Held {
     pub fn id(&self) -> u64 {
         self.id
     }
+
+    /// Keeps the smallest room (m) that a map has at approaches δ.
+    fn keep_room(&mut self, map: &ContactMap, delta: &[f64], room: f64) {
+        self.at.iter_mut().zip(delta).for_each(|(at, d)| *at = *d);
+        // Half the slack is far above rounding: looked at cell by cell, the map would hold as well.
+        self.within = room - 0.5 * map.rooms.slack[0];
+    }
 }
 
 /// Maps of one mesh at one phase that all sets with the same table share.
@@ -80,16 +79,27 @@ impl Held {
 #[derive(Debug, Default)]
 pub struct SharedMaps {
     maps: RwLock<Vec<Arc<ContactMap>>>,
+    /// Place of the map that was asked for last, which the next set is likely to ask for as well.
+    last: AtomicUsize,
 }
 
 impl SharedMaps {
-    /// The map that holds at approaches δ (less gap offsets), and not merely by its slack.
-    fn inside(&self, delta: &[f64]) -> Option<Arc<ContactMap>> {
+    /// The map that holds at approaches δ (less gap offsets), and not merely by its slack, with its smallest room (m).
+    fn inside(&self, delta: &[f64]) -> Option<(Arc<ContactMap>, f64)> {
         let maps = self.maps.read().unwrap_or_else(PoisonError::into_inner);
-        let is_inside = |map: &&Arc<ContactMap>| {
-            map.room_at(delta).is_some_and(|room| room > 2.0 * map.slack_room[1])
+        let inside = |place: usize| {
+            let map = maps.get(place)?;
+            let room = map.rooms.least_at(delta).filter(|room| *room > 2.0 * map.rooms.slack[1])?;
+            Some((Arc::clone(map), room))
         };
-        maps.iter().find(is_inside).cloned()
+        // At most one map holds beyond its slack, so that the order of the search is a matter of time only.
+        let last = self.last.load(Ordering::Relaxed);
+        inside(last).or_else(|| {
+            let others = (0..maps.len()).filter(|place| *place != last);
+            let (place, found) = others.filter_map(|place| Some((place, inside(place)?))).next()?;
+            self.last.store(place, Ordering::Relaxed);
+            Some(found)
+        })
     }
 
     fn add(&self, map: &Arc<ContactMap>) {
@@ -123,26 +133,6 @@ pub struct ContactMaps {
 }
 
 impl ContactMap {
-    /// Smallest room of any cell; `None` if one has none.
-    fn room_at(&self, delta: &[f64]) -> Option<f64> {
-        let mut least = [f64::INFINITY; LANES];
-        for cells in self.room.chunks_exact(delta.len() + 1) {
-            let mut value = cells[0];
-            for (derivative, d) in cells[1..].iter().zip(delta) {
-                for (value, c) in value.iter_mut().zip(derivative) {
-                    *value += c * d;
-                }
-            }
-            if !value.iter().all(|v| *v >= 0.0) {
-                return None;
-            }
-            for (least, value) in least.iter_mut().zip(value) {
-                *least = if value < *least { value } else { *least };
-            }
-        }
-        Some(least.into_iter().fold(f64::INFINITY, f64::min))
-    }
-
     /// ½ pᵀ C p at approaches δ, J.
     pub fn energy(&self, delta: &[f64]) -> f64 {
         let k = delta.len();
@@ -155,10 +145,11 @@ impl ContactMap {
         sum
     }
 
+    /// The map of a set of touching cells that was found at approaches δ (less gap offsets).
     fn new(
         table: &MeshTable,
         owner: &[usize],
-        active: Vec<bool>,
+        (active, delta): (Vec<bool>, &[f64]),
         factor: Option<Cholesky<f64, Dyn>>,
         scale: (f64, f64),
     ) -> Option<Self> {
@@ -221,36 +212,9 @@ impl ContactMap {
             let ends = [own[0], own[own.len() - 1]];
             (0..2).any(|i| ends[i] && !pair.ends_at_tip[i])
         });
-        let (room, slack_room) = rooms(&cells, &active, k, scale);
-        Some(Self { stiffness, forces, energy, active, room, slack_room, overflows })
+        let rooms = Rooms::new(&cells, &active, delta, scale);
+        Some(Self { stiffness, forces, energy, active, rooms, overflows })
     }
-}
-
-/// How far the approaches may change before each cell leaves the set (at δ = 0, then the k derivatives), in
-/// lanes of cells, and the least and the most that slack adds to it.
-fn rooms(
-    cells: &[f64],
-    active: &[bool],
-    k: usize,
-    scale: (f64, f64),
-) -> (Vec<[f64; LANES]>, [f64; 2]) {
-    let mut room = vec![[0.0; LANES]; active.len().div_ceil(LANES) * (k + 1)];
-    // Lanes that are left over after the last cell must never be the ones that end a map's range.
-    room.iter_mut().step_by(k + 1).for_each(|value| *value = [f64::INFINITY; LANES]);
-    let (mut least, mut most) = (f64::INFINITY, 0.0f64);
-    for (i, (cell, active)) in cells.chunks_exact(k + 1).zip(active).enumerate() {
-        let slack = SLACK * if *active { scale.0 } else { scale.1 };
-        let steepness: f64 = cell[1..].iter().map(|c| c.abs()).sum();
-        let per = if steepness > 0.0 { 1.0 / steepness } else { 1.0 };
-        let own = &mut room[i / LANES * (k + 1)..];
-        own[0][i % LANES] = (cell[0] + slack) * per;
-        for (own, c) in own[1..].iter_mut().zip(&cell[1..]) {
-            own[i % LANES] = c * per;
-        }
-        least = least.min(slack * per);
-        most = most.max(slack * per);
-    }
-    (room, [least, most])
 }
 
 impl ContactMaps {
@@ -271,7 +235,7 @@ impl ContactMaps {
         self.maps
             .iter()
             .map(|Numbered { map, .. }| {
-                8 * (LANES * map.room.len() + map.stiffness.len()) + map.active.len()
+                map.rooms.bytes() + 8 * map.stiffness.len() + map.active.len()
             })
             .sum()
     }
@@ -300,11 +264,9 @@ impl ContactMaps {
 
     fn holds_cell_by_cell(&self, place: usize, held: &mut Held, delta: &[f64]) -> bool {
         let Some(Numbered { id, map }) = self.maps.get(place) else { return false };
-        let Some(room) = map.room_at(delta) else { return false };
+        let Some(room) = map.rooms.least_at(delta) else { return false };
         (held.place, held.id) = (Some(place), *id);
-        held.at.iter_mut().zip(delta).for_each(|(at, d)| *at = *d);
-        // Half the slack is far above rounding: looked at cell by cell, the map would hold as well.
-        held.within = room - 0.5 * map.slack_room[0];
+        held.keep_room(map, delta, room);
         true
     }
 
@@ -324,12 +286,15 @@ impl ContactMaps {
         if self.holds(held, delta) {
             return Ok(());
         }
-        if (0..self.maps.len()).any(|place| self.holds_cell_by_cell(place, held, delta)) {
+        let asked = held.place.filter(|_| self.held(held).is_some());
+        let mut others = (0..self.maps.len()).filter(|place| Some(*place) != asked);
+        if others.any(|place| self.holds_cell_by_cell(place, held, delta)) {
             return Ok(());
         }
         self.solved += 1;
-        if let Some(map) = self.shared.inside(delta) {
-            self.take(map, held);
+        if let Some((map, room)) = self.shared.inside(delta) {
+            self.take(Arc::clone(&map), held);
+            held.keep_room(&map, delta, room);
             return Ok(());
         }
         let owner = table.pair_of_cells();
@@ -355,7 +320,8 @@ impl ContactMaps {
             *held = Held { place: Some(place), id: self.maps[place].id, within: -1.0, ..*held };
             return Ok(());
         }
-        let map = ContactMap::new(table, &owner, active, factor, self.scale).ok_or_else(|| {
+        let set = (active, delta);
+        let map = ContactMap::new(table, &owner, set, factor, self.scale).ok_or_else(|| {
             let cause = crate::complementarity::ComplementarityError::Inaccurate {
                 residual: f64::INFINITY,
             };

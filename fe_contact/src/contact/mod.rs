@@ -7,6 +7,7 @@ pub mod half_plane;
 pub mod hertz;
 mod maps;
 mod pair;
+mod rooms;
 mod seen;
 mod table;
 

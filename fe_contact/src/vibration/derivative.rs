@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::gradients::{Gradients, LagGradients};
 use super::lag::WIDTH;
+use super::packed::Packed;
 use super::set::VibratingSet;
 use super::tooth_shift::ToothShift;
 use crate::error::FeError;
@@ -42,8 +43,8 @@ pub(super) struct SetDerivative {
     /// Modes of carrier, ring, sun and planets.
     pub(super) elastic: Vec<Gradients>,
     pub(super) meshes: Vec<LagGradients>,
-    /// Load on the races by v*: (load, velocity, entry) of all entries that are not zero.
-    pub(super) velocity_load: Vec<(usize, usize, f64)>,
+    /// Load on the races by v*, n×n, N s/m.
+    pub(super) velocity_load: Packed,
     pub(super) work: Work,
     /// Q, (active coordinates)×rows, once the rows of the gradients were compressed: the gradients with respect to
     /// the active coordinates are Q times these.
@@ -56,7 +57,6 @@ pub(super) struct Work {
     pub(super) acceleration: Vec<f64>,
     pub(super) velocity: Vec<f64>,
     pub(super) load: Vec<f64>,
-    pub(super) free: Vec<f64>,
     pub(super) next: Vec<f64>,
     pub(super) b: Vec<f64>,
     pub(super) forces: Vec<f64>,
@@ -169,10 +169,7 @@ impl VibratingSet<'_> {
         });
         let meshes = meshes.collect();
         let races = gradients(0, n);
-        let load = self.race_dynamics.velocity_load(&self.clock.rule);
-        let all = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
-        let velocity_load =
-            all.map(|(i, j)| (i, j, load[(i, j)])).filter(|(.., c)| *c != 0.0).collect();
+        let velocity_load = Packed::new(&self.race_dynamics.velocity_load(&self.clock.rule));
         let (work, basis) = (Work::default(), None);
         SetDerivative { active, races, elastic, meshes, velocity_load, work, basis }
     }

@@ -4,11 +4,11 @@
 //! Its derivative follows the step line by line, with gradients in place of numbers:
 //!
 //! ```text
-//! x₁' = A⁻¹ (L' − Rᵀ P'),   P' = S W (R A⁻¹ L' + free' − opened' − F known')
+//! (A + Rᵀ S' R) x₁' = L' − Rᵀ S' b',   P' = S' (R x₁' + b'),   b' = free' − opened' − F known'
 //! ```
 //!
-//! where L is the load that the histories leave, and S W the change of the forces of the touching pairs with
-//! their approaches. The coordinates are displacements, velocities and accelerations of the races and of the
+//! where L is the load that the histories leave, and S' the change of the forces of the touching pairs with
+//! their approaches ([`Combination`](super::combination::Combination)). The coordinates are displacements, velocities and accelerations of the races and of the
 //! bodies' modes, and the state of the lag of every pair; bearings follow from these. Frames keep the cells that
 //! touched in the last step to their position and the second-order terms, so that a whole cycle can be
 //! differentiated after it was marched.
@@ -20,7 +20,7 @@ use super::body::Port;
 use super::derivative::{SetDerivative, Work};
 use super::flexible_bodies::FlexibleBodies;
 use super::frame::Frame;
-use super::gradients::{add, column, column_mut, out_of_turned, times_transposed, turned_into};
+use super::gradients::{add, column, column_mut, out_of_turned, turned_into};
 use super::set::VibratingSet;
 use crate::short_row::ShortRow;
 use crate::statics::CARRIER;
@@ -64,43 +64,43 @@ impl VibratingSet<'_> {
         let mut work = std::mem::take(&mut d.work);
         d.races.write_histories(newmark, [&mut work.acceleration, &mut work.velocity]);
         // L' = m a*' + (α m + τ k + G + bearings) v*'
-        work.load.clear();
-        for (own, mass) in work.acceleration.chunks_exact(m).zip(&self.race_dynamics.mass) {
-            work.load.extend(own.iter().map(|a| mass * a));
-        }
-        for (i, j, c) in &d.velocity_load {
-            add(column_mut(&mut work.load, m, *i), *c, column(&work.velocity, m, *j));
+        work.load.resize(work.velocity.len(), 0.0);
+        d.velocity_load.times_transposed(&mut work.load, &work.velocity, m);
+        let columns = work.load.chunks_exact_mut(m).zip(work.acceleration.chunks_exact(m));
+        for ((load, a), mass) in columns.zip(&self.race_dynamics.mass) {
+            add(load, *mass, a);
         }
         let bodies = self.predict_bodies(d, frame, (k, cycles), &mut work);
         if !plain.bends.is_empty() || !frame.bends.is_empty() {
             d.expect(rule.step(), &mut work.ahead);
         }
         self.add_bent(d, plain, &mut work);
-        work.free.resize(work.load.len(), 0.0);
         work.next.resize(work.load.len(), 0.0);
-        let inverse = &self.race_dynamics.inverse;
-        times_transposed(&mut work.free, &work.load, m, inverse);
         let chosen = &frame.combinations[frame.used];
         work.column_of.clear();
         work.column_of.resize(frame.offsets.len(), None);
+        for (at, pair) in chosen.touching.iter().enumerate() {
+            work.column_of[*pair] = Some(at);
+        }
         work.b.clear();
         work.b.resize(m * chosen.touching.len(), 0.0);
         work.forces.resize(m * chosen.touching.len(), 0.0);
-        for (at, pair) in chosen.touching.iter().enumerate() {
-            work.column_of[*pair] = Some(at);
-            for (i, r) in frame.rows[*pair].entries() {
-                add(column_mut(&mut work.b, m, at), r, column(&work.free, m, i));
-            }
-        }
         self.add_gaps(d, frame, &bodies, &mut work);
-        // P' = S W b'
-        times_transposed(&mut work.forces, &work.b, m, &chosen.response);
+        // (A + Rᵀ S' R) x' = L' − Rᵀ S' b'
+        chosen.press(&mut work.forces, &work.b, m);
         for (at, pair) in chosen.touching.iter().enumerate() {
-            for (i, r) in frame.rows[*pair].entries() {
+            for (i, r) in frame.rows()[*pair].entries() {
                 add(column_mut(&mut work.load, m, i), -r, column(&work.forces, m, at));
             }
         }
-        times_transposed(&mut work.next, &work.load, m, inverse);
+        chosen.inverse.times_transposed(&mut work.next, &work.load, m);
+        // P' = S' (R x' + b')
+        for (at, pair) in chosen.touching.iter().enumerate() {
+            for (i, r) in frame.rows()[*pair].entries() {
+                add(column_mut(&mut work.b, m, at), r, column(&work.next, m, i));
+            }
+        }
+        chosen.press(&mut work.forces, &work.b, m);
         self.finish_bodies(d, frame, bodies, &work);
         let mut pressed = Vec::new();
         for (mesh, own) in frame.meshes.iter().zip(&mut d.meshes) {
@@ -156,7 +156,7 @@ impl VibratingSet<'_> {
                 }
             }
         }
-        let mut lags = frame.lags.as_slice();
+        let mut lags = frame.lags();
         for (own, mesh) in d.meshes.iter().zip(&frame.meshes) {
             let rows = frame.lagged_by(mesh);
             for slot in &frame.pattern.slots[mesh.first..mesh.first + mesh.count] {

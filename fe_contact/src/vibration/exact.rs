@@ -71,7 +71,6 @@ impl VibratingSet<'_> {
         let inputs = FrameInputs {
             statics: &self.statics,
             gears: &self.bodies.gears,
-            inverse: &self.race_dynamics.inverse,
             lag_end: self.pairs.lag.end,
         };
         let (statics, gears) = (&self.statics, &self.bodies.gears);
@@ -174,7 +173,6 @@ impl VibratingSet<'_> {
                 kept = Some(places);
             }
             self.work.load = &given + load;
-            self.free_races();
             self.solve_contact(&mut frame)?;
             change = (&self.work.x - &x).amax();
             x.copy_from(&self.work.x);

@@ -3,14 +3,13 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use dynamics::{Computation, wide};
 use nalgebra::{DMatrix, DVector};
 
 use super::body::Port;
+use super::combination::Combination;
 use super::frame_pattern::{FramePattern, PatternBend, PatternMesh};
 use super::gear::VibratingGear;
 use super::lag::PairSlot;
-use super::packed::Packed;
 use super::teeth::fill_port;
 use crate::contact::{ContactMap, ContactMaps, Held};
 use crate::error::FeError;
@@ -37,22 +36,6 @@ impl FrameMesh {
     pub(super) fn map<'m>(&self, maps: &'m [ContactMaps]) -> Option<&'m ContactMap> {
         maps[self.table].held(&self.held)
     }
-}
-
-/// Approaches of all pairs for given approaches b without pair forces, valid while certain maps
-/// hold: δ = W b + w.
-#[derive(Debug, Clone)]
-pub(super) struct Combination {
-    /// Ids of the maps, one per mesh.
-    pub(super) maps: Vec<u64>,
-    pub(super) slope: Packed,
-    pub(super) offset: Vec<f64>,
-    /// P = S δ + P₀ of each pair within its mesh: P₀, then its row of S.
-    pub(super) laws: Vec<f64>,
-    /// Pairs that touch: those with a force that changes with the approaches.
-    pub(super) touching: Vec<usize>,
-    /// S W between the touching pairs: change of their forces with the approaches b, N/m.
-    pub(super) response: DMatrix<f64>,
 }
 
 /// Second-order term of the gap of a pair in corner contact, as `Bend` in `statics/placed.rs`.
@@ -82,19 +65,10 @@ pub(super) struct Frame {
     pub(super) meshes: Vec<FrameMesh>,
     /// Offset of each pair, tooth errors included, m: its approach is b·x − offset.
     pub(super) offsets: Vec<f64>,
-    /// Approach on the races' coordinates within a step.
-    pub(super) rows: Vec<ShortRow>,
-    /// Y: reduction of the approach of one pair by a unit force on another within a step, beyond
-    /// the compliance of the cells, m/N.
-    pub(super) receptance: DMatrix<f64>,
-    /// Static FE flexibility that no body's elastic state represents, m/N: between pairs of one
-    /// mesh and, on bodies with elastic states, between pairs of different meshes.
-    pub(super) lagging: DMatrix<f64>,
-    /// The same by columns: rows of all pairs, or of those of the same mesh where meshes are not
-    /// coupled.
-    pub(super) lags: Vec<f64>,
-    /// Whether the columns hold all pairs.
-    pub(super) is_coupled: bool,
+    /// What elastic states of the bodies change; `None` without any.
+    elastic: Option<ElasticPairs>,
+    /// 1 less the weight of the forces at the end of a step in their lagged value P̃.
+    pub(super) lag_known: f64,
     /// Second-order terms of the gaps of pairs in corner contact.
     pub(super) bends: Vec<FrameBend>,
     pub(super) combinations: Vec<Combination>,
@@ -104,12 +78,21 @@ pub(super) struct Frame {
     pub(super) oldest: usize,
 }
 
+/// Rows and compliances of the pairs of a frame where bodies have elastic states.
+#[derive(Debug)]
+struct ElasticPairs {
+    /// Approach on the races' coordinates within a step.
+    rows: Vec<ShortRow>,
+    /// Static FE flexibility that no body's elastic state represents, between all pairs, m/N.
+    lagging: DMatrix<f64>,
+    /// Compliance between all pairs within a step beyond that of the cells, m/N.
+    excess: DMatrix<f64>,
+}
+
 /// What a frame is built from.
 pub(super) struct FrameInputs<'g> {
     pub(super) statics: &'g StaticSet<'g>,
     pub(super) gears: &'g [VibratingGear<'g>],
-    /// A⁻¹ of the races, n×n.
-    pub(super) inverse: &'g DMatrix<f64>,
     /// Weight of the forces at the end of a step in their lagged value P̃.
     pub(super) lag_end: f64,
 }
@@ -141,58 +124,90 @@ impl Frame {
             force: 0.0,
             opened: 0.0,
         };
-        let is_coupled = inputs.gears.iter().any(|gear| gear.vibrating.unknowns() > 0);
         let mut frame = Self {
             meshes: pattern.meshes.iter().zip(places).map(mesh).collect(),
             offsets: pattern.offsets.clone(),
-            rows: pattern.rows.clone(),
-            receptance: DMatrix::zeros(count, count),
-            lagging: pattern.within.clone(),
-            lags: Vec::new(),
-            is_coupled,
+            elastic: None,
+            lag_known: 1.0 - inputs.lag_end,
             bends: pattern.bends.iter().map(bend).collect(),
-            combinations: Vec::with_capacity(MOST_COMBINATIONS),
+            combinations: Vec::new(),
             used: 0,
             oldest: 0,
             pattern,
         };
-        if is_coupled {
+        if inputs.gears.iter().any(|gear| gear.vibrating.unknowns() > 0) {
             let mut rows = frame.pattern.rigid.clone();
+            let mut lagging = frame.pattern.within.clone();
+            let mut excess = DMatrix::zeros(count, count);
             for (k, gear) in inputs.gears.iter().enumerate() {
-                frame.add_elastic_body(inputs, k + 1, gear, turned, &mut rows);
+                let into = [&mut rows, &mut lagging, &mut excess];
+                frame.add_elastic_body(inputs, k + 1, gear, turned, into);
             }
-            frame.receptance += &rows * (inputs.inverse * rows.transpose());
+            excess.zip_apply(&lagging, |e, lagging| *e -= frame.lag_known * lagging);
             let short = rows.row_iter().map(|row| ShortRow::new(row.iter().copied()));
-            frame.rows = short.collect::<Option<_>>().ok_or_else(many)?;
-        } else {
-            // Y = R A⁻¹ Rᵀ with rows of a few entries.
-            let out = frame.receptance.as_mut_slice();
-            wide(Receptance { out, rows: &frame.rows, inverse: inputs.inverse });
+            let rows = short.collect::<Option<_>>().ok_or_else(many)?;
+            frame.elastic = Some(ElasticPairs { rows, lagging, excess });
         }
-        let known = inputs.lag_end - 1.0;
-        frame.receptance.zip_apply(&frame.lagging, |y, lagging| *y += known * lagging);
-        // By columns: of all pairs, or of those of the same mesh.
-        frame.lags = match is_coupled {
-            true => frame.lagging.as_slice().to_vec(),
-            false => frame.pattern.within_meshes.clone(),
-        };
         Ok(frame)
+    }
+
+    /// Approach of each pair on the races' coordinates within a step.
+    #[inline]
+    pub(super) fn rows(&self) -> &[ShortRow] {
+        self.elastic.as_ref().map_or(&self.pattern.rows, |own| &own.rows)
+    }
+
+    /// Static FE flexibility that no body's elastic state represents, m/N: between pairs of one mesh and, on bodies with
+    /// elastic states, between pairs of different meshes.
+    pub(super) fn lagging(&self) -> &DMatrix<f64> {
+        self.elastic.as_ref().map_or(&self.pattern.within, |own| &own.lagging)
+    }
+
+    /// The same by columns: rows of all pairs, or of those of the same mesh where meshes are not coupled.
+    #[inline]
+    pub(super) fn lags(&self) -> &[f64] {
+        match &self.elastic {
+            Some(own) => own.lagging.as_slice(),
+            None => &self.pattern.within_meshes,
+        }
+    }
+
+    /// Compliance E of pair i under a force on pair j within a step beyond that of the cells, m/N. Where no body has
+    /// an elastic state, it is that of the forces which the lag holds back: −(1 − end) F.
+    #[inline]
+    pub(super) fn excess(&self, i: usize, j: usize) -> f64 {
+        match &self.elastic {
+            Some(own) => own.excess[(i, j)],
+            None => -self.lag_known * self.pattern.within[(i, j)],
+        }
+    }
+
+    /// Pairs whose approaches depend on each other's forces within a step beside those of the races' motion: the pairs
+    /// of each mesh, or all pairs where bodies have elastic states.
+    #[inline]
+    pub(super) fn groups(&self) -> impl Iterator<Item = Range<usize>> {
+        let whole = self.elastic.as_ref().map(|_| 0..self.offsets.len());
+        let meshes = if whole.is_some() { &[] } else { self.meshes.as_slice() };
+        whole.into_iter().chain(meshes.iter().map(|mesh| mesh.first..mesh.first + mesh.count))
     }
 
     /// Pairs whose approach depends on the past forces of a mesh.
     pub(super) fn lagged_by(&self, mesh: &FrameMesh) -> Range<usize> {
-        if self.is_coupled { 0..self.offsets.len() } else { mesh.first..mesh.first + mesh.count }
+        match self.elastic {
+            Some(_) => 0..self.offsets.len(),
+            None => mesh.first..mesh.first + mesh.count,
+        }
     }
 
     /// Adds the elastic part of one gear, if it has elastic states: couplings, receptances between its ports, and
     /// the flexibility that these states do not represent.
     fn add_elastic_body(
-        &mut self,
+        &self,
         inputs: &FrameInputs<'_>,
         body: usize,
         gear: &VibratingGear<'_>,
         turned: f64,
-        rows: &mut DMatrix<f64>,
+        [rows, lagging, excess]: [&mut DMatrix<f64>; 3],
     ) {
         if gear.vibrating.unknowns() == 0 {
             return;
@@ -222,8 +237,8 @@ impl Frame {
         for (i, (a, _)) in own.iter().enumerate() {
             for (j, (b, _)) in own.iter().enumerate() {
                 // `across` is 0 within a mesh, where the cells' compliance has the flexibility.
-                self.lagging[(*a, *b)] += across[(i, j)] - carried[i * width + j];
-                self.receptance[(*a, *b)] +=
+                lagging[(*a, *b)] += across[(i, j)] - carried[i * width + j];
+                excess[(*a, *b)] +=
                     receptance[i * width + j] + across[(i, j)] - carried[i * width + j];
             }
         }
@@ -253,40 +268,12 @@ impl Frame {
 
     /// Memory, bytes.
     pub(super) fn bytes(&self) -> usize {
-        let matrices = [&self.receptance, &self.lagging];
-        let own: usize = matrices.iter().map(|m| 8 * m.len()).sum();
-        let rows = self.rows.len() * size_of::<ShortRow>();
-        let of = |c: &Combination| {
-            let lists = c.offset.len() + c.laws.len() + c.touching.len() + c.response.len();
-            c.slope.bytes() + 8 * lists
+        let of = |own: &ElasticPairs| {
+            own.rows.len() * size_of::<ShortRow>() + 8 * (own.lagging.len() + own.excess.len())
         };
-        own + rows + 8 * self.lags.len() + self.combinations.iter().map(of).sum::<usize>()
-    }
-}
-
-/// R A⁻¹ Rᵀ of some rows R, to be written by columns.
-struct Receptance<'r> {
-    out: &'r mut [f64],
-    rows: &'r [ShortRow],
-    inverse: &'r DMatrix<f64>,
-}
-
-impl Computation for Receptance<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self) {
-        let Self { out, rows, inverse } = self;
-        let mut answer = vec![0.0; inverse.nrows()];
-        for (column, on) in out.chunks_exact_mut(rows.len().max(1)).zip(rows) {
-            answer.fill(0.0);
-            for (i, r) in on.entries() {
-                let own = inverse.as_slice()[i * answer.len()..].iter();
-                answer.iter_mut().zip(own).for_each(|(x, a)| *x += r * a);
-            }
-            for (y, of) in column.iter_mut().zip(rows) {
-                *y = of.dot(&answer);
-            }
-        }
+        let elastic = self.elastic.as_ref().map_or(0, of);
+        8 * self.offsets.len()
+            + elastic
+            + self.combinations.iter().map(Combination::bytes).sum::<usize>()
     }
 }

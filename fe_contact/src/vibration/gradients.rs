@@ -1,8 +1,6 @@
 //! Gradients of a set's state: in place of each number, a column with its derivatives with respect to the
 //! changes at the start.
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::{DMatrix, DVector};
 
 use super::lag::WIDTH;
@@ -21,24 +19,6 @@ pub(super) fn column(all: &[f64], m: usize, j: usize) -> &[f64] {
 /// The same, to be changed.
 pub(super) fn column_mut(all: &mut [f64], m: usize, j: usize) -> &mut [f64] {
     &mut all[j * m..(j + 1) * m]
-}
-
-/// out = G Aᵀ for columns G of length `m`, as many as A has columns.
-pub(super) fn times_transposed(out: &mut [f64], g: &[f64], m: usize, a: &DMatrix<f64>) {
-    let (rows, columns) = a.shape();
-    let a = MatRef::from_column_major_slice(a.as_slice(), rows, columns);
-    let g = MatRef::from_column_major_slice(&g[..m * columns], m, columns);
-    let out = MatMut::from_column_major_slice_mut(&mut out[..m * rows], m, rows);
-    matmul(out, Accum::Replace, g, a.transpose(), 1.0, Par::Seq);
-}
-
-/// out = A B.
-pub(super) fn times(out: &mut DMatrix<f64>, a: &DMatrix<f64>, b: &DMatrix<f64>) {
-    let ((rows, inner), columns) = (a.shape(), b.ncols());
-    let a = MatRef::from_column_major_slice(a.as_slice(), rows, inner);
-    let b = MatRef::from_column_major_slice(b.as_slice(), inner, columns);
-    let out = MatMut::from_column_major_slice_mut(out.as_mut_slice(), rows, columns);
-    matmul(out, Accum::Replace, a, b, 1.0, Par::Seq);
 }
 
 /// Gradients of some coordinates: a row for each change at the start, a column for each quantity.
@@ -90,20 +70,18 @@ impl Gradients {
     }
 }
 
-/// Gradients of the lag of one mesh: of P̃, of the forces at the end of the last step, and of those one step
-/// earlier.
+/// Gradients of the lag of one mesh: of P̃ (within a step of the part of it at its end that is known at its start), of the
+/// forces at the end of the last step, and of those one step earlier.
 #[derive(Debug, Clone)]
 pub(super) struct LagGradients {
     lists: [DMatrix<f64>; 3],
     /// Pairs with gradients other than zero.
     live: [bool; WIDTH],
-    /// Of the part of P̃ at the end of the step that is known at its start, column after column.
-    known: Vec<f64>,
 }
 
 impl LagGradients {
     pub(super) fn new(lists: [DMatrix<f64>; 3], live: [bool; WIDTH]) -> Self {
-        Self { lists, live, known: Vec::new() }
+        Self { lists, live }
     }
 
     pub(super) fn lists(&self) -> &[DMatrix<f64>; 3] {
@@ -118,49 +96,44 @@ impl LagGradients {
         self.live[slot]
     }
 
-    /// Starts a step: computes the part of P̃ at its end that is known, as in
+    /// Starts a step: replaces P̃ by the part of it at the end of the step that is known, as in
     /// [`PairMemory::known`](super::lag::PairMemory::known).
     #[inline(always)]
     pub(super) fn predict(&mut self, [_, start, before, state]: [f64; 4]) {
-        let [filtered, now, earlier] = &self.lists;
-        let m = filtered.nrows();
-        self.known.resize(m * WIDTH, 0.0);
+        let m = self.lists[0].nrows();
+        let [filtered, now, earlier] = &mut self.lists;
         for slot in (0..WIDTH).filter(|slot| self.live[*slot]) {
-            let [f, n, e] = [filtered, now, earlier].map(|list| column(list.as_slice(), m, slot));
-            let own = f.iter().zip(n).zip(e);
-            for (known, ((f, n), e)) in column_mut(&mut self.known, m, slot).iter_mut().zip(own) {
-                *known = state * f + start * n + before * e;
+            let own = column_mut(filtered.as_mut_slice(), m, slot).iter_mut();
+            let past = [&*now, &*earlier].map(|list| column(list.as_slice(), m, slot));
+            for ((f, n), e) in own.zip(past[0]).zip(past[1]) {
+                *f = state * *f + start * n + before * e;
             }
         }
     }
 
-    /// The known part of a live pair.
+    /// The known part of a live pair, within a step.
     pub(super) fn known(&self, slot: usize) -> &[f64] {
-        column(&self.known, self.lists[0].nrows(), slot)
+        column(self.lists[0].as_slice(), self.lists[0].nrows(), slot)
     }
 
     /// Advances by a step at whose end the pairs `pressed` (slot, column of `forces`) have forces.
     #[inline(always)]
     pub(super) fn advance(&mut self, end: f64, pressed: &[(usize, usize)], forces: &[f64]) {
         let m = self.lists[0].nrows();
+        let [filtered, now, before] = &mut self.lists;
+        // The list of the forces one step earlier becomes that of the new ones.
+        std::mem::swap(now, before);
+        let (filtered, now) = (filtered.as_mut_slice(), now.as_mut_slice());
         for slot in 0..WIDTH {
-            let force = pressed.iter().find(|(own, _)| *own == slot).map(|(_, column)| *column);
-            if !self.live[slot] && force.is_none() {
-                continue;
-            }
-            let [filtered, now, before] = &mut self.lists;
-            let [filtered, now, before] =
-                [filtered, now, before].map(|list| column_mut(list.as_mut_slice(), m, slot));
-            if std::mem::replace(&mut self.live[slot], true) {
-                filtered.copy_from_slice(column(&self.known, m, slot));
-            }
-            before.copy_from_slice(now);
-            match force {
-                Some(k) => {
-                    add(filtered, end, column(forces, m, k));
-                    now.copy_from_slice(column(forces, m, k));
+            match pressed.iter().find(|(own, _)| *own == slot) {
+                Some((_, k)) => {
+                    let force = column(forces, m, *k);
+                    add(column_mut(filtered, m, slot), end, force);
+                    column_mut(now, m, slot).copy_from_slice(force);
+                    self.live[slot] = true;
                 }
-                None => now.fill(0.0),
+                None if self.live[slot] => column_mut(now, m, slot).fill(0.0),
+                None => {}
             }
         }
     }

@@ -166,7 +166,7 @@ impl VibratingSet<'_> {
         // act twice. Between meshes the static flexibility that the modes leave out appears nowhere
         // else.
         let (carried, mut doubled) =
-            (self.bodies.carried(frame, self.clock.cycles), -&frame.lagging);
+            (self.bodies.carried(frame, self.clock.cycles), -frame.lagging());
         for mesh in &frame.meshes {
             let own = (mesh.first, mesh.first);
             let size = (mesh.count, mesh.count);
@@ -181,7 +181,7 @@ impl VibratingSet<'_> {
             rows,
             contact,
             mesh_tangents,
-            lagging: frame.lagging.clone(),
+            lagging: frame.lagging().clone(),
             beta: self.race_dynamics.damping.beta,
             races: n,
         })

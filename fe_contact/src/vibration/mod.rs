@@ -5,6 +5,7 @@ mod body;
 mod build;
 mod checkpoint;
 mod clock;
+mod combination;
 mod contact_tables;
 mod coordinates;
 mod damping;

@@ -1,6 +1,8 @@
 //! Small dense matrices (about 20×20) for the products of every time step, stored in the order in
 //! which they are read, without the strides of a general library.
 
+use faer::linalg::matmul::matmul;
+use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::DMatrix;
 
 /// Rows of a block, whose sums are formed simultaneously.
@@ -37,7 +39,73 @@ impl Packed {
         Self { rows, columns, data }
     }
 
+    /// Adds to one entry.
+    #[inline(always)]
+    pub(super) fn add(&mut self, (row, column): (usize, usize), value: f64) {
+        self.data[row / BLOCK * self.columns + column][row % BLOCK] += value;
+    }
+
+    /// Replaces a square matrix whose symmetric part is positive definite, so that no pivoting is needed, by its
+    /// inverse (Gauss–Jordan elimination). Returns whether all pivots were positive and finite; if not, the entries
+    /// are of no use.
+    #[inline(always)]
+    pub(super) fn invert_definite(&mut self) -> bool {
+        let n = self.columns;
+        debug_assert_eq!(self.rows, n);
+        let mut row = vec![0.0; n];
+        for k in 0..n {
+            let (own, lane) = (k / BLOCK * n, k % BLOCK);
+            let pivot = self.data[own + k][lane];
+            if !(pivot > 0.0 && pivot.is_finite()) {
+                return false;
+            }
+            let inverse = 1.0 / pivot;
+            // a_kj ← a_kj / a_kk,  a_ij ← a_ij − a_ik a_kj,  a_ik ← −a_ik / a_kk,  a_kk ← 1 / a_kk
+            for (a, block) in row.iter_mut().zip(&self.data[own..own + n]) {
+                *a = block[lane] * inverse;
+            }
+            for (place, blocks) in self.data.chunks_exact_mut(n).enumerate() {
+                let mut pivots = blocks[k];
+                if place * n == own {
+                    pivots[lane] = 0.0;
+                }
+                for (block, a) in blocks.iter_mut().zip(&row) {
+                    for (x, pivot) in block.iter_mut().zip(&pivots) {
+                        *x -= pivot * a;
+                    }
+                }
+                blocks[k] = pivots.map(|pivot| -pivot * inverse);
+                if place * n == own {
+                    for (block, a) in blocks.iter_mut().zip(&row) {
+                        block[lane] = *a;
+                    }
+                    blocks[k][lane] = inverse;
+                }
+            }
+        }
+        true
+    }
+
+    /// out = G Aᵀ for columns G of length `m`, as many as A has columns.
+    pub(super) fn times_transposed(&self, out: &mut [f64], g: &[f64], m: usize) {
+        let g = MatRef::from_column_major_slice(&g[..m * self.columns], m, self.columns);
+        let blocks = self.data.chunks_exact(self.columns.max(1));
+        for (block, out) in blocks.zip(out[..m * self.rows].chunks_mut(m * BLOCK)) {
+            let rows = out.len() / m.max(1);
+            let block = MatRef::from_column_major_slice(block.as_flattened(), BLOCK, self.columns);
+            let out = MatMut::from_column_major_slice_mut(out, m, rows);
+            matmul(out, Accum::Replace, g, block.subrows(0, rows).transpose(), 1.0, Par::Seq);
+        }
+    }
+
+    /// All entries.
+    pub(super) fn full(&self) -> DMatrix<f64> {
+        let entry = |i: usize, j: usize| self.data[i / BLOCK * self.columns + j][i % BLOCK];
+        DMatrix::from_fn(self.rows, self.columns, entry)
+    }
+
     /// out += A x.
+    #[inline(always)]
     pub(super) fn add_product(&self, x: &[f64], out: &mut [f64]) {
         let (x, out) = (&x[..self.columns], &mut out[..self.rows]);
         let blocks = self.data.chunks_exact(self.columns.max(1));
@@ -63,6 +131,32 @@ impl Packed {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Matrices as those of a step: symmetric and positive definite, with a skew part as gyroscopic terms have it, and
+    /// rows of units that differ by a factor of 1000.
+    #[test]
+    fn inverses_and_products_of_columns_are_those_of_the_library() {
+        for n in [1, 7, 8, 17, 24] {
+            let root = DMatrix::from_fn(n, n, |i, j| (1.3 * i as f64 + 2.7 * (j * j) as f64).sin());
+            let skew = DMatrix::from_fn(n, n, |i, j| 0.1 * (i as f64 - j as f64));
+            let definite = &root * root.transpose() + DMatrix::identity(n, n) + skew;
+            let units = DMatrix::from_diagonal(&nalgebra::DVector::from_fn(n, |i, _| {
+                if i % 3 == 2 { 1e3 } else { 1.0 }
+            }));
+            let a = &units * definite * &units;
+            let mut inverse = Packed::new(&a);
+            assert!(inverse.invert_definite());
+            let own =
+                &units * (inverse.full() * &a) * units.map(|u| if u > 0.0 { 1.0 / u } else { 0.0 });
+            assert!((own - DMatrix::identity(n, n)).amax() < 1e-11, "{n}");
+            let g = DMatrix::from_fn(5, n, |i, j| 0.2 * i as f64 - 0.1 * j as f64);
+            let mut out = DMatrix::zeros(5, n);
+            Packed::new(&a).times_transposed(out.as_mut_slice(), g.as_slice(), 5);
+            let exact = &g * a.transpose();
+            assert!((&out - &exact).amax() <= 1e-13 * exact.amax(), "{n}");
+        }
+        assert!(!Packed::new(&DMatrix::from_diagonal_element(3, 3, -1.0)).invert_definite());
+    }
 
     #[test]
     fn products_are_those_of_the_library() {

@@ -32,7 +32,6 @@ impl VibratingSet<'_> {
         let inputs = FrameInputs {
             statics: &self.statics,
             gears: &self.bodies.gears,
-            inverse: &self.race_dynamics.inverse,
             lag_end: self.pairs.lag.end,
         };
         let mut frame = Box::new(Frame::new(&inputs, pattern, &places, turned)?);

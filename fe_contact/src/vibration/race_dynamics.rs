@@ -30,9 +30,10 @@ pub(super) struct RaceDynamics {
     pub(super) seat_stiffness: DMatrix<f64>,
     /// Terms of the rotating carrier frame, if they act.
     gyroscopic: Option<GyroscopicTerms>,
-    /// A⁻¹, n×n, m/N; `packed_inverse` is the same, stored for the products of every step.
-    pub(super) inverse: DMatrix<f64>,
-    pub(super) packed_inverse: Packed,
+    /// A: stiffness of the races within a step, without contact, n×n, N/m.
+    pub(super) stiffness: Packed,
+    /// A⁻¹, n×n, m/N.
+    pub(super) inverse: Packed,
     pub(super) motion: Motion,
 }
 
@@ -86,8 +87,8 @@ impl RaceDynamics {
             supports,
             seat_stiffness,
             gyroscopic,
-            inverse: DMatrix::zeros(n, n),
-            packed_inverse: Packed::default(),
+            stiffness: Packed::default(),
+            inverse: Packed::default(),
             motion,
         };
         own.factorise(statics, rule, bodies)?;
@@ -123,8 +124,8 @@ impl RaceDynamics {
         // Stiffness from mesh forces that turn with their lines of action.
         a += &statics.reference().stiffness;
         let singular = || FeError::NoEquilibrium("the races have no inertia".into());
-        self.inverse = a.try_inverse().ok_or_else(singular)?;
-        self.packed_inverse = Packed::new(&self.inverse);
+        self.stiffness = Packed::new(&a);
+        self.inverse = Packed::new(&a.try_inverse().ok_or_else(singular)?);
         Ok(())
     }
 

@@ -79,7 +79,7 @@ impl VibratingSet<'_> {
     /// Static flexibility between pairs of different meshes, through bodies with elastic states,
     /// m/N.
     fn across_meshes(&self, frame: &Frame) -> DMatrix<f64> {
-        let mut across = frame.lagging.clone() + self.bodies.carried(frame, self.clock.cycles);
+        let mut across = frame.lagging().clone() + self.bodies.carried(frame, self.clock.cycles);
         for mesh in &frame.meshes {
             across.view_mut((mesh.first, mesh.first), (mesh.count, mesh.count)).fill(0.0);
         }

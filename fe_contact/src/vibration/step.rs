@@ -1,18 +1,13 @@
 //! One time step: the bodies' predictions, contact of all pairs, and the bodies' state at the end.
 
-use dynamics::{Computation, Motion, wide};
-use faer::linalg::solvers::Solve;
-use faer::{MatMut, MatRef};
-use nalgebra::{DMatrix, DVector};
+use dynamics::Motion;
+use nalgebra::DVector;
 
-use super::frame::{Combination, Frame};
-use super::gradients::times;
-use super::packed::Packed;
+use super::combination::{Combination, StepVectors};
+use super::frame::Frame;
 use super::rotation::NominalRotation;
 use super::set::VibratingSet;
-use super::workspace::Workspace;
 use crate::complementarity::ActiveSet;
-use crate::contact::ContactMaps;
 use crate::error::FeError;
 
 /// Most Newton iterations of one step.
@@ -51,7 +46,6 @@ impl VibratingSet<'_> {
         let mut with_backside = false;
         let mut frame = self.take_frame(false)?;
         self.bend(&mut frame);
-        self.free_races();
         self.solve_contact(&mut frame)?;
         if self.statics.backside_touches(&self.work.x) {
             self.frames.put_back(self.clock.step_in_cycle, frame, false);
@@ -103,13 +97,6 @@ impl VibratingSet<'_> {
         }
     }
 
-    /// Displacements of the races under `work.load` alone.
-    pub(super) fn free_races(&mut self) {
-        self.work.free.fill(0.0);
-        let Workspace { load, free, .. } = &mut self.work;
-        self.race_dynamics.packed_inverse.add_product(load.as_slice(), free.as_mut_slice());
-    }
-
     /// Advances the clock, and renumbers the pairs in the lag of meshes whose phase starts again at
     /// 0.
     fn tick(&mut self) {
@@ -127,12 +114,11 @@ impl VibratingSet<'_> {
         // Positions differ in their number of pairs: the vectors are sized for the largest.
         if work.b.len() < count {
             work.b = DVector::zeros(count);
+            work.next = DVector::zeros(count);
         }
         self.pairs.fit(count);
-        // b = rows · x_free + elastic − offsets − lagging · known
-        for ((b, row), offset) in work.b.iter_mut().zip(&frame.rows).zip(&frame.offsets) {
-            *b = row.dot(work.free.as_slice()) - offset;
-        }
+        // b = elastic − offsets − lagging · known
+        work.b.iter_mut().zip(&frame.offsets).for_each(|(b, offset)| *b = -offset);
         for bend in &frame.bends {
             work.b[bend.pair] -= bend.opened;
         }
@@ -145,7 +131,7 @@ impl VibratingSet<'_> {
                 }
             }
         }
-        let mut lags = frame.lags.as_slice();
+        let mut lags = frame.lags();
         for (memory, mesh) in self.pairs.memory.iter().zip(&frame.meshes) {
             let lagged = &mut work.b.as_mut_slice()[frame.lagged_by(mesh)];
             for slot in &frame.pattern.slots[mesh.first..mesh.first + mesh.count] {
@@ -167,9 +153,22 @@ impl VibratingSet<'_> {
                 let slots = frame.pattern.slots[own.clone()].iter();
                 forces[own].iter_mut().zip(slots).for_each(|(p, slot)| *p = memory.now(*slot));
             }
-            for (i, (delta, b)) in approaches.iter_mut().zip(b).enumerate() {
-                let row = frame.receptance.row(i);
-                *delta = b - row.iter().zip(&*forces).map(|(y, p)| y * p).sum::<f64>();
+            // A x = L − Rᵀ P,  δ = R x + b − E P
+            work.left.copy_from(&work.load);
+            for (row, force) in frame.rows().iter().zip(&*forces) {
+                row.add_to(-force, work.left.as_mut_slice());
+            }
+            work.x.fill(0.0);
+            self.race_dynamics.inverse.add_product(work.left.as_slice(), work.x.as_mut_slice());
+            for ((delta, b), row) in approaches.iter_mut().zip(b).zip(frame.rows()) {
+                *delta = b + row.dot(work.x.as_slice());
+            }
+            for group in frame.groups() {
+                for j in group.clone().filter(|j| forces[*j] != 0.0) {
+                    for i in group.clone() {
+                        approaches[i] -= frame.excess(i, j) * forces[j];
+                    }
+                }
             }
             self.contact.find_lost(frame, approaches)?;
         }
@@ -179,7 +178,8 @@ impl VibratingSet<'_> {
             let place = match known {
                 Some(place) => place,
                 None => {
-                    let Some(made) = wide(Combining(frame, &self.contact.maps, &work.ids))? else {
+                    let (maps, races) = (&self.contact.maps, &self.race_dynamics.stiffness);
+                    let Some(made) = Combination::new(frame, maps, &work.ids, races)? else {
                         // Meshes that share a table: the map of one was replaced by that of
                         // another.
                         self.contact.find_lost(frame, approaches)?;
@@ -190,14 +190,19 @@ impl VibratingSet<'_> {
                 }
             };
             self.counts.solutions += 1;
-            let chosen = &frame.combinations[place];
-            // `forces` holds the new approaches δ = W b + w until the maps are found to hold.
-            forces.copy_from_slice(&chosen.offset);
-            chosen.slope.add_product(b, forces);
+            let vectors = StepVectors {
+                load: work.load.as_slice(),
+                b,
+                left: work.left.as_mut_slice(),
+                x: work.x.as_mut_slice(),
+                approaches: &mut work.next.as_mut_slice()[..count],
+                forces: &mut *forces,
+            };
+            frame.combinations[place].solve(frame, vectors);
             // From iteration 12 on, half of the step is taken, in case contact sets alternate.
             let part = if iteration < 12 { 1.0 } else { 0.5 };
             residual = 0.0;
-            for (delta, next) in approaches.iter_mut().zip(&*forces) {
+            for (delta, next) in approaches.iter_mut().zip(&work.next) {
                 let change = next - *delta;
                 residual = residual.max(change.abs());
                 *delta = if part == 1.0 { *next } else { *delta + part * change };
@@ -218,27 +223,7 @@ impl VibratingSet<'_> {
             }
             if all_hold {
                 frame.used = place;
-                approaches.copy_from_slice(forces);
-                // P = S δ + P₀,  x = A⁻¹ (load − rowsᵀ P)
-                let mut laws = frame.combinations[place].laws.as_slice();
-                for mesh in &frame.meshes {
-                    let own = mesh.first..mesh.first + mesh.count;
-                    let delta = &approaches[own.clone()];
-                    for force in &mut forces[own] {
-                        let law;
-                        (law, laws) = laws.split_at(1 + mesh.count);
-                        let along = law[1..].iter().zip(delta).map(|(s, d)| s * d);
-                        *force = law[0] + along.sum::<f64>();
-                    }
-                }
-                work.left.copy_from(&work.load);
-                for (row, force) in frame.rows.iter().zip(&*forces) {
-                    row.add_to(-force, work.left.as_mut_slice());
-                }
-                work.x.fill(0.0);
-                self.race_dynamics
-                    .packed_inverse
-                    .add_product(work.left.as_slice(), work.x.as_mut_slice());
+                approaches.copy_from_slice(&work.next.as_slice()[..count]);
                 return Ok(());
             }
         }
@@ -292,71 +277,4 @@ fn combination(frame: &Frame, ids: &mut Vec<u64>) -> Option<usize> {
     ids.clear();
     ids.extend(frame.meshes.iter().map(|mesh| mesh.held.id()));
     frame.combinations.iter().position(|c| c.maps == *ids)
-}
-
-/// The combination of the present maps of a frame, with their ids, that is to be solved.
-struct Combining<'c>(&'c Frame, &'c [ContactMaps], &'c [u64]);
-
-impl Computation for Combining<'_> {
-    type Output = Result<Option<Combination>, FeError>;
-
-    #[inline(always)]
-    fn run(self) -> Self::Output {
-        combine(self.0, self.1, self.2)
-    }
-}
-
-/// Solves (I + Y S) δ = b − Y P₀ for δ as a function of b; `None` if a mesh has no map.
-#[inline(always)]
-fn combine(
-    frame: &Frame,
-    maps: &[ContactMaps],
-    ids: &[u64],
-) -> Result<Option<Combination>, FeError> {
-    let count = frame.offsets.len();
-    let (mut s, mut p0) = (DMatrix::zeros(count, count), DVector::zeros(count));
-    let mut laws = Vec::with_capacity(count * 4);
-    for mesh in &frame.meshes {
-        let Some(map) = mesh.map(maps) else { return Ok(None) };
-        for i in 0..mesh.count {
-            p0[mesh.first + i] = map.forces[i];
-            laws.push(map.forces[i]);
-            laws.extend_from_slice(&map.stiffness[i * mesh.count..(i + 1) * mesh.count]);
-            for j in 0..mesh.count {
-                s[(mesh.first + i, mesh.first + j)] = map.stiffness[i * mesh.count + j];
-            }
-        }
-    }
-    let touches = |i: &usize| s.row(*i).iter().any(|k| *k != 0.0);
-    let touching: Vec<usize> = (0..count).filter(touches).collect();
-    // Only the touching pairs t are coupled: S W = (I + S_tt Y_tt)⁻¹ S_tt, W = I − Y_t (S W).
-    let size = touching.len();
-    let across = frame.receptance.select_columns(&touching);
-    // S couples the pairs of one mesh only: most of its entries are 0.
-    let mut response: DMatrix<f64> =
-        DMatrix::from_fn(size, size, |i, j| s[(touching[i], touching[j])]);
-    let mut matrix = DMatrix::<f64>::identity(size, size);
-    for k in 0..size {
-        for i in (0..size).filter(|i| response[(*i, k)] != 0.0) {
-            for j in 0..size {
-                matrix[(i, j)] += response[(i, k)] * across[(touching[k], j)];
-            }
-        }
-    }
-    let matrix = MatRef::from_column_major_slice(matrix.as_slice(), size, size);
-    let own = MatMut::from_column_major_slice_mut(response.as_mut_slice(), size, size);
-    matrix.partial_piv_lu().solve_in_place(own);
-    if !response.iter().all(|x| x.is_finite()) {
-        return Err(FeError::NoEquilibrium("the step's contact problem is singular".into()));
-    }
-    let mut shares = DMatrix::zeros(count, size);
-    times(&mut shares, &across, &response);
-    let mut slope = DMatrix::identity(count, count);
-    for (j, pair) in touching.iter().enumerate() {
-        slope.column_mut(*pair).axpy(-1.0, &shares.column(j), 1.0);
-    }
-    let offset = &slope * (&frame.receptance * -p0);
-    let slope = Packed::new(&slope);
-    let offset = offset.as_slice().to_vec();
-    Ok(Some(Combination { maps: ids.to_vec(), slope, offset, laws, touching, response }))
 }

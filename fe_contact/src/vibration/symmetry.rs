@@ -107,7 +107,8 @@ impl VibratingSet<'_> {
         let load = dynamics.velocity_load(&self.clock.rule);
         let mass = DMatrix::from_diagonal(&DVector::from_column_slice(&dynamics.mass));
         let is_kept = |x: &DVector<f64>| (turn * x - x).amax() <= EQUAL * x.amax();
-        [&dynamics.inverse, &load, &mass].into_iter().all(commutes) && is_kept(&self.external)
+        [&dynamics.stiffness.full(), &load, &mass].into_iter().all(commutes)
+            && is_kept(&self.external)
     }
 
     /// Whether the meshes and their loads at all positions are equal under the renumbering.

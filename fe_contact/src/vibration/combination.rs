@@ -1,0 +1,269 @@
+//! The step of a set while certain contact maps hold: an affine problem that is solved once and kept.
+//!
+//! With x the displacements of the races at the end of the step, b the approaches of the pairs with the races at their
+//! origin and without pair forces, and L the load on the races,
+//!
+//! ```text
+//! δ = R x + b − E P,   P = S δ + P₀,   A x = L − Rᵀ P
+//! ```
+//!
+//! where E is the compliance between pairs within the step beyond that of the cells. Hence
+//!
+//! ```text
+//! P = S' (R x + b) + P₀',   S' = (I + S E)⁻¹ S,   P₀' = (I + S E)⁻¹ P₀
+//! (A + Rᵀ S' R) x = L − Rᵀ (S' b + P₀')
+//! ```
+//!
+//! E couples the pairs of a mesh or, on bodies with elastic states, all pairs. The matrix of the races is of the order of
+//! their coordinates; its symmetric part is positive definite.
+
+use dynamics::{Computation, wide};
+use nalgebra::DMatrix;
+
+use super::frame::Frame;
+use super::gradients::{add, column, column_mut};
+use super::packed::Packed;
+use crate::contact::ContactMaps;
+use crate::error::FeError;
+
+/// The solved step for one combination of contact maps of all meshes.
+#[derive(Debug, Clone)]
+pub(super) struct Combination {
+    /// Ids of the maps, one per mesh.
+    pub(super) maps: Vec<u64>,
+    /// Pairs that touch: those with a force that changes with the approaches, in the order of the groups that E couples.
+    pub(super) touching: Vec<usize>,
+    /// How many of them each group has.
+    groups: Vec<usize>,
+    /// S' of each group by rows, N/m.
+    stiffness: Vec<f64>,
+    /// P₀' of the touching pairs, N.
+    preload: Vec<f64>,
+    /// Columns of E of the touching pairs, each with the rows of the pairs of its group, m/N.
+    excess: Vec<f64>,
+    /// (A + Rᵀ S' R)⁻¹, m/N.
+    pub(super) inverse: Packed,
+}
+
+/// Vectors of a step: what it starts from, and what it ends with.
+pub(super) struct StepVectors<'v> {
+    /// Load L on the races, n, N.
+    pub(super) load: &'v [f64],
+    /// b, m.
+    pub(super) b: &'v [f64],
+    /// Load on the races less S' b + P₀', n, N.
+    pub(super) left: &'v mut [f64],
+    /// x, n, m.
+    pub(super) x: &'v mut [f64],
+    /// δ, m.
+    pub(super) approaches: &'v mut [f64],
+    /// P, N.
+    pub(super) forces: &'v mut [f64],
+}
+
+impl Combination {
+    /// Solves the step of a frame whose present maps have the ids `ids`; `None` if a mesh has no map. `races`: A, n×n, N/m.
+    pub(super) fn new(
+        frame: &Frame,
+        maps: &[ContactMaps],
+        ids: &[u64],
+        races: &Packed,
+    ) -> Result<Option<Self>, FeError> {
+        wide(Combining { frame, maps, ids, races })
+    }
+
+    /// Solves a step.
+    pub(super) fn solve(&self, frame: &Frame, vectors: StepVectors<'_>) {
+        wide(Solving { combination: self, frame, vectors });
+    }
+
+    /// Touching pairs, and S' and P₀' of each group.
+    #[inline(always)]
+    fn groups(&self) -> impl Iterator<Item = (&[usize], &[f64], &[f64])> {
+        let mut rest =
+            (self.touching.as_slice(), self.stiffness.as_slice(), self.preload.as_slice());
+        self.groups.iter().map(move |count| {
+            let (touching, stiffness, preload);
+            (touching, rest.0) = rest.0.split_at(*count);
+            (stiffness, rest.1) = rest.1.split_at(count * count);
+            (preload, rest.2) = rest.2.split_at(*count);
+            (touching, stiffness, preload)
+        })
+    }
+
+    /// Writes S' G for columns G of length `m`, one for each touching pair.
+    #[inline(always)]
+    pub(super) fn press(&self, out: &mut [f64], g: &[f64], m: usize) {
+        out[..m * self.touching.len()].fill(0.0);
+        let mut first = 0;
+        for (touching, stiffness, _) in self.groups() {
+            let count = touching.len();
+            for (i, row) in stiffness.chunks_exact(count.max(1)).enumerate() {
+                for (j, s) in row.iter().enumerate() {
+                    add(column_mut(out, m, first + i), *s, column(g, m, first + j));
+                }
+            }
+            first += count;
+        }
+    }
+
+    /// Memory, bytes.
+    pub(super) fn bytes(&self) -> usize {
+        let lists = [self.maps.len(), self.touching.len(), self.groups.len()];
+        let numbers = self.stiffness.len()
+            + self.preload.len()
+            + self.excess.len()
+            + lists.iter().sum::<usize>();
+        self.inverse.bytes() + 8 * numbers
+    }
+}
+
+struct Solving<'c, 'v> {
+    combination: &'c Combination,
+    frame: &'c Frame,
+    vectors: StepVectors<'v>,
+}
+
+impl Computation for Solving<'_, '_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Self { combination, frame, vectors } = self;
+        let StepVectors { load, b, left, x, approaches, forces } = vectors;
+        let rows = frame.rows();
+        // P = P₀' + S' b on races at their origin
+        let press = |forces: &mut [f64], approaches: &[f64]| {
+            for (touching, stiffness, preload) in combination.groups() {
+                let own = stiffness.chunks_exact(touching.len().max(1));
+                for ((pair, row), preload) in touching.iter().zip(own).zip(preload) {
+                    let along = row.iter().zip(touching).map(|(s, j)| s * approaches[*j]);
+                    forces[*pair] = preload + along.sum::<f64>();
+                }
+            }
+        };
+        forces.fill(0.0);
+        press(forces, b);
+        left.copy_from_slice(load);
+        for pair in &combination.touching {
+            rows[*pair].add_to(-forces[*pair], left);
+        }
+        // (A + Rᵀ S' R) x = L − Rᵀ P
+        x.fill(0.0);
+        combination.inverse.add_product(left, x);
+        for ((own, b), row) in approaches.iter_mut().zip(b).zip(rows) {
+            *own = b + row.dot(x);
+        }
+        press(forces, approaches);
+        // δ = R x + b − E P
+        let (mut touching, mut columns) =
+            (combination.touching.as_slice(), combination.excess.as_slice());
+        for (group, count) in frame.groups().zip(&combination.groups) {
+            let (pairs, own);
+            (pairs, touching) = touching.split_at(*count);
+            (own, columns) = columns.split_at(count * group.len());
+            for (pair, column) in pairs.iter().zip(own.chunks_exact(group.len().max(1))) {
+                let of_group = approaches[group.clone()].iter_mut().zip(column);
+                of_group.for_each(|(delta, e)| *delta -= e * forces[*pair]);
+            }
+        }
+    }
+}
+
+struct Combining<'c> {
+    frame: &'c Frame,
+    maps: &'c [ContactMaps],
+    ids: &'c [u64],
+    races: &'c Packed,
+}
+
+impl Computation for Combining<'_> {
+    type Output = Result<Option<Combination>, FeError>;
+
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        let Self { frame, maps, ids, races } = self;
+        let count = frame.offsets.len();
+        let singular = || FeError::NoEquilibrium("the step's contact problem is singular".into());
+        // S and P₀ of all pairs, S by mesh and row.
+        let mut of_meshes = Vec::with_capacity(frame.meshes.len());
+        for mesh in &frame.meshes {
+            let Some(map) = mesh.map(maps) else { return Ok(None) };
+            of_meshes.push((mesh.first..mesh.first + mesh.count, map));
+        }
+        let mut made = Combination {
+            maps: ids.to_vec(),
+            touching: Vec::with_capacity(count),
+            groups: Vec::with_capacity(of_meshes.len()),
+            stiffness: Vec::with_capacity(2 * count),
+            preload: Vec::with_capacity(count),
+            excess: Vec::with_capacity(4 * count),
+            inverse: races.clone(),
+        };
+        let rows = frame.rows();
+        for group in frame.groups() {
+            let first = made.touching.len();
+            let own =
+                of_meshes.iter().filter(|(of, _)| group.start <= of.start && of.end <= group.end);
+            for (of, map) in own.clone() {
+                let touches = |i: &usize| {
+                    let row = (i - of.start) * of.len();
+                    map.stiffness[row..row + of.len()].iter().any(|s| *s != 0.0)
+                };
+                made.touching.extend(of.clone().filter(touches));
+            }
+            let touching = &made.touching[first..];
+            let size = touching.len();
+            made.groups.push(size);
+            if size == 0 {
+                continue;
+            }
+            // Columns: S, then P₀.
+            let mut right = DMatrix::zeros(size, size + 1);
+            for (of, map) in own {
+                for (i, pair) in touching.iter().enumerate().filter(|(_, p)| of.contains(p)) {
+                    right[(i, size)] = map.forces[pair - of.start];
+                    let row = (pair - of.start) * of.len();
+                    for (j, other) in touching.iter().enumerate().filter(|(_, p)| of.contains(p)) {
+                        right[(i, j)] = map.stiffness[row + other - of.start];
+                    }
+                }
+            }
+            let columns = made.excess.len();
+            for pair in touching {
+                made.excess.extend(group.clone().map(|i| frame.excess(i, *pair)));
+            }
+            // I + S E
+            let mut matrix = DMatrix::from_fn(size, size, |i, j| f64::from(u8::from(i == j)));
+            for (j, column) in made.excess[columns..].chunks_exact(group.len()).enumerate() {
+                for (k, pair) in touching.iter().enumerate() {
+                    let excess = column[pair - group.start];
+                    for i in 0..size {
+                        matrix[(i, j)] += right[(i, k)] * excess;
+                    }
+                }
+            }
+            if !matrix.try_inverse_mut() {
+                return Err(singular());
+            }
+            let solved = matrix * right;
+            made.preload.extend(solved.column(size).iter());
+            for (i, of) in touching.iter().enumerate() {
+                for (j, on) in touching.iter().enumerate() {
+                    let stiffness = solved[(i, j)];
+                    made.stiffness.push(stiffness);
+                    // A + Rᵀ S' R
+                    for (row, r) in rows[*of].entries() {
+                        for (column, q) in rows[*on].entries() {
+                            made.inverse.add((row, column), r * stiffness * q);
+                        }
+                    }
+                }
+            }
+        }
+        if !made.inverse.invert_definite() || !made.stiffness.iter().all(|s| s.is_finite()) {
+            return Err(singular());
+        }
+        Ok(Some(made))
+    }
+}
