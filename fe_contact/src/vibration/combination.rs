@@ -198,8 +198,10 @@ impl Computation for Combining<'_> {
             stiffness: Vec::with_capacity(2 * count),
             preload: Vec::with_capacity(count),
             excess: Vec::with_capacity(4 * count),
-            inverse: races.clone(),
+            inverse: Packed::default(),
         };
+        // A + Rᵀ S' R
+        let mut matrix_of_races = races.clone();
         let rows = frame.rows();
         for group in frame.groups() {
             let first = made.touching.len();
@@ -252,16 +254,16 @@ impl Computation for Combining<'_> {
                 for (j, on) in touching.iter().enumerate() {
                     let stiffness = solved[(i, j)];
                     made.stiffness.push(stiffness);
-                    // A + Rᵀ S' R
                     for (row, r) in rows[*of].entries() {
                         for (column, q) in rows[*on].entries() {
-                            made.inverse.add((row, column), r * stiffness * q);
+                            matrix_of_races.add((row, column), r * stiffness * q);
                         }
                     }
                 }
             }
         }
-        if !made.inverse.invert_definite() || !made.stiffness.iter().all(|s| s.is_finite()) {
+        made.inverse = matrix_of_races.inverse().ok_or_else(singular)?;
+        if !made.stiffness.iter().all(|s| s.is_finite()) {
             return Err(singular());
         }
         Ok(Some(made))
