@@ -24,7 +24,7 @@ const SCANNED: u32 = 140;
 
 /// Largest difference over the scan, percent, three and four planets: beyond the limit of
 /// `lumped_from_fe.rigid_carrier` where corner contacts press in all meshes of three planets at once.
-const KEPT_WORST: [f64; 2] = [0.96, 0.26];
+const KEPT_WORST: [f64; 2] = [0.93, 0.24];
 
 /// Differences below this are rounding, percent.
 const ROUNDING: f64 = 1e-6;
