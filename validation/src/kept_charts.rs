@@ -53,6 +53,7 @@ pub fn kept_studies() -> Result<Vec<KeptStudy>, ReferenceError> {
         "contact_cells",
         "elements",
         "matching",
+        "contact_solver",
         "steady_state_method",
         "integrator"
     ])

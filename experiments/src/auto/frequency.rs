@@ -218,7 +218,8 @@ impl Search<'_> {
         let mode = found.map_err(|e| ExperimentError::Model(e.into()))?;
         if let Some(mixed) = mixed(&modes, &mode, self.request.mode_type) {
             let why = format!(
-                "its mode at {mixed:.0} Hz is about as much of another type: on another mesh or with inertia of the bodies                  the number {} may belong to another mode",
+                "its mode at {mixed:.0} Hz is about as much of another type: on another mesh or with inertia of the bodies \
+                 the number {} may belong to another mode",
                 self.request.number
             );
             return Err(ExperimentError::Model(why.into()));

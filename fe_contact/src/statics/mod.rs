@@ -28,6 +28,7 @@ pub use bodies::{Bodies, FeSettings};
 pub(crate) use bodies::{FLEXIBILITY_FACTOR, missing_mesh};
 pub use estimate::{BodyEstimate, FeEstimate, MOST_BYTES, estimate, within_memory};
 pub use imperfection::{Imperfections, PitchError};
+pub(crate) use kinematic_rest::LinearMesh;
 pub(crate) use mesh_rows::{invariants, turned};
 pub use pair::{
     PairAtPhase, PairCycle, PressureProfile, ToothPairLoad, at_phase, pair_cycle, press,

@@ -72,14 +72,6 @@ impl PlacedMesh<'_> {
         self.table.answer(&self.approaches(q), &self.errors, solver, warm)
     }
 
-    /// Adds the second-order terms of corner gaps at q (m) to the offsets.
-    pub(crate) fn open(&mut self, q: &DVector<f64>) {
-        for bend in &self.bends {
-            let moved = bend.moved(q);
-            self.offsets[bend.pair] += 0.5 * bend.curvature * moved * moved;
-        }
-    }
-
     /// Sets the offsets to `perfect` plus the second-order terms of corner gaps at q (m), and adds
     /// what these terms change of the generalised pair forces, P G'' Δe ∂e, to the load on the
     /// races, N.

@@ -18,7 +18,7 @@
 //! their coordinates; its symmetric part is positive definite.
 
 use dynamics::{Computation, wide};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrixView, DMatrixViewMut};
 
 use super::frame::Frame;
 use super::gradients::{add, column, column_mut};
@@ -203,6 +203,8 @@ impl Computation for Combining<'_> {
         // A + Rᵀ S' R
         let mut matrix_of_races = races.clone();
         let rows = frame.rows();
+        let (mut right, mut matrix, mut solved) = (Vec::new(), Vec::new(), Vec::new());
+        let mut pressed = matrix_of_races.column();
         for group in frame.groups() {
             let first = made.touching.len();
             let own =
@@ -220,14 +222,15 @@ impl Computation for Combining<'_> {
             if size == 0 {
                 continue;
             }
-            // Columns: S, then P₀.
-            let mut right = DMatrix::zeros(size, size + 1);
+            // By columns: S, then P₀; I + S E.
+            right.clear();
+            right.resize(size * (size + 1), 0.0);
             for (of, map) in own {
                 for (i, pair) in touching.iter().enumerate().filter(|(_, p)| of.contains(p)) {
-                    right[(i, size)] = map.forces[pair - of.start];
+                    right[size * size + i] = map.forces[pair - of.start];
                     let row = (pair - of.start) * of.len();
                     for (j, other) in touching.iter().enumerate().filter(|(_, p)| of.contains(p)) {
-                        right[(i, j)] = map.stiffness[row + other - of.start];
+                        right[j * size + i] = map.stiffness[row + other - of.start];
                     }
                 }
             }
@@ -235,31 +238,31 @@ impl Computation for Combining<'_> {
             for pair in touching {
                 made.excess.extend(group.clone().map(|i| frame.excess(i, *pair)));
             }
-            // I + S E
-            let mut matrix = DMatrix::from_fn(size, size, |i, j| f64::from(u8::from(i == j)));
+            matrix.clear();
+            matrix.resize(size * size, 0.0);
             for (j, column) in made.excess[columns..].chunks_exact(group.len()).enumerate() {
-                for (k, pair) in touching.iter().enumerate() {
-                    let excess = column[pair - group.start];
-                    for i in 0..size {
-                        matrix[(i, j)] += right[(i, k)] * excess;
-                    }
+                let own = &mut matrix[j * size..(j + 1) * size];
+                own[j] = 1.0;
+                for (pair, s) in touching.iter().zip(right.chunks_exact(size)) {
+                    add(own, column[pair - group.start], s);
                 }
             }
+            let mut matrix = DMatrixViewMut::from_slice(&mut matrix, size, size);
             if !matrix.try_inverse_mut() {
                 return Err(singular());
             }
-            let solved = matrix * right;
-            made.preload.extend(solved.column(size).iter());
-            for (i, of) in touching.iter().enumerate() {
-                for (j, on) in touching.iter().enumerate() {
-                    let stiffness = solved[(i, j)];
-                    made.stiffness.push(stiffness);
-                    for (row, r) in rows[*of].entries() {
-                        for (column, q) in rows[*on].entries() {
-                            matrix_of_races.add((row, column), r * stiffness * q);
-                        }
-                    }
-                }
+            solved.clear();
+            solved.resize(size * (size + 1), 0.0);
+            let right = DMatrixView::from_slice(&right, size, size + 1);
+            DMatrixViewMut::from_slice(&mut solved, size, size + 1).gemm(1.0, &matrix, &right, 0.0);
+            made.preload.extend_from_slice(&solved[size * size..]);
+            for i in 0..size {
+                made.stiffness.extend((0..size).map(|j| solved[j * size + i]));
+            }
+            for (on, of) in touching.iter().zip(solved.chunks_exact(size)) {
+                pressed.fill(0.0);
+                touching.iter().zip(of).for_each(|(of, s)| rows[*of].add_to(*s, &mut pressed));
+                matrix_of_races.add_outer(&pressed, &rows[*on]);
             }
         }
         made.inverse = matrix_of_races.inverse().ok_or_else(singular)?;

@@ -52,11 +52,18 @@ impl VibratingSet<'_> {
         };
         let x = DVector::from_column_slice(&self.motion().x);
         let position = self.clock.position(self.clock.step_in_cycle);
-        let fronts = frame.meshes.iter().take(self.pairs.memory.len()).enumerate();
-        larger(fronts.map(|(which, mesh)| {
-            let table = &self.contact.tables.list[mesh.table];
+        let fronts = frame.meshes.iter().take(self.pairs.memory.len());
+        let linear = frame.pattern.linear(|| {
+            let each = fronts.clone().enumerate().map(|(which, mesh)| {
+                let table = &self.contact.tables.list[mesh.table];
+                self.statics.linear_mesh(which, table, position)
+            });
+            each.collect()
+        });
+        let Ok(linear) = linear else { return f64::NAN };
+        larger(fronts.zip(linear).map(|(mesh, linear)| {
             let forces = &self.pairs.forces.as_slice()[mesh.first..mesh.first + mesh.count];
-            self.statics.rest_of_mesh(which, table, position, &x, forces)
+            self.statics.rest_of_mesh(linear, &x, forces)
         }))
     }
 

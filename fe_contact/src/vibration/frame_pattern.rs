@@ -12,7 +12,7 @@ use super::teeth::{ToothPoint, tooth_points};
 use crate::contact::MeshTable;
 use crate::error::FeError;
 use crate::short_row::ShortRow;
-use crate::statics::{PlacedMesh, StaticSet};
+use crate::statics::{LinearMesh, PlacedMesh, StaticSet};
 
 /// One mesh of a pattern: its pairs are `first..first + count`.
 #[derive(Debug, Clone)]
@@ -66,6 +66,8 @@ pub(super) struct FramePattern {
     pub(super) within_meshes: Vec<f64>,
     /// Between ports of different meshes, others 0; for bodies with elastic states only.
     across: OnceLock<Vec<DMatrix<f64>>>,
+    /// The front meshes by linear kinematics, without the slopes of deformed flanks; only where the kinematic rest is asked for.
+    linear: OnceLock<Vec<LinearMesh>>,
 }
 
 impl FramePattern {
@@ -95,6 +97,7 @@ impl FramePattern {
             within: DMatrix::zeros(count, count),
             within_meshes: Vec::new(),
             across: OnceLock::new(),
+            linear: OnceLock::new(),
         };
         for (which, mesh) in placed.iter().enumerate() {
             let first = pattern.perfect.len();
@@ -160,6 +163,14 @@ impl FramePattern {
     /// Static FE flexibility of each gear between ports of different meshes, m/N.
     pub(super) fn across(&self, gears: &[VibratingGear<'_>]) -> &[DMatrix<f64>] {
         self.across.get_or_init(|| self.flexibility(gears, false))
+    }
+
+    /// The front meshes by linear kinematics, made by `make` at the first time of asking.
+    pub(super) fn linear(
+        &self,
+        make: impl FnOnce() -> Result<Vec<LinearMesh>, FeError>,
+    ) -> Result<&[LinearMesh], FeError> {
+        kept(&self.linear, make).map(Vec::as_slice)
     }
 
     /// Mesh of each pair.

@@ -5,6 +5,8 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::DMatrix;
 
+use crate::short_row::ShortRow;
+
 /// Rows of a block, whose sums are formed simultaneously.
 const BLOCK: usize = 8;
 
@@ -39,10 +41,20 @@ impl Packed {
         Self { rows, columns, data }
     }
 
-    /// Adds to one entry.
+    /// A column of zeros, to the end of the last block.
+    pub(super) fn column(&self) -> Vec<f64> {
+        vec![0.0; self.rows.next_multiple_of(BLOCK)]
+    }
+
+    /// Adds the product of a [column](Self::column) with a row.
     #[inline(always)]
-    pub(super) fn add(&mut self, (row, column): (usize, usize), value: f64) {
-        self.data[row / BLOCK * self.columns + column][row % BLOCK] += value;
+    pub(super) fn add_outer(&mut self, column: &[f64], row: &ShortRow) {
+        let (parts, _) = column.as_chunks::<BLOCK>();
+        for (j, r) in row.entries() {
+            for (block, part) in self.data[j..].iter_mut().step_by(self.columns).zip(parts) {
+                block.iter_mut().zip(part).for_each(|(a, p)| *a += p * r);
+            }
+        }
     }
 
     /// The inverse; `None` where there is none.
