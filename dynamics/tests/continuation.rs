@@ -58,6 +58,34 @@ fn a_circle_closes_and_has_two_folds() {
     assert!(whole > 0.98 * TAU && whole < TAU + 0.5, "{whole}");
 }
 
+/// Two branches side by side, w = 0 and w = δ with w = y − A tanh(kλ). Beyond a bend the long step along the tangent ends nearer
+/// to the other branch, of the other sign of ∂F/∂w: steps are shortened until the branch followed is the one started on.
+#[test]
+fn a_step_that_leads_to_a_neighbouring_branch_is_shortened() {
+    let (a, k, delta) = (0.5, 6.0, 0.02);
+    let w = move |y: f64, l: f64| y - a * (k * l).tanh();
+    let slope = move |l: f64| -a * k / (k * l).cosh().powi(2);
+    let f = move |y: f64, l: f64| {
+        let w = w(y, l);
+        [w * (w - delta), 2.0 * w - delta, (2.0 * w - delta) * slope(l)]
+    };
+    let mut pair = Scalar(f, |_, _| -1.0);
+    // The first step ends at w > δ: of the two roots Newton's method then finds δ.
+    let options = ContinuationOptions {
+        first_step: 0.3,
+        steps: [1e-6, 0.3],
+        most_turn: 1.5,
+        ..ContinuationOptions::within([0.0, 1.0])
+    };
+    let start = a * (k * 0.05).tanh();
+    let branch = trace(&mut pair, &[start], 0.05, Direction::Up, &one(), &options).unwrap();
+    assert_eq!(branch.ends[1], End::Bound);
+    assert!(branch.points.len() > 2);
+    for point in &branch.points {
+        assert!(w(point.y[0], point.lambda).abs() < 1e-9, "{point:?}");
+    }
+}
+
 /// λ = y³ − y: folds at y = ±1/√3, λ = ∓2/(3√3); stable outside them.
 #[test]
 fn a_cusp_s_folds_are_found_both_ways_and_bounds_are_met() {

@@ -15,6 +15,8 @@ pub struct KeptStep {
     /// Scaled unknowns and, last, the scaled parameter at its end: rounding makes them others than the plain ones divided
     /// by their scales.
     pub scaled: Vec<f64>,
+    /// Sign of det [∂F/∂u; tᵀ] at its end; 0 if it is not known.
+    pub orientation: f64,
     /// Length of the step that is tried next, along the scaled arc.
     pub next_step: f64,
     /// Whether the branch was far from its first point before.

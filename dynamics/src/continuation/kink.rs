@@ -41,7 +41,7 @@ pub(super) fn past_kink<F: Family>(
             let moved: Vec<f64> = next.u.iter().zip(u).map(|(a, b)| a - b).collect();
             let is_near = (0.1 * h..3.0 * h).contains(&norm(&moved)) && dot(&moved, &other) > 0.0;
             // The way back along the branch has the other sense.
-            if is_near && space.orientation(&next.u, &next.tangent).is_ok_and(|o| o * sense > 0.0) {
+            if is_near && next.orientation * sense > 0.0 {
                 return Some(next);
             }
         }

@@ -19,6 +19,8 @@ pub(super) struct Space<'a, F> {
 pub(super) struct Corrected {
     pub(super) u: Vec<f64>,
     pub(super) tangent: Vec<f64>,
+    /// Sign of det [∂F/∂u; tᵀ], as [`Space::orientation`]; 0 if it is not known.
+    pub(super) orientation: f64,
     pub(super) iterations: usize,
 }
 
@@ -26,7 +28,7 @@ impl Corrected {
     /// The same point with the tangent turned round.
     pub(super) fn turned_back(&self) -> Self {
         let tangent = self.tangent.iter().map(|t| -t).collect();
-        Self { u: self.u.clone(), tangent, iterations: self.iterations }
+        Self { u: self.u.clone(), tangent, orientation: -self.orientation, ..*self }
     }
 }
 
@@ -103,16 +105,7 @@ impl<'a, F: Family> Space<'a, F> {
         t: &[f64],
     ) -> Result<f64, ContinuationError<F::Error>> {
         let found = self.evaluate(u)?;
-        let (matrix, _) = self.bordered_matrix(&found, t);
-        let own = DMatrix::from_fn(t.len(), t.len(), |i, j| matrix[(i, j)]);
-        let lu = own.lu();
-        let signs = lu
-            .u()
-            .diagonal()
-            .iter()
-            .map(|d| if *d == 0.0 { 0.0 } else { d.signum() })
-            .product::<f64>();
-        Ok(signs * lu.p().determinant::<f64>())
+        Ok(sign(&self.bordered_matrix(&found, t).0))
     }
 
     /// [∂F/∂u; borderᵀ] with rows of F scaled to a largest entry of one, and these scales.
@@ -146,17 +139,19 @@ impl<'a, F: Family> Space<'a, F> {
         [0, 1].map(|k| (0..=n).map(|i| solved[(i, k)]).collect())
     }
 
-    /// Unit tangent at u with a positive component along `border`.
-    pub(super) fn tangent(
+    /// Gives a point the unit tangent with a positive component along `border`.
+    pub(super) fn orient(
         &mut self,
-        u: &[f64],
+        at: &mut Corrected,
         border: &[f64],
-    ) -> Result<Vec<f64>, ContinuationError<F::Error>> {
-        let found = self.evaluate(u)?;
+    ) -> Result<(), ContinuationError<F::Error>> {
+        let found = self.evaluate(&at.u)?;
         let n = border.len() - 1;
         let unit = |i: usize| if i == n { 1.0 } else { 0.0 };
         let [t, _] = self.bordered(&found, border, [&unit, &unit]);
-        self.unit(u, t)
+        at.tangent = self.unit(&at.u, t)?;
+        at.orientation = sign(&self.bordered_matrix(&found, border).0);
+        Ok(())
     }
 
     /// Unit tangent at u in either sense, from that of some borders to which it is the least inclined.
@@ -213,7 +208,9 @@ impl<'a, F: Family> Space<'a, F> {
             last = change.iter().map(|d| d.abs()).fold(0.0, f64::max);
             if last <= stop.correction {
                 let tangent = self.unit(&u, t)?;
-                return Ok(Corrected { u, tangent, iterations });
+                // The tangent has a positive component along the border, hence the same sign with either.
+                let orientation = sign(&self.bordered_matrix(&found, border).0);
+                return Ok(Corrected { u, tangent, orientation, iterations });
             }
         }
         let (lambda, iterations) = (self.lambda(&u), stop.most_iterations);
@@ -238,6 +235,13 @@ impl<'a, F: Family> Space<'a, F> {
         let n = self.scales.unknowns.len();
         (0..=n).map(|i| if i == n { 1.0 } else { 0.0 }).collect()
     }
+}
+
+/// Sign of the determinant, 0 if it cannot be told. The determinant itself may be too small for a number.
+fn sign(matrix: &Mat<f64>) -> f64 {
+    let lu = DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)]).lu();
+    let one = |d: &f64| if *d == 0.0 || d.is_nan() { 0.0 } else { d.signum() };
+    lu.u().diagonal().iter().map(one).product::<f64>() * lu.p().determinant::<f64>()
 }
 
 pub(super) fn norm(x: &[f64]) -> f64 {

@@ -7,7 +7,7 @@ use super::error::ContinuationError;
 use super::family::Family;
 use super::kept_step::{KeptStep, StepEnd, StepStore, Unkept};
 use super::kink::past_kink;
-use super::locate::{Judged, crossed, locate};
+use super::locate::{Judged, crossed, locate, value};
 use super::options::{ContinuationOptions, Scales};
 use super::space::{Corrected, Space, Stop, dot, norm};
 
@@ -26,6 +26,9 @@ const GROWTH: f64 = 1.6;
 /// A turn that shrinks to no less than this share when the step is halved is a kink of the branch, as equations with
 /// kinks have them: no shorter step would avoid it.
 const KINK: f64 = 0.75;
+
+/// Share of its values at both ends of a step below which a test function has vanished between, rather than jumped at a kink.
+const VANISHED: f64 = 1e-2;
 
 /// Least steps before a kink at which the sense of the branch is taken: nearer to it a point may be beyond it already.
 const FAR: f64 = 100.0;
@@ -157,7 +160,7 @@ pub fn branch_off_kept<F: Family>(
         let predicted: Vec<f64> = u.iter().zip(&off).map(|(u, o)| u + h * o).collect();
         match space.correct(&predicted, &off, stop(options)) {
             Ok(mut first) if distance(&first.u, &predicted) <= h => {
-                first.tangent = space.tangent(&first.u, &off)?;
+                space.orient(&mut first, &off)?;
                 let (points, end) = follow(&mut space, first, options, (towards, store))?;
                 return Ok(Branch { points, ends: [End::Start, end] });
             }
@@ -196,7 +199,7 @@ fn begin<F: Family>(
             (at, even)
         }
     };
-    at.tangent = space.tangent(&at.u, &border)?;
+    space.orient(&mut at, &border)?;
     Ok(if at.tangent.last().is_some_and(|t| *t < 0.0) { at.turned_back() } else { at })
 }
 
@@ -217,7 +220,8 @@ fn loaded<F: Family>(
 /// The point that a kept step ends at.
 fn reached(step: KeptStep) -> Option<Judged> {
     let BranchPoint { tangent, judgement, iterations, .. } = step.points.into_iter().next_back()?;
-    Some(Judged { at: Corrected { u: step.scaled, tangent, iterations }, judgement })
+    let (u, orientation) = (step.scaled, step.orientation);
+    Some(Judged { at: Corrected { u, tangent, orientation, iterations }, judgement })
 }
 
 /// Points along a branch from its first one, and why they end. Steps that are in the store are not taken again.
@@ -254,9 +258,9 @@ fn follow<F: Family>(
         None => {
             let last = judge(space, at_first)?;
             points = vec![point(space, &last, PointKind::Regular, 0.0)];
-            let scaled = last.at.u.clone();
-            let step =
-                KeptStep { points: points.clone(), scaled, next_step: h, was_away, end: None };
+            let (points, scaled) = (points.clone(), last.at.u.clone());
+            let (orientation, next_step, end) = (last.at.orientation, h, None);
+            let step = KeptStep { points, scaled, orientation, next_step, was_away, end };
             save(space, &last, step)?;
             last
         }
@@ -302,14 +306,17 @@ fn follow<F: Family>(
                 }
             }
         };
-        (refused, most_turn) = (f64::INFINITY, options.most_turn);
         let turn = dot(&next.at.tangent, &last.at.tangent).clamp(-1.0, 1.0).acos();
         let whole = distance(&next.at.u, &last.at.u);
         let (mut between, before) = (Vec::new(), points.len());
+        let mut meets_branch = false;
         for kind in crossed(&last, &next) {
             match locate(space, (&last, &next), kind, options.location, stop) {
                 Ok((found, along)) => {
                     let at = arc + along.abs().min(whole);
+                    let largest = [&last, &next].map(|end| value(kind, end).abs());
+                    meets_branch |= kind != PointKind::Fold
+                        && value(kind, &found).abs() <= VANISHED * largest[0].max(largest[1]);
                     between.push((along, point(space, &found, kind, at)));
                 }
                 // At a kink the last point is as near to the fold as steps lead.
@@ -320,6 +327,13 @@ fn follow<F: Family>(
                 Err(_) => {}
             }
         }
+        // The sign stays along a branch, but for branch points: the step has led to another branch, or back along this one.
+        let is_other = next.at.orientation * last.at.orientation < 0.0;
+        if is_other && !meets_branch && h > options.steps[0] {
+            (refused, h) = (f64::INFINITY, (0.5 * h).max(options.steps[0]));
+            continue;
+        }
+        (refused, most_turn) = (f64::INFINITY, options.most_turn);
         between.sort_by(|a, b| a.0.total_cmp(&b.0));
         points.extend(between.into_iter().map(|(_, p)| p));
         arc += whole;
@@ -343,7 +357,8 @@ fn follow<F: Family>(
             (false, false) => None,
         };
         let (points, scaled) = (points[before..].to_vec(), last.at.u.clone());
-        save(space, &last, KeptStep { points, scaled, next_step: h, was_away, end })?;
+        let (orientation, next_step) = (last.at.orientation, h);
+        save(space, &last, KeptStep { points, scaled, orientation, next_step, was_away, end })?;
         match end {
             Some(StepEnd::Bound) => break End::Bound,
             Some(StepEnd::Closed) => break End::Closed,
@@ -406,7 +421,7 @@ fn advance<F: Family>(
     }
     let iterations = next.iterations;
     next = space.correct(&start, &space.fixed_parameter(), stop)?;
-    next.tangent = space.tangent(&next.u, t)?;
+    space.orient(&mut next, t)?;
     next.iterations += iterations;
     if turn(&next) > most_turn {
         return Ok(Step::TooLong(turn(&next)));
