@@ -7,6 +7,9 @@ use crate::error::EigenError;
 use crate::state_space::complex_eigen;
 use crate::symmetric::{check_input, check_residual, largest_or_nan};
 
+/// |Im s| over the scale of the frequencies below which a value is real: s = 0, which occurs twice, comes out with 1e-8.
+const REAL: f64 = 1e-9;
+
 /// One mode of a gyroscopic system.
 #[derive(Debug, Clone)]
 pub struct GyroscopicMode {
@@ -50,9 +53,11 @@ pub fn gyroscopic_modes(
         complex_eigen(&companion).map_err(|_| EigenError::NoConvergence { size: 2 * n })?;
     let values = solution.S().column_vector();
     let vectors = solution.U();
+    // Real values have rounding errors of either sign in place of Im, which must not choose between s = a and s = −a.
+    let im = |j: usize| if values[j].im.abs() < REAL { 0.0 } else { values[j].im };
     let mut all: Vec<(f64, f64, usize)> =
-        (0..2 * n).map(|j| (values[j].im * reference, values[j].re * reference, j)).collect();
-    // Conjugate pairs s, s̄ describe one motion: of 2n values, the n with the larger Im are kept.
+        (0..2 * n).map(|j| (im(j) * reference, values[j].re * reference, j)).collect();
+    // Conjugate pairs s, s̄ describe one motion: of 2n values, the n with the larger Im are kept, of real ones the larger.
     all.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1)));
     let mut modes = Vec::with_capacity(n);
     let mut residuals = Vec::with_capacity(n);

@@ -58,6 +58,22 @@ fn a_circle_closes_and_has_two_folds() {
     assert!(whole > 0.98 * TAU && whole < TAU + 0.5, "{whole}");
 }
 
+/// Rounding of F above the tolerance of corrections, as over very many time steps: steps stay long.
+#[test]
+fn rounding_does_not_shorten_steps() {
+    let rough = |y: f64, l: f64| {
+        let slope = l.cosh().powi(-2);
+        [y - l.tanh() + 2e-9 * (1e12 * (y + 1.7 * l)).sin(), 1.0, -slope]
+    };
+    let mut rough = Scalar(rough, |_, _| -1.0);
+    let options = ContinuationOptions::within([-2.0, 2.0]);
+    let branch =
+        trace(&mut rough, &[(-2f64).tanh()], -2.0, Direction::Up, &one(), &options).unwrap();
+    assert_eq!(branch.ends[1], End::Bound);
+    assert!(branch.points.len() < 40, "{}", branch.points.len());
+    assert!(branch.points.iter().all(|p| (p.y[0] - p.lambda.tanh()).abs() < 1e-8));
+}
+
 /// Two branches side by side, w = 0 and w = δ with w = y − A tanh(kλ). Beyond a bend the long step along the tangent ends nearer
 /// to the other branch, of the other sign of ∂F/∂w: steps are shortened until the branch followed is the one started on.
 #[test]

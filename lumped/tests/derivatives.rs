@@ -130,6 +130,26 @@ fn an_unsupported_set_seen_from_the_carrier_whirls_at_carrier_speed() {
     assert!(nearest.fold(f64::INFINITY, f64::min) < 1e-2);
 }
 
+/// A set that turns freely has the common rotation with s = ±a, a in proportion to the speed: K_Ω acts on the planets'
+/// tangential motion. The growing one is found at every speed, whatever the signs of rounding errors. Values: eigenvalues with 40
+/// digits.
+#[test]
+fn a_pair_of_real_eigenvalues_has_its_growing_member_at_every_speed() {
+    let (model, _) = modes(&scene("lin_parker_1999_3p.toml"));
+    let rpm: Vec<f64> = (1..=60).map(|k| 50.0 * f64::from(k)).collect();
+    let speeds: Vec<f64> = rpm.iter().map(|rpm| rpm * TAU / 60.0).collect();
+    for (at, rpm) in campbell(&model, &speeds).unwrap().iter().zip(rpm) {
+        let growth = at.largest_growth_per_s();
+        assert!((growth / rpm - 0.044_28).abs() < 1e-5, "{rpm} rpm: {growth}");
+        assert!(at.is_unstable());
+        if rpm == 100.0 {
+            assert!((growth - 4.428_303).abs() < 1e-4, "{growth}");
+        }
+    }
+    let last = campbell(&model, &[3000.0 * TAU / 60.0]).unwrap();
+    assert!((last[0].largest_growth_per_s() - 132.833_31).abs() < 1e-4);
+}
+
 #[test]
 fn gyroscopic_terms_split_the_first_pair_by_about_one_percent() {
     let (model, found) = modes(&scene("oh58_3p.toml"));

@@ -205,8 +205,11 @@ impl<'a, F: Family> Space<'a, F> {
                 break;
             }
             u.iter_mut().zip(&change).for_each(|(u, d)| *u += d);
+            let before = last;
             last = change.iter().map(|d| d.abs()).fold(0.0, f64::max);
-            if last <= stop.correction {
+            // Corrections that no longer shrink, this near, are rounding of F.
+            let is_rounding = last <= ROUNDING * stop.correction && last > 0.5 * before;
+            if last <= stop.correction || is_rounding {
                 let tangent = self.unit(&u, t)?;
                 // The tangent has a positive component along the border, hence the same sign with either.
                 let orientation = sign(&self.bordered_matrix(&found, border).0);
@@ -236,6 +239,10 @@ impl<'a, F: Family> Space<'a, F> {
         (0..=n).map(|i| if i == n { 1.0 } else { 0.0 }).collect()
     }
 }
+
+/// Corrections up to this many times the tolerance may be rounding: over very many time steps that of a period comes to more than
+/// the tolerance.
+const ROUNDING: f64 = 1e3;
 
 /// Sign of the determinant, 0 if it cannot be told. The determinant itself may be too small for a number.
 fn sign(matrix: &Mat<f64>) -> f64 {
