@@ -63,7 +63,7 @@ fn a_circle_closes_and_has_two_folds() {
 fn rounding_does_not_shorten_steps() {
     let rough = |y: f64, l: f64| {
         let slope = l.cosh().powi(-2);
-        [y - l.tanh() + 2e-9 * (1e12 * (y + 1.7 * l)).sin(), 1.0, -slope]
+        [y - l.tanh() + 5e-10 * (1e12 * (y + 1.7 * l)).sin(), 1.0, -slope]
     };
     let mut rough = Scalar(rough, |_, _| -1.0);
     let options = ContinuationOptions::within([-2.0, 2.0]);

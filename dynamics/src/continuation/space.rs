@@ -14,7 +14,7 @@ pub(super) struct Space<'a, F> {
     scales: &'a Scales,
 }
 
-/// A corrected point, its tangent and the iterations spent.
+/// A corrected point, its tangent and the iterations spent until corrections were rounding.
 #[derive(Clone)]
 pub(super) struct Corrected {
     pub(super) u: Vec<f64>,
@@ -194,6 +194,8 @@ impl<'a, F: Family> Space<'a, F> {
         let n = border.len() - 1;
         let mut u = start.to_vec();
         let mut last = f64::NAN;
+        // Iterations after which corrections no longer shrank.
+        let mut to_rounding: Option<usize> = None;
         for iterations in 1..=stop.most_iterations {
             let found = self.evaluate(&u)?;
             // Both F and the distance from the hyperplane, which stays zero.
@@ -207,12 +209,17 @@ impl<'a, F: Family> Space<'a, F> {
             u.iter_mut().zip(&change).for_each(|(u, d)| *u += d);
             let before = last;
             last = change.iter().map(|d| d.abs()).fold(0.0, f64::max);
-            // Corrections that no longer shrink, this near, are rounding of F.
-            let is_rounding = last <= ROUNDING * stop.correction && last > 0.5 * before;
-            if last <= stop.correction || is_rounding {
+            // Corrections that stay as small as this are rounding of F; they may still come below the tolerance.
+            let is_small = last <= ROUNDING * stop.correction;
+            if is_small && last > 0.5 * before {
+                to_rounding.get_or_insert(iterations);
+            }
+            let is_last = iterations == stop.most_iterations;
+            if last <= stop.correction || (is_last && is_small && to_rounding.is_some()) {
                 let tangent = self.unit(&u, t)?;
                 // The tangent has a positive component along the border, hence the same sign with either.
                 let orientation = sign(&self.bordered_matrix(&found, border).0);
+                let iterations = to_rounding.unwrap_or(iterations);
                 return Ok(Corrected { u, tangent, orientation, iterations });
             }
         }
@@ -242,7 +249,7 @@ impl<'a, F: Family> Space<'a, F> {
 
 /// Corrections up to this many times the tolerance may be rounding: over very many time steps that of a period comes to more than
 /// the tolerance.
-const ROUNDING: f64 = 1e3;
+const ROUNDING: f64 = 30.0;
 
 /// Sign of the determinant, 0 if it cannot be told. The determinant itself may be too small for a number.
 fn sign(matrix: &Mat<f64>) -> f64 {

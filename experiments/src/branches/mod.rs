@@ -8,6 +8,7 @@
 //! torque on the sun, the factor on the damping or a number of the scene. The solutions are followed by pseudo-arclength continuation ([`dynamics::continuation`]).
 
 mod branch;
+mod coexisting;
 mod direction;
 mod error;
 mod family;

@@ -14,7 +14,9 @@ use rayon::prelude::*;
 
 use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
 use super::resonance::strongest;
-use crate::branches::{Branch, BranchEnd, BranchError, BranchPoint, BranchSettings, branch};
+use crate::branches::{
+    Branch, BranchEnd, BranchError, BranchPoint, BranchSettings, Branches, branch,
+};
 use crate::error::ExperimentError;
 use crate::sweep::{DampedModel, MeshLawModel, SweepModel};
 
@@ -96,24 +98,38 @@ impl Seen {
         range: [f64; 2],
         factor: f64,
     ) -> Result<Option<Self>, ExperimentError> {
-        let Some(found) = followed(&DampedModel { model, factor }, range)? else {
+        let model = DampedModel { model, factor };
+        let Some(found) = followed(&model, [range[1], range[0]], range)? else {
             return Ok(None);
         };
-        let any = |is: fn(&BranchPoint) -> bool| found.points.iter().any(is);
-        let deficits = found.points.iter().map(|p| 1.0 - p.grazing_margin.unwrap_or(0.0));
+        let parts = |branch: &Branch| branch.points.iter().any(|p| p.contact_loss > 0.0);
+        let is_needed = parts(&found) && found.folds().count() < 2;
+        let mut branches = vec![found];
+        if is_needed {
+            // A branch may leave the range on one of two motions: the other one is found from the other end.
+            branches.extend(followed(&model, range, range)?);
+        }
+        let all = Branches { branches, not_followed: Vec::new() };
+        let points = || all.branches.iter().flat_map(|branch| &branch.points);
+        let any = |is: fn(&BranchPoint) -> bool| points().any(is);
+        let deficits = points().map(|p| 1.0 - p.grazing_margin.unwrap_or(0.0));
         Ok(Some(Self {
             deficit: deficits.fold(0.0, f64::max),
             is_lost: any(|p| p.contact_loss > 0.0),
-            coexist: found.folds().count() > 1,
+            coexist: !all.coexisting().is_empty(),
             backside: any(|p| p.backside_contact.is_some_and(|part| part > 0.0)),
-            is_stuck: found.ends.iter().any(|end| !matches!(end, BranchEnd::Bound)),
+            is_stuck: all.branches[0].ends.iter().any(|end| !matches!(end, BranchEnd::Bound)),
         }))
     }
 }
 
-/// The branch over a range of speeds, begun at its upper end or, where no motion is found there, at its lower one.
-fn followed(model: &dyn SweepModel, range: [f64; 2]) -> Result<Option<Branch>, ExperimentError> {
-    for start in [range[1], range[0]] {
+/// The branch over a range of speeds, begun at the first of two ends or, where no motion is found there, at the other.
+fn followed(
+    model: &dyn SweepModel,
+    ends: [f64; 2],
+    range: [f64; 2],
+) -> Result<Option<Branch>, ExperimentError> {
+    for start in ends {
         match branch(model, &BranchSettings { start, ..BranchSettings::over(range) }) {
             Ok(found) => return Ok(Some(found)),
             Err(ExperimentError::Branch(BranchError::NoStart { .. })) => {}

@@ -19,6 +19,9 @@ use crate::sweep::{
     MeshLawModel, Record, SteadyMethod, SteadySettings, SweepModel, left_of_transient, steady,
 };
 
+/// A march whose last cycle is off by this many times what the multipliers let expect has ended on another motion.
+const OTHER: f64 = 100.0;
+
 /// Factors on every damping of the scene.
 const FACTORS: [f64; 3] = [1.0, 0.25, 0.1];
 
@@ -51,6 +54,11 @@ pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
                 continue;
             }
         };
+        if changes.last().is_some_and(|(change, off)| *off > OTHER * last_left * change) {
+            let quantity = "the march ended on another motion than the one shooting found";
+            map.borders.push(Border::new(of, quantity, "", None, None));
+            continue;
+        }
         // Below the least change with which a cycle is off by more than what counts, none is.
         let off = changes.iter().filter(|(_, off)| *off > WANTED);
         let border = off.map(|(change, _)| *change).fold(f64::INFINITY, f64::min);
@@ -58,9 +66,9 @@ pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
         let largest = within.fold(0.0, f64::max);
         for (quantity, found) in [
             ("change from cycle to cycle below which the motion was within 1 %", border),
-            ("change below which it is sure to be, by its multipliers", WANTED / factor_left),
+            ("change below which its multipliers let that be expected", WANTED / factor_left),
             ("largest deviation at a change of 0.001 or less", largest),
-            ("largest possible one, by its multipliers", CHANGE * factor_left),
+            ("deviation that its multipliers let expect", CHANGE * factor_left),
         ] {
             map.borders.push(Border::new(of.clone(), quantity, "", Some(found), None));
         }
