@@ -1,6 +1,7 @@
 //! `branches SCENE`: periodic motions over speed, torque, damping or a number of the scene, stable or not.
 
 use std::io::Write;
+use std::path::Path;
 
 use experiments::ExperimentError;
 use experiments::branches::{
@@ -91,30 +92,41 @@ pub(super) fn run(
         }
     };
     #[cfg(feature = "charts")]
-    if let Some(folder) = &arguments.figures {
+    let drawn = arguments.figures.as_ref().map(|folder| {
         use crate::figures::{of_branches, save};
         let title = format!("{}: {}", scene.title, fixed.words(settings.over));
-        save(&of_branches(&found, &title, settings.harmonics), folder)?;
-    }
+        Ok(save(&of_branches(&found, &title, settings.harmonics), folder)?)
+    });
     let result = BranchesOutput::new(&scene, &fixed, &settings, found);
-    if let Some(folder) = &arguments.out {
-        let (mut table, mut all) = (Vec::new(), Vec::new());
-        result.write_csv(&mut table)?;
-        output::json(&mut all, &result)?;
-        for (name, bytes) in RESULTS.iter().zip([table, all]) {
-            let path = folder.join(name);
-            write_whole(&path, &bytes).map_err(|source| CommandError::File {
-                what: "cannot write",
-                path,
-                source,
-            })?;
-        }
-    }
-    match arguments.format {
+    let saved = match &arguments.out {
+        Some(folder) => write_folder(&result, folder),
+        None => Ok(()),
+    };
+    #[cfg(feature = "charts")]
+    let saved = saved.and(drawn.unwrap_or(Ok(())));
+    // What was computed is shown also where it cannot be saved.
+    let shown = match arguments.format {
         TableFormat::Json => output::json(out, &result),
         TableFormat::Csv => result.write_csv(out),
         TableFormat::Text => result.text(&fixed, out),
+    };
+    saved.and(shown)
+}
+
+/// Table and everything of finished branches.
+fn write_folder(result: &BranchesOutput, folder: &Path) -> Result<(), CommandError> {
+    let (mut table, mut all) = (Vec::new(), Vec::new());
+    result.write_csv(&mut table)?;
+    output::json(&mut all, result)?;
+    for (name, bytes) in RESULTS.iter().zip([table, all]) {
+        let path = folder.join(name);
+        write_whole(&path, &bytes).map_err(|source| CommandError::File {
+            what: "cannot write",
+            path,
+            source,
+        })?;
     }
+    Ok(())
 }
 
 /// The option that gives the range of a parameter.

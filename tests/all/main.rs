@@ -19,3 +19,4 @@ mod snapshots;
 mod stability_command;
 mod study_command;
 mod sweep_command;
+mod writing;
