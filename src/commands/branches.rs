@@ -71,13 +71,12 @@ pub(super) fn run(
                     let (at, factor) = ((key, settings.start), arguments.damping_factor);
                     let is_lumped = arguments.model == Model::Lumped;
                     let own = KeyedModel::new(&text, at, factor, &bodies, case, is_lumped);
-                    Box::new(own.map_err(|e| unfit(path, e.to_string()))?)
+                    Box::new(own.map_err(|e| not_computed(e, path, &settings))?)
                 }
                 _ => turning::model(arguments.model, &scene, &bodies, case)?,
             };
             working.now("following the branch");
             branches_kept(model.as_ref(), &settings, &search, store).map_err(|e| match e {
-                ExperimentError::Fe(e) => unfit(path, e.to_string()),
                 ExperimentError::Branch(e @ BranchError::NoDerivative(_)) => {
                     unfit(path, e.to_string())
                 }
@@ -87,7 +86,7 @@ pub(super) fn run(
                 ExperimentError::Branch(e @ BranchError::NoEffect { .. }) => {
                     refused("--over", e.to_string())
                 }
-                other => other.into(),
+                other => not_computed(other, path, &settings),
             })?
         }
     };
@@ -111,6 +110,26 @@ pub(super) fn run(
         TableFormat::Text => result.text(&fixed, out),
     };
     saved.and(shown)
+}
+
+/// The error for a set or a motion that cannot be computed; over a key, its values may be the cause.
+fn not_computed(error: ExperimentError, path: &Path, settings: &BranchSettings) -> CommandError {
+    match (error, settings.over) {
+        (store @ ExperimentError::Store(_), _) => store.into(),
+        (e, BranchParameter::Key(key)) => {
+            let ([from, to], start) = (settings.range, settings.start);
+            let remedy = match key.enters_statics() {
+                true => {
+                    "a softer support gives way further under the load: take stiffer values, or a smaller torque"
+                }
+                false => "take values nearer to that of the scene",
+            };
+            let words = format!("from {from:?} to {to:?}, begun at {start:?}: {e}; {remedy}");
+            refused("--over", format!("{} {words}", key.path()))
+        }
+        (ExperimentError::Fe(e), _) => unfit(path, e.to_string()),
+        (other, _) => other.into(),
+    }
 }
 
 /// Table and everything of finished branches.
@@ -205,8 +224,15 @@ fn case(
         Model::FeContact => scene.dynamics.fidelity,
     });
     let over_torque = settings.over == BranchParameter::Torque;
-    let is_given =
-        |a: &str| a == "--sun-torque-nm" && (over_torque || arguments.sun_torque_nm.is_some());
+    let gives_damping = match settings.over {
+        BranchParameter::Key(key) => scene.is_damped_by(key.path()),
+        _ => false,
+    };
+    let is_given = |a: &str| match a {
+        "--sun-torque-nm" => over_torque || arguments.sun_torque_nm.is_some(),
+        "--model lumped" => arguments.model == Model::Lumped,
+        _ => gives_damping,
+    };
     needs::require(path, scene, verb, is_given)?;
     let [low, high] = settings.range;
     if over_torque {
