@@ -180,9 +180,16 @@ impl<'a> Task<'a> {
             between_cycles: arguments.between_cycles as usize,
             whole_cycles: arguments.whole_cycles,
         };
-        let steps = scene.dynamics.steps_per_cycle as usize;
-        steady.check(steps).map_err(refuse("--harmonics"))?;
-        needs::caution(&steady, steps, err)?;
+        if steady.whole_cycles && method == SteadyMethod::Marching {
+            let reason = "is of --method shooting: marching passes through every step of a mesh cycle anyway: leave it out";
+            return Err(refused("--whole-cycles", reason));
+        }
+        // The number of steps is among the settings that are chosen for an amplitude.
+        if sweep_auto::response(scene).is_none() {
+            let steps = scene.dynamics.steps_per_cycle as usize;
+            steady.check(steps).map_err(refuse("--harmonics"))?;
+            needs::caution(&steady, steps, err)?;
+        }
         let directions: &[Direction] = match arguments.both_ways {
             true => &[Direction::Up, Direction::Down],
             false => &[Direction::Up],
