@@ -25,6 +25,47 @@ pub(crate) fn factors_need_quasi_static(
     }
 }
 
+/// Refuses settings that `fidelity = "auto"` chooses. Those with their default may stand, as templates write them.
+pub(crate) fn auto_chooses(
+    document: &Document<'_>,
+    own: &FeContactInput,
+    dynamics: &DynamicsInput,
+) {
+    if dynamics.auto.is_none() {
+        return;
+    }
+    let default = FeContactInput::default();
+    let settings = [
+        (
+            "element",
+            own.element != default.element,
+            "\"quadratic\"".to_owned(),
+            "family of elements",
+        ),
+        (
+            "flank_elements",
+            own.flank_elements != default.flank_elements,
+            default.flank_elements.to_string(),
+            "number of elements",
+        ),
+        (
+            "contact_cells",
+            own.contact_cells != default.contact_cells,
+            default.contact_cells.to_string(),
+            "number of contact cells",
+        ),
+        ("matching_depth_mm", own.matching_depth.is_some(), String::new(), "matching depth"),
+    ];
+    for (key, _, default, what) in settings.into_iter().filter(|(_, is_given, ..)| *is_given) {
+        let allowed = match default.as_str() {
+            "" => "no value with dynamics.fidelity = \"auto\"".to_owned(),
+            value => format!("no value, or its default {value}, with dynamics.fidelity = \"auto\""),
+        };
+        let why = format!("the {what} is among the settings that are chosen");
+        document.fault(&format!("fe_contact.{key}"), allowed, why);
+    }
+}
+
 /// Refuses planets at one place.
 pub(crate) fn distinct_positions(document: &Document<'_>, positions: &PlanetPositions) {
     let psi = &positions.psi_rad;

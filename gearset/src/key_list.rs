@@ -7,12 +7,12 @@ use crate::keys::Presence::{Default, Optional, Required};
 use crate::keys::SceneKey;
 
 const ALL: &str = "all";
-const FE: &str = "mesh, static, impulse, sweep";
+const FE: &str = "mesh, static, impulse, sweep, branches";
 const LUMPED: &str = "modes, compare";
-const RULES_FE: &str = "rules, mesh, static, impulse, sweep";
-const MOTION: &str = "impulse, sweep";
-const SWEEP: &str = "sweep";
-const LOAD: &str = "static, impulse, sweep";
+const RULES_FE: &str = "rules, mesh, static, impulse, sweep, branches";
+const MOTION: &str = "impulse, sweep, branches";
+const SWEEP: &str = "sweep, branches";
+const LOAD: &str = "static, impulse, sweep, branches";
 const PAIR: &str = "all";
 const NONE: &str = "–";
 
@@ -85,19 +85,19 @@ pub(crate) const KEYS: &[SceneKey] = &[
     SceneKey { path: "material.poisson_ratio", kind: Number(Bound::Between(-1.0, 0.5)), unit: "–", presence: Default("0.3"), meaning: "Poisson's ratio ν", needed_by: NONE },
     SceneKey { path: "material.density_kg_per_m3", kind: Number(Bound::Positive), unit: "kg/m³", presence: Default("7850"), meaning: "density ρ", needed_by: NONE },
     SceneKey { path: "sun", kind: Table, unit: "–", presence: Optional("free, without bearing; of a gear pair with a rigid bearing"), meaning: "support of the sun; of gear pairs only with mesh = \"sun_planet\"", needed_by: LOAD },
-    SceneKey { path: "sun.motion", kind: Choice(&["free", "rotation_held", "held"]), unit: "–", presence: Default("free"), meaning: "free; rotation held; held in all directions. Torques of static, impulse and sweep need a free sun", needed_by: LOAD },
+    SceneKey { path: "sun.motion", kind: Choice(&["free", "rotation_held", "held"]), unit: "–", presence: Default("free"), meaning: "free; rotation held; held in all directions. Torques of static, impulse, sweep and branches need a free sun", needed_by: LOAD },
     SceneKey { path: "sun.bearing_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "bearing stiffness to ground, equal in all directions; not of a held member; of a gear pair above 0, and left out the bearing is rigid", needed_by: NONE },
     SceneKey { path: "sun.torsional_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "torsional stiffness to ground per u = r·θ; r is the base radius, of the carrier the centre distance; only with motion = \"free\"", needed_by: NONE },
     SceneKey { path: "sun.torsional_nm_per_rad", kind: Number(Bound::NonNegative), unit: "N·m/rad", presence: Optional("torsional_n_per_m holds"), meaning: "the same per θ, instead of torsional_n_per_m", needed_by: NONE },
     SceneKey { path: "sun.mass_kg", kind: Number(Bound::Positive), unit: "kg", presence: Optional("that of the finite-element mesh; only of a gear pair"), meaning: "mass of the gear with its shaft in the FE/contact model, at \"quasi_static\" and \"mesh_law\"", needed_by: NONE },
     SceneKey { path: "sun.inertia_kg_m2", kind: Number(Bound::Positive), unit: "kg·m²", presence: Optional("that of the finite-element mesh; only of a gear pair"), meaning: "polar inertia of the gear with its shaft, as mass_kg", needed_by: NONE },
     SceneKey { path: "ring", kind: Table, unit: "–", presence: Optional("free, without bearing; never of a gear pair"), meaning: "support of the ring", needed_by: NONE },
-    SceneKey { path: "ring.motion", kind: Choice(&["free", "rotation_held", "held"]), unit: "–", presence: Default("free"), meaning: "free; rotation held; held in all directions. Torques of static, impulse and sweep need it held or a torsional stiffness", needed_by: LOAD },
+    SceneKey { path: "ring.motion", kind: Choice(&["free", "rotation_held", "held"]), unit: "–", presence: Default("free"), meaning: "free; rotation held; held in all directions. Torques of static, impulse, sweep and branches need it held or a torsional stiffness", needed_by: LOAD },
     SceneKey { path: "ring.bearing_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "bearing stiffness to ground, equal in all directions; not of a held member", needed_by: NONE },
     SceneKey { path: "ring.torsional_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "torsional stiffness to ground per u = r·θ; r is the base radius, of the carrier the centre distance; only with motion = \"free\"", needed_by: NONE },
     SceneKey { path: "ring.torsional_nm_per_rad", kind: Number(Bound::NonNegative), unit: "N·m/rad", presence: Optional("torsional_n_per_m holds"), meaning: "the same per θ, instead of torsional_n_per_m", needed_by: NONE },
     SceneKey { path: "carrier", kind: Table, unit: "–", presence: Optional("free, without bearing; never of a gear pair"), meaning: "support of the carrier", needed_by: NONE },
-    SceneKey { path: "carrier.motion", kind: Choice(&["free", "rotation_held", "held"]), unit: "–", presence: Default("free"), meaning: "free; rotation held; held in all directions. Torques of static, impulse and sweep need it held or a torsional stiffness", needed_by: LOAD },
+    SceneKey { path: "carrier.motion", kind: Choice(&["free", "rotation_held", "held"]), unit: "–", presence: Default("free"), meaning: "free; rotation held; held in all directions. Torques of static, impulse, sweep and branches need it held or a torsional stiffness", needed_by: LOAD },
     SceneKey { path: "carrier.bearing_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "bearing stiffness to ground, equal in all directions; not of a held member", needed_by: NONE },
     SceneKey { path: "carrier.torsional_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "torsional stiffness to ground per u = r·θ; r is the base radius, of the carrier the centre distance; only with motion = \"free\"", needed_by: NONE },
     SceneKey { path: "carrier.torsional_nm_per_rad", kind: Number(Bound::NonNegative), unit: "N·m/rad", presence: Optional("torsional_n_per_m holds"), meaning: "the same per θ, instead of torsional_n_per_m", needed_by: NONE },
@@ -165,7 +165,7 @@ pub(crate) const KEYS: &[SceneKey] = &[
     SceneKey { path: "fe_contact.flexibility_factor.sun_planet", kind: Number(Bound::Positive), unit: "–", presence: Default("1"), meaning: "factor of the sun–planet meshes", needed_by: NONE },
     SceneKey { path: "fe_contact.flexibility_factor.ring_planet", kind: Number(Bound::Positive), unit: "–", presence: Default("1"), meaning: "factor of the ring–planet meshes", needed_by: NONE },
     SceneKey { path: "dynamics", kind: Table, unit: "–", presence: Optional("its defaults"), meaning: "choices of motion in time", needed_by: NONE },
-    SceneKey { path: "dynamics.fidelity", kind: Choice(&["mesh_law", "quasi_static", "modal", "full", "auto"]), unit: "–", presence: Default("quasi_static"), meaning: "inertia of the bodies behind the teeth: quasi_static none of their own, modal that of some modes, full all of it; mesh_law: mesh forces from a table, in sweeps only; auto: the cheapest settings are chosen for one quantity", needed_by: NONE },
+    SceneKey { path: "dynamics.fidelity", kind: Choice(&["mesh_law", "quasi_static", "modal", "full", "auto"]), unit: "–", presence: Default("quasi_static"), meaning: "inertia of the bodies behind the teeth: quasi_static none of their own, modal that of some modes, full all of it; mesh_law: mesh forces from a table, in sweep and branches only; auto: the cheapest settings are chosen for one quantity", needed_by: NONE },
     SceneKey { path: "dynamics.modes", kind: Integer(1, 400), unit: "–", presence: Optional("always, and only, with fidelity = \"modal\""), meaning: "modes of each body with its race held", needed_by: NONE },
     SceneKey { path: "dynamics.quantity", kind: Choice(&["natural_frequency", "transmission_error", "mean_transmission_error", "amplitude"]), unit: "–", presence: Optional("always, and only, with fidelity = \"auto\""), meaning: "quantity for which settings are chosen: a natural frequency (modes), the peak-to-peak value or the mean of the loaded transmission error at rest (static), or the largest root mean square of a response over the speeds of a sweep", needed_by: NONE },
     SceneKey { path: "dynamics.mode_type", kind: Choice(&["rotational", "translational", "planet"]), unit: "–", presence: Optional("always, and only, with quantity = \"natural_frequency\""), meaning: "type of the mode, by the larger part of its kinetic energy", needed_by: NONE },

@@ -1,6 +1,6 @@
 //! What each verb of the command needs of a scene.
 
-use crate::choices::Fidelity;
+use crate::choices::{Fidelity, MeshKinematics};
 use crate::mesh_kind::MeshKind;
 use crate::scene::{Freedom, GearInput, Scene, SceneKind};
 
@@ -161,6 +161,9 @@ impl Scene {
                     let why = "\"full\" has no derivative of its time steps: \"mesh_law\", \"quasi_static\" or \"modal\" is needed";
                     lacks.push(lack("dynamics.fidelity", why));
                 }
+                if matches!(verb, Verb::Branches(_)) {
+                    self.lacks_isolated_motions(fidelity, &mut lacks);
+                }
                 self.lacks_bodies(&mut lacks);
                 if self.operation.is_none() {
                     lacks.push(lack("operation", "it says which member's speed is swept"));
@@ -173,6 +176,36 @@ impl Scene {
             }
         }
         lacks
+    }
+
+    /// Damping, without which periodic motions are not isolated, and time steps that have a derivative.
+    fn lacks_isolated_motions(&self, fidelity: Fidelity, lacks: &mut Vec<Lack>) {
+        if !self.is_damped() {
+            let why = "it is 0, and neither `damping.stiffness_proportional_s` nor `damping.bearing_s` damps the set: one \
+                       of them above 0 is needed, because without damping periodic motions are not isolated and make no branch";
+            let argument = Some("--over damping.mass_proportional_per_s");
+            lacks.push(Lack { argument, ..lack("damping.mass_proportional_per_s", why) });
+        }
+        if fidelity == Fidelity::QuasiStatic && self.dynamics.kinematics == MeshKinematics::Exact {
+            let why =
+                "it is \"exact\", whose time steps have no derivative: \"about_mean\" is needed";
+            let argument = Some("--model lumped");
+            lacks.push(Lack { argument, ..lack("dynamics.kinematics", why) });
+        }
+    }
+
+    /// Whether a value above 0 of a key would damp the motion.
+    pub fn is_damped_by(&self, key: &str) -> bool {
+        let of_bearings = key == "damping.bearing_s";
+        key.starts_with("damping.") && !(of_bearings && self.is_free_pair())
+    }
+
+    /// Whether anything damps the motion; the bearings of a pair whose rotations are both free do not move in it.
+    fn is_damped(&self) -> bool {
+        let damping = self.damping;
+        damping.mass_proportional_per_s > 0.0
+            || damping.stiffness_proportional_s > 0.0
+            || damping.bearing_s > 0.0 && !self.is_free_pair()
     }
 
     /// Teeth, races and fillets of the gears that are meshed.

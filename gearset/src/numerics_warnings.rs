@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::choices::ElementFamily;
+use crate::choices::{AutoQuantity, ElementFamily};
 use crate::geometry::Geometry;
 use crate::scene::Scene;
 use crate::symmetry::Symmetry;
@@ -21,6 +21,11 @@ pub(crate) fn numerics(scene: &Scene, geometry: Option<&Geometry>) -> Vec<Warnin
             what: "bilinear elements lock in bending: about half too stiff where they are square, more where they are longer".into(),
             likely: "\"quadratic\" costs about as much and does not".into(),
         });
+    }
+    let quantity = scene.dynamics.auto.map(|auto| auto.quantity);
+    if matches!(quantity, Some(AutoQuantity::Amplitude { .. })) {
+        // The number of steps is chosen, a multiple of these parts among others.
+        return found;
     }
     let steps = scene.dynamics.steps_per_cycle;
     let parts = geometry.and_then(|g| phased_parts(scene, g)).unwrap_or(1);

@@ -143,6 +143,7 @@ fn read(document: &Document<'_>, root: Section<'_, '_>) -> Option<Scene> {
         check::distinct_positions(document, positions);
     }
     check::factors_need_quasi_static(document, &fe_contact, &dynamics);
+    check::auto_chooses(document, &fe_contact, &dynamics);
     if is_pair && dynamics.gyroscopic {
         let why = "the bearings of a gear pair stand still: there is no turning carrier frame";
         document.fault("dynamics.gyroscopic", "\"off\"", why);

@@ -75,3 +75,26 @@ fn torques_need_a_path_and_modes_do_not() {
         assert_eq!(keys(&held, SceneKind::Planetary, verb), expected, "{}", verb.name());
     }
 }
+
+#[test]
+fn branches_need_damping_and_a_derivative_of_the_steps() {
+    let undamped = [
+        ("mass_proportional_per_s = 142.9", "mass_proportional_per_s = 0"),
+        ("stiffness_proportional_s = 2.21e-6", "stiffness_proportional_s = 0"),
+    ];
+    let in_bearings =
+        [undamped[0], (undamped[1].0, "stiffness_proportional_s = 0\nbearing_s = 1e-5")];
+    let exact = [("kinematics = \"about_mean\"", "kinematics = \"exact\"")];
+    for verb in Verb::ALL {
+        let is_branches = matches!(verb, Verb::Branches(_));
+        let of = |changes: &[(&str, &str)]| keys(changes, SceneKind::Planetary, verb);
+        let expected: &[&str] =
+            if is_branches { &["damping.mass_proportional_per_s"] } else { &[] };
+        assert_eq!(of(&undamped), expected, "{}", verb.name());
+        // Planets move on their bearings.
+        assert!(of(&in_bearings).is_empty(), "{}", verb.name());
+        let is_exact = verb == Verb::Branches(Fidelity::QuasiStatic);
+        let expected: &[&str] = if is_exact { &["dynamics.kinematics"] } else { &[] };
+        assert_eq!(of(&exact), expected, "{}", verb.name());
+    }
+}

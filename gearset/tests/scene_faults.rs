@@ -282,7 +282,7 @@ fn faults_of_every_stage_are_listed_in_one_run_and_nothing_that_follows_from_the
 
 #[test]
 fn nothing_is_reported_that_only_follows_from_another_fault() {
-    let cases: [Faults; 17] = [
+    let cases: [Faults; 18] = [
         // Positions, base radii, meshes and angles depend on the teeth.
         (&[("sun = 27", "sun = 27.5")], &["teeth.sun"]),
         (&[("planet = 35", "")], &["teeth.planet"]),
@@ -332,6 +332,23 @@ fn nothing_is_reported_that_only_follows_from_another_fault() {
                  tolerance_percent = 5",
             )],
             &["dynamics.mode_number", "dynamics.response"],
+        ),
+        (
+            &[
+                (
+                    "fidelity = \"quasi_static\"",
+                    "fidelity = \"auto\"\nquantity = \"transmission_error\"\ntolerance_percent = 5",
+                ),
+                ("element = \"quadratic\"", "element = \"linear\""),
+                ("flank_elements = 14", "flank_elements = 30"),
+                ("contact_cells = 40", "contact_cells = 100\nmatching_depth_mm = 0.5"),
+            ],
+            &[
+                "fe_contact.contact_cells",
+                "fe_contact.element",
+                "fe_contact.flank_elements",
+                "fe_contact.matching_depth_mm",
+            ],
         ),
         (&[("\n[lumped]", "\nlumped_mass = 1\n[lumped]")], &["planet.lumped_mass"]),
         (&[("motion = \"free\"", "motion = \"fre\"\ntorsional_n_per_m = 1")], &["sun.motion"]),

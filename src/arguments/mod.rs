@@ -9,7 +9,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub(crate) use steady::{Branches, Model, SteadyMethod, Sweep};
 pub(crate) use values::DAMPING_FACTORS;
-use values::{elements, tolerance, two};
+use values::{elements, tolerance, two, whole};
 
 /// Verification and benchmark suite for planetary gear dynamics (2-D, spur, single stage).
 #[derive(Debug, Parser)]
@@ -108,7 +108,7 @@ pub(crate) struct Rules {
     /// Scene file.
     pub scene: PathBuf,
     /// Highest harmonic of mesh frequency.
-    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=1000),
+    #[arg(long, default_value_t = 10, value_parser = whole::<1, 1000>,
           allow_negative_numbers = true)]
     pub harmonics: u32,
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -149,7 +149,7 @@ pub(crate) struct Static {
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub normal_force_n: Option<f64>,
     /// Number of evenly spaced positions in the mesh cycle, from phase 0 [default: 140].
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=100_000),
+    #[arg(long, value_parser = whole::<1, 100_000>,
           conflicts_with = "approach_um", allow_negative_numbers = true)]
     pub positions: Option<u32>,
     /// Solver of the contact problem.
@@ -176,10 +176,11 @@ pub(crate) struct Static {
     pub export_per_half_width: Option<f64>,
     /// Elements along the other flanks in that deck [default: 12].
     #[arg(long, value_name = "N", requires = "export_inp",
-          value_parser = clap::value_parser!(u32).range(3..=64), allow_negative_numbers = true)]
+          value_parser = whole::<3, 64>, allow_negative_numbers = true)]
     pub export_flank_elements: Option<u32>,
     /// Teeth kept on either side of the loaded ones in that deck; whole gears if left out.
-    #[arg(long, value_name = "N", requires = "export_inp")]
+    #[arg(long, value_name = "N", requires = "export_inp",
+          value_parser = whole::<0, 10_000>, allow_negative_numbers = true)]
     pub export_teeth: Option<u32>,
     #[arg(long, value_enum, default_value_t = TableFormat::Text)]
     pub format: TableFormat,
@@ -298,7 +299,7 @@ pub(crate) struct Study {
     /// Study file: quantities, routes to their truth, settings (docs/studies.md).
     pub(crate) file: PathBuf,
     /// Rounds in which every setting is run; those of the file if left out.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(3..=999),
+    #[arg(long, value_name = "N", value_parser = whole::<3, 999>,
           allow_negative_numbers = true)]
     pub(crate) rounds: Option<u32>,
     /// Also write table (CSV), result (JSON) and figure (SVG, PNG) into this folder.

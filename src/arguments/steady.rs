@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use experiments::branches::BranchParameter;
 
 use super::TableFormat;
-use super::values::{damping_factor, over, range, small, span};
+use super::values::{damping_factor, over, range, small, span, whole};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Model {
@@ -43,7 +43,7 @@ pub(crate) struct Sweep {
     pub both_ways: bool,
     /// Number of further speeds about each peak, 0 for none.
     #[arg(long, value_name = "N", default_value_t = 0,
-          value_parser = clap::value_parser!(u32).range(0..=1000), allow_negative_numbers = true)]
+          value_parser = whole::<0, 1000>, allow_negative_numbers = true)]
     pub refine: u32,
     /// How steady states are found.
     #[arg(long, value_enum, default_value_t = SteadyMethod::Shooting)]
@@ -53,18 +53,18 @@ pub(crate) struct Sweep {
     #[arg(long)]
     pub whole_cycles: bool,
     /// Highest harmonic of the mesh frequency: up to 5, up to 10 with at least 560 steps in a cycle.
-    #[arg(long, default_value_t = 5, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 5, value_parser = whole::<1, 10>, allow_negative_numbers = true)]
     pub harmonics: u32,
     /// Largest change of a steady state from cycle to cycle, over its peak-to-peak vibration.
     #[arg(long, default_value_t = 1e-9, value_parser = small)]
     pub tolerance: f64,
     /// Cycles after which a set that has not settled is recorded as it is, flagged as subharmonic or not
     /// periodic.
-    #[arg(long, default_value_t = 2000, value_parser = clap::value_parser!(u32).range(2..=1_000_000), allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 2000, value_parser = whole::<2, 1_000_000>, allow_negative_numbers = true)]
     pub most_cycles: u32,
     /// Cycles over which the energy between harmonics of a marched motion is measured, 0 for none; of a motion
     /// found by shooting it is measured over the last two.
-    #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(0..=10_000), allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 16, value_parser = whole::<0, 10_000>, allow_negative_numbers = true)]
     pub between_cycles: u32,
     /// Folder for finished points, then the table (CSV) and a sidecar (JSON); the same command resumes from
     /// the points in it. A folder with anything else that would be overwritten is refused.
@@ -125,7 +125,7 @@ pub(crate) struct Branches {
     pub switch: bool,
     /// Most points each way from the start.
     #[arg(long, value_name = "N", default_value_t = 500,
-          value_parser = clap::value_parser!(u32).range(2..=100_000), allow_negative_numbers = true)]
+          value_parser = whole::<2, 100_000>, allow_negative_numbers = true)]
     pub max_points: u32,
     /// Folder for finished steps, then the table (CSV) and everything (JSON); the same command resumes from the steps in
     /// it. A folder with anything else that would be overwritten is refused.

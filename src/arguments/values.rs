@@ -10,6 +10,14 @@ pub(super) fn elements(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A whole number from `LOW` to `HIGH`.
+pub(super) fn whole<const LOW: u32, const HIGH: u32>(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(n) if (LOW..=HIGH).contains(&n) => Ok(n),
+        _ => Err(format!("a whole number from {LOW} to {HIGH}")),
+    }
+}
+
 pub(super) fn two(text: &str) -> Result<[f64; 2], String> {
     let parts: Vec<Option<f64>> = text.split(':').map(|part| part.trim().parse().ok()).collect();
     match parts[..] {

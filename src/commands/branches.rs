@@ -1,6 +1,7 @@
 //! `branches SCENE`: periodic motions over speed, torque, damping or a number of the scene, stable or not.
 
 use std::io::Write;
+use std::path::Path;
 
 use experiments::ExperimentError;
 use experiments::branches::{
@@ -70,13 +71,12 @@ pub(super) fn run(
                     let (at, factor) = ((key, settings.start), arguments.damping_factor);
                     let is_lumped = arguments.model == Model::Lumped;
                     let own = KeyedModel::new(&text, at, factor, &bodies, case, is_lumped);
-                    Box::new(own.map_err(|e| unfit(path, e.to_string()))?)
+                    Box::new(own.map_err(|e| not_computed(e, path, &settings))?)
                 }
                 _ => turning::model(arguments.model, &scene, &bodies, case)?,
             };
             working.now("following the branch");
             branches_kept(model.as_ref(), &settings, &search, store).map_err(|e| match e {
-                ExperimentError::Fe(e) => unfit(path, e.to_string()),
                 ExperimentError::Branch(e @ BranchError::NoDerivative(_)) => {
                     unfit(path, e.to_string())
                 }
@@ -86,35 +86,66 @@ pub(super) fn run(
                 ExperimentError::Branch(e @ BranchError::NoEffect { .. }) => {
                     refused("--over", e.to_string())
                 }
-                other => other.into(),
+                other => not_computed(other, path, &settings),
             })?
         }
     };
     #[cfg(feature = "charts")]
-    if let Some(folder) = &arguments.figures {
+    let drawn = arguments.figures.as_ref().map(|folder| {
         use crate::figures::{of_branches, save};
         let title = format!("{}: {}", scene.title, fixed.words(settings.over));
-        save(&of_branches(&found, &title, settings.harmonics), folder)?;
-    }
+        Ok(save(&of_branches(&found, &title, settings.harmonics), folder)?)
+    });
     let result = BranchesOutput::new(&scene, &fixed, &settings, found);
-    if let Some(folder) = &arguments.out {
-        let (mut table, mut all) = (Vec::new(), Vec::new());
-        result.write_csv(&mut table)?;
-        output::json(&mut all, &result)?;
-        for (name, bytes) in RESULTS.iter().zip([table, all]) {
-            let path = folder.join(name);
-            write_whole(&path, &bytes).map_err(|source| CommandError::File {
-                what: "cannot write",
-                path,
-                source,
-            })?;
-        }
-    }
-    match arguments.format {
+    let saved = match &arguments.out {
+        Some(folder) => write_folder(&result, folder),
+        None => Ok(()),
+    };
+    #[cfg(feature = "charts")]
+    let saved = saved.and(drawn.unwrap_or(Ok(())));
+    // What was computed is shown also where it cannot be saved.
+    let shown = match arguments.format {
         TableFormat::Json => output::json(out, &result),
         TableFormat::Csv => result.write_csv(out),
         TableFormat::Text => result.text(&fixed, out),
+    };
+    saved.and(shown)
+}
+
+/// The error for a set or a motion that cannot be computed; over a key, its values may be the cause.
+fn not_computed(error: ExperimentError, path: &Path, settings: &BranchSettings) -> CommandError {
+    match (error, settings.over) {
+        (store @ ExperimentError::Store(_), _) => store.into(),
+        (e, BranchParameter::Key(key)) => {
+            let ([from, to], start) = (settings.range, settings.start);
+            let remedy = match key.enters_statics() {
+                true => {
+                    "a softer support gives way further under the load: take stiffer values, or a smaller torque"
+                }
+                false => "take values nearer to that of the scene",
+            };
+            let words = format!("from {from:?} to {to:?}, begun at {start:?}: {e}; {remedy}");
+            refused("--over", format!("{} {words}", key.path()))
+        }
+        (ExperimentError::Fe(e), _) => unfit(path, e.to_string()),
+        (other, _) => other.into(),
     }
+}
+
+/// Table and everything of finished branches.
+fn write_folder(result: &BranchesOutput, folder: &Path) -> Result<(), CommandError> {
+    let (mut table, mut all) = (Vec::new(), Vec::new());
+    result.write_csv(&mut table)?;
+    output::json(&mut all, result)?;
+    for (name, bytes) in RESULTS.iter().zip([table, all]) {
+        let path = folder.join(name);
+        write_whole(&path, &bytes).map_err(|source| CommandError::File {
+            what: "cannot write",
+            path,
+            source,
+        })?;
+    }
+    Ok(())
 }
 
 /// The option that gives the range of a parameter.
@@ -193,8 +224,15 @@ fn case(
         Model::FeContact => scene.dynamics.fidelity,
     });
     let over_torque = settings.over == BranchParameter::Torque;
-    let is_given =
-        |a: &str| a == "--sun-torque-nm" && (over_torque || arguments.sun_torque_nm.is_some());
+    let gives_damping = match settings.over {
+        BranchParameter::Key(key) => scene.is_damped_by(key.path()),
+        _ => false,
+    };
+    let is_given = |a: &str| match a {
+        "--sun-torque-nm" => over_torque || arguments.sun_torque_nm.is_some(),
+        "--model lumped" => arguments.model == Model::Lumped,
+        _ => gives_damping,
+    };
     needs::require(path, scene, verb, is_given)?;
     let [low, high] = settings.range;
     if over_torque {

@@ -58,16 +58,19 @@ pub(super) fn run(
     #[cfg(feature = "charts")]
     needs::figures(&scene, arguments.figures.as_deref(), err)?;
     let found = find(arguments, scene, preload)?;
+    let saved: Result<(), CommandError> = Ok(());
     #[cfg(feature = "charts")]
-    if let Some(folder) = &arguments.figures {
-        draw(&found, folder)?;
-    }
+    let saved = arguments.figures.as_ref().map_or(saved, |folder| draw(&found, folder));
     let result = ImpulseOutput::new(&found);
-    match arguments.format {
+    // What was computed is shown also where its figures cannot be saved.
+    let shown = match arguments.format {
         TableFormat::Json => output::json(out, &result),
         TableFormat::Csv => impulse_text::csv(&result, out),
-        TableFormat::Text => Ok(impulse_text::text(&found.scene.title, &result, out)?),
-    }
+        TableFormat::Text => {
+            impulse_text::text(&found.scene.title, &result, out).map_err(CommandError::from)
+        }
+    };
+    saved.and(shown)
 }
 
 #[cfg(feature = "charts")]

@@ -1,6 +1,7 @@
 //! `mesh SCENE`.
 
 use std::io::Write;
+use std::path::Path;
 
 use fe_contact::body::{CarrierBody, GearBody};
 use fe_contact::export::{Drawn, vtu};
@@ -80,20 +81,17 @@ pub(crate) fn run(
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let carrier = carrier(&scene, &bodies).transpose().map_err(fe_refused(path))?;
     drop(working);
+    let saved: Result<(), CommandError> = Ok(());
     #[cfg(feature = "charts")]
-    if let Some(file) = &arguments.svg {
-        save(file, &crate::figures::meshes(&scene, &bodies, carrier.as_ref()).svg())?;
-    }
+    let saved = arguments.svg.as_ref().map_or(saved, |file| {
+        save(file, &crate::figures::meshes(&scene, &bodies, carrier.as_ref()).svg())
+    });
     let gears = [bodies.sun.as_ref(), Some(&bodies.planet), bodies.ring.as_ref()];
     let gears: Vec<&GearBody> = gears.into_iter().flatten().collect();
-    if let Some(folder) = &arguments.vtu {
-        for body in &gears {
-            save(&folder.join(format!("{}.vtu", body.mesh.name)), &vtu(&Drawn::gear(&body.mesh)))?;
-        }
-        if let Some(body) = &carrier {
-            save(&folder.join("carrier.vtu"), &vtu(&Drawn::carrier(&body.mesh)))?;
-        }
-    }
+    let saved = saved.and(match &arguments.vtu {
+        Some(folder) => write_vtu(&gears, carrier.as_ref(), folder),
+        None => Ok(()),
+    });
     let mut list: Vec<BodyOutput> =
         gears.iter().map(|body| gear(body, &bodies, scene.lumped.as_ref())).collect();
     if let Some(body) = &carrier {
@@ -113,9 +111,26 @@ pub(crate) fn run(
         });
     }
     let result = MeshOutput { bodies: list };
-    match arguments.format {
+    // What was computed is shown also where its files cannot be written.
+    let shown = match arguments.format {
         Format::Json => output::json(out, &result),
-        Format::Text => Ok(text(&scene, &result, out)?),
+        Format::Text => text(&scene, &result, out).map_err(CommandError::from),
+    };
+    saved.and(shown)
+}
+
+/// One file for each body.
+fn write_vtu(
+    gears: &[&GearBody],
+    carrier: Option<&CarrierBody>,
+    folder: &Path,
+) -> Result<(), CommandError> {
+    for body in gears {
+        save(&folder.join(format!("{}.vtu", body.mesh.name)), &vtu(&Drawn::gear(&body.mesh)))?;
+    }
+    match carrier {
+        Some(body) => save(&folder.join("carrier.vtu"), &vtu(&Drawn::carrier(&body.mesh))),
+        None => Ok(()),
     }
 }
 

@@ -5,6 +5,7 @@ mod branches;
 mod branches_manifest;
 mod branches_output;
 mod compare;
+mod files;
 mod impulse;
 mod impulse_output;
 mod impulse_text;
@@ -56,6 +57,8 @@ use gearset::Scene;
 
 use crate::arguments::{Arguments, Verb};
 use crate::error::CommandError;
+
+use files::{folder, save, writable};
 
 /// Runs the command: results to `out`, everything else to `err`. Returns the exit code: 0 ran and
 /// every check passed, 1 ran and a check failed, 2 bad input.
@@ -112,43 +115,9 @@ fn read_scene(path: &Path) -> Result<Scene, CommandError> {
     Scene::from_file(path).map_err(|source| CommandError::Scene { path: path.to_owned(), source })
 }
 
-/// Writes a file, creating its folder if need be.
-fn save(path: &Path, text: &str) -> Result<(), CommandError> {
-    let failed = |source| CommandError::File { what: "cannot write", path: path.into(), source };
-    if let Some(folder) = path.parent().filter(|p| !p.as_os_str().is_empty()) {
-        std::fs::create_dir_all(folder).map_err(failed)?;
-    }
-    std::fs::write(path, text).map_err(failed)
-}
-
 /// The error for a scene that FE/contact cannot use or cannot solve.
 fn fe_refused(path: &Path) -> impl Fn(fe_contact::FeError) -> CommandError + '_ {
     |e| unfit(path, e.to_string())
-}
-
-/// Refuses a file that cannot be written, before the work whose results it is to hold: a folder in its place, or a file in
-/// place of its folder, which is made if need be.
-fn writable(path: Option<&Path>) -> Result<(), CommandError> {
-    let Some(path) = path else { return Ok(()) };
-    let failed = |source| CommandError::File { what: "cannot write", path: path.into(), source };
-    if path.is_dir() {
-        return Err(failed(std::io::ErrorKind::IsADirectory.into()));
-    }
-    match path.parent().filter(|p| !p.as_os_str().is_empty()) {
-        Some(folder) => std::fs::create_dir_all(folder).map_err(failed),
-        None => Ok(()),
-    }
-}
-
-/// Refuses a folder that cannot be made, before the work whose results it is to hold.
-fn folder(argument: &'static str, path: Option<&Path>) -> Result<(), CommandError> {
-    let Some(path) = path else { return Ok(()) };
-    if path.exists() && !path.is_dir() {
-        let reason = format!("`{}` is a file: allowed is a folder", path.display());
-        return Err(refused(argument, reason));
-    }
-    let failed = |source| CommandError::File { what: "cannot write", path: path.into(), source };
-    std::fs::create_dir_all(path).map_err(failed)
 }
 
 /// The error for an argument whose value is not allowed.

@@ -1,7 +1,7 @@
 //! `stability [MAP]`: methods and sets pushed until they fail.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use experiments::stability::{Border, MapName, StabilityMap, stability_map};
 use gearset::Scene;
@@ -14,7 +14,7 @@ use crate::error::CommandError;
 use crate::output;
 
 use super::working::Working;
-use super::{read_scene, save, unfit};
+use super::{folder, read_scene, save, unfit, writable};
 
 /// `stability MAP --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -67,6 +67,10 @@ pub(super) fn run(
         }
         None => built_in()?,
     };
+    folder("--out", arguments.out.as_deref())?;
+    if let Some(folder) = &arguments.out {
+        ENDINGS.iter().try_for_each(|ending| writable(Some(&file(folder, which, ending))))?;
+    }
     let working = Working::new("computing the map");
     let map = stability_map(which, &scene).map_err(|e| match &arguments.scene {
         Some(path) => unfit(path, e.to_string()),
@@ -74,22 +78,42 @@ pub(super) fn run(
     })?;
     drop(working);
     let result = StabilityOutput { version: env!("CARGO_PKG_VERSION").into(), map };
-    if let Some(folder) = &arguments.out {
-        let file = |ending: &str| folder.join(format!("{}.{ending}", which.name()));
-        let mut text = Vec::new();
-        output::json(&mut text, &result)?;
-        save(&file("json"), &String::from_utf8_lossy(&text))?;
-        text.clear();
-        write_csv(&result.map, &mut text)?;
-        save(&file("csv"), &String::from_utf8_lossy(&text))?;
-        #[cfg(feature = "charts")]
-        crate::figures::save(&[crate::figures::of_map(&result.map)], folder)?;
-    }
-    match arguments.format {
+    let saved = match &arguments.out {
+        Some(folder) => write_folder(&result, which, folder),
+        None => Ok(()),
+    };
+    // What was computed is shown also where it cannot be saved.
+    let shown = match arguments.format {
         TableFormat::Json => output::json(out, &result),
         TableFormat::Csv => write_csv(&result.map, out),
         TableFormat::Text => write_text(&result.map, out),
+    };
+    saved.and(shown)
+}
+
+/// Endings of the files with the result and its table.
+const ENDINGS: [&str; 2] = ["json", "csv"];
+
+/// A file of a map in the folder of `--out`.
+fn file(folder: &Path, map: MapName, ending: &str) -> PathBuf {
+    folder.join(format!("{}.{ending}", map.name()))
+}
+
+/// Result, table and figure of a map.
+fn write_folder(
+    result: &StabilityOutput,
+    which: MapName,
+    folder: &Path,
+) -> Result<(), CommandError> {
+    let [mut all, mut table] = [Vec::new(), Vec::new()];
+    output::json(&mut all, result)?;
+    write_csv(&result.map, &mut table)?;
+    for (ending, text) in ENDINGS.iter().zip([all, table]) {
+        save(&file(folder, which, ending), &String::from_utf8_lossy(&text))?;
     }
+    #[cfg(feature = "charts")]
+    crate::figures::save(&[crate::figures::of_map(&result.map)], folder)?;
+    Ok(())
 }
 
 fn name(argument: MapArgument) -> MapName {

@@ -1,6 +1,7 @@
 //! `static --approach-um`: a gear pair at one phase with its driving race rotated, also as a CalculiX deck.
 
 use std::io::Write;
+use std::path::Path;
 use std::time::Instant;
 
 use fe_contact::export::calculix::{DeckSettings, deck};
@@ -62,15 +63,16 @@ pub(super) fn run(
     let own = own.map_err(fe_refused(path))?;
     drop(working);
     let (seconds, solve_seconds) = (start.elapsed().as_secs_f64(), before.elapsed().as_secs_f64());
-    if let Some(file) = &arguments.export_inp {
+    let exported = |file: &Path| {
         let settings = DeckSettings {
             per_half_width: arguments.export_per_half_width.unwrap_or(12.0),
             flank_elements: arguments.export_flank_elements.unwrap_or(12) as usize,
             teeth: arguments.export_teeth.map(|n| n as usize),
             ..DeckSettings::default()
         };
-        save(file, &deck(&bodies, &own, &settings).map_err(fe_refused(path))?)?;
-    }
+        save(file, &deck(&bodies, &own, &settings).map_err(fe_refused(path))?)
+    };
+    let saved = arguments.export_inp.as_deref().map_or(Ok(()), exported);
     let pairs = own.pairs.iter().map(|p| ApproachPair {
         index: p.index,
         force_n: p.force,
@@ -78,7 +80,8 @@ pub(super) fn run(
     });
     let result =
         ApproachOutput { force_n: own.force, seconds, solve_seconds, pairs: pairs.collect() };
-    match arguments.format {
+    // What was computed is shown also where the deck cannot be written.
+    let mut show = || match arguments.format {
         TableFormat::Json => output::json(out, &result),
         TableFormat::Csv => {
             let rows = result.pairs.iter().map(|p| {
@@ -99,5 +102,6 @@ pub(super) fn run(
             }
             Ok(())
         }
-    }
+    };
+    saved.and(show())
 }

@@ -77,15 +77,18 @@ pub(super) fn run(
     let positions = arguments.position_count();
     let cycle = pair_cycle(&bodies, kind, force, positions, solver).map_err(fe_refused(path))?;
     drop(working);
+    let saved: Result<(), CommandError> = Ok(());
     #[cfg(feature = "charts")]
-    if let Some(folder) = &arguments.figures {
-        figures::save(&figures::of_pair_cycle(&scene.title, &cycle), folder)?;
-    }
-    match arguments.format {
+    let saved = arguments.figures.as_ref().map_or(saved, |folder| {
+        Ok(figures::save(&figures::of_pair_cycle(&scene.title, &cycle), folder)?)
+    });
+    // What was computed is shown also where its figures cannot be saved.
+    let shown = match arguments.format {
         TableFormat::Json => output::json(out, &describe(&cycle)),
         TableFormat::Csv => csv(&cycle, out),
-        TableFormat::Text => Ok(text(scene, &bodies, &cycle, out)?),
-    }
+        TableFormat::Text => text(scene, &bodies, &cycle, out).map_err(CommandError::from),
+    };
+    saved.and(shown)
 }
 
 fn describe(cycle: &PairCycle) -> PairOutput {

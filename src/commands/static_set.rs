@@ -137,18 +137,23 @@ pub(super) fn run(
     drop(working);
     let radius = bodies.geometry.sun.as_ref().map(|sun| sun.base_radius);
     let radius = radius.ok_or_else(|| unfit(path, "`geometry.sun` is absent"))?;
+    let saved: Result<(), CommandError> = Ok(());
     #[cfg(feature = "charts")]
-    if let Some(folder) = &arguments.figures {
-        figures::save(&figures::of_set_cycles(&scene.title, &cycles, radius), folder)?;
-    }
-    match arguments.format {
+    let saved = arguments.figures.as_ref().map_or(saved, |folder| {
+        Ok(figures::save(&figures::of_set_cycles(&scene.title, &cycles, radius), folder)?)
+    });
+    // What was computed is shown also where its figures cannot be saved.
+    let shown = match arguments.format {
         TableFormat::Json => {
             let torques = cycles.iter().map(|c| describe(c, radius)).collect();
             output::json(out, &SetOutput { torques, auto })
         }
         TableFormat::Csv => csv(&cycles, out),
-        TableFormat::Text => Ok(text(scene, &cycles, radius, auto.as_ref(), out)?),
-    }
+        TableFormat::Text => {
+            text(scene, &cycles, radius, auto.as_ref(), out).map_err(CommandError::from)
+        }
+    };
+    saved.and(shown)
 }
 
 fn describe(cycle: &SetCycle, radius: f64) -> TorqueOutput {

@@ -1,6 +1,7 @@
 //! `study FILE`: quantities of interest, their truth, settings by error and cost.
 
 use std::io::Write;
+use std::path::{Path, PathBuf};
 
 use experiments::study::{StudyError, StudyFile, StudyResult, run_study};
 use schemars::JsonSchema;
@@ -12,7 +13,7 @@ use crate::output;
 
 use super::study_text::{write_csv, write_text};
 use super::working::Working;
-use super::{folder, save};
+use super::{folder, save, writable};
 
 /// `study FILE --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -34,28 +35,47 @@ pub(super) fn run(
         study = study.with_rounds(rounds as usize).map_err(refused)?;
     }
     folder("--out", arguments.out.as_deref())?;
+    let name = arguments.file.file_stem().unwrap_or_default().to_string_lossy();
+    if let Some(folder) = &arguments.out {
+        ENDINGS.iter().try_for_each(|ending| writable(Some(&file(folder, &name, ending))))?;
+    }
     let working = Working::new("study");
     let result = run_study(&study, &|words| working.say(words)).map_err(refused)?;
     drop(working);
     warn(&result, err)?;
     let result = StudyOutput { version: env!("CARGO_PKG_VERSION").into(), study: result };
-    if let Some(folder) = &arguments.out {
-        let name = arguments.file.file_stem().unwrap_or_default().to_string_lossy();
-        let file = |ending: &str| folder.join(format!("{name}.{ending}"));
-        let mut text = Vec::new();
-        output::json(&mut text, &result)?;
-        save(&file("json"), &String::from_utf8_lossy(&text))?;
-        text.clear();
-        write_csv(&result.study, &mut text)?;
-        save(&file("csv"), &String::from_utf8_lossy(&text))?;
-        #[cfg(feature = "charts")]
-        crate::figures::save(&[crate::figures::of_study(&result.study, &name)], folder)?;
-    }
-    match arguments.format {
+    let saved = match &arguments.out {
+        Some(folder) => write_folder(&result, &name, folder),
+        None => Ok(()),
+    };
+    // What was computed is shown also where it cannot be saved.
+    let shown = match arguments.format {
         TableFormat::Json => output::json(out, &result),
         TableFormat::Csv => write_csv(&result.study, out),
         TableFormat::Text => write_text(&result.study, out),
+    };
+    saved.and(shown)
+}
+
+/// Endings of the files with the result and its table.
+const ENDINGS: [&str; 2] = ["json", "csv"];
+
+/// A file of a study in the folder of `--out`.
+fn file(folder: &Path, name: &str, ending: &str) -> PathBuf {
+    folder.join(format!("{name}.{ending}"))
+}
+
+/// Result, table and figure of a study.
+fn write_folder(result: &StudyOutput, name: &str, folder: &Path) -> Result<(), CommandError> {
+    let [mut all, mut table] = [Vec::new(), Vec::new()];
+    output::json(&mut all, result)?;
+    write_csv(&result.study, &mut table)?;
+    for (ending, text) in ENDINGS.iter().zip([all, table]) {
+        save(&file(folder, name, ending), &String::from_utf8_lossy(&text))?;
     }
+    #[cfg(feature = "charts")]
+    crate::figures::save(&[crate::figures::of_study(&result.study, name)], folder)?;
+    Ok(())
 }
 
 /// Ratio of the yardstick's times, of the last third to the first or of the upper quartile to the lower, beyond which

@@ -66,38 +66,49 @@ pub(super) fn run(
             sweep.extend(more);
         }
     }
-    #[cfg(feature = "charts")]
-    if let Some(folder) = &arguments.figures {
-        draw(&scene, &bodies, task.case, &sweep, folder)?;
-    }
     let result = SweepOutput::new(&scene, task.case.sun_torque_nm, &task.plan.steady, &sweep);
-    if let Some(folder) = &arguments.out {
-        let failed = |path: &Path| {
-            let path = path.to_owned();
-            move |source| CommandError::File { what: "cannot write", path, source }
-        };
-        let mut table = Vec::new();
-        write_csv(&sweep, &scene.title, &mut table)?;
-        let path = folder.join("sweep.csv");
-        write_whole(&path, &table).map_err(failed(&path))?;
-        #[cfg(feature = "parquet")]
-        {
-            let table = super::sweep_parquet::parquet(&sweep, &scene.title)?;
-            let path = folder.join("sweep.parquet");
-            write_whole(&path, &table).map_err(failed(&path))?;
-        }
-        let path = folder.join("sweep.json");
-        let sidecar = serde_json::to_string_pretty(&result.sidecar(&task.text))?;
-        write_whole(&path, sidecar.as_bytes()).map_err(failed(&path))?;
-    }
-    match arguments.format {
+    let saved = match &arguments.out {
+        Some(folder) => write_folder(&result, &sweep, (&scene.title, &task.text), folder),
+        None => Ok(()),
+    };
+    #[cfg(feature = "charts")]
+    let saved = saved.and(match &arguments.figures {
+        Some(folder) => draw(&scene, &bodies, task.case, &sweep, folder),
+        None => Ok(()),
+    });
+    // What was computed is shown also where it cannot be saved.
+    let shown = match arguments.format {
         TableFormat::Json => output::json(out, &result),
         TableFormat::Csv => {
-            write_csv(&sweep, &scene.title, out)?;
-            write_failed(&result, err)
+            write_csv(&sweep, &scene.title, out).and_then(|()| write_failed(&result, err))
         }
         TableFormat::Text => text(&result, out),
-    }
+    };
+    saved.and(shown)
+}
+
+/// Table and sidecar of a finished sweep.
+fn write_folder(
+    result: &SweepOutput,
+    sweep: &Sweep,
+    (title, scene_text): (&str, &str),
+    folder: &Path,
+) -> Result<(), CommandError> {
+    let write = |name: &str, bytes: &[u8]| {
+        let path = folder.join(name);
+        write_whole(&path, bytes).map_err(|source| CommandError::File {
+            what: "cannot write",
+            path,
+            source,
+        })
+    };
+    let mut table = Vec::new();
+    write_csv(sweep, title, &mut table)?;
+    write("sweep.csv", &table)?;
+    #[cfg(feature = "parquet")]
+    write("sweep.parquet", &super::sweep_parquet::parquet(sweep, title)?)?;
+    let sidecar = serde_json::to_string_pretty(&result.sidecar(scene_text))?;
+    write("sweep.json", sidecar.as_bytes())
 }
 
 #[cfg(feature = "charts")]
@@ -169,9 +180,16 @@ impl<'a> Task<'a> {
             between_cycles: arguments.between_cycles as usize,
             whole_cycles: arguments.whole_cycles,
         };
-        let steps = scene.dynamics.steps_per_cycle as usize;
-        steady.check(steps).map_err(refuse("--harmonics"))?;
-        needs::caution(&steady, steps, err)?;
+        if steady.whole_cycles && method == SteadyMethod::Marching {
+            let reason = "is of --method shooting: marching passes through every step of a mesh cycle anyway: leave it out";
+            return Err(refused("--whole-cycles", reason));
+        }
+        // The number of steps is among the settings that are chosen for an amplitude.
+        if sweep_auto::response(scene).is_none() {
+            let steps = scene.dynamics.steps_per_cycle as usize;
+            steady.check(steps).map_err(refuse("--harmonics"))?;
+            needs::caution(&steady, steps, err)?;
+        }
         let directions: &[Direction] = match arguments.both_ways {
             true => &[Direction::Up, Direction::Down],
             false => &[Direction::Up],

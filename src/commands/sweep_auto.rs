@@ -53,24 +53,27 @@ impl Asked<'_> {
             .map_err(|e| unfit(&arguments.scene, format!("`dynamics.fidelity` = \"auto\": {e}")))?;
         drop(working);
         let own = found.choice.settings.applied_to(scene);
+        let saved: Result<(), CommandError> = Ok(());
         #[cfg(feature = "charts")]
-        if let Some(folder) = &arguments.figures {
+        let saved = arguments.figures.as_ref().map_or(saved, |folder| {
             let bodies = fe_contact::statics::Bodies::new(&own)
                 .map_err(super::fe_refused(&arguments.scene))?;
-            super::sweep::draw(&own, &bodies, *case, &found.sweep, folder)?;
-        }
+            super::sweep::draw(&own, &bodies, *case, &found.sweep, folder)
+        });
         let (torque, sweep) = (case.sun_torque_nm, &found.sweep);
         let result = SweepOutput::new(&own, torque, &plan.steady, sweep);
         if arguments.format == TableFormat::Csv {
             auto_choice::write(&found.choice, err)?;
             write_csv(sweep, &scene.title, out)?;
-            return write_failed(&result, err);
+            return saved.and(write_failed(&result, err));
         }
         let result = result.chosen_by(found.choice);
-        match arguments.format {
+        // What was computed is shown also where its figures cannot be saved.
+        let shown = match arguments.format {
             TableFormat::Json => output::json(out, &result),
             _ => text(&result, out),
-        }
+        };
+        saved.and(shown)
     }
 
     /// Refuses arguments that say what is to be chosen, or that change what it is chosen for.

@@ -35,6 +35,7 @@ pub(crate) fn run(
     if arguments.controls {
         return suites(arguments, out).map(|()| true);
     }
+    super::folder("--report", arguments.report.as_deref())?;
     let verdict = match &arguments.recorded {
         Some(folder) => recorded(folder, &arguments.only)?,
         None => {
@@ -56,13 +57,17 @@ pub(crate) fn run(
         let reason = format!("`{}`: no check's id starts so", arguments.only);
         return Err(CommandError::Argument { argument: "--only", reason });
     }
-    if let Some(folder) = &arguments.report {
-        report::write(&verdict, folder)?;
+    // What was computed is shown also where its report cannot be saved.
+    let saved = match &arguments.report {
         // A part of the verdict, or that on another model, has a report of its own only.
-        if arguments.only.is_empty() && arguments.recorded.is_none() {
-            report_charts::write(folder)?;
-        }
-    }
+        Some(folder) => report::write(&verdict, folder).and_then(|()| {
+            match arguments.only.is_empty() && arguments.recorded.is_none() {
+                true => report_charts::write(folder),
+                false => Ok(()),
+            }
+        }),
+        None => Ok(()),
+    };
     match arguments.format {
         Format::Json => output::json(out, &verdict)?,
         Format::Text => {
@@ -72,12 +77,12 @@ pub(crate) fn run(
                 let reference = Reference::load().map_err(ValidationError::from)?;
                 verdict_text::write(&verdict, &reference.misses, out)?;
             }
-            if let Some(folder) = &arguments.report {
+            if let (Some(folder), Ok(())) = (&arguments.report, &saved) {
                 writeln!(out, "report in {}", folder.display())?;
             }
         }
     }
-    Ok(verdict.is_sound())
+    saved.map(|()| verdict.is_sound())
 }
 
 /// Judges the tables in a folder by every suite whose scenes they contain.

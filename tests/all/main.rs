@@ -2,6 +2,7 @@
 //!
 //! `cargo test --release --test all snapshots` runs the tests of one module.
 
+mod branch_input;
 mod branches_command;
 mod command;
 mod compare_command;
@@ -19,3 +20,4 @@ mod snapshots;
 mod stability_command;
 mod study_command;
 mod sweep_command;
+mod writing;

@@ -141,6 +141,60 @@ fn faults_of_a_study_file_name_the_key_and_what_is_allowed() {
         (replaced("kind = \"extrapolated\"", "kind = \"kept\""), ["truth", "extrapolated"]),
         (format!("{text}\nsteady_tolerance = 1.0"), ["steady_tolerance", "1e-12"]),
         ("format = ".to_owned(), ["TOML", ""]),
+        (replaced("rounds = 3", "rounds = -1"), ["`rounds` is -1", "a whole number from 3 to 999"]),
+        (replaced("rounds = 3", "rounds = 0"), ["`rounds` is 0", "a whole number from 3 to 999"]),
+        (replaced("format = 1", "format = \"1\""), ["`format` is \"1\"", "allowed: 1"]),
+        (
+            replaced("title = \"Contact cells\"\n", ""),
+            ["`title` is absent", "a string of one line in quotes"],
+        ),
+        (
+            replaced("tolerance_percent = 2", "tolerance_percent = \"2\""),
+            ["`tolerance_percent` is \"2\"", "a finite number"],
+        ),
+        (text.replace("[[truth]]", "[truth]"), ["`truth` is a table", "an array of tables"]),
+        (
+            replaced("kind = \"natural_frequency\"\n", ""),
+            ["`quantity \"first frequency\".kind` is absent", "a string"],
+        ),
+        (replaced("name = \"first frequency\"\n", ""), ["`quantity.1.name` is absent", "a string"]),
+        (
+            replaced("positions = 4", "positions = 4.5"),
+            ["`quantity \"peak to peak\".positions` is 4.5", "a whole number"],
+        ),
+        (
+            replaced("values = [14, 20]", "values = []"),
+            ["`series \"cells\".values` is []", "two values or more"],
+        ),
+        (
+            replaced("values = [14, 20]", "values = [10]"),
+            ["`series \"cells\".values` is [10]", "two values or more"],
+        ),
+        (
+            replaced("values = [14, 20]", "values = 14"),
+            ["`series \"cells\".values` is 14", "a list of values"],
+        ),
+        (
+            replaced("values = [14, 20]", "values = [40, 10]"),
+            ["`series \"cells\".values` is [40, 10]", "ascending"],
+        ),
+        (
+            text.replace("values = [14, 20]", "values = [1e-6, 1e-3]").replace(
+                "[[series]]\nname = \"cells\"\nkey = \"fe_contact.contact_cells\"",
+                "[[series]]\nname = \"t\"\nkey = \"steady_tolerance\"",
+            ),
+            ["`series \"t\".values` is", "descending"],
+        ),
+        (replaced("name = \"lumped\"", "name = \"\""), ["`setting.name` is \"\"", "not empty"]),
+        (replaced("name = \"peak to peak\"", "name = \" \""), ["`quantity.name`", "not empty"]),
+        (
+            replaced("sun_torque_nm = 1413", "sun_torque_nm = 1e30"),
+            ["`sun_torque_nm` is 1e30 N·m", "allowed is a magnitude below"],
+        ),
+        (
+            replaced("positions = 4", "positions = 4\nsun_torque_nm = 1e-30"),
+            ["`quantity \"peak to peak\".sun_torque_nm` is 1e-30 N·m", "magnitude above"],
+        ),
     ] {
         let path = folder.path().join("faulty.toml");
         std::fs::write(&path, &text).unwrap();

@@ -92,6 +92,37 @@ pub enum AutoError {
     Experiment(#[from] ExperimentError),
 }
 
+/// Candidates with their reasons; a reason that neighbours share stands once, and alone where all share it.
 fn listed(all: &[PassedOver]) -> String {
-    all.iter().map(|p| format!("{}: {}", p.settings, p.why)).collect::<Vec<_>>().join("; ")
+    let groups: Vec<&[PassedOver]> = all.chunk_by(|a, b| a.why == b.why).collect();
+    let one = |group: &&[PassedOver]| {
+        let settings: Vec<String> = group.iter().map(|p| p.settings.to_string()).collect();
+        let why = group.first().map_or("", |p| p.why.as_str());
+        match groups.len() {
+            1 if group.len() > 1 => why.to_owned(),
+            _ => format!("{}: {why}", settings.join(" and ")),
+        }
+    };
+    groups.iter().map(one).collect::<Vec<_>>().join("; ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_reason_that_candidates_share_is_given_once() {
+        let over = |flank_elements, why: &str| PassedOver {
+            settings: AutoSettings::quasi_static(flank_elements, 20),
+            estimated_error_percent: None,
+            why: why.into(),
+        };
+        assert_eq!(listed(&[over(6, "no such mode"), over(10, "no such mode")]), "no such mode");
+        assert_eq!(
+            listed(&[over(6, "a"), over(10, "b"), over(16, "b")]),
+            "quasi_static, 6 flank elements, 20 contact cells: a; quasi_static, 10 flank elements, 20 contact cells and \
+             quasi_static, 16 flank elements, 20 contact cells: b"
+        );
+        assert_eq!(listed(&[over(6, "a")]), "quasi_static, 6 flank elements, 20 contact cells: a");
+    }
 }

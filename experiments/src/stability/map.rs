@@ -1,6 +1,6 @@
 //! What a stability map is, and which there are.
 
-use gearset::Scene;
+use gearset::{Scene, SceneKind};
 use rayon::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -248,6 +248,9 @@ pub enum MapError {
     /// A scene without operating point.
     #[error("[operation] is absent: steps per mesh cycle need a mesh frequency")]
     NoOperation,
+    /// A gear pair where the map is of a planetary set.
+    #[error("`kind` is \"gear_pair\": the map {0} is of planetary sets, \"planetary\" is needed")]
+    NotPlanetary(&'static str),
 }
 
 /// Computes a map; `scene` is used by those for which [`MapName::is_of_a_scene`] holds.
@@ -255,6 +258,11 @@ pub enum MapError {
 /// # Errors
 /// If the scene lacks what the map needs, or a step or an eigenproblem fails.
 pub fn stability_map(which: MapName, scene: &Scene) -> Result<StabilityMap, MapError> {
+    let is_of_planets =
+        matches!(which, MapName::ModeTypes | MapName::LinearKinematics | MapName::Spacing);
+    if is_of_planets && scene.kind == SceneKind::GearPair {
+        return Err(MapError::NotPlanetary(which.name()));
+    }
     match which {
         MapName::Integrators => integrators::map(),
         MapName::ExplicitStep => explicit_step::map(scene),

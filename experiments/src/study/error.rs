@@ -22,6 +22,14 @@ pub enum StudyError {
         /// What is allowed.
         allowed: String,
     },
+    /// A load of a size that no model can bear.
+    #[error("`{key}` is {reason}")]
+    Load {
+        /// Key with its table.
+        key: String,
+        /// Its value, what is allowed, and why.
+        reason: String,
+    },
     /// A file that the study names and that cannot be read.
     #[error("`{key}`: `{}` cannot be read: {cause}", path.display())]
     File {

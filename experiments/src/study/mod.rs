@@ -13,6 +13,7 @@ mod efficiency;
 mod error;
 mod experiment;
 mod extrapolation;
+mod key_types;
 mod quantity;
 mod result;
 mod run;

@@ -9,8 +9,9 @@ use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use super::error::StudyError;
+use super::key_types;
 use super::quantity::{Quantity, QuantityInput};
-use super::setting::{Choices, ContactSolver, Setting, StudyIntegrator, StudyModel};
+use super::setting::{Choices, ContactSolver, Setting, StudyIntegrator, StudyModel, number};
 use super::truth::{Route, RouteInput};
 use crate::scene_keys::scene_with;
 use crate::sweep::SteadyMethod;
@@ -19,7 +20,10 @@ use crate::sweep::SteadyMethod;
 const MOST_BYTES: u64 = 1_000_000;
 
 /// Fewest rounds: a median and quartiles of less mean nothing.
-const LEAST_ROUNDS: usize = 3;
+pub(super) const LEAST_ROUNDS: usize = 3;
+
+/// Most rounds.
+pub(super) const MOST_ROUNDS: usize = 999;
 
 /// Which part of the time of a setting is its cost.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -142,8 +146,7 @@ impl StudyFile {
     /// # Errors
     /// As [`StudyFile::read`].
     pub fn from_toml(text: &str, folder: &Path) -> Result<Self, StudyError> {
-        let input: Input =
-            toml::from_str(text).map_err(|e| StudyError::Syntax(e.to_string().trim().into()))?;
+        let input = Input::read(text)?;
         input.check()?;
         let quantities: Vec<Quantity> =
             input.quantity.iter().map(QuantityInput::quantity).collect::<Result<_, _>>()?;
@@ -154,6 +157,11 @@ impl StudyFile {
         let of = || "the study".to_owned();
         let scene = scene_with(&base, &[&input.keys])
             .map_err(|source| StudyError::Scene { of: of(), source })?;
+        sized(&scene, "sun_torque_nm", input.sun_torque_nm)?;
+        for own in &quantities {
+            let key = format!("quantity {:?}.sun_torque_nm", own.name);
+            sized(&scene, &key, own.experiment.sun_torque_nm)?;
+        }
         let settings = input.settings(&base)?;
         distinct("setting", settings.iter().map(|s| s.name.as_str()))?;
         let route = |route: &RouteInput| route.route(&quantities, (&base, &input.keys), folder);
@@ -193,14 +201,40 @@ impl StudyFile {
 const ROUNDS: usize = 5;
 
 fn rounds_within(rounds: usize) -> Result<(), StudyError> {
-    if (LEAST_ROUNDS..=999).contains(&rounds) {
+    if (LEAST_ROUNDS..=MOST_ROUNDS).contains(&rounds) {
         return Ok(());
     }
-    let allowed = format!("from {LEAST_ROUNDS} to 999, a median and quartiles need that many");
+    let allowed = format!(
+        "a whole number from {LEAST_ROUNDS} to {MOST_ROUNDS}: a median and quartiles need that many"
+    );
     Err(StudyError::key("rounds", rounds, allowed))
 }
 
+/// Refuses a torque on the sun, N m, under which teeth give way by more than a module or less than a millionth of one.
+fn sized(scene: &Scene, key: &str, torque_nm: Option<f64>) -> Result<(), StudyError> {
+    let Some(torque) = torque_nm else { return Ok(()) };
+    let size = scene.size_of_sun_torque(torque);
+    match size.and_then(|size| size.refusal(torque, "N·m")) {
+        Some(reason) => Err(StudyError::Load { key: key.into(), reason }),
+        None => Ok(()),
+    }
+}
+
 impl Input {
+    /// What a text says; misspelt keys, wrong types and absent keys are refused.
+    fn read(text: &str) -> Result<Self, StudyError> {
+        let syntax = |e: &toml::de::Error| StudyError::Syntax(e.to_string().trim().into());
+        let refusal = match toml::from_str(text) {
+            Ok(input) => return Ok(input),
+            Err(refusal) => refusal,
+        };
+        // A misspelt key is told with its line; a wrong type or an absent key in the words of scenes.
+        if !refusal.message().starts_with("unknown field") {
+            key_types::check(&text.parse().map_err(|e| syntax(&e))?)?;
+        }
+        Err(syntax(&refusal))
+    }
+
     fn check(&self) -> Result<(), StudyError> {
         if self.format != 1 {
             return Err(StudyError::key("format", self.format, "1"));
@@ -235,10 +269,7 @@ impl Input {
         }
         for (number, series) in self.series.iter().enumerate() {
             let of = format!("series {:?}", series.name);
-            if series.values.len() < 2 {
-                let key = format!("{of}.values");
-                return Err(StudyError::key(key, series.values.len(), "two values or more"));
-            }
+            series.check(&of)?;
             for (place, value) in series.values.iter().enumerate() {
                 let choices = series.choices().with(&series.key, value, &of)?;
                 let shown = shown(value);
@@ -252,6 +283,34 @@ impl Input {
     }
 }
 
+impl SeriesInput {
+    /// Two values or more; numbers of a series that refines go from coarse to fine, because the guarded error of a setting
+    /// is the largest of it and of all finer ones.
+    fn check(&self, of: &str) -> Result<(), StudyError> {
+        named("series", &self.name)?;
+        let refused = |allowed: &str| {
+            let shown: Vec<String> = self.values.iter().map(Value::to_string).collect();
+            let value = format!("[{}]", shown.join(", "));
+            Err(StudyError::key(format!("{of}.values"), value, allowed))
+        };
+        if self.values.len() < 2 {
+            return refused("two values or more");
+        }
+        let numbers: Option<Vec<f64>> = self.values.iter().map(number).collect();
+        let (Some(numbers), true) = (numbers, self.refines.unwrap_or(true)) else {
+            return Ok(());
+        };
+        // A tolerance is finer the smaller it is.
+        let is_tolerance = self.key == "steady_tolerance";
+        let is_finer = |w: &[f64]| if is_tolerance { w[1] < w[0] } else { w[0] < w[1] };
+        match (numbers.windows(2).all(is_finer), is_tolerance) {
+            (true, _) => Ok(()),
+            (false, true) => refused("descending values, from coarse to fine, or refines = false"),
+            (false, false) => refused("ascending values, from coarse to fine, or refines = false"),
+        }
+    }
+}
+
 /// A value in the name of a setting.
 fn shown(value: &Value) -> String {
     match value {
@@ -261,10 +320,23 @@ fn shown(value: &Value) -> String {
     }
 }
 
-/// Refuses a name that occurs twice.
+/// Refuses an empty name.
+fn named(of: &str, name: &str) -> Result<(), StudyError> {
+    match name.trim().is_empty() {
+        true => Err(StudyError::key(
+            format!("{of}.name"),
+            format!("{name:?}"),
+            "a name that is not empty",
+        )),
+        false => Ok(()),
+    }
+}
+
+/// Refuses a name that is empty or occurs twice.
 fn distinct<'n>(of: &str, names: impl Iterator<Item = &'n str>) -> Result<(), StudyError> {
     let mut seen = HashSet::new();
     for name in names {
+        named(of, name)?;
         if !seen.insert(name) {
             let allowed = "names that differ from one another";
             return Err(StudyError::key(format!("{of}.name"), format!("{name:?} twice"), allowed));
