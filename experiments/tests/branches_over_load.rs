@@ -172,24 +172,26 @@ fn motions_that_repeat_after_two_cycles_are_followed_off_a_period_doubling() {
         assert!(p.residual < 1e-8, "{:e}", p.residual);
         assert!(p.between.is_some_and(|share| share > 0.0), "{:?}", p.between);
     }
-    // The branch comes back to the doubling from its other side, one mesh cycle later, and ends there: motions of the first
-    // branch would solve its equations, too. Near the doubling the energy between harmonics vanishes.
-    assert_eq!(all[0].ends, [BranchEnd::Origin, BranchEnd::Origin]);
+    // It ends at the bound of the speeds, with more energy between harmonics than anywhere before. (Before steps on which the sense of
+    // the branch changes were refused, it fell back onto itself at 4108 rpm and returned to the doubling.)
+    assert_eq!(all[0].ends, [BranchEnd::Origin, BranchEnd::Bound]);
     let share = |p: &BranchPoint| p.between.unwrap();
     let most = all[0].points.iter().map(share).fold(0.0f64, f64::max);
-    for p in [&all[0].points[0], &all[0].points[all[0].points.len() - 1]] {
+    let (first, last) = (&all[0].points[0], &all[0].points[all[0].points.len() - 1]);
+    for p in [first, last] {
         println!("end at {}: {:e} of {most:e}", p.parameter, share(p));
-        assert!((p.parameter - at).abs() < 1.0 && share(p) < 0.01 * most && share(p) > 1e-15);
     }
+    assert!(
+        (first.parameter - at).abs() < 1.0 && share(first) < 0.01 * most && share(first) > 1e-15
+    );
+    assert!(last.parameter == 4090.0 && share(last) == most);
     // A located point is one at which stability is about to change.
     let is_sound = |p: &&BranchPoint| {
         p.is_stable && p.kind == BranchPointKind::Regular && p.parameter < at - 1.0
     };
-    let least = |a: &&BranchPoint, b: &&BranchPoint| {
-        a.largest_multiplier().total_cmp(&b.largest_multiplier())
-    };
-    let p = all[0].points.iter().filter(is_sound).min_by(least).expect("a stable motion");
-    let case = model.case().at_speed(p.parameter);
+    let mut sound: Vec<&BranchPoint> = all[0].points.iter().filter(is_sound).collect();
+    sound.sort_by(|a, b| a.parameter.total_cmp(&b.parameter));
+    sound.dedup_by(|a, b| (a.parameter - b.parameter).abs() < 1.0);
     let march = SteadySettings {
         method: SteadyMethod::Marching,
         tolerance: 1e-6,
@@ -197,13 +199,24 @@ fn motions_that_repeat_after_two_cycles_are_followed_off_a_period_doubling() {
         between_cycles: 0,
         ..SteadySettings::default()
     };
-    let mut set = model.turning(&case, 0).unwrap();
-    set.rest().unwrap();
-    let swept = steady(set.as_mut(), 3, 0.0, STEPS, &march).unwrap();
-    assert_eq!(swept.repeats_after, Some(2), "{} rpm", p.parameter);
-    let swept = SweepPoint::new(case, &swept, &march, 0).unwrap();
-    println!("lowest force {} N, marched {} N", p.lowest_force_n, swept.lowest_force_n);
-    assert!((p.contact_loss - swept.contact_loss).abs() < 2.0 / STEPS as f64);
+    // From rest marching arrives at one of several stable motions: at some speed at this one.
+    let mut met = 0;
+    for p in sound {
+        let case = model.case().at_speed(p.parameter);
+        let mut set = model.turning(&case, 0).unwrap();
+        set.rest().unwrap();
+        let swept = steady(set.as_mut(), 3, 0.0, STEPS, &march).unwrap();
+        let repeats_after = swept.repeats_after;
+        let swept = SweepPoint::new(case, &swept, &march, 0).unwrap();
+        // Of a motion that repeats after two cycles the branch has the harmonics of their mean, a march those of its last cycle: what
+        // is compared is watched over both.
+        let [own, other] = [&p.contact_loss, &swept.contact_loss];
+        let force = (swept.lowest_force_n - p.lowest_force_n).abs();
+        println!("{} rpm: {repeats_after:?} cycles, loss {other}, {own}; {force} N", p.parameter);
+        let is_met = (own - other).abs() < 2.0 / STEPS as f64 && force < 0.01;
+        met += i32::from(repeats_after == Some(2) && is_met && *own > 0.0);
+    }
+    assert!(met > 0);
 }
 
 #[test]

@@ -51,7 +51,7 @@ pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
         let of = format!("{torque:.1} N·m on the sun");
         for (quantity, measured, theory) in [
             ("contact is lost below a factor on the damping of", own.lost, own.lost_by_scaling),
-            ("motions coexist below", own.coexist, None),
+            ("more than one motion is stable below", own.coexist, None),
             ("backside flanks touch below", own.backside, None),
         ] {
             map.borders.push(Border::new(of.clone(), quantity, "", measured, theory));
@@ -69,7 +69,7 @@ pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     for (name, is_theory, of) in [
         ("contact is lost below", false, (|b: &Borders| b.lost) as fn(&Borders) -> Option<f64>),
         ("contact is lost below", true, |b| b.lost_by_scaling),
-        ("motions coexist below", false, |b| b.coexist),
+        ("more than one motion is stable below", false, |b| b.coexist),
         ("backside flanks touch below", false, |b| b.backside),
     ] {
         let points = torques.iter().zip(&all);
