@@ -54,8 +54,8 @@ fn borders_that_have_a_closed_form_are_those_of_theory() {
     }
 }
 
-/// A march that ends at some change from cycle to cycle is off by what the multipliers say: no more than their bound, and
-/// by that of the slowest part once it alone is left. Without the bound a change of 0.001 would pass for an error of it.
+/// A march that ends at some change from cycle to cycle is off by what the multipliers let expect: of this set no more, and
+/// by that of the slowest part once it alone is left. Without it a change of 0.001 would pass for an error of it.
 #[test]
 fn an_unfinished_transient_is_as_large_as_multipliers_say() {
     let result = json(&["stability", "transients", "--format", "json"]);
@@ -72,9 +72,11 @@ fn an_unfinished_transient_is_as_large_as_multipliers_say() {
         assert!(last["difference_percent"].as_f64().unwrap().abs() < allowed, "{last}");
         assert!(measured(last) > 5.0, "{last}");
         let largest = measured(of(damping, "largest deviation"));
-        assert!(largest > 1e-3 && largest <= measured(of(damping, "largest possible")));
+        assert!(
+            largest > 1e-3 && largest <= measured(of(damping, "deviation that its multipliers"))
+        );
         let border = measured(of(damping, "change from cycle to cycle below"));
-        assert!(border >= measured(of(damping, "change below which it is sure")));
+        assert!(border >= measured(of(damping, "change below which its multipliers")));
     }
 }
 
