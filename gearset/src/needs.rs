@@ -164,6 +164,12 @@ impl Scene {
                 if matches!(verb, Verb::Branches(_)) {
                     self.lacks_isolated_motions(fidelity, &mut lacks);
                 }
+                // A scene cannot name both; what is asked here is whether it would run with another fidelity.
+                let is_exact = self.dynamics.kinematics == MeshKinematics::Exact;
+                if is_exact && fidelity != Fidelity::QuasiStatic {
+                    let why = "it is \"exact\", which only quasi-static bodies follow: \"about_mean\" is needed";
+                    lacks.push(lack("dynamics.kinematics", why));
+                }
                 self.lacks_bodies(&mut lacks);
                 if self.operation.is_none() {
                     lacks.push(lack("operation", "it says which member's speed is swept"));

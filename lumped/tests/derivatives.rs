@@ -150,6 +150,34 @@ fn a_pair_of_real_eigenvalues_has_its_growing_member_at_every_speed() {
     assert!((last[0].largest_growth_per_s() - 132.833_31).abs() < 1e-4);
 }
 
+/// The common rotation on a held ring: with the carrier's displacement u_c = 1 at the planets, η = 1, planets roll by
+/// u_p = −cos α, and the sun turns by u_s = 2 cos α. K_Ω feeds it by Ω² N m_p:
+///
+/// ```text
+/// a²/Ω² = N m_p/(I_c/r_c² + N m_p + N cos²α I_p/r_p² + 4 cos²α I_s/r_s²)
+/// ```
+///
+/// to second order in Ω over the natural frequencies.
+#[test]
+fn a_common_rotation_grows_by_the_planets_centripetal_term_alone() {
+    let own = scene("lin_parker_1999_3p.toml");
+    let lumped = own.lumped.as_ref().unwrap();
+    let (model, _) = modes(&own);
+    let rotation = |body| model.mass[model.coordinates.of(body, Axis::Rotation).unwrap()];
+    let planet = model.mass[model.coordinates.of(Body::Planet(0), Axis::First).unwrap()];
+    let cos = lumped.pressure_angle.sun_planet.cos();
+    let inertia = rotation(Body::Carrier)
+        + 3.0 * planet
+        + 3.0 * cos * cos * rotation(Body::Planet(0))
+        + 4.0 * cos * cos * rotation(Body::Sun);
+    let speed = 100.0 * TAU / 60.0;
+    let found = &campbell(&model, &[speed]).unwrap()[0];
+    let expected = speed * (3.0 * planet / inertia).sqrt();
+    let growth = found.largest_growth_per_s();
+    assert!((growth / expected - 1.0).abs() < 1e-4, "{growth}, closed form {expected}");
+    assert_eq!(found.growing_hz(), Some(0.0));
+}
+
 #[test]
 fn gyroscopic_terms_split_the_first_pair_by_about_one_percent() {
     let (model, found) = modes(&scene("oh58_3p.toml"));

@@ -1,12 +1,57 @@
 //! Files that a verb writes: refused before the work whose results they are to hold, where they cannot be written.
 
 use std::fs::{self, OpenOptions};
-use std::io;
-use std::path::Path;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
 
 use crate::error::CommandError;
+use crate::output;
 
 use super::refused;
+
+/// The folder of `--out`, if it is given, which receives a result as `NAME.json`, its table as `NAME.csv`, and its figure.
+pub(super) struct ResultFiles<'f> {
+    folder: Option<&'f Path>,
+    name: &'f str,
+}
+
+impl<'f> ResultFiles<'f> {
+    /// Refuses what cannot be written, before the work whose results it is to hold.
+    pub(super) fn new(folder: Option<&'f Path>, name: &'f str) -> Result<Self, CommandError> {
+        self::folder("--out", folder)?;
+        let own = Self { folder, name };
+        for ending in ["json", "csv"] {
+            writable(own.file(ending).as_deref())?;
+        }
+        Ok(own)
+    }
+
+    fn file(&self, ending: &str) -> Option<PathBuf> {
+        Some(self.folder?.join(format!("{}.{ending}", self.name)))
+    }
+
+    /// Writes the result and its table; `figure` draws into the folder.
+    pub(super) fn save(
+        &self,
+        result: &impl Serialize,
+        csv: impl FnOnce(&mut dyn Write) -> Result<(), CommandError>,
+        figure: impl FnOnce(&Path) -> Result<(), CommandError>,
+    ) -> Result<(), CommandError> {
+        let (Some(folder), Some(json_file), Some(csv_file)) =
+            (self.folder, self.file("json"), self.file("csv"))
+        else {
+            return Ok(());
+        };
+        let [mut json, mut table] = [Vec::new(), Vec::new()];
+        output::json(&mut json, result)?;
+        csv(&mut table)?;
+        save(&json_file, &String::from_utf8_lossy(&json))?;
+        save(&csv_file, &String::from_utf8_lossy(&table))?;
+        figure(folder)
+    }
+}
 
 /// Writes a file, creating its folder if need be.
 pub(super) fn save(path: &Path, text: &str) -> Result<(), CommandError> {

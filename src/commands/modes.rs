@@ -71,6 +71,11 @@ struct CampbellEntry {
     largest_growth_per_s: f64,
     /// Whether that is above rounding.
     is_unstable: bool,
+    /// Frequency of the mode that grows fastest, Hz: 0 where it does not oscillate, as the common rotation of a set that turns
+    /// freely, which grows only because the equations leave out the preload of planet bearings by centrifugal forces; absent
+    /// if none grows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    growing_hz: Option<f64>,
 }
 
 pub(crate) fn run(
@@ -119,6 +124,7 @@ pub(crate) fn run(
             uncertainty_hz: at.modes.iter().map(|m| m.uncertainty_hz).collect(),
             largest_growth_per_s: at.largest_growth_per_s(),
             is_unstable: at.is_unstable(),
+            growing_hz: at.growing_hz(),
         };
         result.campbell = arguments.carrier_speeds_rpm.iter().zip(&found).map(entry).collect();
     }
@@ -265,6 +271,13 @@ fn write_text(result: &ModesOutput, details: bool, out: &mut dyn Write) -> std::
         if c.is_unstable {
             let growth = c.largest_growth_per_s;
             writeln!(out, "  unstable: a mode grows by e every {:.3} s", 1.0 / growth)?;
+            if c.growing_hz == Some(0.0) {
+                writeln!(
+                    out,
+                    "  it does not oscillate: it is the common rotation of a set that turns freely, and grows in these equations \
+                     because they leave out the preload of planet bearings by centrifugal forces"
+                )?;
+            }
         }
     }
     let unsure = |u: &f64| *u > SHOWN_HZ;

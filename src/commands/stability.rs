@@ -1,7 +1,7 @@
 //! `stability [MAP]`: methods and sets pushed until they fail.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use experiments::stability::{Border, MapName, StabilityMap, stability_map};
 use gearset::Scene;
@@ -13,8 +13,9 @@ use crate::arguments::{MapArgument, Stability, TableFormat};
 use crate::error::CommandError;
 use crate::output;
 
+use super::files::ResultFiles;
 use super::working::Working;
-use super::{folder, read_scene, save, unfit, writable};
+use super::{read_scene, unfit};
 
 /// `stability MAP --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -67,10 +68,7 @@ pub(super) fn run(
         }
         None => built_in()?,
     };
-    folder("--out", arguments.out.as_deref())?;
-    if let Some(folder) = &arguments.out {
-        ENDINGS.iter().try_for_each(|ending| writable(Some(&file(folder, which, ending))))?;
-    }
+    let files = ResultFiles::new(arguments.out.as_deref(), which.name())?;
     let working = Working::new("computing the map");
     let map = stability_map(which, &scene).map_err(|e| match &arguments.scene {
         Some(path) => unfit(path, e.to_string()),
@@ -78,10 +76,11 @@ pub(super) fn run(
     })?;
     drop(working);
     let result = StabilityOutput { version: env!("CARGO_PKG_VERSION").into(), map };
-    let saved = match &arguments.out {
-        Some(folder) => write_folder(&result, which, folder),
-        None => Ok(()),
-    };
+    let saved = files.save(
+        &result,
+        |out| write_csv(&result.map, out),
+        |folder| figure(&result.map, folder),
+    );
     // What was computed is shown also where it cannot be saved.
     let shown = match arguments.format {
         TableFormat::Json => output::json(out, &result),
@@ -91,28 +90,14 @@ pub(super) fn run(
     saved.and(shown)
 }
 
-/// Endings of the files with the result and its table.
-const ENDINGS: [&str; 2] = ["json", "csv"];
-
-/// A file of a map in the folder of `--out`.
-fn file(folder: &Path, map: MapName, ending: &str) -> PathBuf {
-    folder.join(format!("{}.{ending}", map.name()))
+/// Draws a map into a folder.
+#[cfg(feature = "charts")]
+fn figure(map: &StabilityMap, folder: &Path) -> Result<(), CommandError> {
+    Ok(crate::figures::save(&[crate::figures::of_map(map)], folder)?)
 }
 
-/// Result, table and figure of a map.
-fn write_folder(
-    result: &StabilityOutput,
-    which: MapName,
-    folder: &Path,
-) -> Result<(), CommandError> {
-    let [mut all, mut table] = [Vec::new(), Vec::new()];
-    output::json(&mut all, result)?;
-    write_csv(&result.map, &mut table)?;
-    for (ending, text) in ENDINGS.iter().zip([all, table]) {
-        save(&file(folder, which, ending), &String::from_utf8_lossy(&text))?;
-    }
-    #[cfg(feature = "charts")]
-    crate::figures::save(&[crate::figures::of_map(&result.map)], folder)?;
+#[cfg(not(feature = "charts"))]
+fn figure(_: &StabilityMap, _: &Path) -> Result<(), CommandError> {
     Ok(())
 }
 

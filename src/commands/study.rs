@@ -1,7 +1,7 @@
 //! `study FILE`: quantities of interest, their truth, settings by error and cost.
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use experiments::study::{StudyError, StudyFile, StudyResult, run_study};
 use schemars::JsonSchema;
@@ -11,9 +11,9 @@ use crate::arguments::{Study, TableFormat};
 use crate::error::CommandError;
 use crate::output;
 
+use super::files::ResultFiles;
 use super::study_text::{write_csv, write_text};
 use super::working::Working;
-use super::{folder, save, writable};
 
 /// `study FILE --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -34,20 +34,18 @@ pub(super) fn run(
     if let Some(rounds) = arguments.rounds {
         study = study.with_rounds(rounds as usize).map_err(refused)?;
     }
-    folder("--out", arguments.out.as_deref())?;
     let name = arguments.file.file_stem().unwrap_or_default().to_string_lossy();
-    if let Some(folder) = &arguments.out {
-        ENDINGS.iter().try_for_each(|ending| writable(Some(&file(folder, &name, ending))))?;
-    }
+    let files = ResultFiles::new(arguments.out.as_deref(), &name)?;
     let working = Working::new("study");
     let result = run_study(&study, &|words| working.say(words)).map_err(refused)?;
     drop(working);
     warn(&result, err)?;
     let result = StudyOutput { version: env!("CARGO_PKG_VERSION").into(), study: result };
-    let saved = match &arguments.out {
-        Some(folder) => write_folder(&result, &name, folder),
-        None => Ok(()),
-    };
+    let saved = files.save(
+        &result,
+        |out| write_csv(&result.study, out),
+        |folder| figure(&result.study, &name, folder),
+    );
     // What was computed is shown also where it cannot be saved.
     let shown = match arguments.format {
         TableFormat::Json => output::json(out, &result),
@@ -57,24 +55,14 @@ pub(super) fn run(
     saved.and(shown)
 }
 
-/// Endings of the files with the result and its table.
-const ENDINGS: [&str; 2] = ["json", "csv"];
-
-/// A file of a study in the folder of `--out`.
-fn file(folder: &Path, name: &str, ending: &str) -> PathBuf {
-    folder.join(format!("{name}.{ending}"))
+/// Draws a study into a folder.
+#[cfg(feature = "charts")]
+fn figure(study: &StudyResult, name: &str, folder: &Path) -> Result<(), CommandError> {
+    Ok(crate::figures::save(&[crate::figures::of_study(study, name)], folder)?)
 }
 
-/// Result, table and figure of a study.
-fn write_folder(result: &StudyOutput, name: &str, folder: &Path) -> Result<(), CommandError> {
-    let [mut all, mut table] = [Vec::new(), Vec::new()];
-    output::json(&mut all, result)?;
-    write_csv(&result.study, &mut table)?;
-    for (ending, text) in ENDINGS.iter().zip([all, table]) {
-        save(&file(folder, name, ending), &String::from_utf8_lossy(&text))?;
-    }
-    #[cfg(feature = "charts")]
-    crate::figures::save(&[crate::figures::of_study(&result.study, name)], folder)?;
+#[cfg(not(feature = "charts"))]
+fn figure(_: &StudyResult, _: &str, _: &Path) -> Result<(), CommandError> {
     Ok(())
 }
 

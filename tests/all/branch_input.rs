@@ -66,8 +66,15 @@ fn exact_kinematics_have_no_branches() {
     assert!(err.contains("`dynamics.kinematics`") && err.contains("about_mean"), "{err}");
     let checked = json(&["scene", "check", &file, "--format", "json"]);
     let verbs = checked["verbs"].as_array().unwrap();
-    let own = verbs.iter().find(|v| v["verb"] == "branches (quasi_static)").unwrap();
-    assert_eq!(own["lacks"][0]["key"], "dynamics.kinematics");
+    let lacking = |verb: &str| {
+        let own = verbs.iter().find(|v| v["verb"] == verb).unwrap_or_else(|| panic!("{verb}"));
+        own["lacks"].as_array().unwrap().iter().any(|lack| lack["key"] == "dynamics.kinematics")
+    };
+    assert!(lacking("branches (quasi_static)") && !lacking("sweep (quasi_static)"));
+    // The scene could not name these fidelities beside exact kinematics.
+    for verb in ["sweep (mesh_law)", "sweep (modal)", "sweep (full)", "branches (modal)"] {
+        assert!(lacking(verb), "{verb}");
+    }
     let set = coarse(folder.path(), "oh58_4p.toml");
     let text = std::fs::read_to_string(&set).unwrap();
     std::fs::write(&set, text + "[dynamics]\nkinematics = \"exact\"\n").unwrap();

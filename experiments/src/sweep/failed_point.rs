@@ -56,7 +56,8 @@ impl FailedPoint {
             });
             reason.push_str(
                 "; a smaller torque, more damping or a speed farther from the resonance may keep the load within \
-                 the tables",
+                 the tables, and more `dynamics.steps_per_cycle` at a speed so low that a time step is longer than \
+                 the natural periods",
             );
         }
         Self { chain: chain.into(), case, reason, error: Some(Arc::new(error)) }
