@@ -58,6 +58,26 @@ fn a_circle_closes_and_has_two_folds() {
     assert!(whole > 0.98 * TAU && whole < TAU + 0.5, "{whole}");
 }
 
+/// λ = 0.05 (y³ − 3a²y)/(2a³), a = 0.03: folds at λ = ∓0.05. The tangents before the first and beyond the second are parallel, and the
+/// sense of the branch is the same again: only the chord tells that a long step would skip both.
+#[test]
+fn two_folds_near_each_other_are_not_skipped() {
+    let a: f64 = 0.03;
+    let k = 0.05 / (2.0 * a * a * a);
+    let slope = move |y: f64| 3.0 * k * (y * y - a * a);
+    let f = move |y: f64, l: f64| [k * (y * y * y - 3.0 * a * a * y) - l, slope(y), -1.0];
+    for first_step in [0.01, 0.05, 0.13, 0.2, 0.34, 0.5] {
+        let mut narrow = Scalar(f, move |y, _| -slope(y));
+        let options =
+            ContinuationOptions { first_step, ..ContinuationOptions::within([-1.0, 1.0]) };
+        let branch = trace(&mut narrow, &[0.2], 1.0, Direction::Down, &one(), &options).unwrap();
+        let folds: Vec<f64> = branch.folds().map(|p| p.lambda).collect();
+        assert_eq!(folds.len(), 2, "first step {first_step}");
+        assert!((folds[0] + 0.05).abs() < 1e-9 && (folds[1] - 0.05).abs() < 1e-9, "{folds:?}");
+        assert_eq!(branch.ends[1], End::Bound);
+    }
+}
+
 /// Rounding of F above the tolerance of corrections, as over very many time steps: steps stay long.
 #[test]
 fn rounding_does_not_shorten_steps() {

@@ -242,3 +242,35 @@ fn torques_and_factors_that_make_no_branch_are_refused() {
     let error = branch(&model, &settings).unwrap_err();
     assert!(matches!(error, ExperimentError::OtherFlanks { .. }), "{error}");
 }
+
+/// The catalogue's pair at a speed at which it has two stable motions between two torques a seventh apart: both folds are found
+/// whatever the range of torques is. (That a step must not skip both is `two_folds_near_each_other_are_not_skipped` of `dynamics`.)
+#[test]
+fn folds_over_torque_do_not_depend_on_the_range() {
+    let path = format!("{}/../scenes/pair_50_50.toml", env!("CARGO_MANIFEST_DIR"));
+    let mut scene = Scene::from_file(path.as_ref()).unwrap();
+    scene.fe_contact.flank_elements = 8;
+    scene.dynamics.steps_per_cycle = STEPS as u32;
+    scene.damping.mass_proportional_per_s *= 2.0;
+    scene.damping.stiffness_proportional_s *= 2.0;
+    let bodies = Bodies::new(&scene).unwrap();
+    let model = law(&scene, &bodies, 150.0, 3970.0);
+    let folds = |range: [f64; 2]| -> Vec<f64> {
+        let found = branch(&model, &BranchSettings::along(BranchParameter::Torque, range)).unwrap();
+        assert_eq!(found.ends, [BranchEnd::Bound, BranchEnd::Bound], "{range:?}");
+        let mut folds: Vec<f64> = found.folds().map(|p| p.parameter).collect();
+        folds.sort_by(f64::total_cmp);
+        folds
+    };
+    let first = folds([100.0, 220.0]);
+    assert_eq!(first.len(), 2, "{first:?}");
+    assert!(first[1] > 1.1 * first[0] && first[1] < 1.2 * first[0], "{first:?}");
+    for range in [[60.0, 200.0], [60.0, 340.0], [100.0, 200.0], [100.0, 300.0], [100.0, 400.0]] {
+        let own = folds(range);
+        assert_eq!(own.len(), 2, "{range:?}: {own:?}");
+        assert!(
+            own.iter().zip(&first).all(|(a, b)| (a / b - 1.0).abs() < 1e-5),
+            "{range:?}: {own:?}"
+        );
+    }
+}

@@ -72,7 +72,7 @@ pub(super) fn first(
         let own = (0..count).filter(|i| map.scales[*i] == kind).map(range);
         own.fold(LEAST_SHARE * all * kind, f64::max)
     };
-    let root = (count as f64).sqrt();
+    let root = settings.over.vibration_share() * (count as f64).sqrt();
     let unknowns =
         (0..count).map(|i| root * range(i).max(LEAST_SHARE * largest(map.scales[i]))).collect();
     let middle = 0.5 * (settings.range[0] + settings.range[1]);

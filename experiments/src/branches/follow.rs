@@ -92,10 +92,13 @@ impl<'a> Follower<'a> {
         store: &'a dyn BranchStore,
     ) -> Result<Self, ExperimentError> {
         let (start, scales) = kept::start(store, size, || first(model, settings, size))?;
+        let options = ContinuationOptions::within(settings.range);
         let options = ContinuationOptions {
             most_points: settings.most_points,
             steps: [1e-6, settings.longest_step],
-            ..ContinuationOptions::within(settings.range)
+            // The same part of the vibration, whatever the unit of arc.
+            correction: options.correction / settings.over.vibration_share(),
+            ..options
         };
         let own = Self { model, settings, size, store, start, scales, options };
         if let BranchParameter::Key(key) = settings.over {
