@@ -23,9 +23,12 @@ pub enum Direction {
 /// Most factor by which a step grows from one point to the next.
 const GROWTH: f64 = 1.6;
 
-/// A turn that stays within these shares of itself when the step is halved, twice in turn, is a kink of the branch, as equations with
+/// A turn that stays within these shares of itself when the step is halved is a kink of the branch, as equations with
 /// kinks have them: no shorter step would avoid it. That onto another stretch of the branch, beside this one, grows instead.
 const KINK: [f64; 2] = [0.75, 1.1];
+
+/// Least steps from which on the chord counts: nearer to a kink a point may be beyond it already.
+const CHORD: f64 = 1e3;
 
 /// Share of its values at both ends of a step below which a test function has vanished between, rather than jumped at a kink.
 const VANISHED: f64 = 1e-2;
@@ -266,8 +269,8 @@ fn follow<F: Family>(
         }
     };
     let mut arc = points.last().map_or(0.0, |p| p.arc);
-    // Turns of the last two steps refused, the later one last, and that allowed.
-    let (mut refused, mut most_turn) = ([f64::INFINITY; 2], options.most_turn);
+    // Turn of the last step refused, and that allowed.
+    let (mut refused, mut most_turn) = (f64::INFINITY, options.most_turn);
     let end = loop {
         if points.len() >= options.most_points {
             break End::MostPoints;
@@ -281,11 +284,11 @@ fn follow<F: Family>(
                 continue;
             }
             Ok(Step::TooLong(turn)) if h > options.steps[0] => {
-                (refused, h) = ([refused[1], turn], (0.5 * h).max(options.steps[0]));
+                (refused, h) = (turn, (0.5 * h).max(options.steps[0]));
                 continue;
             }
             Err(_) if h > options.steps[0] => {
-                (refused, h) = ([f64::INFINITY; 2], (0.5 * h).max(options.steps[0]));
+                (refused, h) = (f64::INFINITY, (0.5 * h).max(options.steps[0]));
                 continue;
             }
             refused => {
@@ -306,7 +309,7 @@ fn follow<F: Family>(
                 }
             }
         };
-        let turn = turn(&last.at, &next.at);
+        let turn = turn(&last.at, &next.at, options.steps[0]);
         let whole = distance(&next.at.u, &last.at.u);
         let (mut between, before) = (Vec::new(), points.len());
         let mut meets_branch = false;
@@ -330,10 +333,10 @@ fn follow<F: Family>(
         // The sign stays along a branch, but for branch points: the step has led to another branch, or back along this one.
         let is_other = next.at.orientation * last.at.orientation < 0.0;
         if is_other && !meets_branch && h > options.steps[0] {
-            (refused, h) = ([f64::INFINITY; 2], (0.5 * h).max(options.steps[0]));
+            (refused, h) = (f64::INFINITY, (0.5 * h).max(options.steps[0]));
             continue;
         }
-        (refused, most_turn) = ([f64::INFINITY; 2], options.most_turn);
+        (refused, most_turn) = (f64::INFINITY, options.most_turn);
         between.sort_by(|a, b| a.0.total_cmp(&b.0));
         points.extend(between.into_iter().map(|(_, p)| p));
         arc += whole;
@@ -398,7 +401,7 @@ fn advance<F: Family>(
     let mut next = space.correct(&predicted, t, stop)?;
     // Infinite where the correction led far away.
     let turn = |next: &Corrected| match distance(&next.u, u) <= 2.0 * h {
-        true => turn(&last.at, next),
+        true => turn(&last.at, next, options.steps[0]),
         false => f64::INFINITY,
     };
     if turn(&next) > most_turn {
@@ -431,20 +434,19 @@ fn advance<F: Family>(
 
 /// Angle by which a branch turns from one point to another: from the tangent at the first to the chord, and on to the tangent at the
 /// other, rad. The tangents alone are parallel again where a step has skipped two folds.
-fn turn(from: &Corrected, to: &Corrected) -> f64 {
+fn turn(from: &Corrected, to: &Corrected, least: f64) -> f64 {
     let chord = minus(&to.u, &from.u);
     let length = norm(&chord);
-    if length == 0.0 {
-        return 0.0;
+    if length < CHORD * least {
+        return dot(&from.tangent, &to.tangent).clamp(-1.0, 1.0).acos();
     }
     let angle = |t: &[f64]| (dot(&chord, t) / length).clamp(-1.0, 1.0).acos();
     angle(&from.tangent) + angle(&to.tangent)
 }
 
-/// Whether a turn is that of a kink, after those that were `refused` with four times and twice the step.
-fn is_kink(turn: f64, refused: [f64; 2]) -> bool {
-    let stays = |turn: f64, before: f64| turn > KINK[0] * before && turn < KINK[1] * before;
-    stays(turn, refused[1]) && stays(refused[1], refused[0]) && turn < FRAC_PI_2
+/// Whether a turn is that of a kink, after one that was `refused` with twice the step.
+fn is_kink(turn: f64, refused: f64) -> bool {
+    turn > KINK[0] * refused && turn < KINK[1] * refused && turn < FRAC_PI_2
 }
 
 fn judge<F: Family>(
