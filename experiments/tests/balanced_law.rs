@@ -24,7 +24,9 @@ fn shot(model: &dyn SweepModel, case: &LoadCase) -> Vec<f64> {
     found.record.channel(8).into_iter().step_by(steps / SAMPLES).collect()
 }
 
-/// 0.1 % of the vibration at two speeds; the steps as they are would be off by more.
+/// 0.1 % of the vibration at two speeds; the steps as they are would be off by more. The balance samples the law of 1120
+/// steps: that of 560 has the corners of the force, where pairs come into contact, to 0.1 % only (four unevenly spaced
+/// planets whose meshes have two classes of curves; 1.3e-3 at 1100 rpm, 0.8e-3 from the motion of 1120 and 2240 steps).
 #[test]
 fn balanced_motions_are_those_of_shooting_on_the_law_of_a_shipped_scene() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/oh58_4p.toml");
@@ -42,7 +44,7 @@ fn balanced_motions_are_those_of_shooting_on_the_law_of_a_shipped_scene() {
         let case = case.at_speed(rpm);
         let [coarse, fine] = [0, 1].map(|k| shot(&models[k], &case));
         let exact: Vec<f64> = coarse.iter().zip(&fine).map(|(c, f)| (4.0 * f - c) / 3.0).collect();
-        let set = BalancedSet::new(&scene, case.sense(), laws[0].clone(), case.sun_load_nm());
+        let set = BalancedSet::new(&scene, case.sense(), laws[1].clone(), case.sun_load_nm());
         let set = set.unwrap();
         let sun = set.coordinates().of(Body::Sun, Axis::Rotation).unwrap();
         let options = BalanceOptions { tail: 1e-4, ..BalanceOptions::default() };

@@ -12,7 +12,7 @@ use crossings::{at, speed};
 use experiments::branches::{BranchEnd, BranchPoint, BranchSettings, branch};
 use experiments::sweep::{
     Coordinate, DampedModel, Direction, FeModel, Memory, MeshLawModel, Part, Plan, SteadyMethod,
-    SteadySettings, SweepModel, even_speeds, run, steady,
+    SteadySettings, SweepModel, SweepPoint, even_speeds, run, steady,
 };
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, pair_cycle};
@@ -464,4 +464,42 @@ fn a_finite_element_pair_is_unstable_inside_its_tongue_only() {
     let closing = 0.25 * hill.h() / zeta;
     assert_eq!(borders(&model, 0.5 * closing).len(), 2);
     assert!(borders(&model, 2.0 * closing).is_empty());
+}
+
+/// Harmonic l meets a mode at y/tan y of its frequency, y = πl/S with S steps in a cycle: a pair of constant stiffness
+/// that harmonic 5 of an unloaded transmission error excites, found by marching and shooting alike.
+#[test]
+fn a_resonance_is_where_the_steps_in_a_cycle_put_it() {
+    const HARMONIC: usize = 5;
+    for steps in [42usize, 70, 140] {
+        let (zeta, y) = (0.005, std::f64::consts::PI * HARMONIC as f64 / steps as f64);
+        let mut scene = scene(zeta);
+        scene.dynamics.steps_per_cycle = steps as u32;
+        let wave = |step: usize| 1e-8 * f64::cos(TAU * (HARMONIC * step) as f64 / steps as f64);
+        let excitation: Vec<f64> = (0..steps).map(wave).collect();
+        let flanks = PairFlanks { backlash_m: None, rounding_m: 0.0 };
+        let law = pair_law(&vec![K; steps], &excitation, flanks).unwrap();
+        let model = MeshLawModel::lumped_with(&scene, LoadCase::of_scene(&scene).unwrap(), law);
+        // 1/A² of a mode is a parabola over the square of the speed.
+        let expected = at_share(1.0 / HARMONIC as f64) * y / y.tan();
+        let squares = [-zeta, 0.0, zeta].map(|part| (1.0 + part).powi(2));
+        let values = squares.map(|square| {
+            let case = model.case().at_speed(expected * square.sqrt());
+            let mut set = model.turning(&case, 0).unwrap();
+            set.rest().unwrap();
+            let settings = SteadySettings::default();
+            let found = steady(set.as_mut(), model.shape(), 0.0, steps, &settings).unwrap();
+            let point = SweepPoint::new(case, &found, &settings, 0).unwrap();
+            point.state.amplitude(Part::Sun, Coordinate::Rotation, HARMONIC).powi(-2)
+        });
+        let [a, b, c] = squares;
+        let [fa, fb, fc] = values;
+        let (slope, other) = ((fb - fa) / (b - a), (fc - fb) / (c - b));
+        let curvature = (other - slope) / (c - a);
+        let peak = 0.5 * (a + b) - 0.5 * slope / curvature;
+        let off = peak.sqrt() - 1.0;
+        println!("{steps} steps: y/tan y = {:.5}, off {off:.1e}", y / y.tan());
+        // Damping lowers it by ζ²; atan(y)/y would be 4e-3 (42 steps), 6e-4 (70) and 4e-5 (140) higher.
+        assert!((off + zeta * zeta).abs() < 1e-5, "{steps} steps: {off:e}");
+    }
 }

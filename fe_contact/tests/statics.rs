@@ -386,3 +386,19 @@ fn ranges_over_the_cycle_of_a_set_hold_its_positions() {
     let tangent = cycle.mesh_tangent_stiffness(0);
     assert!(tangent.least > 0.0 && tangent.mean > cycle.mesh_secant_stiffness(0).mean);
 }
+
+/// Mean forces over T/r_b: corners and the slopes of the deformed flanks press beside the line of action, so that the sum of
+/// the pair forces is a little larger than that along it.
+#[test]
+fn mean_mesh_forces_exceed_those_along_the_line_of_action_by_less_than_a_thousandth() {
+    let scene = scene("oh58_4p.toml");
+    let perfect = Imperfections::default();
+    let set = StaticSet::new(&scene, bodies(), Facing::CounterClockwise, perfect).unwrap();
+    let cycle = set.under(1413.0).unwrap().cycle(1413.0, 28, &ActiveSet).unwrap();
+    let even = 1413.0 / 4.0 / bodies().geometry.sun.as_ref().unwrap().base_radius;
+    for (meshes, least) in [(0..4, 2e-4), (4..8, 1e-4)] {
+        let above = meshes.map(|mesh| cycle.mesh_force(mesh).mean / even - 1.0).sum::<f64>() / 4.0;
+        println!("{:.4} % above T/r_b", 100.0 * above);
+        assert!(above > least && above < 1e-3, "{above:e}");
+    }
+}

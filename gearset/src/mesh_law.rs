@@ -31,6 +31,8 @@ pub struct CurveKey {
     pub side: FlankSide,
     /// Phase in [0, 1), cycles; of a backside flank, that of the mirrored mesh.
     pub phase: f64,
+    /// First mesh of the kind and class; meshes are numbered sun meshes by planet, then ring meshes.
+    pub mesh: usize,
 }
 
 /// Where one mesh stands in its cycle at position 0.
@@ -38,6 +40,9 @@ pub struct CurveKey {
 pub struct MeshStart {
     /// Mesh.
     pub kind: MeshKind,
+    /// Meshes of a kind and class have one relation between force, deflection and phase. Unevenly spaced planets carry
+    /// different loads and have classes of their own.
+    pub class: usize,
     /// Phase of the front flanks, cycles; it increases with the position.
     pub front: f64,
     /// Phase of the backside flanks, cycles; it decreases with the position. `None` leaves them out.
@@ -46,20 +51,25 @@ pub struct MeshStart {
 
 impl MeshStart {
     /// Phases of the front flanks of all meshes, sun meshes first, at position 0, where planet 0's sun mesh
-    /// starts its cycle, under counter-clockwise torque on the sun.
+    /// starts its cycle, under counter-clockwise torque on the sun; all meshes of a kind are of one class.
     pub fn of_set(phasing: &Phasing<'_>) -> Vec<Self> {
         let phases = phasing.phases(0.0, Facing::CounterClockwise);
         let first = phases.sun_planet.first().copied().unwrap_or(0.0);
         let list = |kind, phases: Vec<f64>| {
-            phases.into_iter().map(move |phase| Self { kind, front: phase - first, backside: None })
+            phases.into_iter().map(move |phase| Self {
+                kind,
+                class: 0,
+                front: phase - first,
+                backside: None,
+            })
         };
         let sun = list(MeshKind::SunPlanet, phases.sun_planet);
         sun.chain(list(MeshKind::RingPlanet, phases.ring_planet)).collect()
     }
 }
 
-/// The curves that the meshes of a set need at evenly spaced positions of a mesh cycle; meshes share a curve
-/// where their phases are equal.
+/// The curves that the meshes of a set need at evenly spaced positions of a mesh cycle; meshes of a kind and class
+/// share a curve where their phases are equal.
 ///
 /// Every (mesh, step) has the curve of its exact phase: nothing is interpolated in phase.
 #[derive(Debug, Clone, PartialEq)]
@@ -130,11 +140,13 @@ impl MeshLawPlan {
         for step in 0..steps {
             let position = step as f64 / steps as f64;
             for mesh in meshes {
+                let is_alike = |m: &MeshStart| (m.kind, m.class) == (mesh.kind, mesh.class);
+                let first = meshes.iter().position(is_alike).unwrap_or_default();
                 let mut place = |side, phase: f64| {
-                    let phase = cycle(phase);
-                    let key = (mesh.kind, side, (phase * PHASE_RESOLUTION).round() as i64);
+                    let (kind, phase) = (mesh.kind, cycle(phase));
+                    let key = (kind, mesh.class, side, (phase * PHASE_RESOLUTION).round() as i64);
                     *known.entry(key).or_insert_with(|| {
-                        plan.curves.push(CurveKey { kind: mesh.kind, side, phase });
+                        plan.curves.push(CurveKey { kind, side, phase, mesh: first });
                         plan.curves.len() as u32 - 1
                     })
                 };
@@ -312,8 +324,8 @@ impl MeshLaw {
         self.curve(flank, step_in_cycle).map_or((0.0, 0.0), |curve| curve.force(deflection))
     }
 
-    /// Whether two flanks, numbered as in [`curve`](Self::curve), each at a step, share a curve: they do where the
-    /// phases of equal meshes are equal.
+    /// Whether two flanks, numbered as in [`curve`](Self::curve), each at a step, share a curve: those of a kind and
+    /// class do where their phases are equal.
     pub fn is_same(&self, first: (usize, usize), second: (usize, usize)) -> bool {
         let place = |(flank, step): (usize, usize)| match flank.checked_sub(self.meshes) {
             None => self.front.get(step * self.meshes + flank),
@@ -355,6 +367,7 @@ mod tests {
         let one = |kind| {
             move |n: u32| MeshStart {
                 kind,
+                class: 0,
                 // Offsets of 3/7 cycle: the meshes share curves where the number of steps is a multiple
                 // of 7, and have curves of their own otherwise.
                 front: f64::from(n) * 3.0 / 7.0,
@@ -390,6 +403,26 @@ mod tests {
                 }
             }
             assert_eq!((law.steps(), law.meshes()), (steps, 6));
+        }
+    }
+
+    /// Meshes of several classes share no curve, each keeps those of its phase, and a curve names its first mesh.
+    #[test]
+    fn meshes_of_different_classes_share_no_curve() {
+        let mut meshes = starts(true);
+        meshes[1].class = 1;
+        meshes[4].class = 1;
+        let plan = MeshLawPlan::new(&meshes, 140).unwrap();
+        assert_eq!(plan.curves.len(), 2 * 4 * 140);
+        let own = |mesh: usize| plan.curves.iter().filter(|key| key.mesh == mesh).count();
+        assert_eq!([0, 1, 2, 3, 4, 5].map(own), [280, 280, 0, 280, 280, 0]);
+        let law = law(plan);
+        for step in 0..140 {
+            let later = (step + 120) % 140;
+            // Mesh 2 is 6/7 of a cycle ahead of mesh 0.
+            assert!(law.is_same((2, step), (0, later)) && !law.is_same((1, step), (0, later)));
+            let apart = law.front(1, step).start_m() - meshes[1].front - step as f64 / 140.0;
+            assert!((apart - apart.round()).abs() < 1e-12);
         }
     }
 

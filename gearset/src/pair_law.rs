@@ -90,8 +90,12 @@ pub fn pair_law(
             return Err(PairLawError::Length { what, value: length });
         }
     }
-    let start =
-        MeshStart { kind: MeshKind::SunPlanet, front: 0.0, backside: backlash.map(|_| 0.0) };
+    let start = MeshStart {
+        kind: MeshKind::SunPlanet,
+        class: 0,
+        front: 0.0,
+        backside: backlash.map(|_| 0.0),
+    };
     let plan = MeshLawPlan::new(&[start], steps)?;
     let mut curves = Vec::with_capacity(plan.curves.len());
     for key in &plan.curves {

@@ -56,7 +56,7 @@ pub(crate) struct Sweep {
     #[arg(long, default_value_t = 5, value_parser = whole::<1, 10>, allow_negative_numbers = true)]
     pub harmonics: u32,
     /// Largest change of a steady state from cycle to cycle, over its peak-to-peak vibration.
-    #[arg(long, default_value_t = 1e-9, value_parser = small)]
+    #[arg(long, default_value_t = 1e-9, value_parser = small, allow_negative_numbers = true)]
     pub tolerance: f64,
     /// Cycles after which a set that has not settled is recorded as it is, flagged as subharmonic or not
     /// periodic.

@@ -128,6 +128,7 @@ fn counts_of_nothing_are_refused_by_their_argument() {
         (format!("sweep {set} --speeds-rpm 800:900:0"), "--speeds-rpm", "above 0"),
         (format!("sweep {set} --speeds-rpm 800:900:1e-300"), "--speeds-rpm", "1e302 speeds"),
         (format!("sweep {set} --tolerance 0"), "--tolerance", "1e-12 to 0.1"),
+        (format!("sweep {set} --tolerance -1"), "--tolerance", "1e-12 to 0.1"),
         (
             format!("branches {set} --speeds-rpm 800:900 --max-points 0"),
             "--max-points",

@@ -13,7 +13,8 @@ fn stability_maps_that_are_none_are_refused() {
         (format!("stability bouncing-bar --scene {set}"), "--scene"),
         (format!("stability --scene {set}"), "--scene"),
         ("stability --out out".to_owned(), "--out"),
-        (format!("stability parametric --scene {pair}"), "lumped"),
+        (format!("stability parametric --scene {pair}"), "kind"),
+        (format!("stability explicit-step --scene {pair}"), "lumped"),
         (format!("stability parametric --scene {bare}"), "teeth"),
         (format!("stability explicit-step --scene {bare}"), "operation"),
         ("stability parametric --scene none.toml".to_owned(), "none.toml"),
@@ -22,6 +23,31 @@ fn stability_maps_that_are_none_are_refused() {
         assert_eq!((code, out.as_str()), (2, ""), "{line}");
         assert!(err.contains(named), "{line}: {err}");
     }
+}
+
+/// A gear pair with lumped parameters: its highest frequency is √(k/m_e) of the mesh and its two inertias, of which central
+/// difference needs half a period a step. Tongues of a set ask for a set.
+#[test]
+fn the_explicit_step_of_a_pair_is_that_of_its_mesh() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("pair.toml");
+    let text = std::fs::read_to_string(scene("pair_50_50.toml")).unwrap();
+    let lumped = "[lumped]\ninertia_kg_m2 = { sun = 0.0075, planet = 0.0075 }\nmesh_n_per_m = { sun_planet = 3e8 }\n";
+    std::fs::write(&path, format!("{text}\n{lumped}")).unwrap();
+    let path = path.to_str().unwrap();
+    let map = json(&["stability", "explicit-step", "--scene", path, "--format", "json"]);
+    let borders = map["borders"].as_array().unwrap();
+    let steps = borders.iter().find(|b| b["of"] == "central difference, lumped set").unwrap();
+    // ω = √(2 k r_b²/J), f_m = 50 n/60
+    let radius = 0.075 * f64::to_radians(20.0).cos();
+    let omega = (2.0 * 3e8 * radius * radius / 0.0075).sqrt();
+    let speed_rpm = text.lines().find_map(|line| line.strip_prefix("speed_rpm = ")).unwrap();
+    let speed_rpm: f64 = speed_rpm.split_whitespace().next().unwrap().parse().unwrap();
+    let expected = (omega / 2.0 / (50.0 * speed_rpm / 60.0)).ceil();
+    assert_eq!(steps["theory"].as_f64(), Some(expected));
+    assert_eq!(steps["measured"].as_f64(), Some(expected));
+    let (code, _, err) = run(&["stability", "parametric", "--scene", path]);
+    assert!(code == 2 && err.contains("`kind` is \"gear_pair\""), "{err}");
 }
 
 #[test]

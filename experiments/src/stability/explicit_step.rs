@@ -2,7 +2,7 @@
 
 use dynamics::integrators::{Scheme, VibratingSystem, amplification, closed_form};
 use dynamics::stability::explicit_limit;
-use gearset::{Kinematics, Scene};
+use gearset::{LoadCase, Scene};
 use lumped::LumpedModel;
 use nalgebra::{DMatrix, DVector};
 
@@ -51,17 +51,17 @@ fn exact(
 /// ω_max/(2 f_m).
 fn steps_per_cycle(scene: &Scene) -> Result<Border, MapError> {
     let model = LumpedModel::from_scene(scene)?;
-    let kinematics = Kinematics::from_scene(scene).map_err(|_| MapError::NoOperation)?;
+    let case = LoadCase::of_scene(scene).map_err(|_| MapError::NoOperation)?;
     let n = model.mass.len();
     let mass = DMatrix::from_diagonal(&DVector::from_column_slice(&model.mass));
     let system = VibratingSystem::new(mass, DMatrix::zeros(n, n), model.stiffness(), vec![0.0; n])?;
-    let theory = system.highest_frequency()? / (2.0 * kinematics.mesh_frequency_hz);
+    let theory = system.highest_frequency()? / (2.0 * case.mesh_frequency_hz);
     let admits = |steps: u32| {
-        let h = 1.0 / (kinematics.mesh_frequency_hz * f64::from(steps));
+        let h = 1.0 / (case.mesh_frequency_hz * f64::from(steps));
         Scheme::CentralDifference.prepare(&system, h).is_ok()
     };
     let least = (1..=1_000_000u32).find(|steps| f64::from(*steps) > 0.5 * theory && admits(*steps));
-    let quantity = format!("steps per mesh cycle at {:.0} Hz", kinematics.mesh_frequency_hz);
+    let quantity = format!("steps per mesh cycle at {:.0} Hz", case.mesh_frequency_hz);
     let measured = least.map(f64::from);
     Ok(Border::new("central difference, lumped set", quantity, "", measured, Some(theory.ceil())))
 }

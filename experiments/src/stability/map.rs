@@ -258,8 +258,10 @@ pub enum MapError {
 /// # Errors
 /// If the scene lacks what the map needs, or a step or an eigenproblem fails.
 pub fn stability_map(which: MapName, scene: &Scene) -> Result<StabilityMap, MapError> {
-    let is_of_planets =
-        matches!(which, MapName::ModeTypes | MapName::LinearKinematics | MapName::Spacing);
+    let is_of_planets = matches!(
+        which,
+        MapName::Parametric | MapName::ModeTypes | MapName::LinearKinematics | MapName::Spacing
+    );
     if is_of_planets && scene.kind == SceneKind::GearPair {
         return Err(MapError::NotPlanetary(which.name()));
     }

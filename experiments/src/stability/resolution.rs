@@ -1,8 +1,9 @@
 //! Too few steps in a mesh cycle: resonances off their place, harmonics taken for one another, and phasing that no longer
 //! cancels.
 //!
-//! With S steps a cycle, average acceleration turns the frequency ω of a mode at which harmonic l resonates into (2/h)
-//! atan(ωh/2), ωh = 2πl/S. A mesh stiffness that switches between two values, sampled S times, has the harmonic
+//! Average acceleration turns a mode's frequency ω into (2/h) atan(ωh/2). With S steps in a cycle of any length harmonic l
+//! has 2πl/S a step, so that it meets the mode at y/tan y of ω, y = πl/S. A mesh stiffness that switches between two
+//! values, sampled S times, has the harmonic
 //!
 //! ```text
 //! ŵ_l^S = Σ_k ŵ_(l+kS) = ŵ_l (πl/S)/sin(πl/S)
@@ -30,6 +31,9 @@ const TOO_HIGH: u32 = 11;
 /// Wanted accuracy, 1 %.
 const WANTED: f64 = 0.01;
 
+/// Harmonics over steps between which a border is sought.
+const SHARES: [f64; 2] = [1e-3, 0.25];
+
 pub(super) fn map() -> Result<StabilityMap, MapError> {
     let system = "one mesh of rectangular stiffness and one mode at a harmonic of it";
     let mut map = empty(MapName::Resolution, system, "harmonic over steps in a mesh cycle");
@@ -44,7 +48,7 @@ pub(super) fn map() -> Result<StabilityMap, MapError> {
         }
     }
     let theory: [fn(f64) -> f64; 2] = [
-        |share| 1.0 - (PI * share).atan() / (PI * share),
+        |share| 1.0 - PI * share / (PI * share).tan(),
         |share| PI * share / (PI * share).sin() - 1.0,
     ];
     for (k, (of, quantity)) in [
@@ -56,8 +60,8 @@ pub(super) fn map() -> Result<StabilityMap, MapError> {
     {
         let (border, exact, unit) = match k {
             0 => (
-                root(|share| place(share).map(|off| off - WANTED))?,
-                root(|share| Ok(theory[k](share) - WANTED))?,
+                root(|share| place(share).map(|off| off - WANTED), SHARES)?,
+                root(|share| Ok(theory[k](share) - WANTED), SHARES)?,
                 "",
             ),
             _ => {
@@ -83,12 +87,18 @@ pub(super) fn map() -> Result<StabilityMap, MapError> {
     Ok(map)
 }
 
-/// By how much the step lowers a frequency at a harmonic over steps, as a part.
+/// By how much the step lowers the speed at which a harmonic meets a mode, as a part: the mode is found whose computed
+/// motion advances by 2πl/S a step.
 fn place(share: f64) -> Result<f64, MapError> {
-    let found = amplification(&Scheme::AverageAcceleration, TAU * share, 0.0)?;
-    // The period is longer by e: the frequency is 1/(1 + e).
-    let longer = found.period_error.unwrap_or(f64::NAN);
-    Ok(longer / (1.0 + longer))
+    let wanted = TAU * share;
+    let off = |step: f64| -> Result<f64, MapError> {
+        let found = amplification(&Scheme::AverageAcceleration, step, 0.0)?;
+        // The period is longer by e: the frequency is 1/(1 + e).
+        Ok(step / (1.0 + found.period_error.unwrap_or(f64::NAN)) - wanted)
+    };
+    // Up to 1 of 4, tan(πl/S) is at most 4/π of πl/S.
+    let step = root(off, [wanted, 1.3 * wanted])?.unwrap_or(f64::NAN);
+    Ok(1.0 - wanted / step)
 }
 
 fn wave(phase: f64) -> MeshWave {
@@ -131,13 +141,15 @@ fn aliased(steps: u32) -> f64 {
     sum.norm() / own.harmonic(1).norm()
 }
 
-/// Where a function that grows from below 0 crosses 0 between 0.001 and 0.25, by bisection.
-fn root(of: impl Fn(f64) -> Result<f64, MapError>) -> Result<Option<f64>, MapError> {
-    let (mut low, mut high) = (1e-3, 0.25);
+/// Where a function that grows from below 0 crosses 0 within bounds, by bisection; `None` if it does not.
+fn root(
+    of: impl Fn(f64) -> Result<f64, MapError>,
+    [mut low, mut high]: [f64; 2],
+) -> Result<Option<f64>, MapError> {
     if of(low)? > 0.0 || of(high)? < 0.0 {
         return Ok(None);
     }
-    while high - low > 1e-9 {
+    while high - low > 1e-12 {
         let middle = 0.5 * (low + high);
         if of(middle)? > 0.0 { high = middle } else { low = middle }
     }

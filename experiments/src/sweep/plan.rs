@@ -81,13 +81,16 @@ pub enum PlanError {
     },
 }
 
-/// Harmonic over steps in a mesh cycle at which a resonance is 1 % below its place: (2πl/S)²/12 = 0.01 with the next term.
-const LARGEST_SHARE: f64 = 0.0556;
+/// Harmonic l over steps S in a mesh cycle at which a resonance is 1 % below its place: y/tan y = 0.99, y = πl/S.
+const LARGEST_SHARE: f64 = 0.05508;
 
-/// By how much average acceleration lowers a frequency at a harmonic, %: (2/h) atan(ωh/2) for ω.
+/// By how much average acceleration lowers the speed at which harmonic l excites a mode, %: with S steps in a cycle of any
+/// length, a mode ω meets the harmonic where (2/h) atan(ωh/2) = 2πl/(Sh), which is y/tan y of ω, y = πl/S.
 fn place_percent(harmonic: usize, steps: usize) -> f64 {
-    let half = std::f64::consts::PI * harmonic as f64 / steps.max(1) as f64;
-    100.0 * (1.0 - half.atan() / half)
+    let y = std::f64::consts::PI * harmonic as f64 / steps.max(1) as f64;
+    // From two steps a period on the harmonic is none of the samples'.
+    let part = if y < std::f64::consts::FRAC_PI_2 { y / y.tan() } else { 0.0 };
+    100.0 * (1.0 - part)
 }
 
 impl SteadySettings {

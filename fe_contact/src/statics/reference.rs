@@ -29,8 +29,10 @@ use crate::short_row::ShortRow;
 
 /// Meshes of a kind share tables if the load has changed their phases by amounts that differ by
 /// less than the first value (cycles), and their centre distances differ by less than the second
-/// (m). The differences are accounted for to first order; the quadratic error is below 1e-11 m.
-const SHARED: [f64; 2] = [1e-3, 5e-6];
+/// (m). The differences are accounted for to first order, with an error quadratic in them: a hundred times as far apart
+/// (a thousandth of a cycle) it makes up to 2e-4 of a harmonic on a set of which no two planets carry the same load.
+/// Planets of evenly spaced and opposed sets are nearer than this.
+const SHARED: [f64; 2] = [1e-5, 5e-8];
 
 /// A mesh at the mean loaded centre distance of all meshes that share its tables.
 #[derive(Debug, Clone)]

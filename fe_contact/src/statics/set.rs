@@ -199,10 +199,11 @@ impl<'s> StaticSet<'s> {
         self.nominal[mesh].backside_offset + shift + self.reference.lead()
     }
 
-    /// Phases of all meshes at position 0: sun meshes, then ring meshes.
-    pub(crate) fn law_starts(&self, has_backside: bool) -> Vec<MeshStart> {
+    /// Phases of all meshes at position 0, sun meshes, then ring meshes; `classes` gives the class of each.
+    pub(crate) fn law_starts(&self, classes: &[usize], has_backside: bool) -> Vec<MeshStart> {
         let one = |(mesh, of): (usize, &NominalMesh)| MeshStart {
             kind: of.kind,
+            class: classes[mesh],
             front: self.offset(mesh),
             backside: has_backside.then(|| self.backside_offset(mesh)),
         };

@@ -1,6 +1,8 @@
 //! Tables of mesh force, computed from the contact cells.
 
-use gearset::{CurveKey, Facing, FlankSide, MeshCurve, MeshKind, MeshLaw, MeshLawPlan, Scene};
+use gearset::{
+    CurveKey, Facing, FlankSide, MeshCurve, MeshKind, MeshLaw, MeshLawPlan, MeshStart, Scene,
+};
 use rayon::prelude::*;
 
 use super::deflected_mesh::{Approaches, DeflectedMesh, at, deflection_for, first_contact};
@@ -70,11 +72,13 @@ pub fn mesh_law(
         return Err(unfit("reach", reach, "a finite number, at least 1"));
     }
     let statics = StaticSet::new(scene, bodies, sense, Imperfections::default())?.under(torque)?;
-    let planets = statics.races.planets();
     let mean_force = statics.share(torque);
-    let plan = MeshLawPlan::new(&statics.law_starts(settings.has_backside), steps)?;
+    let at_rest = at_rest(&statics, steps, mean_force)?;
+    let classes = classes(&statics, &at_rest);
+    let starts = statics.law_starts(&classes, settings.has_backside);
+    let plan = MeshLawPlan::new(&starts, steps)?;
     let job = Job {
-        at_rest: at_rest(&statics, steps, mean_force)?,
+        at_rest,
         cells: bodies.cells_in_time(reach * mean_force),
         largest: reach * mean_force,
         mean_force,
@@ -83,15 +87,17 @@ pub fn mesh_law(
     };
     let made: Vec<Made> =
         plan.curves.par_iter().map(|key| job.make(key)).collect::<Result<_, _>>()?;
-    // All meshes of a kind pass through the same cycle, so that one mean share serves all of them.
-    let mean = |kind: MeshKind| {
-        let own = plan.curves.iter().zip(&made).filter(|(key, _)| key.kind == kind);
+    // Meshes of a kind and class pass through the same cycle, so that one mean share serves all of them.
+    let mean = |start: &MeshStart| {
+        let is_own = |key: &CurveKey| {
+            let of = &starts[key.mesh];
+            (of.kind, of.class) == (start.kind, start.class)
+        };
+        let own = plan.curves.iter().zip(&made).filter(|(key, _)| is_own(key));
         let shares: Vec<f64> = own.filter_map(|(_, made)| made.share).collect();
         shares.iter().sum::<f64>() / shares.len().max(1) as f64
     };
-    let (sun, ring) = (mean(MeshKind::SunPlanet), mean(MeshKind::RingPlanet));
-    let shares: Vec<f64> =
-        (0..statics.meshes()).map(|m| if m < planets { sun } else { ring }).collect();
+    let shares: Vec<f64> = starts.iter().map(mean).collect();
     let sides = made.iter().map(|made| made.side_load).collect();
     let law = plan.law(made.into_iter().map(|made| made.curve).collect())?;
     Ok(law.with_damping_share(&shares)?.with_side_loads(sides)?)
@@ -99,7 +105,6 @@ pub fn mesh_law(
 
 /// A mesh in the equilibrium of the set.
 struct AtRest {
-    kind: MeshKind,
     phase: f64,
     /// Approach on the path, m.
     deflection: f64,
@@ -107,28 +112,78 @@ struct AtRest {
     approaches: Vec<(i64, f64)>,
 }
 
-/// Every mesh at every step of a cycle, at rest under the reference's torque.
-fn at_rest(statics: &StaticSet<'_>, steps: usize, mean_force: f64) -> Result<Vec<AtRest>, FeError> {
+impl AtRest {
+    /// Whether two meshes, or one at two steps, have the same phase but for rounding.
+    fn is_at(&self, phase: f64) -> bool {
+        let apart = self.phase - phase;
+        (apart - apart.round()).abs() < SAME_PHASE
+    }
+}
+
+/// Every mesh at every step of a cycle, by mesh, then step, at rest under the reference's torque.
+fn at_rest(
+    statics: &StaticSet<'_>,
+    steps: usize,
+    mean_force: f64,
+) -> Result<Vec<Vec<AtRest>>, FeError> {
     let reference = statics.reference();
     let positions: Vec<f64> = (0..steps).map(|i| i as f64 / steps as f64).collect();
     let tables = statics.tables(mean_force, &positions)?;
     let f = statics.load(reference.torque_nm);
     statics.lay_out_beside(&tables)?;
-    let mut list = Vec::new();
+    let mut list: Vec<Vec<AtRest>> = (0..statics.meshes()).map(|_| Vec::new()).collect();
     let mut start = reference.q.clone();
     for position in positions {
         let mut found = statics.equilibrium(&f, position, &tables, Some(&start), &ActiveSet)?;
         statics.lean_all(&f, &tables, &mut found, &ActiveSet)?;
-        for (placed, pose) in found.meshes.iter().zip(&reference.meshes) {
+        for ((placed, pose), list) in found.meshes.iter().zip(&reference.meshes).zip(&mut list) {
             let moved = pose.gradients[0].dot(&(&found.q - &reference.q));
             let deflection = pose.at[0] + moved;
             let own = placed.table.pairs.iter().map(|pair| pair.index);
             let approaches = own.zip(placed.approaches(&found.q)).collect();
-            list.push(AtRest { kind: placed.kind, phase: placed.phase, deflection, approaches });
+            list.push(AtRest { phase: placed.phase, deflection, approaches });
         }
         start = found.q;
     }
     Ok(list)
+}
+
+/// Class of each mesh (sun meshes, then ring meshes): those of a kind and class stand alike at the reference, and their
+/// pairs approach alike at equal phases. Evenly spaced planets are of one class, of opposed planets each two; a mesh
+/// whose phases are those of no other has a class of its own.
+fn classes(statics: &StaticSet<'_>, at_rest: &[Vec<AtRest>]) -> Vec<usize> {
+    let reference = statics.reference();
+    let near = |a: f64, b: f64| (a - b).abs() < ALIKE_M;
+    let stand_alike = |one: usize, other: usize| {
+        let [a, b] = [one, other].map(|mesh| &reference.meshes[mesh]);
+        let [c, d] = [one, other].map(|mesh| &reference.backside[mesh]);
+        let length = reference.loaded[a.group].mesh.center_distance;
+        (a.kind, a.group) == (b.kind, b.group)
+            && near(a.direction * length, b.direction * length)
+            && a.at.iter().zip(&b.at).all(|(a, b)| near(*a, *b))
+            && near(c.approach, d.approach)
+            && near(c.direction * length, d.direction * length)
+            && near(c.mesh.center_distance, d.mesh.center_distance)
+    };
+    let approach_alike = |one: usize, other: usize| {
+        let own = &at_rest[one];
+        let found =
+            own.first().and_then(|at| at_rest[other].iter().position(|o| o.is_at(at.phase)));
+        let Some(later) = found else { return false };
+        own.iter().zip(at_rest[other].iter().cycle().skip(later)).all(|(a, b)| {
+            let pairs = a.approaches.iter().zip(&b.approaches);
+            near(a.deflection, b.deflection)
+                && a.approaches.len() == b.approaches.len()
+                && pairs.into_iter().all(|(a, b)| a.0 == b.0 && near(a.1, b.1))
+        })
+    };
+    let mut classes = Vec::with_capacity(at_rest.len());
+    for mesh in 0..at_rest.len() {
+        let alike = |other: &usize| stand_alike(mesh, *other) && approach_alike(mesh, *other);
+        let class = (0..mesh).find(alike).map_or(mesh, |first| classes[first]);
+        classes.push(class);
+    }
+    classes
 }
 
 /// One curve; for front flanks with the damped share of the flexibility and the side load, both in
@@ -142,7 +197,8 @@ struct Made {
 /// Everything that the curves of a law have in common.
 struct Job<'j, 's> {
     statics: &'j StaticSet<'s>,
-    at_rest: Vec<AtRest>,
+    /// By mesh, then step.
+    at_rest: Vec<Vec<AtRest>>,
     cells: CellSettings,
     /// Largest force, N.
     largest: f64,
@@ -154,13 +210,16 @@ struct Job<'j, 's> {
 /// Phases that differ by less than this are equal but for rounding, cycles.
 const SAME_PHASE: f64 = 1e-11;
 
+/// Meshes whose approaches differ by less than this are alike, m: a millionth of a tooth's deflection, above what
+/// the iterations for an equilibrium leave.
+const ALIKE_M: f64 = 1e-11;
+
 impl Job<'_, '_> {
     fn make(&self, key: &CurveKey) -> Result<Made, FeError> {
         let bodies = self.statics.bodies;
         let pair = bodies.pair(key.kind).ok_or_else(|| missing_mesh(key.kind))?;
         let reference = self.statics.reference();
-        let which = reference.meshes.iter().position(|pose| pose.kind == key.kind);
-        let which = which.ok_or_else(|| missing_mesh(key.kind))?;
+        let which = key.mesh;
         let (mesh, gradients) = match key.side {
             FlankSide::Front => {
                 let own = &reference.loaded[reference.meshes[which].group];
@@ -176,11 +235,7 @@ impl Job<'_, '_> {
         let mut along = Approaches { extra: vec![0.0; arms.len()], arms };
         match key.side {
             FlankSide::Front => {
-                let is_here = |rest: &&AtRest| {
-                    let apart = rest.phase - key.phase;
-                    rest.kind == key.kind && (apart - apart.round()).abs() < SAME_PHASE
-                };
-                let rest = self.at_rest.iter().find(is_here);
+                let rest = self.at_rest[which].iter().find(|rest| rest.is_at(key.phase));
                 let rest = rest.ok_or_else(|| missing_mesh(key.kind))?;
                 // At the deflection of the equilibrium the pairs have the approaches of the
                 // equilibrium.
