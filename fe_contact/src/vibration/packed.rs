@@ -10,6 +10,9 @@ use crate::short_row::ShortRow;
 /// Rows of a block, whose sums are formed simultaneously.
 const BLOCK: usize = 8;
 
+/// Rows of a part of a column in an elimination: half a block, so that fewer rows are padding.
+const LANES: usize = BLOCK / 2;
+
 /// `sum` plus the product of a block with x.
 #[inline(always)]
 fn added(mut sum: [f64; BLOCK], block: &[[f64; BLOCK]], x: &[f64]) -> [f64; BLOCK] {
@@ -59,41 +62,65 @@ impl Packed {
 
     /// The inverse; `None` where there is none.
     ///
-    /// Elimination by Gauss and Jordan in place, without pivoting: where the symmetric part is positive definite, as that of
-    /// a step's matrix, every pivot is positive. A matrix of which a pivot is not positive is inverted by the library. With
-    /// the library's inverse of every step's matrix a sweep by shooting (`benches/steady_states.rs`) took a seventh
-    /// longer: at an order of 20 its loops over views cost more than the arithmetic.
+    /// Elimination by Gauss and Jordan without pivoting: where the symmetric part is positive definite, as that of a step's
+    /// matrix, every pivot is positive. A matrix of which a pivot is not positive, or of more than 32 columns, is inverted by
+    /// the library. With the library's inverse of every step's matrix a sweep by shooting (`benches/steady_states.rs`) took
+    /// a fifth longer: at an order of 20 its loops over views cost more than the arithmetic.
     #[inline(always)]
     pub(super) fn inverse(&self) -> Option<Self> {
+        let found = match self.columns.div_ceil(LANES) {
+            1 => self.eliminated::<1>(),
+            2 => self.eliminated::<2>(),
+            3 => self.eliminated::<3>(),
+            4 => self.eliminated::<4>(),
+            5 => self.eliminated::<5>(),
+            6 => self.eliminated::<6>(),
+            7 => self.eliminated::<7>(),
+            8 => self.eliminated::<8>(),
+            _ => None,
+        };
+        found.or_else(|| self.inverse_of_library())
+    }
+
+    /// The inverse by elimination, columns held in `PARTS` vectors; `None` where a pivot is not positive.
+    #[inline(always)]
+    fn eliminated<const PARTS: usize>(&self) -> Option<Self> {
         let n = self.columns;
-        let mut own = self.clone();
-        let mut pivot_column = vec![[0.0; BLOCK]; self.rows.div_ceil(BLOCK)];
-        let mut pivot_row = vec![0.0; n];
+        let mut own = vec![[[0.0; LANES]; PARTS]; n];
+        for (block, columns) in self.data.chunks_exact(n).enumerate() {
+            for (own, column) in own.iter_mut().zip(columns) {
+                let parts = own[2 * block..].iter_mut().zip(column.as_chunks().0);
+                parts.for_each(|(own, part)| *own = *part);
+            }
+        }
         for k in 0..n {
-            let (block, lane) = (k / BLOCK, k % BLOCK);
-            let pivot = own.data[block * n + k][lane];
+            let (part, lane) = (k / LANES, k % LANES);
+            let pivot = own[k][part][lane];
             if pivot.is_nan() || pivot <= 0.0 {
-                return self.inverse_of_library();
+                return None;
             }
             // a_kj' = a_kj/a_kk, a_kk' = 1/a_kk;   a_ik' = −a_ik/a_kk;   a_ij' = a_ij − a_ik a_kj'
-            let row = &own.data[block * n..(block + 1) * n];
-            for (own, column) in pivot_row.iter_mut().zip(row) {
-                *own = column[lane] / pivot;
-            }
-            pivot_row[k] = 1.0 / pivot;
-            for (part, own) in pivot_column.iter_mut().zip(own.data[k..].iter_mut().step_by(n)) {
-                *part = std::mem::take(own);
-            }
-            pivot_column[block][lane] = 0.0;
-            for (part, blocks) in pivot_column.iter().zip(own.data.chunks_exact_mut(n)) {
-                for (own, factor) in blocks.iter_mut().zip(&pivot_row) {
-                    own.iter_mut().zip(part).for_each(|(a, p)| *a -= p * factor);
+            let inverse = 1.0 / pivot;
+            let mut pivot_column = std::mem::replace(&mut own[k], [[0.0; LANES]; PARTS]);
+            pivot_column[part][lane] = 0.0;
+            own[k][part][lane] = 1.0;
+            for column in &mut own {
+                let factor = column[part][lane] * inverse;
+                for (own, pivot_part) in column.iter_mut().zip(&pivot_column) {
+                    own.iter_mut().zip(pivot_part).for_each(|(a, p)| *a -= p * factor);
                 }
+                column[part][lane] = factor;
             }
-            let row = &mut own.data[block * n..(block + 1) * n];
-            row.iter_mut().zip(&pivot_row).for_each(|(column, own)| column[lane] = *own);
         }
-        own.data.iter().flatten().all(|x| x.is_finite()).then_some(own)
+        let mut inverse =
+            Self { data: vec![[0.0; BLOCK]; self.data.len()], rows: self.rows, columns: n };
+        for (block, columns) in inverse.data.chunks_exact_mut(n).enumerate() {
+            for (own, column) in own.iter().zip(columns) {
+                let parts = own[2 * block..].iter().zip(column.as_chunks_mut().0);
+                parts.for_each(|(own, part)| *part = *own);
+            }
+        }
+        own.iter().flatten().flatten().all(|x| x.is_finite()).then_some(inverse)
     }
 
     /// The inverse by elimination with pivoting.
