@@ -2,6 +2,7 @@
 
 mod amplitudes;
 mod crossings;
+mod shipped;
 
 use amplitudes::{off, rotation};
 use crossings::{at, speed};
@@ -20,16 +21,6 @@ use experiments::sweep::{
 use fe_contact::statics::{Bodies, Imperfections};
 use gearset::{Fidelity, LoadCase, Scene};
 
-fn scene(name: &str, damping: f64, steps: u32) -> Scene {
-    let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    let mut scene = Scene::from_file(path.as_ref()).unwrap();
-    scene.fe_contact.flank_elements = 8;
-    scene.dynamics.steps_per_cycle = steps;
-    scene.damping.mass_proportional_per_s *= damping;
-    scene.damping.stiffness_proportional_s *= damping;
-    scene
-}
-
 fn law<'b>(scene: &Scene, bodies: &'b Bodies, torque_nm: f64) -> MeshLawModel<'b> {
     let case = LoadCase::of_scene(scene).unwrap().with_sun_torque(torque_nm);
     MeshLawModel::new(scene, bodies, case).unwrap()
@@ -40,7 +31,7 @@ fn law<'b>(scene: &Scene, bodies: &'b Bodies, torque_nm: f64) -> MeshLawModel<'b
 /// within one speed step of the folds and is never on the unstable part.
 #[test]
 fn both_folds_are_traced_and_marching_jumps_there() {
-    let scene = scene("oh58_3p", 0.2, 70);
+    let scene = shipped::scene("oh58_3p", 70, 0.2);
     let bodies = Bodies::new(&scene).unwrap();
     let model = law(&scene, &bodies, 50.0);
     let fine = BranchSettings {
@@ -134,7 +125,7 @@ fn both_folds_are_traced_and_marching_jumps_there() {
 /// A point found by shooting at a bound of a branch is the branch's own: the motion of a sweep.
 #[test]
 fn motions_of_sweeps_lie_on_the_branch() {
-    let scene = scene("oh58_3p", 0.2, 70);
+    let scene = shipped::scene("oh58_3p", 70, 0.2);
     let bodies = Bodies::new(&scene).unwrap();
     let law = law(&scene, &bodies, 50.0);
     let lumped = law.lumped();
@@ -168,7 +159,7 @@ fn motions_of_sweeps_lie_on_the_branch() {
 /// which a multiplier jumps.)
 #[test]
 fn a_period_doubling_is_located_where_marching_doubles_its_period() {
-    let scene = scene("oh58_3p", 0.1, 70);
+    let scene = shipped::scene("oh58_3p", 70, 0.1);
     let bodies = Bodies::new(&scene).unwrap();
     let model = law(&scene, &bodies, 80.0);
     let settings = BranchSettings { start: 4180.0, ..BranchSettings::over([4090.0, 4190.0]) };
@@ -231,7 +222,7 @@ impl Family for Off<'_> {
 /// control answers with shorter steps, so that the same stretch takes more evaluations.
 #[test]
 fn a_wrong_entry_of_the_jacobian_shows_in_the_iterations() {
-    let scene = scene("oh58_3p", 0.2, 70);
+    let scene = shipped::scene("oh58_3p", 70, 0.2);
     let bodies = Bodies::new(&scene).unwrap();
     let model = law(&scene, &bodies, 500.0);
     let case = model.case().at_speed(1500.0);
@@ -265,7 +256,7 @@ fn a_wrong_entry_of_the_jacobian_shows_in_the_iterations() {
 
 #[test]
 fn what_makes_no_branch_is_refused() {
-    let scene = scene("oh58_3p", 0.1, 70);
+    let scene = shipped::scene("oh58_3p", 70, 0.1);
     let bodies = Bodies::new(&scene).unwrap();
     let model = law(&scene, &bodies, 100.0);
     let refused = |settings: BranchSettings| match branch(&model, &settings) {

@@ -1,5 +1,7 @@
 //! A resonant peak does not depend on the load that the contact tables are laid out for.
 
+mod shipped;
+
 use experiments::sweep::{
     FeModel, Part, Response, SteadySettings, SweepModel, SweepPoint, steady, top_of_three,
 };
@@ -32,11 +34,8 @@ fn height(scene: &Scene, bodies: &Bodies, size: usize) -> f64 {
 /// 0.2 % that `studies/contact_cells.toml` asks for. Even cells, the control, are off by more than five times that.
 #[test]
 fn both_widths_of_the_patch_give_one_peak() {
-    let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
-    let mut scene = Scene::from_file(path.as_ref()).unwrap();
-    scene.fe_contact.flank_elements = 8;
+    let mut scene = shipped::scene("oh58_4p", 140, 1.0);
     scene.fe_contact.cell_layout = CellLayout::Graded;
-    scene.dynamics.steps_per_cycle = 140;
     let bodies = Bodies::new(&scene).unwrap();
     let fine_scene = {
         let mut fine = scene.clone();

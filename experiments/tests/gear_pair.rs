@@ -3,6 +3,7 @@
 
 mod amplitudes;
 mod crossings;
+mod shipped;
 mod tongue;
 
 use std::f64::consts::TAU;
@@ -270,10 +271,7 @@ fn at_a_low_speed_the_transmission_error_is_the_static_one() {
 
 /// The catalogue scene on a coarse mesh, and its gears.
 fn meshed() -> (Scene, Bodies) {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/pair_50_50.toml");
-    let mut scene = Scene::from_file(path.as_ref()).unwrap();
-    scene.fe_contact.flank_elements = 8;
-    scene.dynamics.steps_per_cycle = 70;
+    let scene = shipped::scene("pair_50_50", 70, 1.0);
     let bodies = Bodies::new(&scene).unwrap();
     (scene, bodies)
 }

@@ -1,5 +1,7 @@
 //! The same set with its planets counted from another one moves in the same way, whatever its meshes follow.
 
+mod shipped;
+
 use std::f64::consts::TAU;
 
 use experiments::sweep::{
@@ -20,10 +22,8 @@ const TURN: i64 = 126;
 
 /// The set with its planets counted from planet `first`, which stands on the x axis.
 fn scene(positions: [i64; 4], steps_per_cycle: u32, first: usize) -> Scene {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/oh58_4p.toml");
-    let mut scene = Scene::from_file(path.as_ref()).unwrap();
+    let mut scene = shipped::scene("oh58_4p", steps_per_cycle, 1.0);
     scene.fe_contact.flank_elements = 6;
-    scene.dynamics.steps_per_cycle = steps_per_cycle;
     scene.dynamics.fidelity = Fidelity::QuasiStatic;
     let steps: Vec<i64> =
         (0..4).map(|n| (positions[(first + n) % 4] - positions[first]).rem_euclid(TURN)).collect();

@@ -1,8 +1,10 @@
 //! Motions of a gear set that repeat after several mesh cycles.
 
+mod shipped;
+
 use experiments::sweep::{Marching, MeshLawModel, SteadySettings, SweepModel, steady};
 use fe_contact::statics::Bodies;
-use gearset::{LoadCase, Scene};
+use gearset::LoadCase;
 
 const STEPS: usize = 70;
 
@@ -32,12 +34,7 @@ fn period(rows: &[Vec<f64>]) -> Option<usize> {
 /// three-planet set under 100 and 300 N·m above 3,800 rpm repeat with the mesh cycle.
 #[test]
 fn parting_teeth_double_the_period_of_the_motion() {
-    let path = format!("{}/../scenes/oh58_3p.toml", env!("CARGO_MANIFEST_DIR"));
-    let mut scene = Scene::from_file(path.as_ref()).unwrap();
-    scene.fe_contact.flank_elements = 8;
-    scene.dynamics.steps_per_cycle = STEPS as u32;
-    scene.damping.mass_proportional_per_s *= 0.1;
-    scene.damping.stiffness_proportional_s *= 0.1;
+    let scene = shipped::scene("oh58_3p", STEPS as u32, 0.1);
     let bodies = Bodies::new(&scene).unwrap();
     let case = LoadCase::of_scene(&scene).unwrap().with_sun_torque(100.0);
     let model = MeshLawModel::new(&scene, &bodies, case).unwrap();
