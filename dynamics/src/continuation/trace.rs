@@ -433,7 +433,8 @@ fn advance<F: Family>(
 }
 
 /// Angle by which a branch turns from one point to another: from the tangent at the first to the chord, and on to the tangent at the
-/// other, rad. The tangents alone are parallel again where a step has skipped two folds.
+/// other, rad. The tangents alone are parallel again where a step has skipped two folds; they count alone within a thousand
+/// `least` steps, where a point may be beyond a kink already and the chord says nothing.
 fn turn(from: &Corrected, to: &Corrected, least: f64) -> f64 {
     let chord = minus(&to.u, &from.u);
     let length = norm(&chord);
