@@ -32,10 +32,15 @@ impl ShortRow {
         row
     }
 
+    /// (Place, value) of six terms; those beyond the entries have the value 0.
+    #[inline(always)]
+    pub(crate) fn terms(&self) -> impl Iterator<Item = (usize, f64)> {
+        self.places.iter().zip(&self.values).map(|(i, r)| (usize::from(*i), *r))
+    }
+
     /// (Place, value) of the entries that are not zero.
     pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, f64)> {
-        let entries = self.places.iter().zip(&self.values);
-        entries.filter(|(_, r)| **r != 0.0).map(|(i, r)| (usize::from(*i), *r))
+        self.terms().filter(|(_, r)| *r != 0.0)
     }
 
     pub(crate) fn dot(&self, x: &[f64]) -> f64 {

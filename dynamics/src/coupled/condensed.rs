@@ -39,6 +39,8 @@ pub(super) struct Condensed {
     pub(super) answers: Vec<f64>,
     /// Y, by column.
     pub(super) receptance: Vec<f64>,
+    /// Y, by row: it is not symmetric where damping is not.
+    pub(super) receptance_by_row: Vec<f64>,
     /// o, m.
     pub(super) offsets: Vec<f64>,
     /// τ, s.
@@ -66,6 +68,7 @@ impl Condensed {
         }
         let mut answers = vec![0.0; width * padded];
         let mut receptance = vec![0.0; width * width];
+        let mut receptance_by_row = receptance.clone();
         for k in 0..count {
             let row: Vec<f64> = (0..n).map(|j| rows[j * width + k]).collect();
             let own = &mut answers[k * padded..(k + 1) * padded];
@@ -74,7 +77,9 @@ impl Condensed {
                 None => modes.solve_full(&row, own),
             }
             for l in 0..count {
-                receptance[k * width + l] = (0..n).map(|j| rows[j * width + l] * own[j]).sum();
+                let of = (0..n).map(|j| rows[j * width + l] * own[j]).sum();
+                receptance[k * width + l] = of;
+                receptance_by_row[l * width + k] = of;
             }
         }
         let fill = |of: fn(&Coupling) -> f64| -> Vec<f64> {
@@ -84,7 +89,17 @@ impl Condensed {
         let lags = fill(|c| c.lag);
         let has_lag = lags.iter().any(|lag| *lag != 0.0);
         let offsets = fill(|c| c.offset);
-        Some(Self { count, width, rows, answers, receptance, offsets, lags, has_lag })
+        Some(Self {
+            count,
+            width,
+            rows,
+            answers,
+            receptance,
+            receptance_by_row,
+            offsets,
+            lags,
+            has_lag,
+        })
     }
 
     /// Deflections at modal displacements, m.

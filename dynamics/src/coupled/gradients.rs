@@ -140,20 +140,23 @@ impl Gradients {
     #[inline(always)]
     fn answer_to_reach<const W: usize>(&mut self, step: &StepGradient<'_>) {
         let StepGradient { modes, rule, group, tangents } = step;
-        let (y, _) = group.receptance.as_chunks::<W>();
-        let gains: [f64; W] = std::array::from_fn(|k| 1.0 + group.lags[k] * rule.damping());
-        // g Y by column.
-        let scaled: [[f64; W]; W] =
-            std::array::from_fn(|l| std::array::from_fn(|k| gains[k] * y[l][k]));
-        let d: [f64; W] = std::array::from_fn(|k| tangents.get(k).copied().unwrap_or(0.0));
-        let inverse = newton::inverted(&scaled, &d);
+        let (y, _) = group.receptance_by_row.as_chunks::<W>();
+        let (lags, rate) = (&group.lags[..W], rule.damping());
+        let mut d = [0.0; W];
+        d.iter_mut().zip(*tangents).for_each(|(d, tangent)| *d = *tangent);
+        // I + g Y D, by row.
+        let mut g: [[f64; W]; W] = std::array::from_fn(|k| {
+            let gain = 1.0 + lags[k] * rate;
+            std::array::from_fn(|l| gain * y[k][l] * d[l] + if k == l { 1.0 } else { 0.0 })
+        });
+        newton::eliminate(&mut g);
         let (n, padded) = (modes.count, group.answers.len() / W);
+        self.by_reach.clear();
         self.by_reach.resize(n * W, 0.0);
         let (out, _) = self.by_reach.as_chunks_mut::<W>();
-        for (j, out) in out.iter_mut().enumerate() {
-            let pressed: [f64; W] = std::array::from_fn(|k| group.answers[k * padded + j] * d[k]);
-            for (out, column) in out.iter_mut().zip(&inverse) {
-                *out = column.iter().zip(&pressed).map(|(own, p)| own * p).sum();
+        for ((answers, row), d) in group.answers.chunks_exact(padded).zip(&g).zip(&d) {
+            for (out, answer) in out.iter_mut().zip(answers) {
+                newton::add(out, row, answer * d);
             }
         }
     }

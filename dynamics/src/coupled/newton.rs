@@ -164,24 +164,33 @@ pub(super) fn inverted<const W: usize>(y: &[[f64; W]; W], d: &[f64; W]) -> [[f64
         }
         g[j][j] += 1.0;
     }
+    eliminate(&mut g);
+    g
+}
+
+/// Replaces a matrix by its inverse, both by row: Gauss–Jordan without pivoting.
+///
+/// Rows are read and written as a whole, with factors of 1 and 0 in place of single entries: an entry stored by itself just
+/// before its row is read stalls the processor.
+#[inline(always)]
+pub(super) fn eliminate<const W: usize>(g: &mut [[f64; W]; W]) {
     for k in 0..W {
+        let one: [f64; W] = std::array::from_fn(|l| if l == k { 1.0 } else { 0.0 });
+        let others: [f64; W] = std::array::from_fn(|l| if l == k { 0.0 } else { 1.0 });
         let pivot = 1.0 / g[k][k];
-        g[k][k] = 1.0;
-        for x in &mut g[k] {
-            *x *= pivot;
+        for l in 0..W {
+            g[k][l] = (g[k][l] * others[l] + one[l]) * pivot;
         }
         let row = g[k];
         for (i, other) in g.iter_mut().enumerate() {
             if i != k {
                 let factor = other[k];
-                other[k] = 0.0;
-                for (x, r) in other.iter_mut().zip(row) {
-                    *x -= factor * r;
+                for l in 0..W {
+                    other[l] = other[l] * others[l] - factor * row[l];
                 }
             }
         }
     }
-    g
 }
 
 #[cfg(test)]

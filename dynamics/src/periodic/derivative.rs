@@ -27,6 +27,9 @@ pub struct MapDerivative {
 pub struct Correction {
     derivative: MapDerivative,
     factor: PartialPivLu<f64>,
+    /// Coordinates without a column that change with the active ones, and their rows of DΦ one after another.
+    following: Vec<usize>,
+    rows: Vec<f64>,
 }
 
 impl MapDerivative {
@@ -59,25 +62,33 @@ impl MapDerivative {
             }
         }
         let shifted = Mat::from_fn(n, n, |i, j| f64::from(u8::from(i == j)) - m[(i, j)]);
-        Ok(Correction { factor: shifted.partial_piv_lu(), derivative: self })
+        let (mut following, mut rows) = (Vec::new(), Vec::new());
+        let mut active = self.active.iter().peekable();
+        for (i, row) in self.columns.row_iter().enumerate() {
+            let is_active = active.next_if(|a| **a == i).is_some();
+            if !is_active && row.iter().any(|x| *x != 0.0) {
+                following.push(i);
+                rows.extend(&row);
+            }
+        }
+        Ok(Correction { factor: shifted.partial_piv_lu(), derivative: self, following, rows })
     }
 }
 
 impl Correction {
     /// Δy with (I − DΦ) Δy = r for r = Φ(y) − y, all n coordinates.
     pub fn of(&self, residual: &[f64]) -> Vec<f64> {
-        let MapDerivative { active, columns, scales } = &self.derivative;
+        let MapDerivative { active, scales, .. } = &self.derivative;
         let scaled = Mat::from_fn(active.len(), 1, |i, _| residual[active[i]] / scales[active[i]]);
         let solved = self.factor.solve(&scaled);
+        let along: Vec<f64> =
+            active.iter().enumerate().map(|(k, a)| solved[(k, 0)] * scales[*a]).collect();
         // Coordinates without a column: Δy_j = r_j + Σ DΦ_ja Δy_a.
         let mut change = residual.to_vec();
-        for (k, a) in active.iter().enumerate() {
-            let along = solved[(k, 0)] * scales[*a];
-            change.iter_mut().zip(columns.column(k).iter()).for_each(|(c, m)| *c += m * along);
+        for (i, row) in self.following.iter().zip(self.rows.chunks_exact(along.len().max(1))) {
+            change[*i] += row.iter().zip(&along).map(|(m, a)| m * a).sum::<f64>();
         }
-        for (k, a) in active.iter().enumerate() {
-            change[*a] = solved[(k, 0)] * scales[*a];
-        }
+        active.iter().zip(&along).for_each(|(a, along)| change[*a] = *along);
         change
     }
 

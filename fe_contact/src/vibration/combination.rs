@@ -185,17 +185,14 @@ impl Computation for Combining<'_> {
         let Self { frame, maps, ids, races } = self;
         let count = frame.offsets.len();
         let singular = || FeError::NoEquilibrium("the step's contact problem is singular".into());
-        // S and P₀ of all pairs, S by mesh and row.
-        let mut of_meshes = Vec::with_capacity(frame.meshes.len());
-        for mesh in &frame.meshes {
-            let Some(map) = mesh.map(maps) else { return Ok(None) };
-            of_meshes.push((mesh.first..mesh.first + mesh.count, map));
+        if frame.meshes.iter().any(|mesh| mesh.map(maps).is_none()) {
+            return Ok(None);
         }
         let mut made = Combination {
             maps: ids.to_vec(),
             touching: Vec::with_capacity(count),
-            groups: Vec::with_capacity(of_meshes.len()),
-            stiffness: Vec::with_capacity(2 * count),
+            groups: Vec::with_capacity(frame.meshes.len()),
+            stiffness: Vec::with_capacity(3 * count),
             preload: Vec::with_capacity(count),
             excess: Vec::with_capacity(4 * count),
             inverse: Packed::default(),
@@ -205,16 +202,18 @@ impl Computation for Combining<'_> {
         let rows = frame.rows();
         let (mut right, mut matrix, mut solved) = (Vec::new(), Vec::new(), Vec::new());
         let mut pressed = matrix_of_races.column();
+        let mut meshes = frame.meshes.as_slice();
         for group in frame.groups() {
             let first = made.touching.len();
-            let own =
-                of_meshes.iter().filter(|(of, _)| group.start <= of.start && of.end <= group.end);
-            for (of, map) in own.clone() {
-                let touches = |i: &usize| {
-                    let row = (i - of.start) * of.len();
-                    map.stiffness[row..row + of.len()].iter().any(|s| *s != 0.0)
-                };
-                made.touching.extend(of.clone().filter(touches));
+            let of_group = meshes.iter().take_while(|of| of.first + of.count <= group.end).count();
+            let own;
+            (own, meshes) = meshes.split_at(of_group);
+            for (of, map) in own.iter().filter_map(|of| Some((of, of.map(maps)?))) {
+                for (i, row) in map.stiffness.chunks_exact(of.count.max(1)).enumerate() {
+                    if row.iter().any(|s| *s != 0.0) {
+                        made.touching.push(of.first + i);
+                    }
+                }
             }
             let touching = &made.touching[first..];
             let size = touching.len();
@@ -225,26 +224,35 @@ impl Computation for Combining<'_> {
             // By columns: S, then P₀; I + S E.
             right.clear();
             right.resize(size * (size + 1), 0.0);
-            for (of, map) in own {
-                for (i, pair) in touching.iter().enumerate().filter(|(_, p)| of.contains(p)) {
-                    right[size * size + i] = map.forces[pair - of.start];
-                    let row = (pair - of.start) * of.len();
-                    for (j, other) in touching.iter().enumerate().filter(|(_, p)| of.contains(p)) {
-                        right[j * size + i] = map.stiffness[row + other - of.start];
+            for (of, map) in own.iter().filter_map(|of| Some((of, of.map(maps)?))) {
+                let pairs = of.first..of.first + of.count;
+                for (i, pair) in touching.iter().enumerate() {
+                    if !pairs.contains(pair) {
+                        continue;
+                    }
+                    right[size * size + i] = map.forces[pair - of.first];
+                    let row = &map.stiffness[(pair - of.first) * of.count..][..of.count];
+                    for (j, other) in touching.iter().enumerate() {
+                        if pairs.contains(other) {
+                            right[j * size + i] = row[other - of.first];
+                        }
                     }
                 }
             }
-            let columns = made.excess.len();
-            for pair in touching {
-                made.excess.extend(group.clone().map(|i| frame.excess(i, *pair)));
-            }
             matrix.clear();
             matrix.resize(size * size, 0.0);
-            for (j, column) in made.excess[columns..].chunks_exact(group.len()).enumerate() {
+            for (j, pair) in touching.iter().enumerate() {
+                let column = made.excess.len();
+                for i in group.clone() {
+                    made.excess.push(frame.excess(i, *pair));
+                }
                 let own = &mut matrix[j * size..(j + 1) * size];
                 own[j] = 1.0;
-                for (pair, s) in touching.iter().zip(right.chunks_exact(size)) {
-                    add(own, column[pair - group.start], s);
+                for (other, s) in touching.iter().zip(right.chunks_exact(size)) {
+                    let e = made.excess[column + other - group.start];
+                    for (own, s) in own.iter_mut().zip(s) {
+                        *own += e * s;
+                    }
                 }
             }
             let mut matrix = DMatrixViewMut::from_slice(&mut matrix, size, size);
@@ -257,11 +265,15 @@ impl Computation for Combining<'_> {
             DMatrixViewMut::from_slice(&mut solved, size, size + 1).gemm(1.0, &matrix, &right, 0.0);
             made.preload.extend_from_slice(&solved[size * size..]);
             for i in 0..size {
-                made.stiffness.extend((0..size).map(|j| solved[j * size + i]));
+                for j in 0..size {
+                    made.stiffness.push(solved[j * size + i]);
+                }
             }
             for (on, of) in touching.iter().zip(solved.chunks_exact(size)) {
                 pressed.fill(0.0);
-                touching.iter().zip(of).for_each(|(of, s)| rows[*of].add_to(*s, &mut pressed));
+                for (of, s) in touching.iter().zip(of) {
+                    rows[*of].add_to(*s, &mut pressed);
+                }
                 matrix_of_races.add_outer(&pressed, &rows[*on]);
             }
         }

@@ -109,7 +109,7 @@ impl VibratingSet<'_> {
             pressed.extend(pairs.filter_map(|pair| {
                 Some((frame.pattern.slots[pair].place()?, work.column_of[pair]?))
             }));
-            own.advance(weights[0], &pressed, &work.forces);
+            own.advance((weights[0], self.pairs.lag.forgotten()), &pressed, &work.forces);
         }
         d.races.advance(newmark, &work.next, [&work.acceleration, &work.velocity]);
         d.work = work;

@@ -77,11 +77,13 @@ pub(super) struct LagGradients {
     lists: [DMatrix<f64>; 3],
     /// Pairs with gradients other than zero.
     live: [bool; WIDTH],
+    /// Steps since each pair touched last.
+    parted: [usize; WIDTH],
 }
 
 impl LagGradients {
     pub(super) fn new(lists: [DMatrix<f64>; 3], live: [bool; WIDTH]) -> Self {
-        Self { lists, live }
+        Self { lists, live, parted: [0; WIDTH] }
     }
 
     pub(super) fn lists(&self) -> &[DMatrix<f64>; 3] {
@@ -116,9 +118,15 @@ impl LagGradients {
         column(self.lists[0].as_slice(), self.lists[0].nrows(), slot)
     }
 
-    /// Advances by a step at whose end the pairs `pressed` (slot, column of `forces`) have forces.
+    /// Advances by a step at whose end the pairs `pressed` (slot, column of `forces`) have forces. `forgotten`: steps after
+    /// which nothing is left of the lag of a pair that does not touch.
     #[inline(always)]
-    pub(super) fn advance(&mut self, end: f64, pressed: &[(usize, usize)], forces: &[f64]) {
+    pub(super) fn advance(
+        &mut self,
+        (end, forgotten): (f64, usize),
+        pressed: &[(usize, usize)],
+        forces: &[f64],
+    ) {
         let m = self.lists[0].nrows();
         let [filtered, now, before] = &mut self.lists;
         // The list of the forces one step earlier becomes that of the new ones.
@@ -130,9 +138,16 @@ impl LagGradients {
                     let force = column(forces, m, *k);
                     add(column_mut(filtered, m, slot), end, force);
                     column_mut(now, m, slot).copy_from_slice(force);
-                    self.live[slot] = true;
+                    (self.live[slot], self.parted[slot]) = (true, 0);
                 }
-                None if self.live[slot] => column_mut(now, m, slot).fill(0.0),
+                None if self.live[slot] => {
+                    column_mut(now, m, slot).fill(0.0);
+                    self.parted[slot] += 1;
+                    if self.parted[slot] > forgotten {
+                        column_mut(filtered, m, slot).fill(0.0);
+                        self.live[slot] = false;
+                    }
+                }
                 None => {}
             }
         }
@@ -148,6 +163,7 @@ impl LagGradients {
         }
         self.live.copy_within(0..WIDTH - 1, 1);
         self.live[0] = false;
+        self.parted.copy_within(0..WIDTH - 1, 1);
     }
 }
 

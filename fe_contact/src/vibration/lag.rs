@@ -37,6 +37,13 @@ impl LagRule {
         [self.end, self.start, self.before, self.state]
     }
 
+    /// Steps after which nothing is left of P̃ (1e-18 of it, a hundredth of rounding) once a force has ended: it enters for two
+    /// more steps, and then P̃ falls as a power of its weight.
+    pub(super) fn forgotten(&self) -> usize {
+        let falling = 1e-18f64.ln() / self.state.ln();
+        2 + if falling.is_finite() { falling.ceil() as usize } else { 0 }
+    }
+
     pub(super) fn new(beta: f64, rule: &AverageAcceleration) -> Self {
         if beta <= 0.0 {
             return Self { end: 1.0, start: 0.0, before: 0.0, state: 0.0 };
@@ -218,6 +225,21 @@ mod tests {
                 assert!((found - exact).abs() < 1e-9 * t * t, "{z} {step}: {found} {exact}");
             }
         }
+    }
+
+    /// Of a force that ended, and of which the parabola still knows for two steps, less than 1e-18 is left.
+    #[test]
+    fn what_is_forgotten_is_far_below_rounding() {
+        for z in [0.03, 0.7, 5.0, 1e4] {
+            let r = rule(z);
+            let slot = PairSlot::of(0);
+            let mut memory = PairMemory::default();
+            memory.rest([(slot, 1.0)].into_iter());
+            (0..=r.forgotten()).for_each(|_| memory.advance(&r, std::iter::empty()));
+            let left = memory.filtered(0).abs();
+            assert!(left < 2e-18 && memory.now(slot) == 0.0, "{z}: {left:e}");
+        }
+        assert_eq!(LagRule::new(0.0, &AverageAcceleration::new(1e-5).unwrap()).forgotten(), 2);
     }
 
     #[test]

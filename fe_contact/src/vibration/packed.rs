@@ -53,9 +53,13 @@ impl Packed {
     #[inline(always)]
     pub(super) fn add_outer(&mut self, column: &[f64], row: &ShortRow) {
         let (parts, _) = column.as_chunks::<BLOCK>();
-        for (j, r) in row.entries() {
-            for (block, part) in self.data[j..].iter_mut().step_by(self.columns).zip(parts) {
-                block.iter_mut().zip(part).for_each(|(a, p)| *a += p * r);
+        for (columns, part) in self.data.chunks_exact_mut(self.columns.max(1)).zip(parts) {
+            for (j, r) in row.terms() {
+                let mut sum = columns[j];
+                for i in 0..BLOCK {
+                    sum[i] += part[i] * r;
+                }
+                columns[j] = sum;
             }
         }
     }
