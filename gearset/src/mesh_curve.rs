@@ -179,6 +179,30 @@ impl MeshCurve {
         }
     }
 
+    /// Deflection (m) under a force (N): the least one, where several have this force. `None` unless the force is positive and
+    /// finite, or where no deflection has it.
+    pub fn deflection(&self, force_n: f64) -> Option<f64> {
+        if !(force_n > 0.0 && force_n.is_finite()) {
+            return None;
+        }
+        let Some(above) = self.nodes.iter().position(|node| node[0] >= force_n) else {
+            // Linear beyond the last node.
+            let [force, rise] = *self.nodes.last()?;
+            let further = (force_n - force) / rise;
+            let is_reached = further.is_finite() && further >= 0.0;
+            return is_reached.then(|| self.end_m() + further * self.step);
+        };
+        // The force is below at the node before, which may be that of first contact.
+        let at = |node: usize| self.start + node as f64 * self.step;
+        let (mut low, mut high) = (at(above.checked_sub(1)?), at(above));
+        // As often as halves differ in double precision.
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if self.force(middle).0 < force_n { low = middle } else { high = middle }
+        }
+        Some(0.5 * (low + high))
+    }
+
     /// Deflection of first contact, m.
     pub fn start_m(&self) -> f64 {
         self.start
@@ -218,6 +242,26 @@ fn pair(nodes: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_deflection_has_the_force_that_was_asked_for() {
+        let curve = hertzian(9);
+        let last = curve.force(curve.end_m()).0;
+        for share in [1e-9, 0.1, 0.5, 1.0, 1.7] {
+            let found = curve.deflection(share * last).unwrap();
+            assert!((curve.force(found).0 / (share * last) - 1.0).abs() < 1e-9, "{share}");
+        }
+        // F = δ² with nodes at 0, 1 and 2 in closed form.
+        let square = MeshCurve::new(0.0, 1.0, &[0.0, 1.0, 4.0], &[0.0, 2.0, 4.0]).unwrap();
+        assert!((square.deflection(2.0).unwrap() - 2f64.sqrt()).abs() < 1e-15);
+        // Beyond the last node the curve goes on along its tangent.
+        assert!((square.deflection(6.0).unwrap() - 2.5).abs() < 1e-15);
+        for refused in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert_eq!(square.deflection(refused), None);
+        }
+        let level = MeshCurve::new(0.0, 1.0, &[0.0, 1.0], &[1.0, 0.0]).unwrap();
+        assert_eq!(level.deflection(1.5), None);
+    }
 
     /// F = k x (1 + 10⁴ x) with x = δ − s in m, and its exact tangent.
     fn hertzian(nodes: usize) -> MeshCurve {

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use serde::{Deserialize, Serialize};
 
 use crate::gear::Facing;
-use crate::mesh_curve::MeshCurve;
+use crate::mesh_curve::{CurveError, MeshCurve};
 use crate::mesh_kind::MeshKind;
 use crate::phasing::Phasing;
 
@@ -83,7 +83,7 @@ pub struct MeshLawPlan {
 }
 
 /// Why a mesh law cannot be made.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MeshLawError {
     /// No meshes or no steps.
     #[error("a mesh law of {meshes} meshes and {steps} steps: each must be at least 1")]
@@ -115,6 +115,19 @@ pub enum MeshLawError {
     /// Tables whose lengths do not match, or an index without a curve.
     #[error("the tables of a mesh law do not fit each other")]
     Places,
+    /// A force under which a mesh has no deflection, or one that is not positive.
+    #[error("mesh {mesh} has no positive deflection under {force_n} N at step {step} of its cycle")]
+    Deflection {
+        /// Mesh.
+        mesh: usize,
+        /// Step of the mesh cycle.
+        step: usize,
+        /// Force, N.
+        force_n: f64,
+    },
+    /// A curve that cannot be made.
+    #[error(transparent)]
+    Curve(#[from] CurveError),
 }
 
 impl MeshLawPlan {
@@ -264,6 +277,37 @@ impl MeshLaw {
         Ok(self)
     }
 
+    /// The law that most lumped models of gear dynamics prescribe: every mesh is a spring whose stiffness depends on the phase
+    /// alone. Front flanks that deflect by δ(F̄) under the force F̄ (`force_n`, N) in this law have
+    ///
+    /// ```text
+    /// F = k δ for δ > 0, otherwise 0,   k = F̄/δ(F̄)
+    /// ```
+    ///
+    /// so that each mesh deflects under F̄ as before. Side loads stay; there are no backside flanks.
+    ///
+    /// # Errors
+    /// If a front flank has no positive deflection under the force.
+    pub fn with_prescribed_stiffness(&self, force_n: f64) -> Result<Self, MeshLawError> {
+        let mut curves = self.curves.clone();
+        for (k, place) in self.front.iter().enumerate() {
+            let place = *place as usize;
+            let (mesh, step) = (k % self.meshes, k / self.meshes);
+            let none = MeshLawError::Deflection { mesh, step, force_n };
+            let deflection = self.curves[place].deflection(force_n).filter(|d| *d > 0.0);
+            let deflection = deflection.ok_or(none)?;
+            let stiffness = force_n / deflection;
+            curves[place] =
+                MeshCurve::new(0.0, deflection, &[0.0, force_n], &[stiffness, stiffness])?;
+        }
+        Ok(Self { curves, backside: Vec::new(), ..self.clone() })
+    }
+
+    /// The same law with forces along the lines of action alone.
+    pub fn without_side_loads(self) -> Self {
+        Self { side_loads: Vec::new(), ..self }
+    }
+
     /// Side load of a mesh's front flanks at a step, N; zero if the law has none.
     pub fn side_load(&self, mesh: usize, step_in_cycle: usize) -> [f64; 6] {
         let place = self.front[step_in_cycle * self.meshes + mesh] as usize;
@@ -382,6 +426,31 @@ mod tests {
         let curve = |key: &CurveKey| MeshCurve::new(key.phase, 1.0, &[0.0, 1.0], &[1.0, 1.0]);
         let curves = plan.curves.iter().map(|key| curve(key).unwrap()).collect();
         plan.law(curves).unwrap()
+    }
+
+    /// Hand calculation: curves from first contact at their phase φ on with 1 N/m, so that 0.5 N deflect them by φ + 0.5 m.
+    #[test]
+    fn prescribed_stiffness_is_the_secant_under_the_given_force() {
+        let tabulated = law(MeshLawPlan::new(&starts(true), 14).unwrap())
+            .with_side_loads(vec![[1.0; 6]; 56])
+            .unwrap();
+        let own = tabulated.with_prescribed_stiffness(0.5).unwrap();
+        assert!(!own.has_backside());
+        for mesh in 0..6 {
+            for step in 0..14 {
+                let deflection = tabulated.front(mesh, step).start_m() + 0.5;
+                for share in [0.0, 0.2, 1.0, 3.0] {
+                    let (force, tangent) = own.force(mesh, step, share * deflection);
+                    assert!((force - share * 0.5).abs() < 1e-12);
+                    assert!(share == 0.0 || (tangent * deflection - 0.5).abs() < 1e-12);
+                }
+                assert_eq!(own.force(mesh, step, -1.0), (0.0, 0.0));
+                assert_eq!(own.side_load(mesh, step), [1.0; 6]);
+            }
+        }
+        assert_eq!(own.without_side_loads().side_load(0, 0), [0.0; 6]);
+        let refused = tabulated.with_prescribed_stiffness(0.0).unwrap_err();
+        assert_eq!(refused, MeshLawError::Deflection { mesh: 0, step: 0, force_n: 0.0 });
     }
 
     #[test]

@@ -46,6 +46,14 @@ model = "lumped"
     path
 }
 
+/// A quantity of the small study, and one of growth with torque in its place.
+const PEAK_TO_PEAK: &str = "kind = \"transmission_error_peak_to_peak\"\npositions = 4";
+
+fn torque_ratio(more: &str) -> String {
+    let kind = "kind = \"torque_ratio\"\npart = \"sun\"\nmotion = \"rotation\"\nharmonic = 2";
+    format!("{kind}\nspeeds_rpm = [1600, 1630, 1660]\n{more}")
+}
+
 /// Takes away what depends on a clock.
 pub(crate) fn without_times(value: &mut Value) {
     match value {
@@ -120,6 +128,22 @@ fn faults_of_a_study_file_name_the_key_and_what_is_allowed() {
         (replaced("oh58_4p.toml", "none.toml"), ["`scene`", "none.toml"]),
         (replaced("positions = 4", "speed_rpm = 8"), ["speed_rpm", "positions"]),
         (replaced("number = 1\n", ""), ["number", "needs mode_type, number"]),
+        (
+            replaced("positions = 4", "reference_torque_nm = 8"),
+            ["reference_torque_nm", "positions for this kind"],
+        ),
+        (
+            replaced(PEAK_TO_PEAK, &torque_ratio("")),
+            ["reference_torque_nm", "speeds_rpm, reference_torque_nm"],
+        ),
+        (
+            replaced(PEAK_TO_PEAK, &torque_ratio("reference_torque_nm = 0")),
+            ["reference_torque_nm", "other than 0"],
+        ),
+        (
+            replaced(PEAK_TO_PEAK, &torque_ratio("reference_torque_nm = 1e9")),
+            ["reference_torque_nm", "N·m"],
+        ),
         (replaced("kind = \"extrapolated\"", "kind = \"guessed\""), ["guessed", "extrapolated"]),
         (replaced("values = [40, 80, 160]", "values = [40, 80]"), ["values", "three numbers"]),
         (replaced("values = [40, 80, 160]", "values = [160, 80, 40]"), ["values", "ascending"]),

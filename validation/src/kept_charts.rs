@@ -48,6 +48,7 @@ pub fn kept_studies() -> Result<Vec<KeptStudy>, ReferenceError> {
     }
     Ok(kept![
         "models",
+        "torque_growth",
         "fidelity",
         "steps_per_cycle",
         "contact_cells",

@@ -35,6 +35,8 @@ pub(super) enum Outcome {
     Pressure(f64),
     /// Speed (rpm) and height.
     Peak(f64, f64),
+    /// Of the heights of two peaks.
+    Ratio(f64),
     Motion(Box<SweepPoint>),
 }
 
@@ -82,7 +84,7 @@ pub(super) fn answers(
         let case = torque.map_or(*case, |torque| case.with_sun_torque(torque));
         // Modes of a lumped model take no gears.
         let takes_gears =
-            !(setting.choices.model == StudyModel::Lumped && experiment.action == Action::Modes);
+            !(setting.choices.model.is_lumped() && experiment.action == Action::Modes);
         let (work, made_s) = if takes_gears { (work, made_s) } else { (Work::default(), 0.0) };
         let mut bench = Bench { setting, bodies, case, work, prepared_s: 0.0, stopwatch };
         let start = bench.stopwatch.seconds();
@@ -107,12 +109,13 @@ struct Bench<'b> {
 
 impl Bench<'_> {
     fn outcome(&mut self, action: &Action) -> Result<Outcome, ModelError> {
-        let is_lumped = self.setting.choices.model == StudyModel::Lumped;
+        let is_lumped = self.setting.choices.model.is_lumped();
         let is_balanced = self.setting.choices.model == StudyModel::HarmonicBalance;
         match action {
             Action::Peak { speeds_rpm, response, harmonic, is_refined } if is_balanced => {
                 self.balanced_peak(speeds_rpm, *is_refined, (*response, *harmonic))
             }
+            Action::PeakRatio { peak, reference_nm } => self.peak_ratio(peak, *reference_nm),
             _ if is_balanced => Err("harmonic balance answers for resonant peaks only".into()),
             Action::Modes if is_lumped => Ok(Outcome::Modes(
                 Lumped::default().natural_modes(&self.setting.scene, &self.case)?,
@@ -134,6 +137,21 @@ impl Bench<'_> {
                 Ok(Outcome::Motion(Box::new(point)))
             }
         }
+    }
+
+    /// The height of a peak over that of the same peak under another torque on the sun, with contact tables and laws of its
+    /// own.
+    fn peak_ratio(&mut self, peak: &Action, reference_nm: f64) -> Result<Outcome, ModelError> {
+        let case = self.case;
+        let height = |of: Outcome| match of {
+            Outcome::Peak(_, height) => Ok(height),
+            _ => Err("a ratio of peaks needs peaks"),
+        };
+        let own = height(self.outcome(peak)?)?;
+        self.case = case.with_sun_torque(reference_nm);
+        let reference = self.outcome(peak);
+        self.case = case;
+        Ok(Outcome::Ratio(own / height(reference?)?))
     }
 
     fn modes(&mut self) -> Result<Outcome, ModelError> {
@@ -272,6 +290,11 @@ impl Bench<'_> {
             (StudyModel::Lumped, _) => {
                 Box::new(MeshLawModel::new(scene, bodies, self.case)?.lumped())
             }
+            (StudyModel::LumpedPrescribed | StudyModel::LumpedPrescribedSideLoads, _) => {
+                let has_side_loads = choices.model == StudyModel::LumpedPrescribedSideLoads;
+                let law = MeshLawModel::new(scene, bodies, self.case)?;
+                Box::new(law.lumped_prescribed(has_side_loads)?)
+            }
             (_, Fidelity::MeshLaw) => Box::new(MeshLawModel::new(scene, bodies, self.case)?),
             _ => {
                 let own = Imperfections::default();
@@ -385,6 +408,7 @@ impl Reading {
             (Self::Pressure, Outcome::Pressure(p)) => *p,
             (Self::PeakHeight, Outcome::Peak(_, height)) => *height,
             (Self::PeakSpeed, Outcome::Peak(speed, _)) => *speed,
+            (Self::PeakRatio, Outcome::Ratio(ratio)) => *ratio,
             (Self::Amplitude { response, harmonic }, Outcome::Motion(point)) => {
                 Response::amplitude(response, &point.state, harmonic)
             }

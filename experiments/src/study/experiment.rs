@@ -26,6 +26,8 @@ pub(super) enum Action {
     Pressure { mesh: MeshKind, phase: f64 },
     /// Steady states over speed, each from the one before, and three more about the highest if refined.
     Peak { speeds_rpm: Vec<f64>, response: Response, harmonic: usize, is_refined: bool },
+    /// The same peak under the torque of the experiment and under another one on the sun, N m.
+    PeakRatio { peak: Box<Action>, reference_nm: f64 },
     /// A steady state from rest.
     Motion { speed_rpm: f64 },
 }

@@ -44,7 +44,7 @@ const TOP: [(&str, Kind, bool); 12] = [
 ];
 
 /// Keys of `[[quantity]]`.
-const QUANTITY: [(&str, Kind, bool); 15] = [
+const QUANTITY: [(&str, Kind, bool); 16] = [
     ("name", Kind::Text, true),
     ("kind", Kind::Text, true),
     ("mode_type", Kind::Text, false),
@@ -59,6 +59,7 @@ const QUANTITY: [(&str, Kind, bool); 15] = [
     ("speeds_rpm", Kind::Scene(KeyKind::Numbers), false),
     ("refine", Kind::Switch, false),
     ("sun_torque_nm", NUMBER, false),
+    ("reference_torque_nm", NUMBER, false),
     ("work", Kind::Text, false),
 ];
 

@@ -33,6 +33,9 @@ pub enum QuantityKind {
     ResonantAmplitude,
     /// Speed of the input member at that peak; rpm.
     ResonantSpeed,
+    /// Height of that peak under `sun_torque_nm` over its height under `reference_torque_nm` on the sun, each about its own
+    /// loaded configuration.
+    TorqueRatio,
     /// Amplitude of one `harmonic` of the `motion` of a `part` at one `speed_rpm`; m or rad.
     Amplitude,
     /// Size of the largest Floquet multiplier of the steady state at one `speed_rpm`.
@@ -112,6 +115,7 @@ pub(super) struct QuantityInput {
     speeds_rpm: Option<Vec<f64>>,
     refine: Option<bool>,
     sun_torque_nm: Option<f64>,
+    reference_torque_nm: Option<f64>,
     work: Option<WorkKind>,
 }
 
@@ -127,6 +131,7 @@ pub(super) enum Reading {
     Pressure,
     PeakHeight,
     PeakSpeed,
+    PeakRatio,
     Amplitude { response: Response, harmonic: usize },
     Multiplier,
 }
@@ -161,15 +166,22 @@ impl QuantityInput {
             K::ResonantAmplitude | K::ResonantSpeed => {
                 (&["part", "motion", "harmonic", "speeds_rpm"], &["refine"])
             }
+            K::TorqueRatio => {
+                (&["part", "motion", "harmonic", "speeds_rpm", "reference_torque_nm"], &["refine"])
+            }
             K::Amplitude => (&["part", "motion", "harmonic", "speed_rpm"], &[]),
             K::LargestMultiplier => (&["speed_rpm"], &[]),
         };
         self.has_keys(wanted, optional)?;
         let (action, reading, unit, work) = self.parts()?;
         let sun_torque_nm = self.sun_torque_nm;
-        if let Some(torque) = sun_torque_nm.filter(|t| !t.is_finite() || *t == 0.0) {
-            let allowed = "a finite number other than 0";
-            return Err(StudyError::key(self.at("sun_torque_nm"), torque, allowed));
+        let torques =
+            [("sun_torque_nm", sun_torque_nm), ("reference_torque_nm", self.reference_torque_nm)];
+        for (key, torque) in torques {
+            if let Some(torque) = torque.filter(|t| !t.is_finite() || *t == 0.0) {
+                let allowed = "a finite number other than 0";
+                return Err(StudyError::key(self.at(key), torque, allowed));
+            }
         }
         let experiment = Experiment { sun_torque_nm, action };
         Ok(Quantity {
@@ -215,14 +227,18 @@ impl QuantityInput {
                 self.within("phase", phase, [0.0, 1.0])?;
                 (Action::Pressure { mesh, phase }, Reading::Pressure, "Pa", WorkKind::ContactCells)
             }
-            K::ResonantAmplitude | K::ResonantSpeed => {
+            K::ResonantAmplitude | K::ResonantSpeed | K::TorqueRatio => {
                 let speeds_rpm = self.speeds()?;
                 let (response, unit) = self.response()?;
                 let is_refined = self.refine.unwrap_or(true);
                 let action = Action::Peak { speeds_rpm, response, harmonic, is_refined };
-                let (reading, unit) = match self.kind {
-                    K::ResonantSpeed => (Reading::PeakSpeed, "rpm"),
-                    _ => (Reading::PeakHeight, unit),
+                let (action, reading, unit) = match (self.kind, self.reference_torque_nm) {
+                    (K::ResonantSpeed, _) => (action, Reading::PeakSpeed, "rpm"),
+                    (K::TorqueRatio, Some(reference_nm)) => {
+                        let action = Action::PeakRatio { peak: Box::new(action), reference_nm };
+                        (action, Reading::PeakRatio, "1")
+                    }
+                    _ => (action, Reading::PeakHeight, unit),
                 };
                 (action, reading, unit, WorkKind::StepCoordinates)
             }
@@ -296,6 +312,7 @@ impl QuantityInput {
             ("speed_rpm", self.speed_rpm.is_some()),
             ("speeds_rpm", self.speeds_rpm.is_some()),
             ("refine", self.refine.is_some()),
+            ("reference_torque_nm", self.reference_torque_nm.is_some()),
         ];
         let keys = wanted.iter().chain(optional).copied().collect::<Vec<_>>();
         for (key, is_given) in given {

@@ -20,8 +20,22 @@ pub enum StudyModel {
     FeContact,
     /// The lumped model: constant mesh stiffness for natural frequencies, mesh forces tabulated by FE/contact in time.
     Lumped,
-    /// Its steady states by harmonic balance, without a time step: resonant peaks of rotations.
+    /// The lumped model whose mesh stiffness in time is prescribed: at each phase the secant that FE/contact has under the even
+    /// share of the load, whatever the vibration, and forces act along the lines of action. For natural frequencies the same as
+    /// `lumped`.
+    LumpedPrescribed,
+    /// The same with the side loads of the tabulated forces: what corner contacts and the slopes of deformed flanks press beside
+    /// the lines of action under the mean torque, by phase.
+    LumpedPrescribedSideLoads,
+    /// The lumped model's steady states by harmonic balance, without a time step: resonant peaks of rotations.
     HarmonicBalance,
+}
+
+impl StudyModel {
+    /// Whether it is a lumped model in time.
+    pub(super) fn is_lumped(self) -> bool {
+        matches!(self, Self::Lumped | Self::LumpedPrescribed | Self::LumpedPrescribedSideLoads)
+    }
 }
 
 /// The rule by which the lumped model is stepped, with the parameters of [`Scheme::ALL`].
@@ -171,6 +185,12 @@ impl Choices {
         match self.model {
             StudyModel::FeContact => {}
             StudyModel::Lumped => list.push(with("model", "\"lumped\"".into())),
+            StudyModel::LumpedPrescribed => {
+                list.push(with("model", "\"lumped_prescribed\"".into()));
+            }
+            StudyModel::LumpedPrescribedSideLoads => {
+                list.push(with("model", "\"lumped_prescribed_side_loads\"".into()));
+            }
             StudyModel::HarmonicBalance => {
                 list.push(with("model", "\"harmonic_balance\"".into()));
             }

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
 use super::error::StudyError;
+use super::experiment::Action;
 use super::key_types;
 use super::quantity::{Quantity, QuantityInput};
 use super::setting::{Choices, ContactSolver, Setting, StudyIntegrator, StudyModel, number};
@@ -161,6 +162,10 @@ impl StudyFile {
         for own in &quantities {
             let key = format!("quantity {:?}.sun_torque_nm", own.name);
             sized(&scene, &key, own.experiment.sun_torque_nm)?;
+            if let Action::PeakRatio { reference_nm, .. } = own.experiment.action {
+                let key = format!("quantity {:?}.reference_torque_nm", own.name);
+                sized(&scene, &key, Some(reference_nm))?;
+            }
         }
         let settings = input.settings(&base)?;
         distinct("setting", settings.iter().map(|s| s.name.as_str()))?;

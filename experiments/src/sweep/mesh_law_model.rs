@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use dynamics::{CoupledState, CyclePart, MapDerivative, PassedSteps};
+use fe_contact::FeError;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use fe_contact::vibration::{Along, MeshLawSet, MeshLawSettings, mesh_law};
 use gearset::{Fidelity, LoadCase, MeshLaw, Scene, Symmetry};
@@ -48,6 +49,24 @@ impl<'s> MeshLawModel<'s> {
     /// The lumped model with the same law in its meshes.
     pub fn lumped(&self) -> MeshLawModel<'static> {
         MeshLawModel::lumped_with(&self.scene, self.case, Arc::clone(&self.law))
+    }
+
+    /// The lumped model with prescribed mesh stiffness: at each phase the secant of the law under the even share of the torque
+    /// ([`MeshLaw::with_prescribed_stiffness`]), with the side loads of corner contacts and deformed flanks or without.
+    ///
+    /// # Errors
+    /// If this is a lumped model, or a mesh has no deflection under its share.
+    pub fn lumped_prescribed(
+        &self,
+        has_side_loads: bool,
+    ) -> Result<MeshLawModel<'static>, ExperimentError> {
+        let torque = self.case.sun_load_nm();
+        let loaded = self.loaded.as_ref();
+        let loaded = loaded.ok_or(ExperimentError::Incomplete("loaded FE/contact set"))?;
+        let law =
+            self.law.with_prescribed_stiffness(loaded.share(torque)).map_err(FeError::from)?;
+        let law = if has_side_loads { law } else { law.without_side_loads() };
+        Ok(MeshLawModel::lumped_with(&self.scene, self.case, law))
     }
 
     /// A set of a scene that differs from the model's own in nothing that the law or the loaded set depends on: damping,

@@ -72,7 +72,7 @@ impl<'s> StaticSet<'s> {
     }
 
     /// Force of each mesh if all planets carry the same load, N.
-    pub(crate) fn share(&self, torque_nm: f64) -> f64 {
+    pub fn share(&self, torque_nm: f64) -> f64 {
         torque_nm / self.races.base_radii[SUN] / self.races.planets() as f64
     }
 

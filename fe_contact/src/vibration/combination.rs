@@ -22,7 +22,7 @@ use nalgebra::{DMatrixView, DMatrixViewMut};
 
 use super::frame::Frame;
 use super::gradients::{add, column, column_mut};
-use super::packed::Packed;
+use super::packed::{LANES, Packed};
 use crate::contact::ContactMaps;
 use crate::error::FeError;
 
@@ -43,6 +43,22 @@ pub(super) struct Combination {
     excess: Vec<f64>,
     /// (A + Rᵀ S' R)⁻¹, m/N.
     pub(super) inverse: Packed,
+}
+
+/// Numbers of a combination that is being made, kept so that many of them allocate little memory.
+#[derive(Debug, Clone, Default)]
+pub(super) struct CombiningWork {
+    /// By columns, for the touching pairs of a group: S, then P₀.
+    right: Vec<f64>,
+    /// I + S E of a group.
+    matrix: Vec<f64>,
+    /// S' and P₀' of a group.
+    solved: Vec<f64>,
+    /// Rᵀ S' of one pair.
+    pressed: Vec<f64>,
+    /// A + Rᵀ S' R.
+    races: Packed,
+    elimination: Vec<[f64; LANES]>,
 }
 
 /// Vectors of a step: what it starts from, and what it ends with.
@@ -68,8 +84,9 @@ impl Combination {
         maps: &[ContactMaps],
         ids: &[u64],
         races: &Packed,
+        work: &mut CombiningWork,
     ) -> Result<Option<Self>, FeError> {
-        wide(Combining { frame, maps, ids, races })
+        wide(Combining { frame, maps, ids, races, work })
     }
 
     /// Solves a step.
@@ -175,6 +192,7 @@ struct Combining<'c> {
     maps: &'c [ContactMaps],
     ids: &'c [u64],
     races: &'c Packed,
+    work: &'c mut CombiningWork,
 }
 
 impl Computation for Combining<'_> {
@@ -182,7 +200,8 @@ impl Computation for Combining<'_> {
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let Self { frame, maps, ids, races } = self;
+        let Self { frame, maps, ids, races, work } = self;
+        let CombiningWork { right, matrix, solved, pressed, races: summed, elimination } = work;
         let count = frame.offsets.len();
         let singular = || FeError::NoEquilibrium("the step's contact problem is singular".into());
         if frame.meshes.iter().any(|mesh| mesh.map(maps).is_none()) {
@@ -198,10 +217,9 @@ impl Computation for Combining<'_> {
             inverse: Packed::default(),
         };
         // A + Rᵀ S' R
-        let mut matrix_of_races = races.clone();
+        summed.copy(races);
         let rows = frame.rows();
-        let (mut right, mut matrix, mut solved) = (Vec::new(), Vec::new(), Vec::new());
-        let mut pressed = matrix_of_races.column();
+        pressed.resize(summed.column_len(), 0.0);
         let mut meshes = frame.meshes.as_slice();
         for group in frame.groups() {
             let first = made.touching.len();
@@ -255,14 +273,14 @@ impl Computation for Combining<'_> {
                     }
                 }
             }
-            let mut matrix = DMatrixViewMut::from_slice(&mut matrix, size, size);
+            let mut matrix = DMatrixViewMut::from_slice(matrix, size, size);
             if !matrix.try_inverse_mut() {
                 return Err(singular());
             }
             solved.clear();
             solved.resize(size * (size + 1), 0.0);
-            let right = DMatrixView::from_slice(&right, size, size + 1);
-            DMatrixViewMut::from_slice(&mut solved, size, size + 1).gemm(1.0, &matrix, &right, 0.0);
+            let right = DMatrixView::from_slice(right, size, size + 1);
+            DMatrixViewMut::from_slice(solved, size, size + 1).gemm(1.0, &matrix, &right, 0.0);
             made.preload.extend_from_slice(&solved[size * size..]);
             for i in 0..size {
                 for j in 0..size {
@@ -272,12 +290,12 @@ impl Computation for Combining<'_> {
             for (on, of) in touching.iter().zip(solved.chunks_exact(size)) {
                 pressed.fill(0.0);
                 for (of, s) in touching.iter().zip(of) {
-                    rows[*of].add_to(*s, &mut pressed);
+                    rows[*of].add_to(*s, pressed);
                 }
-                matrix_of_races.add_outer(&pressed, &rows[*on]);
+                summed.add_outer(pressed, &rows[*on]);
             }
         }
-        made.inverse = matrix_of_races.inverse().ok_or_else(singular)?;
+        made.inverse = summed.inverse(elimination).ok_or_else(singular)?;
         if !made.stiffness.iter().all(|s| s.is_finite()) {
             return Err(singular());
         }

@@ -11,7 +11,7 @@ use crate::short_row::ShortRow;
 const BLOCK: usize = 8;
 
 /// Rows of a part of a column in an elimination: half a block, so that fewer rows are padding.
-const LANES: usize = BLOCK / 2;
+pub(super) const LANES: usize = BLOCK / 2;
 
 /// `sum` plus the product of a block with x.
 #[inline(always)]
@@ -44,12 +44,19 @@ impl Packed {
         Self { rows, columns, data }
     }
 
-    /// A column of zeros, to the end of the last block.
-    pub(super) fn column(&self) -> Vec<f64> {
-        vec![0.0; self.rows.next_multiple_of(BLOCK)]
+    /// Becomes equal to another matrix, in the memory it has.
+    pub(super) fn copy(&mut self, other: &Self) {
+        (self.rows, self.columns) = (other.rows, other.columns);
+        self.data.clear();
+        self.data.extend_from_slice(&other.data);
     }
 
-    /// Adds the product of a [column](Self::column) with a row.
+    /// Length of a column to the end of the last block.
+    pub(super) fn column_len(&self) -> usize {
+        self.rows.next_multiple_of(BLOCK)
+    }
+
+    /// Adds the product of a column, to the end of the last block, with a row.
     #[inline(always)]
     pub(super) fn add_outer(&mut self, column: &[f64], row: &ShortRow) {
         let (parts, _) = column.as_chunks::<BLOCK>();
@@ -71,16 +78,16 @@ impl Packed {
     /// the library. With the library's inverse of every step's matrix a sweep by shooting (`benches/steady_states.rs`) took
     /// a fifth longer: at an order of 20 its loops over views cost more than the arithmetic.
     #[inline(always)]
-    pub(super) fn inverse(&self) -> Option<Self> {
+    pub(super) fn inverse(&self, work: &mut Vec<[f64; LANES]>) -> Option<Self> {
         let found = match self.columns.div_ceil(LANES) {
-            1 => self.eliminated::<1>(),
-            2 => self.eliminated::<2>(),
-            3 => self.eliminated::<3>(),
-            4 => self.eliminated::<4>(),
-            5 => self.eliminated::<5>(),
-            6 => self.eliminated::<6>(),
-            7 => self.eliminated::<7>(),
-            8 => self.eliminated::<8>(),
+            1 => self.eliminated::<1>(work),
+            2 => self.eliminated::<2>(work),
+            3 => self.eliminated::<3>(work),
+            4 => self.eliminated::<4>(work),
+            5 => self.eliminated::<5>(work),
+            6 => self.eliminated::<6>(work),
+            7 => self.eliminated::<7>(work),
+            8 => self.eliminated::<8>(work),
             _ => None,
         };
         found.or_else(|| self.inverse_of_library())
@@ -88,9 +95,11 @@ impl Packed {
 
     /// The inverse by elimination, columns held in `PARTS` vectors; `None` where a pivot is not positive.
     #[inline(always)]
-    fn eliminated<const PARTS: usize>(&self) -> Option<Self> {
+    fn eliminated<const PARTS: usize>(&self, work: &mut Vec<[f64; LANES]>) -> Option<Self> {
         let n = self.columns;
-        let mut own = vec![[[0.0; LANES]; PARTS]; n];
+        work.clear();
+        work.resize(PARTS * n, [0.0; LANES]);
+        let (own, _) = work.as_chunks_mut::<PARTS>();
         for (block, columns) in self.data.chunks_exact(n).enumerate() {
             for (own, column) in own.iter_mut().zip(columns) {
                 let parts = own[2 * block..].iter_mut().zip(column.as_chunks().0);
@@ -108,7 +117,7 @@ impl Packed {
             let mut pivot_column = std::mem::replace(&mut own[k], [[0.0; LANES]; PARTS]);
             pivot_column[part][lane] = 0.0;
             own[k][part][lane] = 1.0;
-            for column in &mut own {
+            for column in own.iter_mut() {
                 let factor = column[part][lane] * inverse;
                 for (own, pivot_part) in column.iter_mut().zip(&pivot_column) {
                     own.iter_mut().zip(pivot_part).for_each(|(a, p)| *a -= p * factor);
@@ -193,7 +202,7 @@ mod tests {
                 if i % 3 == 2 { 1e3 } else { 1.0 }
             }));
             let a = &units * definite * &units;
-            let inverse = Packed::new(&a).inverse().unwrap();
+            let inverse = Packed::new(&a).inverse(&mut Vec::new()).unwrap();
             let own =
                 &units * (inverse.full() * &a) * units.map(|u| if u > 0.0 { 1.0 / u } else { 0.0 });
             assert!((own - DMatrix::identity(n, n)).amax() < 1e-11, "{n}");
@@ -203,7 +212,7 @@ mod tests {
             let exact = &g * a.transpose();
             assert!((&out - &exact).amax() <= 1e-13 * exact.amax(), "{n}");
         }
-        assert!(Packed::new(&DMatrix::zeros(3, 3)).inverse().is_none());
+        assert!(Packed::new(&DMatrix::zeros(3, 3)).inverse(&mut Vec::new()).is_none());
     }
 
     /// Of order 17, symmetric and with a spread of eigenvalues of 1e8 as the races of a set have, the inverse is as near as
@@ -219,7 +228,8 @@ mod tests {
         let exact = &turned * DMatrix::from_diagonal(&spread.map(f64::recip)) * turned.transpose();
         let off = |inverse: Packed| (inverse.full() - &exact).amax() / exact.amax();
         let packed = Packed::new(&a);
-        let (own, library) = (packed.inverse().unwrap(), packed.inverse_of_library().unwrap());
+        let (own, library) =
+            (packed.inverse(&mut Vec::new()).unwrap(), packed.inverse_of_library().unwrap());
         let [own, library] = [own, library].map(off);
         assert!(own < 1e-7 && own < 4.0 * library, "{own:e}, library {library:e}");
     }
@@ -227,7 +237,7 @@ mod tests {
     #[test]
     fn a_pivot_of_zero_is_left_to_the_library() {
         let swap = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, 1.0, 0.0]);
-        assert_eq!(Packed::new(&swap).inverse().unwrap().full(), swap);
+        assert_eq!(Packed::new(&swap).inverse(&mut Vec::new()).unwrap().full(), swap);
     }
 
     #[test]

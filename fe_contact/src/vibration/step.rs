@@ -179,7 +179,9 @@ impl VibratingSet<'_> {
                 Some(place) => place,
                 None => {
                     let (maps, races) = (&self.contact.maps, &self.race_dynamics.stiffness);
-                    let Some(made) = Combination::new(frame, maps, &work.ids, races)? else {
+                    let made =
+                        Combination::new(frame, maps, &work.ids, races, &mut work.combining)?;
+                    let Some(made) = made else {
                         // Meshes that share a table: the map of one was replaced by that of
                         // another.
                         self.contact.find_lost(frame, approaches)?;

@@ -2,6 +2,8 @@
 
 use nalgebra::DVector;
 
+use super::combination::CombiningWork;
+
 /// Workspace of a step; n: the races' coordinates.
 #[derive(Debug)]
 pub(super) struct Workspace {
@@ -22,6 +24,7 @@ pub(super) struct Workspace {
     pub(super) history: Vec<f64>,
     /// Ids of the maps that hold.
     pub(super) ids: Vec<u64>,
+    pub(super) combining: CombiningWork,
 }
 
 impl Workspace {
@@ -36,6 +39,7 @@ impl Workspace {
             x: zero,
             history: vec![0.0; n],
             ids: Vec::new(),
+            combining: CombiningWork::default(),
         }
     }
 }
