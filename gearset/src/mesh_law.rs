@@ -277,7 +277,7 @@ impl MeshLaw {
         Ok(self)
     }
 
-    /// The law that most lumped models of gear dynamics prescribe: every mesh is a spring whose stiffness depends on the phase
+    /// The law of a prescribed mesh stiffness: every mesh is a spring whose stiffness depends on the phase
     /// alone. Front flanks that deflect by δ(F̄) under the force F̄ (`force_n`, N) in this law have
     ///
     /// ```text
