@@ -2,7 +2,7 @@
 
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::VibratingSet;
-use gearset::{LoadCase, MeshKinematics, Scene};
+use gearset::{AutoResponse, LoadCase, MeshKinematics, Scene};
 
 use super::amplitude::AmplitudeRequest;
 use super::response::Harmonics;
@@ -10,10 +10,6 @@ use super::settings::AutoSettings;
 use crate::error::ExperimentError;
 use crate::modal::{Preload, preloaded};
 use crate::sweep::{Direction, FeModel, Memory, Plan, Sweep, SweepModel, run};
-
-/// Candidates are compared at the speeds where the coarsest has at least this share of its largest amplitude, the
-/// highest of them, at most so many.
-const NEAR_TOP: (f64, usize) = (0.7, 5);
 
 /// A candidate with its gears and contact tables, which its runs share.
 pub(super) struct Turning<'b> {
@@ -66,20 +62,41 @@ impl Turning<'_> {
         work(&Turning { model, ..*self })
     }
 
-    /// What `work` gives on another mesh with the steps of `settings`, about the mean configuration of this one.
+    /// What `work` gives with the steps of `settings`, whose mesh is this one's: on the same gears, about the same mean
+    /// configuration, which has positions of its own.
     ///
     /// # Errors
     /// If the settings are refused, and as `work`.
-    pub(super) fn on_mesh<T>(
+    pub(super) fn with_steps<T>(
         &self,
         settings: AutoSettings,
         work: impl FnOnce(&Turning<'_>) -> Result<T, ExperimentError>,
     ) -> Result<T, ExperimentError> {
         let scene = settings.applied_to(self.scene);
-        let bodies = Bodies::new(&scene)?;
-        let model = self.model.on_bodies(&scene, &bodies)?;
-        let Self { case, request, radius, .. } = *self;
-        work(&Turning { bodies: &bodies, scene: &scene, model, case, request, radius })
+        let model = self.model.on_bodies(&scene, self.bodies)?;
+        work(&Turning { scene: &scene, model, ..*self })
+    }
+
+    /// What `each` gives at every step of a cycle of the steady state at a speed, rpm.
+    ///
+    /// # Errors
+    /// If the motion does not become steady, and as `each`.
+    pub(super) fn over_cycle<T>(
+        &self,
+        rpm: f64,
+        each: impl Fn(&VibratingSet<'_>) -> Result<T, ExperimentError>,
+    ) -> Result<Vec<T>, ExperimentError> {
+        self.model.over_cycle(&self.case.at_speed(rpm), &self.request.steady, each)
+    }
+
+    /// Mesh frequency at a speed, rpm, Hz.
+    pub(super) fn mesh_hz(&self, rpm: f64) -> f64 {
+        self.case.at_speed(rpm).mesh_frequency_hz
+    }
+
+    /// The response that is asked for.
+    pub(super) fn response(&self) -> AutoResponse {
+        self.request.response
     }
 
     /// The set at rest at position 0 of the mesh cycle: on the model's tables, or where kinematics are exact at every step on
@@ -136,18 +153,6 @@ impl Motions {
         self.at.iter().map(|(_, own)| own)
     }
 
-    /// Speeds near the top, at which candidates are compared, ascending, rpm.
-    pub(super) fn near_top(&self) -> Vec<f64> {
-        let (share, most) = NEAR_TOP;
-        let least = share * self.largest();
-        let mut high: Vec<(f64, f64)> =
-            self.at.iter().map(|(rpm, own)| (*rpm, own.rms())).filter(|x| x.1 >= least).collect();
-        high.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let mut speeds: Vec<f64> = high.into_iter().take(most).map(|(rpm, _)| rpm).collect();
-        speeds.sort_by(f64::total_cmp);
-        speeds
-    }
-
     /// Largest distance between this motion and another one over the speeds that both have, over the largest amplitude
     /// of this one.
     pub(super) fn apart(&self, other: &Self) -> f64 {
@@ -158,6 +163,18 @@ impl Motions {
         self.at.iter().map(of).fold(0.0, f64::max) / self.largest()
     }
 
+    /// Change of the amplitude from this motion to another one over the speeds that both have, and at least half of their
+    /// distance, over the largest amplitude of this one: a change of phase alone leaves the amplitude as it is, but
+    /// may come out otherwise on other settings.
+    pub(super) fn moved(&self, other: &Self) -> f64 {
+        let of = |(rpm, own): &(f64, Harmonics)| {
+            let same = other.at.iter().find(|(speed, _)| speed == rpm);
+            same.map_or(0.0, |(_, theirs)| (own.rms() - theirs.rms()).abs())
+        };
+        let change = self.at.iter().map(of).fold(0.0, f64::max) / self.largest();
+        change.max(0.5 * self.apart(other))
+    }
+
     /// Largest change of a steady state from one cycle to the next, over its peak-to-peak vibration.
     pub(super) fn residual(&self) -> f64 {
         self.sweep.points().into_iter().fold(0.0, |a, p| a.max(p.residual))
@@ -165,8 +182,7 @@ impl Motions {
 
     /// Largest root mean square of the whole motion of the sun, rotation at its base circle and translation, m.
     pub(super) fn of_sun(&self, turning: &Turning<'_>) -> f64 {
-        let both =
-            [gearset::AutoResponse::TransmissionError, gearset::AutoResponse::SunTranslation];
+        let both = [AutoResponse::TransmissionError, AutoResponse::SunTranslation];
         let highest = turning.request.steady.harmonics;
         let of = |p| both.map(|r| Harmonics::of(p, r, turning.radius, highest).rms());
         self.sweep.points().into_iter().map(|p| of(p)[0].hypot(of(p)[1])).fold(0.0, f64::max)

@@ -23,6 +23,11 @@ const CHANGE_DOUBT: f64 = 0.05;
 /// 620.6, 618.3 and 617.3 N/µm at 7, 14 and 28 elements (`docs/fe_contact.md`) by `dynamics::grid_convergence_index`.
 const STIFFNESS_INDEX: (f64, f64, f64) = (0.0036, 14.0, 1.2);
 
+/// Fewer elements than these along a flank are matched at 0.85 of an element below it instead of 0.07 base pitches. There six and
+/// ten elements were seen to make amplitudes 0.5 to 1.1 % too small alike, on 44 development sets (`docs/auto.md`).
+const MATCHED_BY_ELEMENT: u32 = 12;
+const OF_MATCHING: f64 = 0.011;
+
 /// Half-widths of contact that the grid of a pair reaches to either side.
 const GRID_HALF_WIDTHS: f64 = 1.5;
 
@@ -74,6 +79,8 @@ pub(super) struct SetSize {
     cell_steps: f64,
     /// Mean force of a mesh over the sun's base radius, N/m.
     turning: f64,
+    /// Mean force of a mesh, N.
+    mesh_force: f64,
     /// Estimates of masses (kg) and polar inertias (kg m²).
     masses: PerBody,
     inertias: PerBody,
@@ -148,6 +155,7 @@ impl SetSize {
                 CellLayout::Graded => 0.5,
             },
             turning: case.sun_load_nm() / sun.base_radius.powi(2) / planets,
+            mesh_force: case.sun_load_nm() / sun.base_radius / planets,
             masses,
             inertias,
         })
@@ -208,15 +216,37 @@ impl SetSize {
         flank_elements: u32,
         contact_cells: u32,
     ) -> [ErrorPart; 2] {
-        let (index, at, order) = STIFFNESS_INDEX;
-        let elements = index * (at / f64::from(flank_elements)).powf(order);
-        let cell = 2.0 * GRID_HALF_WIDTHS / f64::from(contact_cells);
-        let cells = HALF_WIDTH_INFLUENCE * 0.5 * cell * self.cell_steps;
+        let [elements, cells] = self.stiffness_parts(flank_elements, contact_cells);
         let half = 0.5 * mode.meshes;
         [
             ErrorPart::new("finite elements behind the flanks", half * elements),
             ErrorPart::new("contact cells", half * cells),
         ]
+    }
+
+    /// What elements and cells change the stiffness of a mesh by, δk/k each.
+    fn stiffness_parts(&self, flank_elements: u32, contact_cells: u32) -> [f64; 2] {
+        let (index, at, order) = STIFFNESS_INDEX;
+        let cell = 2.0 * GRID_HALF_WIDTHS / f64::from(contact_cells);
+        [
+            index * (at / f64::from(flank_elements)).powf(order),
+            HALF_WIDTH_INFLUENCE * 0.5 * cell * self.cell_steps,
+        ]
+    }
+
+    /// Their sum for a mesh in motion, with what matching at one element below the flank adds.
+    pub(super) fn of_stiffness(&self, flank_elements: u32, contact_cells: u32) -> f64 {
+        let [elements, cells] = self.stiffness_parts(flank_elements, contact_cells);
+        let elements = match flank_elements < MATCHED_BY_ELEMENT {
+            true => elements.max(OF_MATCHING),
+            false => elements,
+        };
+        elements + cells
+    }
+
+    /// Mean deflection of a mesh by estimate, m.
+    pub(super) fn deflection(&self) -> f64 {
+        self.mesh_force / self.mesh
     }
 
     /// Errors of the lumped model of a scene beside FE/contact with every degree of freedom.

@@ -6,10 +6,12 @@
 //! `docs/auto.md`.
 
 mod amplitude;
+mod amplitude_indicators;
 mod amplitude_run;
 mod choice;
 mod cycle_curve;
 mod elastic_change;
+mod elastic_response;
 mod energy;
 mod error_parts;
 mod frequency;

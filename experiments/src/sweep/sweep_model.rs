@@ -8,6 +8,7 @@ use gearset::{Fidelity, LoadCase, Scene};
 
 use super::marching::{FeMarching, Marching};
 use super::set_shape::SetShape;
+use super::steady::{SteadySettings, steady};
 use super::varied_key::VariedKey;
 use crate::error::ExperimentError;
 use crate::table_growth::SIZES;
@@ -221,13 +222,43 @@ impl<'s> FeModel<'s> {
         case: &LoadCase,
         size: usize,
     ) -> Result<Box<dyn Marching + 's>, ExperimentError> {
+        Ok(Box::new(self.marching(scene, case, size)?))
+    }
+
+    fn marching(
+        &self,
+        scene: &Scene,
+        case: &LoadCase,
+        size: usize,
+    ) -> Result<FeMarching<'s>, ExperimentError> {
         check_sense(&self.case, case)?;
         let (steps_per_cycle, mesh_frequency) = (self.steps_per_cycle(), case.mesh_frequency_hz);
         let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle };
         let torque_nm = case.sun_load_nm();
         let set = VibratingSet::on(scene, self.shared(size)?, rotation)?;
         let rate = scaling_rate(mesh_frequency);
-        Ok(Box::new(FeMarching { set, torque_nm, rate }))
+        Ok(FeMarching { set, torque_nm, rate })
+    }
+
+    /// What `each` gives at every step of a cycle of the steady state at the speed of a load case, from step 1 on.
+    ///
+    /// # Errors
+    /// If the motion does not become steady, and as `each`.
+    pub(crate) fn over_cycle<T>(
+        &self,
+        case: &LoadCase,
+        settings: &SteadySettings,
+        each: impl Fn(&VibratingSet<'s>) -> Result<T, ExperimentError>,
+    ) -> Result<Vec<T>, ExperimentError> {
+        let steps = self.steps_per_cycle();
+        let mut marching = self.marching(&self.scene, case, 0)?;
+        marching.rest()?;
+        steady(&mut marching, self.shape(), self.first_planet_rad(), steps, settings)?;
+        let one = |_| {
+            marching.step()?;
+            each(&marching.set)
+        };
+        (0..steps).map(one).collect()
     }
 
     /// Mesh force that tables of a size are made for, N.

@@ -33,8 +33,8 @@ use crate::statics::{CARRIER, PLANETS};
 #[derive(Debug)]
 pub struct ElasticInertia {
     /// Ring, sun, planet.
-    gears: Vec<Accelerated>,
-    carrier: Option<AcceleratedCarrier>,
+    pub(super) gears: Vec<Accelerated>,
+    pub(super) carrier: Option<AcceleratedCarrier>,
 }
 
 /// What quasi-static bodies lack in a mode, as relative changes of λ = ω².
@@ -49,12 +49,12 @@ pub struct ElasticShift {
 }
 
 #[derive(Debug)]
-struct AcceleratedCarrier {
+pub(super) struct AcceleratedCarrier {
     factor: Factor,
     /// w of accelerations along x and y (s²) and about the centre (m s²).
     displacement: [Vec<f64>; 3],
     /// Least Rayleigh quotient of these, (rad/s)².
-    first: f64,
+    pub(super) first: f64,
 }
 
 impl AcceleratedCarrier {
@@ -72,9 +72,18 @@ impl AcceleratedCarrier {
         let first = (0..3).map(quotient).fold(f64::INFINITY, f64::min);
         Ok(Self { factor, displacement, first })
     }
+
+    /// w of an acceleration of the race (x, y, θ).
+    pub(super) fn displaced(&self, race: [f64; 3]) -> Vec<f64> {
+        let mut w = vec![0.0; self.displacement[0].len()];
+        for (part, q) in self.displacement.iter().zip(race) {
+            w.iter_mut().zip(part).for_each(|(w, part)| *w += q * part);
+        }
+        w
+    }
 }
 
-fn product(a: &[f64], b: &[f64]) -> f64 {
+pub(super) fn product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
@@ -179,10 +188,7 @@ impl ElasticInertia {
         let mut q = set.races().displaced(z, CARRIER);
         q[2] /= set.races().radii[CARRIER];
         // w of q, and the force Q = (I/k + A)⁻¹ B z of each bearing on its seat
-        let mut w = vec![0.0; body.matrices.size];
-        for (part, q) in own.displacement.iter().zip(q) {
-            w.iter_mut().zip(part).for_each(|(w, part)| *w += q * part);
-        }
+        let w = own.displaced(q);
         let bearings = &set.race_dynamics.bearings;
         let forces = &set.race_dynamics.seat_stiffness * (&bearings.rigid * z);
         let mut u = vec![0.0; body.matrices.size];

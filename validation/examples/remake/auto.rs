@@ -6,7 +6,9 @@
 //! estimates were programmed. 1001 to 1073 are those of an earlier record, whose misses were read before the estimates were
 //! changed, so that the record has others.
 
-use validation::{AutoRow, ResponseRow, auto_row, auto_tables, response_row};
+use validation::{
+    Asked, AutoRow, ResponseRow, auto_row, auto_tables, drawn_response, response_row,
+};
 
 use super::Outcome;
 
@@ -14,44 +16,51 @@ use super::Outcome;
 const SEEDS: std::ops::Range<u64> = 5001..6001;
 const SETS: usize = 60;
 
-/// Seeds of the record of responses, apart from those of natural frequencies and from 1 to 75 and 1001 to 1016, on which
-/// its estimates were programmed, and from 3001 on, whose record was read before they were changed. The second range was drawn
-/// later, to see whether the first, of which no answer is off by more than its tolerance, was lucky. Each gives [`SETS`].
-const RESPONSE_SEEDS: [std::ops::Range<u64>; 2] = [7001..9001, 9001..10001];
+/// Seeds of the record of transmission errors at rest, apart from those of natural frequencies and from 1 to 75 and 1001 to 1016,
+/// on which its estimates were programmed, and from 3001 on, whose record was read before they were changed.
+const AT_REST_SEEDS: [std::ops::Range<u64>; 2] = [7001..7091, 9001..9084];
 
-/// Seeds of the record, or those that `AUTO_SEEDS` asks for.
-fn seeds(
-    own: &[std::ops::Range<u64>],
-) -> Result<Vec<std::ops::Range<u64>>, Box<dyn std::error::Error + Send + Sync>> {
-    let Ok(text) = std::env::var("AUTO_SEEDS") else { return Ok(own.to_vec()) };
+/// Seeds of the record of amplitudes. Those of the other sequence were read before the estimates of amplitudes were changed, and
+/// so were 11001 to 11070.
+const MOTION_SEEDS: std::ops::Range<u64> = 12001..12170;
+
+/// Seeds that `AUTO_SEEDS` asks for, if it is set.
+fn asked_seeds() -> Result<Option<std::ops::Range<u64>>, Box<dyn std::error::Error + Send + Sync>> {
+    let Ok(text) = std::env::var("AUTO_SEEDS") else { return Ok(None) };
     let (from, to) = text.split_once("..").ok_or("AUTO_SEEDS is not of the form 1..9")?;
-    let asked = from.parse()?..to.parse()?;
-    Ok([asked].into())
+    Ok(Some(from.parse()?..to.parse()?))
 }
 
-/// Prints the row of each seed that has a truth, up to [`SETS`] of a range; then the seeds without a truth.
+/// Prints the row of each seed that has a truth, up to `most`; then the seeds without a truth.
 fn print_rows(
-    ranges: Vec<std::ops::Range<u64>>,
-    row: &dyn Fn(u64) -> Result<Option<String>, experiments::ExperimentError>,
+    seeds: impl Iterator<Item = u64>,
+    most: usize,
+    row: &dyn Fn(u64) -> Result<Row, experiments::ExperimentError>,
 ) -> Outcome {
-    let mut refused = Vec::new();
-    for range in ranges {
-        let mut done = 0;
-        for seed in range {
-            if done == SETS {
-                break;
+    let (mut refused, mut done) = (Vec::new(), 0);
+    for seed in seeds {
+        if done == most {
+            break;
+        }
+        match row(seed)? {
+            Row::Line(line) => {
+                done += 1;
+                println!("{line}");
             }
-            match row(seed)? {
-                Some(line) => {
-                    done += 1;
-                    println!("{line}");
-                }
-                None => refused.push(seed.to_string()),
-            }
+            Row::NoTruth => refused.push(seed.to_string()),
+            Row::NotAsked => (),
         }
     }
     println!("# without a truth, because FE/contact refuses the set: seeds {}", refused.join(" "));
     Ok(())
+}
+
+/// What a seed gives.
+enum Row {
+    Line(String),
+    NoTruth,
+    /// The set is asked for another quantity.
+    NotAsked,
 }
 
 /// `kept/auto_responses.csv`: transmission errors at rest, and amplitudes.
@@ -71,10 +80,20 @@ pub(super) fn remake_responses() -> Outcome {
     );
     // One thread, so that CPU times are those of the whole work.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    print_rows(seeds(&RESPONSE_SEEDS)?, &|seed| {
+    let one = |seed: u64, in_motion: Option<bool>| {
+        let is_of_motion = matches!(drawn_response(seed)?.1, Asked::Amplitude(_));
+        if in_motion.is_some_and(|own| own != is_of_motion) {
+            return Ok(Row::NotAsked);
+        }
         let row = pool.install(|| response_row(seed))?;
-        Ok((!row.truth_um.is_nan()).then(|| response_line(&row)))
-    })
+        let has_truth = !row.truth_um.is_nan();
+        Ok(if has_truth { Row::Line(response_line(&row)) } else { Row::NoTruth })
+    };
+    if let Some(seeds) = asked_seeds()? {
+        return print_rows(seeds, usize::MAX, &|seed| one(seed, None));
+    }
+    print_rows(AT_REST_SEEDS.into_iter().flatten(), usize::MAX, &|seed| one(seed, Some(false)))?;
+    print_rows(MOTION_SEEDS, usize::MAX, &|seed| one(seed, Some(true)))
 }
 
 /// Tables of `docs/auto.md`.
@@ -118,7 +137,6 @@ fn response_line(row: &ResponseRow) -> String {
 }
 
 pub(super) fn remake() -> Outcome {
-    let seeds = seeds(std::slice::from_ref(&SEEDS))?;
     println!("# What auto chose on drawn sets (docs/auto.md), its true error and its cost.");
     println!(
         "# Own computation: validation/src/auto_record.rs; cost_ratio is a ratio of CPU times of one run"
@@ -132,9 +150,10 @@ pub(super) fn remake() -> Outcome {
     );
     // One thread, so that CPU times are those of the whole work.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    print_rows(seeds, &|seed| {
+    let (seeds, most) = asked_seeds()?.map_or((SEEDS, SETS), |asked| (asked, usize::MAX));
+    print_rows(seeds, most, &|seed| {
         let row = pool.install(|| auto_row(seed))?;
-        Ok((!row.truth_hz.is_nan()).then(|| line(&row)))
+        Ok(if row.truth_hz.is_nan() { Row::NoTruth } else { Row::Line(line(&row)) })
     })
 }
 
