@@ -174,9 +174,9 @@ mod tests {
         compared(4, 60, &[1500.0, 2500.0]);
     }
 
-    /// The table of `docs/auto.md`, seven minutes.
+    /// The table of `docs/auto.md`, three minutes.
     #[test]
-    #[ignore = "seven minutes"]
+    #[ignore = "three minutes"]
     fn thirty_modes_change_motions_by_about_what_first_order_says() {
         compared(30, 240, &[700.0, 1100.0, 1500.0, 2000.0, 2500.0, 3000.0, 4000.0]);
     }
