@@ -88,9 +88,9 @@ fn changes(
         for (load, n) in loads.iter().zip(1u32..) {
             let turned = Complex::cis(-TAU * f64::from(l) * f64::from(n) / steps) * (2.0 / steps);
             // f = −d²/dt² of the first two
-            let twice = omega * omega;
+            let squared = omega * omega;
             let ElasticLoad { pressed, accelerated, opened, coupled } = load[i];
-            let forces = [twice * pressed, twice * accelerated, opened, coupled];
+            let forces = [squared * pressed, squared * accelerated, opened, coupled];
             lines.iter_mut().zip(forces).for_each(|(line, f)| *line += turned * f);
         }
         let stiffness = Complex::new(mode.lambda - omega * omega, mode.damping * omega);

@@ -139,9 +139,9 @@ impl ElasticInertia {
             q
         };
         let a = race(moved);
+        let shapes: Vec<[f64; 3]> = modes.iter().map(|mode| race(&mode.shape)).collect();
         let [c, r] = own.coupled;
-        for (mode, load) in modes.iter().zip(loads.iter_mut()) {
-            let q = race(&mode.shape);
+        for (q, load) in shapes.iter().zip(loads.iter_mut()) {
             load.accelerated -= c * (q[0] * a[0] + q[1] * a[1]) + r * q[2] * a[2];
         }
         let ports = &frame.pattern.own[k];
@@ -155,8 +155,8 @@ impl ElasticInertia {
             let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(at);
             let along = |q: [f64; 3]| unit[0] * q[0] + unit[1] * q[1] + unit[2] * q[2];
             let opened = along(a);
-            for (mode, load) in modes.iter().zip(loads.iter_mut()) {
-                load.pressed -= forces[*pair] * along(race(&mode.shape));
+            for ((mode, q), load) in modes.iter().zip(&shapes).zip(loads.iter_mut()) {
+                load.pressed -= forces[*pair] * along(*q);
                 load.opened += of_mode(mode, *pair) * opened;
             }
         }
