@@ -1,6 +1,8 @@
 //! Loops over many numbers, compiled for the vectors of the processor at hand.
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Arch, WithSimd};
+
+pub(crate) use pulp::Simd;
 
 /// A computation that is compiled once for each kind of processor.
 pub trait Computation {
@@ -11,7 +13,32 @@ pub trait Computation {
     fn run(self) -> Self::Output;
 }
 
+/// A computation that names its vectors itself.
+///
+/// For loops which the compiler leaves in scalars or shuffles. A sum of products written with `mul_add_f64s` is fused on every
+/// processor, where it has no such instruction by a library function, so that results are the same bits there too.
+pub(crate) trait VectorComputation {
+    /// Computes with the vectors of a kind of processor; implementations are `#[inline(always)]`.
+    fn run<S: Simd>(self, simd: S);
+}
+
 struct Dispatched<C>(C);
+
+struct DispatchedVectors<C>(C);
+
+impl<C: VectorComputation> WithSimd for DispatchedVectors<C> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        self.0.run(simd);
+    }
+}
+
+/// Runs a computation with the vectors of the processor at hand.
+pub(crate) fn in_vectors<C: VectorComputation>(computation: C) {
+    Arch::new().dispatch(DispatchedVectors(computation));
+}
 
 impl<C: Computation> WithSimd for Dispatched<C> {
     type Output = C::Output;
@@ -57,5 +84,28 @@ mod tests {
         Sums(&numbers, &mut plain).run();
         wide(Sums(&numbers, &mut vectors));
         assert_eq!(plain, vectors);
+    }
+
+    /// Numbers, each times itself and a third, added to itself.
+    struct Fused<'s>(&'s mut [f64]);
+
+    impl VectorComputation for Fused<'_> {
+        #[inline(always)]
+        fn run<S: Simd>(self, simd: S) {
+            let (own, _) = S::as_mut_simd_f64s(self.0);
+            for x in own {
+                let third = simd.splat_f64s(1.0 / 3.0);
+                *x = simd.mul_add_f64s(simd.mul_f64s(third, *x), *x, *x);
+            }
+        }
+    }
+
+    #[test]
+    fn fused_products_are_the_same_bits_in_scalars_and_in_vectors() {
+        let numbers: Vec<f64> = (1..=1000).map(|k| 1.0 / f64::from(k)).collect();
+        let (mut scalars, mut vectors) = (numbers.clone(), numbers);
+        Fused(&mut scalars).run(pulp::Scalar);
+        in_vectors(Fused(&mut vectors));
+        assert_eq!(scalars, vectors);
     }
 }

@@ -1,7 +1,7 @@
 //! Gradients of the modes' motion, carried over time steps.
 //!
 //! They are by far the dearest part of a steady state found by shooting. All that happens to one row of them in a
-//! step is independent of the other rows, so that a few rows at a time pass through the whole step in registers.
+//! step is independent of the other rows, so that the rows that fit a vector pass through the whole step together.
 
 use nalgebra::DMatrix;
 
@@ -9,23 +9,24 @@ use super::condensed::{Condensed, at_width};
 use super::linear::Modes;
 use super::newton;
 use crate::newmark::AverageAcceleration;
-use crate::wide::{Computation, wide};
+use crate::wide::{Simd, VectorComputation, in_vectors};
 
-/// Rows that pass through a step together.
+/// Rows that are stored together: a multiple of the lanes of every vector in use.
 const ROWS: usize = 4;
 
+/// Rows of A⁻¹ whose products are formed at the same time.
+const AT_ONCE: usize = 8;
+
 /// Gradients of displacements, velocities and accelerations of n modes with respect to 2n coordinates at the start:
-/// by bundles of [`ROWS`] of these, then modes.
+/// by bundles of [`ROWS`] of these, then modes, then displacement, velocity and acceleration.
 #[derive(Debug, Clone)]
 pub(super) struct Gradients {
     modes: usize,
-    own: Vec<[[f64; ROWS]; 3]>,
-    /// Of one bundle by mode, in turn: A⁻¹ (a*' + C v*'), v*', a*'.
-    within: Vec<[[f64; ROWS]; 3]>,
-    /// Loads on the modes of one bundle.
-    loads: Vec<[f64; ROWS]>,
-    /// Answers of the modes to z', by mode, then coupling.
-    by_reach: Vec<f64>,
+    own: Vec<f64>,
+    /// Of the rows of one vector by mode: A⁻¹ (a*' + C v*'), v*', a*', load.
+    within: Vec<f64>,
+    /// Answers of the modes to z', g R and −τ R, each by mode, then coupling.
+    by_mode: [Vec<f64>; 3],
 }
 
 /// A step over which gradients are carried.
@@ -41,12 +42,10 @@ pub(super) struct StepGradient<'s> {
 /// Gradients that are carried over a step with W couplings.
 struct Carrying<'g, 's, const W: usize>(&'g mut Gradients, &'g StepGradient<'s>);
 
-impl<const W: usize> Computation for Carrying<'_, '_, W> {
-    type Output = ();
-
+impl<const W: usize> VectorComputation for Carrying<'_, '_, W> {
     #[inline(always)]
-    fn run(self) {
-        self.0.carry_with::<W>(self.1);
+    fn run<S: Simd>(self, simd: S) {
+        self.0.carry_with::<S, W>(simd, self.1);
     }
 }
 
@@ -54,84 +53,54 @@ impl Gradients {
     /// Of displacements, velocities and accelerations, each 2n×n: rows by coordinate at the start, columns by mode.
     pub(super) fn new([x, v, a]: [&DMatrix<f64>; 3]) -> Self {
         let (rows, modes) = x.shape();
-        let mut own = vec![[[0.0; ROWS]; 3]; rows.div_ceil(ROWS) * modes];
+        let mut own = vec![0.0; 3 * rows.next_multiple_of(ROWS) * modes];
         for row in 0..rows {
             for j in 0..modes {
-                let place = &mut own[row / ROWS * modes + j];
-                for (place, all) in place.iter_mut().zip([x, v, a]) {
-                    place[row % ROWS] = all[(row, j)];
+                for (kind, all) in [x, v, a].into_iter().enumerate() {
+                    own[place(modes, row, j, kind)] = all[(row, j)];
                 }
             }
         }
-        let within = vec![[[0.0; ROWS]; 3]; modes];
-        Self { modes, own, within, loads: Vec::new(), by_reach: Vec::new() }
+        Self { modes, own, within: Vec::new(), by_mode: Default::default() }
     }
 
     /// Displacements, then velocities of the modes at the end by those at the start, 2n×2n.
     pub(super) fn end_by_start(&self) -> DMatrix<f64> {
         let n = self.modes;
-        DMatrix::from_fn(2 * n, 2 * n, |i, row| self.own[row / ROWS * n + i % n][i / n][row % ROWS])
+        DMatrix::from_fn(2 * n, 2 * n, |i, row| self.own[place(n, row, i % n, i / n)])
     }
 
     /// Carries them over a step.
     pub(super) fn carry(&mut self, step: &StepGradient<'_>) {
-        at_width!(step.group.width, W => wide(Carrying::<W>(self, step)));
+        at_width!(step.group.width, W => in_vectors(Carrying::<W>(self, step)));
     }
 
     #[inline(always)]
-    fn carry_with<const W: usize>(&mut self, step: &StepGradient<'_>) {
-        let StepGradient { modes, rule, group, tangents } = step;
-        let (inertia, rate) = (rule.inertia(), rule.damping());
+    fn carry_with<S: Simd, const W: usize>(&mut self, simd: S, step: &StepGradient<'_>) {
+        const { assert!(ROWS.is_multiple_of(S::F64_LANES)) };
         let n = self.modes;
-        let (rows, _) = group.rows.as_chunks::<W>();
-        let rows = &rows[..n];
         self.answer_to_reach::<W>(step);
-        let (by_reach, _) = self.by_reach.as_chunks::<W>();
-        let by_reach = &by_reach[..n];
-        let presses = tangents.iter().any(|tangent| *tangent != 0.0);
-        let lags = &group.lags[..W];
-        let gains: [f64; W] = std::array::from_fn(|k| 1.0 + lags[k] * rate);
-        let within = &mut self.within[..n];
-        for bundle in self.own.chunks_exact_mut(n) {
-            for ([q, v1, a1], [x, v, a]) in within.iter_mut().zip(bundle.iter()) {
-                for row in 0..ROWS {
-                    // a* = (4/h²) x + (4/h) ẋ + ẍ,  v* = (2/h) x + ẋ
-                    a1[row] = inertia * x[row] + 2.0 * rate * v[row] + a[row];
-                    v1[row] = rate * x[row] + v[row];
-                    q[row] = a1[row];
-                }
-            }
-            solve(modes, rate, within, &mut self.loads);
-            if presses {
-                let (mut z, mut rates) = ([[0.0; ROWS]; W], [[0.0; ROWS]; W]);
-                for (along, [q, ..]) in rows.iter().zip(within.iter()) {
-                    add::<W>(&mut z, along, q);
-                }
-                if group.has_lag {
-                    for (along, [_, v1, _]) in rows.iter().zip(within.iter()) {
-                        add::<W>(&mut rates, along, v1);
-                    }
-                }
-                for k in 0..W {
-                    for row in 0..ROWS {
-                        // z' = g R x' − τ R v*', without coupling forces
-                        z[k][row] = gains[k] * z[k][row] - lags[k] * rates[k][row];
-                    }
-                }
-                for (answer, [q, ..]) in by_reach.iter().zip(within.iter_mut()) {
-                    for (answer, z) in answer.iter().zip(&z) {
-                        for row in 0..ROWS {
-                            q[row] -= answer * z[row];
-                        }
-                    }
-                }
-            }
-            for ([x, v, a], [q, v1, a1]) in bundle.iter_mut().zip(within.iter()) {
-                for row in 0..ROWS {
-                    x[row] = q[row];
-                    v[row] = rate * q[row] - v1[row];
-                    a[row] = inertia * q[row] - a1[row];
-                }
+        self.scale_rows::<W>(step);
+        self.within.resize(4 * n * S::F64_LANES, 0.0);
+        let Self { own, within, by_mode, .. } = self;
+        let (within, _) = S::as_mut_simd_f64s(within);
+        let (within, loads) = within.split_at_mut(3 * n);
+        let [by_reach, gain_rows, lag_rows] = by_mode.each_ref().map(|own| own.as_chunks::<W>().0);
+        let step = Step::<S, W> {
+            simd,
+            modes: step.modes,
+            inertia: step.rule.inertia(),
+            rate: step.rule.damping(),
+            gain_rows,
+            lag_rows,
+            by_reach,
+            presses: step.tangents.iter().any(|tangent| *tangent != 0.0),
+        };
+        let parts = ROWS / S::F64_LANES;
+        let (own, _) = S::as_mut_simd_f64s(own);
+        for bundle in own.chunks_exact_mut(3 * n * parts) {
+            for part in 0..parts {
+                step.carry(&mut bundle[part..], parts, within, loads);
             }
         }
     }
@@ -151,62 +120,148 @@ impl Gradients {
         });
         newton::eliminate(&mut g);
         let (n, padded) = (modes.count, group.answers.len() / W);
-        self.by_reach.clear();
-        self.by_reach.resize(n * W, 0.0);
-        let (out, _) = self.by_reach.as_chunks_mut::<W>();
+        let [by_reach, ..] = &mut self.by_mode;
+        by_reach.clear();
+        by_reach.resize(n * W, 0.0);
+        let (out, _) = by_reach.as_chunks_mut::<W>();
         for ((answers, row), d) in group.answers.chunks_exact(padded).zip(&g).zip(&d) {
             for (out, answer) in out.iter_mut().zip(answers) {
                 newton::add(out, row, answer * d);
             }
         }
     }
-}
 
-/// Replaces a*' by A⁻¹ (a*' + C v*') in all modes of a bundle. Where C is full, C = (h/2) (A − (4/h²) I − Λ) leaves one
-/// product with a full matrix,
-///
-/// ```text
-/// A⁻¹ (a* + C v*) = (h/2) v* + A⁻¹ (a* − (2/h) v* − (h/2) Λ v*)
-/// ```
-#[inline(always)]
-fn solve(modes: &Modes, rate: f64, within: &mut [[[f64; ROWS]; 3]], loads: &mut Vec<[f64; ROWS]>) {
-    match &modes.own_damping {
-        Some(damping) => {
-            let own = damping.iter().zip(&modes.own_inverse);
-            for ([q, v1, _], (c, inverse)) in within.iter_mut().zip(own) {
-                for row in 0..ROWS {
-                    q[row] = inverse * (q[row] + c * v1[row]);
-                }
-            }
-        }
-        None => {
-            loads.clear();
-            loads.extend(within.iter().zip(&modes.lambda).map(|([q, v1, _], lambda)| {
-                std::array::from_fn(|row| q[row] - (rate + lambda / rate) * v1[row])
-            }));
-            for ([q, v1, _], inverse) in
-                within.iter_mut().zip(modes.inverse.chunks_exact(modes.count.max(1)))
-            {
-                let mut sum = [0.0; ROWS];
-                for (load, inverse) in loads.iter().zip(inverse) {
-                    for row in 0..ROWS {
-                        sum[row] += inverse * load[row];
-                    }
-                }
-                for row in 0..ROWS {
-                    q[row] = v1[row] / rate + sum[row];
-                }
-            }
+    /// g R and −τ R.
+    #[inline(always)]
+    fn scale_rows<const W: usize>(&mut self, step: &StepGradient<'_>) {
+        let StepGradient { rule, group, .. } = step;
+        let (rows, rate) = (group.rows.as_chunks::<W>().0, rule.damping());
+        let [_, gains, lags] = &mut self.by_mode;
+        gains.clear();
+        lags.clear();
+        for (r, lag) in rows.iter().flat_map(|row| row.iter().zip(&group.lags[..W])) {
+            gains.push((1.0 + lag * rate) * r);
+            lags.push(-lag * r);
         }
     }
 }
 
-/// Adds the part of one mode to the deflections of all couplings.
-#[inline(always)]
-fn add<const W: usize>(z: &mut [[f64; ROWS]; W], along: &[f64; W], q: &[f64; ROWS]) {
-    for (z, along) in z.iter_mut().zip(along) {
-        for row in 0..ROWS {
-            z[row] += along * q[row];
+/// Where a row of a mode is: displacement, velocity or acceleration as `kind`.
+fn place(modes: usize, row: usize, mode: usize, kind: usize) -> usize {
+    ((row / ROWS * modes + mode) * 3 + kind) * ROWS + row % ROWS
+}
+
+/// A step as vectors of rows need it.
+struct Step<'s, S: Simd, const W: usize> {
+    simd: S,
+    modes: &'s Modes,
+    /// 4/h², 2/h.
+    inertia: f64,
+    rate: f64,
+    /// g R and −τ R, by mode.
+    gain_rows: &'s [[f64; W]],
+    lag_rows: &'s [[f64; W]],
+    /// A⁻¹ Rᵀ D (I + g Y D)⁻¹, by mode.
+    by_reach: &'s [[f64; W]],
+    /// Whether any coupling has a tangent.
+    presses: bool,
+}
+
+impl<S: Simd, const W: usize> Step<'_, S, W> {
+    /// Carries the rows of one vector, of which each third, `parts` apart, belongs to a mode.
+    #[inline(always)]
+    fn carry(
+        &self,
+        own: &mut [S::f64s],
+        parts: usize,
+        within: &mut [S::f64s],
+        loads: &mut [S::f64s],
+    ) {
+        let (simd, n) = (self.simd, self.modes.count);
+        let [inertia, rate, twice] =
+            [self.inertia, self.rate, 2.0 * self.rate].map(|x| simd.splat_f64s(x));
+        let (within, _) = within.as_chunks_mut::<3>();
+        let within = &mut within[..n];
+        for (j, [q, v1, a1]) in within.iter_mut().enumerate() {
+            let [x, v, a] = [0, 1, 2].map(|kind| own[(3 * j + kind) * parts]);
+            // a* = (4/h²) x + (4/h) ẋ + ẍ,  v* = (2/h) x + ẋ
+            *a1 = simd.mul_add_f64s(inertia, x, simd.mul_add_f64s(twice, v, a));
+            *v1 = simd.mul_add_f64s(rate, x, v);
+            *q = *a1;
+        }
+        self.solve(within, loads);
+        if self.presses {
+            let z = self.reach(within);
+            let less = z.map(|z| simd.neg_f64s(z));
+            for (answer, [q, ..]) in self.by_reach.iter().zip(within.iter_mut()) {
+                let own = answer.iter().zip(&less);
+                *q = own.fold(*q, |q, (a, z)| simd.mul_add_f64s(simd.splat_f64s(*a), *z, q));
+            }
+        }
+        for (j, [q, v1, a1]) in within.iter().enumerate() {
+            own[3 * j * parts] = *q;
+            own[(3 * j + 1) * parts] = simd.sub_f64s(simd.mul_f64s(rate, *q), *v1);
+            own[(3 * j + 2) * parts] = simd.sub_f64s(simd.mul_f64s(inertia, *q), *a1);
+        }
+    }
+
+    /// z' = g R x' − τ R v*', without coupling forces.
+    #[inline(always)]
+    fn reach(&self, within: &[[S::f64s; 3]]) -> [S::f64s; W] {
+        let simd = self.simd;
+        let mut z = [simd.splat_f64s(0.0); W];
+        for ((gain, lag), [q, v1, _]) in self.gain_rows.iter().zip(self.lag_rows).zip(within) {
+            for ((z, gain), lag) in z.iter_mut().zip(gain).zip(lag) {
+                let own = simd.mul_add_f64s(simd.splat_f64s(*gain), *q, *z);
+                *z = simd.mul_add_f64s(simd.splat_f64s(*lag), *v1, own);
+            }
+        }
+        z
+    }
+
+    /// Replaces a*' by A⁻¹ (a*' + C v*') in all modes. Where C is full, C = (h/2) (A − (4/h²) I − Λ) leaves one
+    /// product with a full matrix,
+    ///
+    /// ```text
+    /// A⁻¹ (a* + C v*) = (h/2) v* + A⁻¹ (a* − (2/h) v* − (h/2) Λ v*)
+    /// ```
+    #[inline(always)]
+    fn solve(&self, within: &mut [[S::f64s; 3]], loads: &mut [S::f64s]) {
+        let (simd, modes) = (self.simd, self.modes);
+        let n = modes.count;
+        if let Some(damping) = &modes.own_damping {
+            let own = damping.iter().zip(&modes.own_inverse);
+            for ([q, v1, _], (c, inverse)) in within.iter_mut().zip(own) {
+                let load = simd.mul_add_f64s(simd.splat_f64s(*c), *v1, *q);
+                *q = simd.mul_f64s(simd.splat_f64s(*inverse), load);
+            }
+            return;
+        }
+        let loads = &mut loads[..n];
+        for ((load, [q, v1, _]), lambda) in loads.iter_mut().zip(&*within).zip(&modes.lambda) {
+            let along = simd.splat_f64s(-(self.rate + lambda / self.rate));
+            *load = simd.mul_add_f64s(along, *v1, *q);
+        }
+        let half = simd.splat_f64s(1.0 / self.rate);
+        let mut first = 0;
+        while first < n {
+            // The last block begins earlier than where the one before it ended, so that all are whole.
+            let start = first.min(n.saturating_sub(AT_ONCE));
+            first = start + AT_ONCE;
+            let block = &mut within[start..first.min(n)];
+            let rows: [&[f64]; AT_ONCE] = std::array::from_fn(|i| {
+                let row = (start + i).min(n - 1);
+                &modes.inverse[row * n..(row + 1) * n]
+            });
+            let mut sums = [simd.splat_f64s(0.0); AT_ONCE];
+            for (k, load) in loads.iter().enumerate() {
+                for (sum, row) in sums.iter_mut().zip(rows) {
+                    *sum = simd.mul_add_f64s(simd.splat_f64s(row[k]), *load, *sum);
+                }
+            }
+            for ([q, v1, _], sum) in block.iter_mut().zip(sums) {
+                *q = simd.mul_add_f64s(half, *v1, sum);
+            }
         }
     }
 }
