@@ -45,4 +45,4 @@ pub use spectrum::{Spectrum, Window, spectrum};
 pub use state_space::{StateMode, state_modes};
 pub use subspace::{IMPURE, SubspaceDirection, group_equal, orthonormal_basis, split};
 pub use symmetric::{SymmetricModes, generalized_symmetric};
-pub use wide::{Computation, wide};
+pub use wide::{Computation, Simd, wide};

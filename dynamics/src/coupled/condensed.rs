@@ -2,6 +2,7 @@
 
 use super::coupling::Coupling;
 use super::linear::{LANES, Modes};
+use crate::newmark::AverageAcceleration;
 
 /// Numbers of couplings (widths) for which the solver is compiled.
 pub(super) const WIDTHS: [usize; 9] = [4, 6, 8, 10, 12, 16, 24, 32, 48];
@@ -35,6 +36,10 @@ pub(super) struct Condensed {
     pub(super) width: usize,
     /// R Φ: by mode, then coupling.
     pub(super) rows: Vec<f64>,
+    /// g R Φ, g = 1 + 2τ/h: by mode, then coupling.
+    pub(super) gain_rows: Vec<f64>,
+    /// −τ R Φ, s: by mode, then coupling.
+    pub(super) lag_rows: Vec<f64>,
     /// A⁻¹ Φᵀ Rᵀ: by coupling, then padded mode.
     pub(super) answers: Vec<f64>,
     /// Y, by column.
@@ -56,7 +61,11 @@ pub(super) fn width(count: usize) -> Option<usize> {
 
 impl Condensed {
     /// `None` if there are too many couplings.
-    pub(super) fn new(modes: &Modes, couplings: &[&Coupling]) -> Option<Self> {
+    pub(super) fn new(
+        modes: &Modes,
+        rule: &AverageAcceleration,
+        couplings: &[&Coupling],
+    ) -> Option<Self> {
         let (count, n) = (couplings.len(), modes.count);
         let (width, padded) = (width(count)?, n.next_multiple_of(LANES));
         let mut rows = vec![0.0; n * width];
@@ -88,11 +97,18 @@ impl Condensed {
         };
         let lags = fill(|c| c.lag);
         let has_lag = lags.iter().any(|lag| *lag != 0.0);
+        let scaled = |factor: &dyn Fn(f64) -> f64| -> Vec<f64> {
+            rows.iter().enumerate().map(|(i, r)| factor(lags[i % width]) * r).collect()
+        };
+        let gain_rows = scaled(&|lag| 1.0 + lag * rule.damping());
+        let lag_rows = scaled(&|lag| -lag);
         let offsets = fill(|c| c.offset);
         Some(Self {
             count,
             width,
             rows,
+            gain_rows,
+            lag_rows,
             answers,
             receptance,
             receptance_by_row,

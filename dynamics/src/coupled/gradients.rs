@@ -9,7 +9,7 @@ use super::condensed::{Condensed, at_width};
 use super::linear::Modes;
 use super::newton;
 use crate::newmark::AverageAcceleration;
-use crate::wide::{Simd, VectorComputation, in_vectors};
+use crate::wide::{Computation, Simd, wide};
 
 /// Rows that are stored together: a multiple of the lanes of every vector in use.
 const ROWS: usize = 4;
@@ -25,8 +25,8 @@ pub(super) struct Gradients {
     own: Vec<f64>,
     /// Of the rows of one vector by mode: A⁻¹ (a*' + C v*'), v*', a*', load.
     within: Vec<f64>,
-    /// Answers of the modes to z', g R and −τ R, each by mode, then coupling.
-    by_mode: [Vec<f64>; 3],
+    /// Answers of the modes to z', by mode, then coupling.
+    by_reach: Vec<f64>,
 }
 
 /// A step over which gradients are carried.
@@ -42,7 +42,9 @@ pub(super) struct StepGradient<'s> {
 /// Gradients that are carried over a step with W couplings.
 struct Carrying<'g, 's, const W: usize>(&'g mut Gradients, &'g StepGradient<'s>);
 
-impl<const W: usize> VectorComputation for Carrying<'_, '_, W> {
+impl<const W: usize> Computation for Carrying<'_, '_, W> {
+    type Output = ();
+
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
         self.0.carry_with::<S, W>(simd, self.1);
@@ -61,7 +63,7 @@ impl Gradients {
                 }
             }
         }
-        Self { modes, own, within: Vec::new(), by_mode: Default::default() }
+        Self { modes, own, within: Vec::new(), by_reach: Vec::new() }
     }
 
     /// Displacements, then velocities of the modes at the end by those at the start, 2n×2n.
@@ -72,7 +74,7 @@ impl Gradients {
 
     /// Carries them over a step.
     pub(super) fn carry(&mut self, step: &StepGradient<'_>) {
-        at_width!(step.group.width, W => in_vectors(Carrying::<W>(self, step)));
+        at_width!(step.group.width, W => wide(Carrying::<W>(self, step)));
     }
 
     #[inline(always)]
@@ -80,25 +82,23 @@ impl Gradients {
         const { assert!(ROWS.is_multiple_of(S::F64_LANES)) };
         let n = self.modes;
         self.answer_to_reach::<W>(step);
-        self.scale_rows::<W>(step);
         self.within.resize(4 * n * S::F64_LANES, 0.0);
-        let Self { own, within, by_mode, .. } = self;
+        let Self { own, within, by_reach, .. } = self;
         let (within, _) = S::as_mut_simd_f64s(within);
         let (within, loads) = within.split_at_mut(3 * n);
-        let [by_reach, gain_rows, lag_rows] = by_mode.each_ref().map(|own| own.as_chunks::<W>().0);
         let step = Step::<S, W> {
             simd,
             modes: step.modes,
             inertia: step.rule.inertia(),
             rate: step.rule.damping(),
-            gain_rows,
-            lag_rows,
-            by_reach,
+            gain_rows: step.group.gain_rows.as_chunks().0,
+            lag_rows: step.group.has_lag.then(|| step.group.lag_rows.as_chunks().0),
+            by_reach: by_reach.as_chunks().0,
             presses: step.tangents.iter().any(|tangent| *tangent != 0.0),
         };
         let parts = ROWS / S::F64_LANES;
         let (own, _) = S::as_mut_simd_f64s(own);
-        for bundle in own.chunks_exact_mut(3 * n * parts) {
+        for bundle in own.chunks_exact_mut((3 * n * parts).max(1)) {
             for part in 0..parts {
                 step.carry(&mut bundle[part..], parts, within, loads);
             }
@@ -120,28 +120,13 @@ impl Gradients {
         });
         newton::eliminate(&mut g);
         let (n, padded) = (modes.count, group.answers.len() / W);
-        let [by_reach, ..] = &mut self.by_mode;
-        by_reach.clear();
-        by_reach.resize(n * W, 0.0);
-        let (out, _) = by_reach.as_chunks_mut::<W>();
+        self.by_reach.clear();
+        self.by_reach.resize(n * W, 0.0);
+        let (out, _) = self.by_reach.as_chunks_mut::<W>();
         for ((answers, row), d) in group.answers.chunks_exact(padded).zip(&g).zip(&d) {
             for (out, answer) in out.iter_mut().zip(answers) {
                 newton::add(out, row, answer * d);
             }
-        }
-    }
-
-    /// g R and −τ R.
-    #[inline(always)]
-    fn scale_rows<const W: usize>(&mut self, step: &StepGradient<'_>) {
-        let StepGradient { rule, group, .. } = step;
-        let (rows, rate) = (group.rows.as_chunks::<W>().0, rule.damping());
-        let [_, gains, lags] = &mut self.by_mode;
-        gains.clear();
-        lags.clear();
-        for (r, lag) in rows.iter().flat_map(|row| row.iter().zip(&group.lags[..W])) {
-            gains.push((1.0 + lag * rate) * r);
-            lags.push(-lag * r);
         }
     }
 }
@@ -158,9 +143,10 @@ struct Step<'s, S: Simd, const W: usize> {
     /// 4/h², 2/h.
     inertia: f64,
     rate: f64,
-    /// g R and −τ R, by mode.
+    /// g R, by mode.
     gain_rows: &'s [[f64; W]],
-    lag_rows: &'s [[f64; W]],
+    /// −τ R, by mode, if any coupling has a lag.
+    lag_rows: Option<&'s [[f64; W]]>,
     /// A⁻¹ Rᵀ D (I + g Y D)⁻¹, by mode.
     by_reach: &'s [[f64; W]],
     /// Whether any coupling has a tangent.
@@ -168,7 +154,7 @@ struct Step<'s, S: Simd, const W: usize> {
 }
 
 impl<S: Simd, const W: usize> Step<'_, S, W> {
-    /// Carries the rows of one vector, of which each third, `parts` apart, belongs to a mode.
+    /// Carries the rows of one vector: `own` has it at every multiple of `parts`, by mode displacement, velocity, acceleration.
     #[inline(always)]
     fn carry(
         &self,
@@ -210,11 +196,11 @@ impl<S: Simd, const W: usize> Step<'_, S, W> {
     fn reach(&self, within: &[[S::f64s; 3]]) -> [S::f64s; W] {
         let simd = self.simd;
         let mut z = [simd.splat_f64s(0.0); W];
-        for ((gain, lag), [q, v1, _]) in self.gain_rows.iter().zip(self.lag_rows).zip(within) {
-            for ((z, gain), lag) in z.iter_mut().zip(gain).zip(lag) {
-                let own = simd.mul_add_f64s(simd.splat_f64s(*gain), *q, *z);
-                *z = simd.mul_add_f64s(simd.splat_f64s(*lag), *v1, own);
-            }
+        for (gain, [q, ..]) in self.gain_rows.iter().zip(within) {
+            add(simd, &mut z, gain, *q);
+        }
+        for (lag, [_, v1, _]) in self.lag_rows.into_iter().flatten().zip(within) {
+            add(simd, &mut z, lag, *v1);
         }
         z
     }
@@ -263,5 +249,13 @@ impl<S: Simd, const W: usize> Step<'_, S, W> {
                 *q = simd.mul_add_f64s(half, *v1, sum);
             }
         }
+    }
+}
+
+/// Adds a mode's part to the deflections of all couplings.
+#[inline(always)]
+fn add<S: Simd, const W: usize>(simd: S, z: &mut [S::f64s; W], along: &[f64; W], x: S::f64s) {
+    for (z, along) in z.iter_mut().zip(along) {
+        *z = simd.mul_add_f64s(simd.splat_f64s(*along), x, *z);
     }
 }

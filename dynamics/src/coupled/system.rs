@@ -106,7 +106,7 @@ impl<L: CouplingForce> Coupled<L> {
         let modes = Modes::new(linear, &rule)?;
         let most = WIDTHS[WIDTHS.len() - 1];
         let group = |list: &[&Coupling]| {
-            Condensed::new(&modes, list).ok_or(CoupledError::TooMany { got: count, most })
+            Condensed::new(&modes, &rule, list).ok_or(CoupledError::TooMany { got: count, most })
         };
         let [first, second]: [Vec<&Coupling>; 2] = [usual.iter().collect(), rare.iter().collect()];
         let all: Vec<&Coupling> = usual.iter().chain(rare).collect();

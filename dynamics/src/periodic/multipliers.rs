@@ -6,7 +6,6 @@
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, c64};
-use nalgebra::{DMatrix, Schur};
 
 use super::derivative::MapDerivative;
 use crate::error::EigenError;
@@ -16,9 +15,6 @@ const RANK: f64 = 1e-13;
 
 /// A complex pair nearer than this angle (rad) to the real axis loses stability as a real multiplier does.
 const REAL: f64 = 1e-7;
-
-/// Iterations of nalgebra's Schur form for each row of a matrix: three are usual.
-const MOST_ROTATIONS: usize = 30;
 
 /// How a motion loses stability when this multiplier leaves the unit circle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -143,33 +139,19 @@ pub fn multipliers(derivative: &MapDerivative) -> Result<Vec<Multiplier>, EigenE
     let q = qr.compute_thin_Q();
     let q = q.subcols(0, rank);
     let compressed: Mat<f64> = q.transpose() * &m * q;
-    let mut all = match eigenvalues(&compressed) {
-        Some(all) => all,
-        None => {
-            let values = compressed.eigenvalues();
-            let values = values.map_err(|_| EigenError::NoConvergence { size: rank })?;
-            values.iter().map(|value| Multiplier { re: value.re, im: value.im }).collect()
-        }
-    };
+    let values = compressed.eigenvalues().map_err(|_| EigenError::NoConvergence { size: rank })?;
+    let mut all: Vec<Multiplier> =
+        values.iter().map(|value| Multiplier { re: value.re, im: value.im }).collect();
     all.sort_by(|a, b| {
         b.size().total_cmp(&a.size()).then(b.re.total_cmp(&a.re)).then(b.im.total_cmp(&a.im))
     });
     Ok(all)
 }
 
-/// Eigenvalues from nalgebra's Schur form, which at orders of 20 to 80 takes less than half of the time of faer's eigenvalues;
-/// `None` where it does not end or leaves a block that it cannot solve, as it does for some matrices.
-fn eigenvalues(m: &Mat<f64>) -> Option<Vec<Multiplier>> {
-    let n = m.nrows();
-    let own = DMatrix::from_fn(n, n, |i, j| m[(i, j)]);
-    let schur = Schur::try_new(own, f64::EPSILON, MOST_ROTATIONS * n)?;
-    let values = schur.complex_eigenvalues();
-    let all = values.iter().map(|value| Multiplier { re: value.re, im: value.im });
-    values.iter().all(|value| value.re.is_finite() && value.im.is_finite()).then(|| all.collect())
-}
-
 #[cfg(test)]
 mod tests {
+    use nalgebra::DMatrix;
+
     use super::*;
 
     /// A rotation by an angle with decay, a real pair, and a nilpotent block of order three.

@@ -17,7 +17,7 @@
 //! E couples the pairs of a mesh or, on bodies with elastic states, all pairs. The matrix of the races is of the order of
 //! their coordinates; its symmetric part is positive definite.
 
-use dynamics::{Computation, wide};
+use dynamics::{Computation, Simd, wide};
 use nalgebra::{DMatrixView, DMatrixViewMut};
 
 use super::frame::Frame;
@@ -145,7 +145,7 @@ impl Computation for Solving<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<S: Simd>(self, _: S) {
         let Self { combination, frame, vectors } = self;
         let StepVectors { load, b, left, x, approaches, forces } = vectors;
         let rows = frame.rows();
@@ -199,7 +199,7 @@ impl Computation for Combining<'_> {
     type Output = Result<Option<Combination>, FeError>;
 
     #[inline(always)]
-    fn run(self) -> Self::Output {
+    fn run<S: Simd>(self, _: S) -> Self::Output {
         let Self { frame, maps, ids, races, work } = self;
         let CombiningWork { right, matrix, solved, pressed, races: summed, elimination } = work;
         let count = frame.offsets.len();

@@ -13,7 +13,7 @@
 //! touched in the last step to their position and the second-order terms, so that a whole cycle can be
 //! differentiated after it was marched.
 
-use dynamics::{Computation, wide};
+use dynamics::{Computation, Simd, wide};
 use nalgebra::{DMatrix, DVector};
 
 use super::body::Port;
@@ -37,7 +37,7 @@ impl Computation for Carrying<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn run(self) {
+    fn run<S: Simd>(self, _: S) {
         self.set.carry_over_step(self.derivative, self.step, self.cycles);
     }
 }
