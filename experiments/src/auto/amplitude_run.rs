@@ -14,7 +14,7 @@ use crate::sweep::{Direction, FeModel, Memory, Plan, Sweep, SweepModel, run};
 /// A candidate with its gears and contact tables, which its runs share.
 pub(super) struct Turning<'b> {
     pub(super) bodies: &'b Bodies,
-    pub(super) scene: &'b Scene,
+    pub(super) scene: Scene,
     model: FeModel<'b>,
     case: &'b LoadCase,
     request: &'b AmplitudeRequest,
@@ -37,7 +37,7 @@ pub(super) fn on<T>(
     let sun = bodies.geometry.sun.as_ref().ok_or(ExperimentError::Incomplete("sun"))?;
     let radius = sun.base_radius;
     let model = FeModel::new(&scene, &bodies, Imperfections::default(), *case);
-    work(&Turning { bodies: &bodies, scene: &scene, model, case, request, radius })
+    work(&Turning { bodies: &bodies, scene, model, case, request, radius })
 }
 
 /// Steady states at some speeds.
@@ -59,11 +59,11 @@ impl Turning<'_> {
     ) -> Result<T, ExperimentError> {
         self.model.prepare()?;
         let model = self.model.thinned(every as usize)?;
-        work(&Turning { model, ..*self })
+        work(&Turning { scene: self.scene.clone(), model, ..*self })
     }
 
     /// What `work` gives with the steps of `settings`, whose mesh is this one's: on the same gears, about the same mean
-    /// configuration, which has positions of its own.
+    /// configuration, with the tables of positions that both have.
     ///
     /// # Errors
     /// If the settings are refused, and as `work`.
@@ -72,9 +72,9 @@ impl Turning<'_> {
         settings: AutoSettings,
         work: impl FnOnce(&Turning<'_>) -> Result<T, ExperimentError>,
     ) -> Result<T, ExperimentError> {
-        let scene = settings.applied_to(self.scene);
-        let model = self.model.on_bodies(&scene, self.bodies)?;
-        work(&Turning { scene: &scene, model, ..*self })
+        let scene = settings.applied_to(&self.scene);
+        let model = self.model.with_steps(&scene)?;
+        work(&Turning { scene, model, ..*self })
     }
 
     /// What `each` gives at every step of a cycle of the steady state at a speed, rpm.
@@ -109,7 +109,7 @@ impl Turning<'_> {
             MeshKinematics::AboutMean => self.model.standing(),
             MeshKinematics::Exact => {
                 let preload = Preload { load: *self.case, position: 0.0, step_s: 5e-6 };
-                Ok(preloaded(self.scene, self.bodies, &preload)?)
+                Ok(preloaded(&self.scene, self.bodies, &preload)?)
             }
         }
     }
@@ -186,5 +186,35 @@ impl Motions {
         let highest = turning.request.steady.harmonics;
         let of = |p| both.map(|r| Harmonics::of(p, r, turning.radius, highest).rms());
         self.sweep.points().into_iter().map(|p| of(p)[0].hypot(of(p)[1])).fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use gearset::{SceneKind, template};
+
+    use super::*;
+    use crate::sweep::SteadySettings;
+
+    /// A motion with twice the steps on the tables of fewer is that of a candidate by itself.
+    #[test]
+    fn more_steps_on_known_tables_give_the_motion_of_their_own() {
+        let scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
+        let case = LoadCase::of_scene(&scene).unwrap();
+        let request = AmplitudeRequest {
+            response: AutoResponse::TransmissionError,
+            speeds_rpm: vec![1100.0],
+            steady: SteadySettings { between_cycles: 0, ..SteadySettings::default() },
+            tolerance_percent: 5.0,
+        };
+        let few = AutoSettings::quasi_static(6, 20).with_steps(60);
+        let more = few.with_steps(120);
+        let alone = on((&scene, &case), more, &request, |own| own.motions(&request.speeds_rpm));
+        let shared = on((&scene, &case), few, &request, |own| {
+            own.motions(&request.speeds_rpm)?;
+            own.with_steps(more, |own| own.motions(&request.speeds_rpm))
+        });
+        let off = alone.unwrap().apart(&shared.unwrap());
+        assert!(off < 1e-7, "{off:e}");
     }
 }

@@ -171,20 +171,14 @@ impl<'s> FeModel<'s> {
         Ok(own)
     }
 
-    /// A model of the same load with gears of other finite elements, about the mean configuration that this one has found;
-    /// `scene` has its steps.
+    /// The same model with the steps of `scene`, on what this one has found: the mean configuration, and tables at positions that
+    /// both have.
     ///
     /// # Errors
-    /// If this model's or the other's tables cannot be laid out.
-    pub(crate) fn on_bodies<'t>(
-        &self,
-        scene: &Scene,
-        bodies: &'t Bodies,
-    ) -> Result<FeModel<'t>, ExperimentError> {
-        let own = FeModel::new(scene, bodies, self.imperfections.clone(), self.case);
-        let steps_per_cycle = own.steps_per_cycle();
-        let rotation = NominalRotation::Turning { mesh_frequency: 1.0, steps_per_cycle };
-        let made = self.shared(0)?.on_bodies(scene, bodies, rotation, own.force(0)?)?;
+    /// If tables cannot be laid out.
+    pub(crate) fn with_steps(&self, scene: &Scene) -> Result<Self, ExperimentError> {
+        let own = Self::new(scene, self.bodies, self.imperfections.clone(), self.case);
+        let made = self.shared(0)?.with_steps(scene, own.force(0)?)?;
         own.prepared[0].get_or_init(|| made);
         Ok(own)
     }

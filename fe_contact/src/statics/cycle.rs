@@ -250,7 +250,7 @@ impl<'s> StaticSet<'s> {
         cells: CellSettings,
         solver: &(dyn ComplementaritySolver + Sync),
     ) -> Result<SetCycle, FeError> {
-        let tables = self.tables_of(cells, list)?;
+        let tables = self.tables_of(cells, list, None)?;
         let f = self.load_with(torque_nm, further);
         if f.amax() > 0.0 {
             self.lay_out_beside(&tables)?;

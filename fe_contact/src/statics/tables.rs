@@ -65,10 +65,10 @@ impl StaticSet<'_> {
     /// # Errors
     /// If a matching point lies outside its tooth.
     pub fn tables(&self, force: f64, positions: &[f64]) -> Result<SetTables, FeError> {
-        self.tables_of(self.bodies.cells(force), positions)
+        self.tables_of(self.bodies.cells(force), positions, None)
     }
 
-    /// The same on given cells.
+    /// The same on given cells. Those that `known` has, which are of the same gears, are not made again.
     ///
     /// # Errors
     /// As [`StaticSet::tables`].
@@ -76,7 +76,10 @@ impl StaticSet<'_> {
         &self,
         settings: CellSettings,
         positions: &[f64],
+        known: Option<&SetTables>,
     ) -> Result<SetTables, FeError> {
+        let known = known.filter(|own| own.settings == settings);
+        let place_of = |group, phase| Some((known?, *known?.place.get(&key(group, phase))?));
         let mut wanted: Vec<(usize, f64)> = Vec::new();
         let mut seen = std::collections::HashSet::new();
         for position in positions {
@@ -89,13 +92,24 @@ impl StaticSet<'_> {
         }
         let list: Result<Vec<_>, FeError> = wanted
             .par_iter()
-            .map(|(group, phase)| self.table(*group, *phase, &settings).map(Arc::new))
+            .map(|(group, phase)| match place_of(*group, *phase) {
+                Some((own, i)) => Ok(Arc::clone(&own.list[i])),
+                None => self.table(*group, *phase, &settings).map(Arc::new),
+            })
             .collect();
         let place = wanted.iter().enumerate().map(|(i, (g, phase))| (key(*g, *phase), i));
         let place = Arc::new(place.collect());
         let list = list?;
-        let beside = Arc::new(vec![[const { OnceLock::new() }; 2]; list.len()]);
-        let maps = list.iter().map(|_| Arc::default()).collect();
+        let beside = wanted.iter().map(|(g, phase)| match place_of(*g, *phase) {
+            Some((own, i)) => own.beside[i].clone(),
+            None => [const { OnceLock::new() }; 2],
+        });
+        let beside = Arc::new(beside.collect());
+        let maps = wanted.iter().map(|(g, phase)| match place_of(*g, *phase) {
+            Some((own, i)) => Arc::clone(&own.maps[i]),
+            None => Arc::default(),
+        });
+        let maps = maps.collect();
         Ok(SetTables { list, maps, place, beside, settings })
     }
 

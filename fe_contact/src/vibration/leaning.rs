@@ -22,11 +22,13 @@ impl Leaning {
         Self { slopes: Vec::new(), load: DVector::zeros(statics.races.count) }
     }
 
-    /// At each of the `positions` (cycles), in the equilibrium under the reference's torque.
-    pub(super) fn at(
+    /// At each of the `positions` (cycles), in the equilibrium under the reference's torque; those that are `known` by the number of
+    /// the position are taken over.
+    pub(super) fn at<'k>(
         statics: &StaticSet<'_>,
         tables: &SetTables,
         positions: &[f64],
+        known: &dyn Fn(usize) -> Option<&'k Self>,
     ) -> Result<Vec<Self>, FeError> {
         let reference = statics.reference();
         let turning = &reference.stiffness * &reference.q;
@@ -36,7 +38,11 @@ impl Leaning {
         }
         let mut list = Vec::with_capacity(positions.len());
         let mut start = reference.q.clone();
-        for position in positions {
+        for (k, position) in positions.iter().enumerate() {
+            if let Some(own) = known(k) {
+                list.push(own.clone());
+                continue;
+            }
             let mut load = turning.clone();
             let mut slopes: Vec<Slopes> = Vec::new();
             if reference.torque_nm > 0.0 {

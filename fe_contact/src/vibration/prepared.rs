@@ -59,15 +59,17 @@ impl<'s> Prepared<'s> {
         let is_exact = turns && scene.dynamics.kinematics == MeshKinematics::Exact;
         let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
         let statics = statics.under(loading.torque_nm)?;
-        Self::of(statics, is_exact, &rotation, loading.mesh_force)
+        Self::of(statics, is_exact, &rotation, loading.mesh_force, None)
     }
 
-    /// Data of a set about its mean configuration, its tables laid out for a mesh force, N.
+    /// Data of a set about its mean configuration, its tables laid out for a mesh force, N. What `known` has of them, which
+    /// is of the same gears about the same configuration, is not computed again.
     fn of(
         mut statics: StaticSet<'s>,
         is_exact: bool,
         rotation: &NominalRotation,
         mesh_force: f64,
+        known: Option<&Self>,
     ) -> Result<Self, FeError> {
         let turns = matches!(rotation, NominalRotation::Turning { .. });
         let positions = rotation.positions();
@@ -77,12 +79,20 @@ impl<'s> Prepared<'s> {
             // The actual lines of action are used, so that the linearised turning of mesh forces is
             // dropped; tables are laid out in the run, at the phases that occur.
             statics.reference.stiffness.fill(0.0);
-            let tables = statics.tables_of(cells, &positions[..1])?;
+            let tables = statics.tables_of(cells, &positions[..1], None)?;
             let leaning = vec![Leaning::none(&statics); positions.len()].into();
             return Ok(Self { statics, tables, leaning, is_exact, patterns, turns });
         }
-        let tables = statics.tables_of(cells, &positions)?;
-        let leaning = Leaning::at(&statics, &tables, &positions)?.into();
+        let tables = statics.tables_of(cells, &positions, known.map(|own| &own.tables))?;
+        // Of positions that are even divisions of the cycle those of fewer are among those of more.
+        let every = |own: &Self| positions.len() / own.leaning.len().max(1);
+        let known = known.filter(|own| own.turns && turns && own.tables.settings == cells);
+        let known = known.filter(|own| every(own) * own.leaning.len() == positions.len());
+        let known = |k: usize| {
+            let own = known.filter(|own| k.is_multiple_of(every(own)))?;
+            own.leaning.get(k / every(own))
+        };
+        let leaning = Leaning::at(&statics, &tables, &positions, &known)?.into();
         Ok(Self { statics, tables, leaning, is_exact, patterns, turns })
     }
 
@@ -105,21 +115,17 @@ impl<'s> Prepared<'s> {
         Ok(Self { leaning, patterns, ..self.clone() })
     }
 
-    /// Data of the same scene with gears of other finite elements, for a turning set about the same reference: the mean
-    /// configuration is not found anew.
+    /// Data of the same scene for another number of steps: the mean configuration is not found anew, nor are tables and slopes at
+    /// positions that both have.
     ///
     /// # Errors
     /// As [`Prepared::new`].
-    pub fn on_bodies<'t>(
-        &self,
-        scene: &Scene,
-        bodies: &'t Bodies,
-        rotation: NominalRotation,
-        mesh_force: f64,
-    ) -> Result<Prepared<'t>, FeError> {
+    pub fn with_steps(&self, scene: &Scene, mesh_force: f64) -> Result<Self, FeError> {
+        let steps_per_cycle = scene.dynamics.steps_per_cycle as usize;
+        let rotation = NominalRotation::Turning { mesh_frequency: 1.0, steps_per_cycle };
         solves_contact(scene)?;
         fit(scene, &rotation)?;
-        Prepared::of(self.statics.on_bodies(bodies), self.is_exact, &rotation, mesh_force)
+        Self::of(self.statics.clone(), self.is_exact, &rotation, mesh_force, Some(self))
     }
 
     /// The shared patterns, or none yet for another rotation: a standing set has its teeth numbered from its own
@@ -206,4 +212,46 @@ pub(super) fn fit(scene: &Scene, rotation: &NominalRotation) -> Result<(), FeErr
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use gearset::{LoadCase, SceneKind, template};
+
+    use super::*;
+
+    /// Tables at positions that both numbers of steps have are the same ones, and what is found at all others is what a set
+    /// finds that is prepared for the larger number alone.
+    #[test]
+    fn more_steps_keep_the_tables_of_fewer() {
+        let mut scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
+        scene.fe_contact.flank_elements = 8;
+        scene.fe_contact.contact_cells = 20;
+        let case = LoadCase::of_scene(&scene).unwrap();
+        let bodies = Bodies::new(&scene).unwrap();
+        let loading = Loading { torque_nm: case.sun_load_nm(), mesh_force: 2e4 };
+        let made = |scene: &Scene| {
+            let steps_per_cycle = scene.dynamics.steps_per_cycle as usize;
+            let rotation = NominalRotation::Turning { mesh_frequency: 1.0, steps_per_cycle };
+            let own = Imperfections::default();
+            Prepared::new(scene, &bodies, case.sense(), own, rotation, loading).unwrap()
+        };
+        scene.dynamics.steps_per_cycle = 20;
+        let few = made(&scene);
+        scene.dynamics.steps_per_cycle = 40;
+        let (more, alone) = (few.with_steps(&scene, loading.mesh_force).unwrap(), made(&scene));
+        let is_known = |table| few.tables.list.iter().any(|own| Arc::ptr_eq(own, table));
+        let kept = more.tables.list.iter().filter(|table| is_known(table)).count();
+        assert_eq!(kept, few.tables.list.len());
+        assert_eq!(more.tables.list.len(), alone.tables.list.len());
+        assert!(kept < more.tables.list.len());
+        let scale = alone.leaning.iter().map(|own| own.load.amax()).fold(0.0, f64::max);
+        for (own, other) in more.leaning.iter().zip(alone.leaning.iter()) {
+            let off = (&own.load - &other.load).amax();
+            assert!(off < 1e-8 * scale, "{off:e} of {scale:e}");
+        }
+        // Of another load nothing can be kept.
+        let other = few.with_steps(&scene, 2.0 * loading.mesh_force).unwrap();
+        assert!(!other.tables.list.iter().any(is_known));
+    }
 }
