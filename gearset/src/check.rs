@@ -55,6 +55,12 @@ pub(crate) fn auto_chooses(
             "number of contact cells",
         ),
         ("matching_depth_mm", own.matching_depth.is_some(), String::new(), "matching depth"),
+        (
+            "matching_depth_elements",
+            own.matching_depth_elements.is_some(),
+            String::new(),
+            "matching depth",
+        ),
     ];
     for (key, _, default, what) in settings.into_iter().filter(|(_, is_given, ..)| *is_given) {
         let allowed = match default.as_str() {

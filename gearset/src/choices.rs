@@ -171,6 +171,8 @@ pub struct FeContactInput {
     pub cell_layout: CellLayout,
     /// Depth below the flank at which half-plane and FE are matched, m.
     pub matching_depth: Option<f64>,
+    /// Least depth of the default, elements along a flank.
+    pub matching_depth_elements: Option<f64>,
     /// Matching points below each cell: 1 as in eq. (1) of Parker, Agashe & Vijayakar (2000), 2 to
     /// extrapolate to the surface.
     pub matching_points: u32,
@@ -187,6 +189,7 @@ impl Default for FeContactInput {
             contact_cells: 40,
             cell_layout: CellLayout::Graded,
             matching_depth: None,
+            matching_depth_elements: None,
             matching_points: 2,
             flexibility_factor: PerMesh { sun_planet: 1.0, ring_planet: 1.0 },
         }

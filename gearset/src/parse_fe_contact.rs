@@ -21,6 +21,12 @@ pub(crate) fn fe_contact(s: Section<'_, '_>) -> FeContactInput {
     let cell_layout = s.choice("cell_layout", &layouts, "contact cells in time");
     let why = "depth below the flank at which half-plane and FE are matched";
     let matching_depth = s.number("matching_depth_mm", Bound::Positive, why).map(|d| d * 1e-3);
+    let why = "elements along a flank, below which the default depth never is";
+    let in_elements = s.number("matching_depth_elements", Bound::Positive, why);
+    if matching_depth.is_some() && in_elements.is_some() {
+        let why = "a depth in mm is not derived from the elements";
+        s.fault("matching_depth_elements", "no value beside `matching_depth_mm`", why);
+    }
     let points = s.integer("matching_points", (1, 2), "1: the paper's eq. (1); 2: extrapolated");
     let flexibility_factor = s.section("flexibility_factor").map(|f| {
         let why = "factor on the FE part of a mesh's flexibility";
@@ -37,6 +43,7 @@ pub(crate) fn fe_contact(s: Section<'_, '_>) -> FeContactInput {
         contact_cells: cells.map_or(default.contact_cells, |n| n as u32),
         cell_layout: cell_layout.unwrap_or(default.cell_layout),
         matching_depth,
+        matching_depth_elements: in_elements,
         matching_points: points.map_or(default.matching_points, |n| n as u32),
         flexibility_factor: flexibility_factor.unwrap_or(default.flexibility_factor),
     }

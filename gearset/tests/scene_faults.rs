@@ -151,6 +151,14 @@ fn each_kind_of_fault_names_its_key_and_says_why() {
         ),
         (
             &[(
+                "# matching_depth_mm = 0.57",
+                "matching_depth_mm = 0.57\nmatching_depth_elements = 1.3",
+            )],
+            "fe_contact.matching_depth_elements",
+            "beside `matching_depth_mm`",
+        ),
+        (
+            &[(
                 "# flexibility_factor = { sun_planet = 1.0",
                 "flexibility_factor = { sun_planet = 0.0",
             )],
@@ -282,7 +290,7 @@ fn faults_of_every_stage_are_listed_in_one_run_and_nothing_that_follows_from_the
 
 #[test]
 fn nothing_is_reported_that_only_follows_from_another_fault() {
-    let cases: [Faults; 18] = [
+    let cases: [Faults; 19] = [
         // Positions, base radii, meshes and angles depend on the teeth.
         (&[("sun = 27", "sun = 27.5")], &["teeth.sun"]),
         (&[("planet = 35", "")], &["teeth.planet"]),
@@ -349,6 +357,16 @@ fn nothing_is_reported_that_only_follows_from_another_fault() {
                 "fe_contact.flank_elements",
                 "fe_contact.matching_depth_mm",
             ],
+        ),
+        (
+            &[
+                (
+                    "fidelity = \"quasi_static\"",
+                    "fidelity = \"auto\"\nquantity = \"transmission_error\"\ntolerance_percent = 5",
+                ),
+                ("# matching_depth_elements = 0.85", "matching_depth_elements = 1.3"),
+            ],
+            &["fe_contact.matching_depth_elements"],
         ),
         (&[("\n[lumped]", "\nlumped_mass = 1\n[lumped]")], &["planet.lumped_mass"]),
         (&[("motion = \"free\"", "motion = \"fre\"\ntorsional_n_per_m = 1")], &["sun.motion"]),

@@ -14,6 +14,9 @@ pub(super) fn write(choice: &Choice, out: &mut dyn Write) -> std::io::Result<()>
         "{quantity}: {value:.digits$} {unit}, estimated error {estimated_error_percent:.2} % (allowed: {tolerance_percent} %)"
     )?;
     writeln!(out, "chosen: {}", choice.settings)?;
+    if let Some(elements) = choice.settings.matching_depth_elements {
+        writeln!(out, "  with fe_contact.matching_depth_elements = {elements}")?;
+    }
     for part in &choice.error_parts {
         writeln!(out, "  {:.3} % from {}", part.percent, part.source)?;
     }

@@ -4,7 +4,7 @@ use gearset::{AutoResponse, LoadCase, MeshKind, Scene};
 
 use super::amplitude_indicators::Indicators;
 use super::amplitude_run::{Motions, Turning, on};
-use super::choice::{AutoError, Choice, ErrorPart, total};
+use super::choice::{AutoError, Choice, ErrorPart, Together};
 use super::error_parts::SetSize;
 use super::frequency::BODY_INERTIA;
 use super::response::name;
@@ -121,7 +121,8 @@ pub fn choose_amplitude(
     case: &LoadCase,
     request: &AmplitudeRequest,
 ) -> Result<ChosenSweep, AutoError> {
-    let mut trial = Trial::new(request.to_string(), "µm", request.tolerance_percent)?;
+    let quantity = request.to_string();
+    let mut trial = Trial::new(quantity, "µm", request.tolerance_percent, Together::Squares)?;
     let size = SetSize::new(scene, case)?;
     let (of, base) = ((scene, case), base(scene));
     for mesh in 0..MESHES.len() - 1 {
@@ -183,15 +184,19 @@ impl Search<'_, '_> {
             ErrorPart::new(TIME_STEPS, known.of_steps(doubled)),
             ErrorPart::new(PERIODICITY, LEFT_TO_GO * known.motions.residual()),
         ];
-        let (allowed, others) = (self.request.tolerance_percent, total(&without));
+        let with = |inertia: f64| {
+            let inertia = std::iter::once(ErrorPart::new(BODY_INERTIA, inertia));
+            Together::Squares.of(&without.iter().cloned().chain(inertia).collect::<Vec<_>>())
+        };
+        let allowed = self.request.tolerance_percent;
         // The bound of the inertia costs little; what replaces it is asked for where it decides.
-        let is_decided_by_it = others <= allowed && others + 100.0 * known.inertia > allowed;
+        let is_decided_by_it = with(0.0) <= allowed && with(known.inertia) > allowed;
         if is_decided_by_it && let Err(e) = known.replace_bound(self.turning) {
             trial.refused(own, e);
             return None;
         }
         let is_coarsest = (mesh, doubled) == (known.mesh, 0);
-        let expected = others + 100.0 * known.inertia;
+        let expected = with(known.inertia);
         if !is_coarsest && !trial.is_expected(own, expected) {
             return None;
         }
@@ -241,7 +246,9 @@ impl Search<'_, '_> {
                 ErrorPart::new(MESH, known.of_mesh(*mesh)),
                 ErrorPart::new(TIME_STEPS, known.of_steps(*doubled)),
             ];
-            if !trial.is_expected(own, total(&parts) + 100.0 * left_out) {
+            let inertia = ErrorPart::new(BODY_INERTIA, left_out);
+            let expected: Vec<_> = parts.iter().cloned().chain([inertia]).collect();
+            if !trial.is_expected(own, Together::Squares.of(&expected)) {
                 return None;
             }
             let rigid = settings(self.base << doubled, *mesh, None);

@@ -128,7 +128,8 @@ impl Indicators {
 
     /// Elements and cells of a mesh.
     pub(super) fn of_mesh(&self, mesh: usize) -> f64 {
-        self.by_stiffness * self.stiffness[mesh] + self.uneven * size_ratio(self.mesh, mesh)
+        let uneven = self.uneven * size_ratio(self.mesh, mesh);
+        (self.by_stiffness * self.stiffness[mesh]).hypot(uneven)
     }
 
     /// The same of a candidate that was run: where it differs from the coarsest by more than both estimates and the steps

@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::error_parts::EXPANDED;
 use super::settings::AutoSettings;
 use crate::error::ExperimentError;
 
@@ -43,7 +44,8 @@ pub struct Choice {
     pub unit: String,
     /// Wanted accuracy, percent of the value.
     pub tolerance_percent: f64,
-    /// Estimated error of the value, percent: the sum of `error_parts`.
+    /// Estimated error of the value, percent: the sum of `error_parts`, of an amplitude 2/√3 of the root of the sum of their squares if
+    /// that is less.
     pub estimated_error_percent: f64,
     /// What the error consists of.
     pub error_parts: Vec<ErrorPart>,
@@ -56,6 +58,26 @@ pub struct Choice {
 /// Sum of the parts, percent: as if all errors had one sign.
 pub(super) fn total(parts: &[ErrorPart]) -> f64 {
     parts.iter().map(|part| part.percent).sum()
+}
+
+/// How the parts of an error are taken together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Together {
+    /// As if all had one sign.
+    Sum,
+    /// As errors of independent causes that are anywhere within their bounds, at most the sum.
+    Squares,
+}
+
+impl Together {
+    /// The error that the parts amount to, percent.
+    pub(super) fn of(self, parts: &[ErrorPart]) -> f64 {
+        let squares = || parts.iter().map(|part| part.percent * part.percent).sum::<f64>();
+        match self {
+            Self::Sum => total(parts),
+            Self::Squares => total(parts).min(EXPANDED * squares().sqrt()),
+        }
+    }
 }
 
 /// Why there is no choice.

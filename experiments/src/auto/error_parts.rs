@@ -23,11 +23,6 @@ const CHANGE_DOUBT: f64 = 0.05;
 /// 620.6, 618.3 and 617.3 N/µm at 7, 14 and 28 elements (`docs/fe_contact.md`) by `dynamics::grid_convergence_index`.
 const STIFFNESS_INDEX: (f64, f64, f64) = (0.0036, 14.0, 1.2);
 
-/// Fewer elements than these along a flank are matched at 0.85 of an element below it instead of 0.07 base pitches. There six and
-/// ten elements were seen to make amplitudes 0.8 % too small alike, by the median of 47 development sets (`docs/auto.md`).
-const MATCHED_BY_ELEMENT: u32 = 12;
-const OF_MATCHING: f64 = 0.011;
-
 /// Half-widths of contact that the grid of a pair reaches to either side.
 const GRID_HALF_WIDTHS: f64 = 1.5;
 
@@ -49,7 +44,7 @@ const INERTIA_DOUBT: f64 = 0.03;
 
 /// Independent parameters that are anywhere within ±a: standard uncertainty a/√3 each, root of the sum of squares, and
 /// twice that (JCGM 100:2008, 4.3.7, 5.1.2 and 6.2).
-const EXPANDED: f64 = 1.154_700_538_379_251_6;
+pub(super) const EXPANDED: f64 = 1.154_700_538_379_251_6;
 
 /// Largest effect of corner contacts that press along their own normals (`docs/fe_dynamics_effects.md`).
 const CORNERS: f64 = 0.006;
@@ -234,14 +229,10 @@ impl SetSize {
         ]
     }
 
-    /// Their sum for a mesh in motion, with what matching at one element below the flank adds.
+    /// Both together, δk/k: their causes are independent.
     pub(super) fn of_stiffness(&self, flank_elements: u32, contact_cells: u32) -> f64 {
         let [elements, cells] = self.stiffness_parts(flank_elements, contact_cells);
-        let elements = match flank_elements < MATCHED_BY_ELEMENT {
-            true => elements.max(OF_MATCHING),
-            false => elements,
-        };
-        elements + cells
+        elements.hypot(cells)
     }
 
     /// Mean deflection of a mesh by estimate, m.

@@ -5,7 +5,7 @@ use fe_contact::vibration::ElasticInertia;
 use gearset::{AutoModeType, LoadCase, Scene};
 use lumped::{LumpedModel, ModeType, NaturalModes};
 
-use super::choice::{AutoError, Choice, ErrorPart, total};
+use super::choice::{AutoError, Choice, ErrorPart, Together, total};
 use super::elastic_change::elastic_change;
 use super::energy::{ModeEnergy, mixed, of_group, of_linear};
 use super::error_parts::SetSize;
@@ -141,7 +141,7 @@ pub fn choose_frequency(
     case: &LoadCase,
     request: &FrequencyRequest,
 ) -> Result<Choice, AutoError> {
-    let trial = Trial::new(request.to_string(), "Hz", request.tolerance_percent)?;
+    let trial = Trial::new(request.to_string(), "Hz", request.tolerance_percent, Together::Sum)?;
     let size = SetSize::new(scene, case)?;
     let mut search = Search { scene, case, request, size, trial, change: None, seen: None };
     let found = match search.lumped() {

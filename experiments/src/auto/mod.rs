@@ -1,9 +1,9 @@
 //! The cheapest settings that give one quantity within a tolerance, with the estimated error of the answer.
 //!
 //! Candidates are tried from cheap to dear. Each answers the question and estimates its own error, one part for every
-//! approximation it makes; the parts are added as if all had the same sign. The first candidate whose sum is within the
-//! tolerance is the answer, and where none is, there is no answer. Equations, limits and the test of the estimates:
-//! `docs/auto.md`.
+//! approximation it makes; the parts are added as if all had the same sign, those of an amplitude by squares. The first
+//! candidate whose estimate is within the tolerance is the answer, and where none is, there is no answer. Equations,
+//! limits and the test of the estimates: `docs/auto.md`.
 
 mod amplitude;
 mod amplitude_indicators;

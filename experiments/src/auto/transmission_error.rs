@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use fe_contact::statics::Bodies;
 use gearset::{LoadCase, Scene};
 
-use super::choice::{AutoError, Choice, ErrorPart};
+use super::choice::{AutoError, Choice, ErrorPart, Together};
 use super::cycle_curve::{Curve, overshoot, range, undershoot};
 use super::settings::{AutoSettings, MESHES, divided, phase_parts, size_ratio};
 use super::trial::Trial;
@@ -169,7 +169,7 @@ pub fn choose_transmission_error(
     case: &LoadCase,
     request: &CycleRequest,
 ) -> Result<Choice, AutoError> {
-    let trial = Trial::new(request.to_string(), "µm", request.tolerance_percent)?;
+    let trial = Trial::new(request.to_string(), "µm", request.tolerance_percent, Together::Sum)?;
     let base = divided(scene, POSITIONS);
     let scenes = [0, 1, 2, 3].map(|mesh| request.settings(base, mesh, 0).applied_to(scene));
     let bodies = [const { OnceCell::new() }; MESHES.len()];

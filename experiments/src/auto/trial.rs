@@ -1,6 +1,6 @@
 //! Candidates as they are tried: chosen, or passed over with the reason.
 
-use super::choice::{AutoError, Choice, ErrorPart, PassedOver, total};
+use super::choice::{AutoError, Choice, ErrorPart, PassedOver, Together};
 use super::settings::AutoSettings;
 
 /// The candidates tried for one quantity and tolerance.
@@ -11,6 +11,7 @@ pub(super) struct Trial {
     /// Unit of its value.
     unit: &'static str,
     tolerance_percent: f64,
+    together: Together,
     passed_over: Vec<PassedOver>,
     /// Whether any candidate has the quantity.
     has_answer: bool,
@@ -25,12 +26,14 @@ impl Trial {
         quantity: String,
         unit: &'static str,
         tolerance_percent: f64,
+        together: Together,
     ) -> Result<Self, AutoError> {
         match tolerance_percent > 0.0 && tolerance_percent <= 100.0 {
             true => Ok(Self {
                 quantity,
                 unit,
                 tolerance_percent,
+                together,
                 passed_over: Vec::new(),
                 has_answer: false,
             }),
@@ -61,7 +64,7 @@ impl Trial {
         no_bound: impl Fn() -> String,
     ) -> Option<Choice> {
         self.has_answer = true;
-        let error = total(&parts);
+        let error = self.together.of(&parts);
         if error.is_infinite() {
             self.pass(settings, None, format!("no bound of its error: {}", no_bound()));
             return None;
