@@ -132,6 +132,22 @@ fn listed(all: &[PassedOver]) -> String {
 mod tests {
     use super::*;
 
+    /// Two equal parts by squares are √(8/3) of one; one alone, or one beside a very small one, is no more than the sum.
+    #[test]
+    fn parts_together_are_at_most_their_sum() {
+        let of = |list: &[f64]| {
+            let parts: Vec<_> = list.iter().map(|e| ErrorPart::new("", *e)).collect();
+            [Together::Sum.of(&parts), Together::Squares.of(&parts)]
+        };
+        let [sum, squares] = of(&[0.01, 0.01]);
+        assert!((sum - 2.0).abs() < 1e-12 && (squares - (8.0f64 / 3.0).sqrt()).abs() < 1e-12);
+        for list in [&[0.02][..], &[0.02, 0.001], &[]] {
+            let [sum, squares] = of(list);
+            assert_eq!(sum, squares, "{list:?}");
+        }
+        assert!(of(&[0.01, f64::INFINITY])[1].is_infinite());
+    }
+
     #[test]
     fn a_reason_that_candidates_share_is_given_once() {
         let over = |flank_elements, why: &str| PassedOver {
