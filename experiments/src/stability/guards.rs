@@ -36,7 +36,7 @@ type Said = Result<Option<String>, MapError>;
 /// What is tried: `true` beyond the border.
 type Attempt = fn(bool) -> Said;
 
-const ALL: [(&str, &str, Attempt); 22] = [
+const ALL: [(&str, &str, Attempt); 23] = [
     ("explicit step", "Δt·ω_max of central difference 1.999 and 2.001", explicit_step),
     ("parameter of a scheme", "HHT-α with α = −0.333 and −0.334", parameter),
     ("mass at an obstacle", "Moreau–Jean on a flank with and without mass", massless),
@@ -54,6 +54,7 @@ const ALL: [(&str, &str, Attempt); 22] = [
     ),
     ("matching depth, above", "0.1 % within and beyond the least depth", shallow),
     ("matching depth, below", "0.1 % within and beyond the greatest depth", deep),
+    ("matching depth in elements", "0.1 % within and beyond the least depth", few_elements_deep),
     ("linear kinematics", "rest of 9.9 % and 10.1 % of the sun's motion of 10 µm", linear),
     (
         "lines of action of the unloaded set",
@@ -150,6 +151,7 @@ const ELEMENT: &str = "element = \"quadratic\"";
 const CELLS: &str = "contact_cells = 40";
 const FLANK: &str = "flank_elements = 14";
 const DEPTH: &str = "# matching_depth_mm = 0.57";
+const DEPTH_IN_ELEMENTS: &str = "# matching_depth_elements = 0.85";
 const TORQUE: &str = "torque_nm = 1413";
 
 fn fewest_steps(beyond: bool) -> Said {
@@ -200,25 +202,29 @@ fn loaded_cells(beyond: bool) -> Said {
 }
 
 fn shallow(beyond: bool) -> Said {
-    at_depth(0, if beyond { 0.999 } else { 1.001 })
+    at_depth(DEPTH, 0, if beyond { 0.999 } else { 1.001 })
 }
 
 fn deep(beyond: bool) -> Said {
-    at_depth(1, if beyond { 1.001 } else { 0.999 })
+    at_depth(DEPTH, 1, if beyond { 1.001 } else { 0.999 })
 }
 
-/// A matching depth at a factor on one of its two limits, which a refusal names.
-fn at_depth(limit: usize, factor: f64) -> Said {
-    let at = |depth_mm: f64| {
-        let depth = format!("matching_depth_mm = {depth_mm}");
-        let mut scene = accepted(SceneKind::Planetary, DEPTH, &depth)?;
+fn few_elements_deep(beyond: bool) -> Said {
+    at_depth(DEPTH_IN_ELEMENTS, 0, if beyond { 0.999 } else { 1.001 })
+}
+
+/// A matching depth, by the line of the template that holds its key, at a factor on one of its limits, which a refusal names.
+fn at_depth(line: &str, limit: usize, factor: f64) -> Said {
+    let key = line.trim_start_matches("# ").split(' ').next().unwrap_or(line);
+    let at = |depth: f64| {
+        let mut scene = accepted(SceneKind::Planetary, line, &format!("{key} = {depth}"))?;
         scene.fe_contact.flank_elements = 8;
         Ok::<_, MapError>(Bodies::new(&scene).err())
     };
     let Some(FeError::Unfit { allowed, .. }) = at(1e-6)? else {
         return Ok(None);
     };
-    let limits: Vec<f64> = allowed.split(" to ").filter_map(|word| word.parse().ok()).collect();
+    let limits: Vec<f64> = allowed.split(' ').filter_map(|word| word.parse().ok()).collect();
     let Some(depth) = limits.get(limit) else { return Ok(None) };
     Ok(at(depth * factor)?.map(|e| e.to_string()))
 }

@@ -4,7 +4,7 @@
 //!
 //! `AUTO_SEEDS=1..9` runs other seeds: those of the record served no other purpose, and 1 to 12 were used when the
 //! estimates were programmed. 1001 to 1073 are those of an earlier record, whose misses were read before the estimates were
-//! changed, so that the record has others.
+//! changed, so that the record has others; it was made again when candidates got another matching depth.
 
 use validation::{AutoRow, ResponseRow, auto_row, auto_tables, response_row};
 
@@ -14,7 +14,8 @@ use super::Outcome;
 const SEEDS: std::ops::Range<u64> = 5001..6001;
 const SETS: usize = 60;
 
-/// Seeds of the record of transmission errors at rest and amplitudes. Those below were read before the estimates were changed.
+/// Seeds of the record of transmission errors at rest and amplitudes. Those below were read before the estimates were changed;
+/// these were read once with the present estimates, before more steps shared the tables of fewer.
 const RESPONSE_SEEDS: std::ops::Range<u64> = 13001..13181;
 
 /// Seeds that `AUTO_SEEDS` asks for, if it is set.
