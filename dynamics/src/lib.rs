@@ -15,6 +15,7 @@ pub mod integrators;
 mod lowest_modes;
 mod matrix;
 mod newmark;
+mod number;
 mod periodic;
 mod rotating_frame;
 mod spectrum;
@@ -36,6 +37,7 @@ pub use grid_convergence::{GridConvergence, grid_convergence_index};
 pub use gyroscopic::{GyroscopicMode, gyroscopic_modes};
 pub use lowest_modes::{LowMode, ModalOperator, lowest_modes};
 pub use newmark::{AverageAcceleration, Motion, StepError};
+pub use number::Number;
 pub use periodic::{
     Correction, MapDerivative, Multiplier, MultiplierKind, PeriodMap, PeriodicSolution,
     ShootingError, ShootingSettings, floquet_vector, multipliers, shoot,

@@ -55,6 +55,10 @@ const NOISE: [(&str, f64); 4] = [
     ("uncertainty_hz", 1e-3),
 ];
 
+/// Checks whose value is what the last correction of a steady state leaves, which depends on rounding: only an upper limit is
+/// checked, a tenth of the tolerance that they are judged by.
+const LEFT_OVER: [(&str, f64); 2] = [("sweep.forbidden.", 1e-9), ("sweep.between.", 1e-17)];
+
 struct Tolerant;
 
 impl Comparator for Tolerant {
@@ -81,7 +85,14 @@ fn same(key: &str, a: &Value, b: &Value) -> bool {
         (Value::Object(a), Value::Object(b)) if a.contains_key("tolerance") => {
             let number = |check: &serde_json::Map<String, Value>| check["actual"].as_f64();
             let drift = a["tolerance"]["absolute"].as_f64().map_or(0.0, |t| DRIFT * t);
+            let id = a.get("id").and_then(Value::as_str).unwrap_or_default();
+            let left_over = LEFT_OVER.iter().find(|(own, _)| id.starts_with(own));
             let is_same = match (number(a), number(b)) {
+                (Some(x), Some(y))
+                    if left_over.is_some_and(|(_, limit)| x.abs().max(y.abs()) <= *limit) =>
+                {
+                    true
+                }
                 (Some(x), Some(y)) => (x - y).abs() <= drift + 1e-9 * x.abs(),
                 _ => same(&format!("{key}/actual"), &a["actual"], &b["actual"]),
             };

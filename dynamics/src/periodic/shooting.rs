@@ -90,6 +90,9 @@ pub fn shoot<M: PeriodMap + ?Sized>(
     let (mut derivatives, mut failures) = (0, 0);
     let mut last: Option<Taken> = None;
     let (mut is_closing, mut march_on) = (false, settings.settling);
+    // Corrections may use rough derivatives until the first correction of one does not contract, or shows an end that is
+    // none.
+    let (mut may_be_rough, mut is_new) = (true, false);
     while errors.len() < settings.most_periods {
         let start = map.coordinates();
         if let Err(cause) = map.advance() {
@@ -98,7 +101,7 @@ pub fn shoot<M: PeriodMap + ?Sized>(
             let Some(taken) = last.take() else { return Err(ShootingError::Map(cause)) };
             last = retry(map, taken, &mut failures, &mut march_on)
                 .map_err(|other| ShootingError::Map(other.unwrap_or(cause)))?;
-            (correction, is_closing) = (None, false);
+            (correction, is_closing, may_be_rough) = (None, false, false);
             continue;
         }
         if march_on > 0 {
@@ -108,8 +111,12 @@ pub fn shoot<M: PeriodMap + ?Sized>(
         }
         let end = map.coordinates();
         let residual: Vec<f64> = end.iter().zip(&start).map(|(e, s)| e - s).collect();
+        let has_ended = is_closing && map.change() <= settings.tolerance;
+        if is_closing && !has_ended && may_be_rough {
+            (correction, may_be_rough) = (None, false);
+        }
         let step = correction.as_ref().map(|own| Step::new(map, own, &residual));
-        if is_closing && map.change() <= settings.tolerance {
+        if has_ended {
             derivatives += 1;
             return Ok(PeriodicSolution {
                 residual: map.change(),
@@ -126,10 +133,16 @@ pub fn shoot<M: PeriodMap + ?Sized>(
             (is_whole && step.error <= KEPT * before) || step.error <= CLOSE * settings.tolerance
         };
         let step = match step.filter(contracts) {
-            Some(step) => step,
+            Some(step) => {
+                is_new = false;
+                step
+            }
             None => {
                 derivatives += 1;
-                let own = map.derivative().map_err(ShootingError::Map)?.correction()?;
+                may_be_rough &= !is_new;
+                is_new = true;
+                let own = if may_be_rough { map.rough_derivative() } else { map.derivative() };
+                let own = own.map_err(ShootingError::Map)?.correction()?;
                 let step = Step::new(map, &own, &residual);
                 correction = Some(own);
                 step
@@ -152,7 +165,7 @@ pub fn shoot<M: PeriodMap + ?Sized>(
                         None => ShootingError::Stalled { periods: errors.len(), error },
                     },
                 )?;
-                correction = None;
+                (correction, may_be_rough) = (None, false);
                 continue;
             }
             Some(taken) => (LONGER * taken.fraction).min(1.0),

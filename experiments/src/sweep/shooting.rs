@@ -155,6 +155,10 @@ impl PeriodMap for RecordedCycles<'_> {
         self.of_cycle(Along::Motion)
     }
 
+    fn rough_derivative(&mut self) -> Result<MapDerivative, ExperimentError> {
+        self.of_cycle(Along::MotionRoughly)
+    }
+
     fn relative(&self, deviation: &[f64]) -> f64 {
         let (central, planets) = self.set.displacements_of(deviation);
         let mut largest = [0.0f64; 2];

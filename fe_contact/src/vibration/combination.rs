@@ -17,7 +17,7 @@
 //! E couples the pairs of a mesh or, on bodies with elastic states, all pairs. The matrix of the races is of the order of
 //! their coordinates; its symmetric part is positive definite.
 
-use dynamics::{Computation, Simd, wide};
+use dynamics::{Computation, Number, Simd, wide};
 use nalgebra::{DMatrixView, DMatrixViewMut};
 
 use super::frame::Frame;
@@ -110,8 +110,8 @@ impl Combination {
 
     /// Writes S' G for columns G of length `m`, one for each touching pair.
     #[inline(always)]
-    pub(super) fn press(&self, out: &mut [f64], g: &[f64], m: usize) {
-        out[..m * self.touching.len()].fill(0.0);
+    pub(super) fn press<T: Number>(&self, out: &mut [T], g: &[T], m: usize) {
+        out[..m * self.touching.len()].fill(T::of(0.0));
         let mut first = 0;
         for (touching, stiffness, _) in self.groups() {
             let count = touching.len();

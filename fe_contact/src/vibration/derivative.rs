@@ -1,12 +1,12 @@
 //! The derivative of the mesh cycle that a set marched last, computed from what its frames keep of every step.
 
-use dynamics::MapDerivative;
+use dynamics::{MapDerivative, Number};
 use faer::linalg::solvers::Solve;
 use faer::{MatMut, MatRef};
 use gearset::Symmetry;
 use nalgebra::{DMatrix, DVector};
 
-use super::gradients::{Gradients, LagGradients};
+use super::gradients::{BLOCK, Gradients, LagGradients};
 use super::lag::WIDTH;
 use super::packed::Packed;
 use super::set::VibratingSet;
@@ -23,6 +23,10 @@ const FORGOTTEN: f64 = 23.0;
 /// that the parabola of the lag passes through: of these a share of about 0.3 was left after each step of 10 β.
 const FEWEST: usize = 12;
 
+/// The same for corrections of a state: shares of 1e-3 and 2e-3 are left.
+const FORGOTTEN_ROUGHLY: f64 = 7.0;
+const FEWEST_ROUGHLY: usize = 5;
+
 /// Changes of the state at the start of a cycle whose effect at its end is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Along {
@@ -30,39 +34,44 @@ pub enum Along {
     /// All others are gone after a cycle, so that these suffice for multipliers and for corrections of a state
     /// that was marched to.
     Motion,
+    /// As [`Motion`](Self::Motion), rounded to errors of the order of 1e-4: enough for corrections of a state, not for
+    /// multipliers.
+    MotionRoughly,
     /// Of every coordinate by itself.
     Every,
 }
 
 /// The derivative so far.
 #[derive(Debug, Clone)]
-pub(super) struct SetDerivative {
+pub(super) struct SetDerivative<T> {
     /// Coordinates whose changes at the start are the rows of the gradients, and the sizes of these changes.
     active: Vec<(usize, f64)>,
-    pub(super) races: Gradients,
+    pub(super) races: Gradients<T>,
     /// Modes of carrier, ring, sun and planets.
-    pub(super) elastic: Vec<Gradients>,
-    pub(super) meshes: Vec<LagGradients>,
+    pub(super) elastic: Vec<Gradients<T>>,
+    pub(super) meshes: Vec<LagGradients<T>>,
     /// Load on the races by v*, n×n, N s/m.
     pub(super) velocity_load: Packed,
-    pub(super) work: Work,
+    pub(super) work: Work<T>,
     /// Q, (active coordinates)×rows, once the rows of the gradients were compressed: the gradients with respect to
     /// the active coordinates are Q times these.
-    basis: Option<DMatrix<f64>>,
+    basis: Option<DMatrix<T>>,
 }
 
 /// Gradients used within a step, column after column, kept so that steps allocate little memory.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Work {
-    pub(super) acceleration: Vec<f64>,
-    pub(super) velocity: Vec<f64>,
-    pub(super) load: Vec<f64>,
-    pub(super) next: Vec<f64>,
-    pub(super) b: Vec<f64>,
-    pub(super) forces: Vec<f64>,
+pub(super) struct Work<T> {
+    pub(super) acceleration: Vec<T>,
+    pub(super) velocity: Vec<T>,
+    pub(super) load: Vec<T>,
+    pub(super) next: Vec<T>,
+    pub(super) b: Vec<T>,
+    pub(super) forces: Vec<T>,
     /// Of the displacements of the races expected at the end of the step, and of one along a row.
-    pub(super) ahead: Vec<f64>,
-    pub(super) expected: Vec<f64>,
+    pub(super) ahead: Vec<T>,
+    pub(super) expected: Vec<T>,
+    /// A matrix in the precision of the gradients.
+    pub(super) matrix: Vec<T>,
     /// Column of each pair among the touching ones.
     pub(super) column_of: Vec<Option<usize>>,
 }
@@ -81,14 +90,31 @@ impl VibratingSet<'_> {
     /// # Errors
     /// If a body's modes are not those of equal teeth.
     pub fn cycle_derivative(&mut self, along: Along, rate: f64) -> Result<MapDerivative, FeError> {
+        match along {
+            Along::MotionRoughly => self.cycle_derivative_in::<f32>(along, rate),
+            Along::Motion | Along::Every => self.cycle_derivative_in::<f64>(along, rate),
+        }
+    }
+
+    /// The same with gradients in the precision of T.
+    fn cycle_derivative_in<T: Number>(
+        &mut self,
+        along: Along,
+        rate: f64,
+    ) -> Result<MapDerivative, FeError> {
         let (count, cycles) = (self.clock.rotation.count(), self.clock.cycles);
         let turn = self.present_renumbering();
         let steps = turn.as_ref().map_or(count, |(own, _)| count / own.parts);
-        let mut derivative = self.start_derivative(along, rate);
-        if along == Along::Motion {
+        let mut derivative: SetDerivative<T> = self.start_derivative(along, rate);
+        let settling = match along {
+            Along::Motion => Some((FORGOTTEN, FEWEST)),
+            Along::MotionRoughly => Some((FORGOTTEN_ROUGHLY, FEWEST_ROUGHLY)),
+            Along::Every => None,
+        };
+        if let Some((forgotten, fewest)) = settling {
             // In a periodic motion the steps before the start are those before the end, taken back as the end is.
-            let settling = FORGOTTEN * self.race_dynamics.damping.beta / self.clock.rule.step();
-            let settling = (settling.ceil() as usize + FEWEST).min(steps);
+            let settling = forgotten * self.race_dynamics.damping.beta / self.clock.rule.step();
+            let settling = (settling.ceil() as usize + fewest).min(steps);
             for step in steps - settling + 1..=steps {
                 self.carry_derivative(&mut derivative, step, cycles);
             }
@@ -106,7 +132,7 @@ impl VibratingSet<'_> {
     }
 
     /// Changes at the start of a step.
-    fn start_derivative(&mut self, along: Along, rate: f64) -> SetDerivative {
+    fn start_derivative<T: Number>(&mut self, along: Along, rate: f64) -> SetDerivative<T> {
         let n = self.statics.races.count;
         let unknowns: Vec<usize> = self.bodies.all().map(|(_, body)| body.unknowns()).collect();
         let mut active: Vec<(usize, f64)> = Vec::new();
@@ -114,7 +140,7 @@ impl VibratingSet<'_> {
         for count in std::iter::once(&n).chain(&unknowns) {
             let range = |k: usize| leading + k * count..leading + (k + 1) * count;
             match along {
-                Along::Motion => {
+                Along::Motion | Along::MotionRoughly => {
                     active.extend(range(0).map(|i| (i, 1.0)));
                     active.extend(range(1).map(|i| (i, rate)));
                 }
@@ -128,7 +154,7 @@ impl VibratingSet<'_> {
         }
         let mut live = vec![[false; WIDTH]; self.pairs.memory.len()];
         for (mesh, memory) in self.pairs.memory.iter_mut().enumerate() {
-            if along == Along::Motion {
+            if along != Along::Every {
                 break;
             }
             let lists = memory.lists().map(|list| *list);
@@ -142,13 +168,15 @@ impl VibratingSet<'_> {
                 active.extend(nonzero.map(|slot| (first + slot, STIFFNESS)));
             }
         }
-        let m = active.len();
+        let m = active.len().next_multiple_of(BLOCK);
         let unit = |first: usize, count: usize| {
-            let entry = |row: usize, k: usize| match active[row] {
-                (i, size) if i == first + k => size,
-                _ => 0.0,
-            };
-            DMatrix::from_fn(m, count, entry)
+            let mut own = DMatrix::zeros(m, count);
+            for (row, (i, size)) in active.iter().enumerate() {
+                if let Some(k) = i.checked_sub(first).filter(|k| *k < count) {
+                    own[(row, k)] = T::of(*size);
+                }
+            }
+            own
         };
         let gradients = |first: usize, count: usize| Gradients {
             x: unit(first, count),
@@ -175,14 +203,17 @@ impl VibratingSet<'_> {
     }
 }
 
-impl SetDerivative {
+impl<T: Number> SetDerivative<T> {
     /// Writes the displacements of the races that are expected at the end of the step, column after column:
     /// x + h (v + ½ h a).
     #[inline(always)]
-    pub(super) fn expect(&self, h: f64, out: &mut Vec<f64>) {
+    pub(super) fn expect(&self, h: f64, out: &mut Vec<T>) {
+        let (h, half) = (T::of(h), T::of(0.5 * h * h));
         let [x, v, a] = [&self.races.x, &self.races.v, &self.races.a].map(|list| list.as_slice());
-        out.clear();
-        out.extend(x.iter().zip(v).zip(a).map(|((x, v), a)| x + h * (v + 0.5 * h * a)));
+        out.resize(x.len(), T::of(0.0));
+        for (((out, x), v), a) in out.iter_mut().zip(x).zip(v).zip(a) {
+            *out = *x + h * *v + half * *a;
+        }
     }
 
     /// Rows of the gradients.
@@ -192,8 +223,8 @@ impl SetDerivative {
 
     /// All gradients in the order of the coordinates, each list with the size of its quantities beside that of a
     /// displacement.
-    fn lists(&self, rate: f64) -> Vec<(&DMatrix<f64>, f64)> {
-        let mut lists: Vec<(&DMatrix<f64>, f64)> = Vec::new();
+    fn lists(&self, rate: f64) -> Vec<(&DMatrix<T>, f64)> {
+        let mut lists: Vec<(&DMatrix<T>, f64)> = Vec::new();
         for own in std::iter::once(&self.races).chain(&self.elastic) {
             lists.extend([(&own.x, 1.0), (&own.v, rate), (&own.a, rate * rate)]);
         }
@@ -204,10 +235,20 @@ impl SetDerivative {
     }
 
     /// The same, to be changed.
-    fn lists_mut(&mut self) -> impl Iterator<Item = &mut DMatrix<f64>> {
+    fn lists_mut(&mut self) -> impl Iterator<Item = &mut DMatrix<T>> {
         let bodies = std::iter::once(&mut self.races).chain(&mut self.elastic);
         let meshes = self.meshes.iter_mut().flat_map(LagGradients::lists_mut);
         bodies.flat_map(Gradients::lists_mut).chain(meshes)
+    }
+
+    /// Hands over all columns but those of pairs without gradients, which are 0.
+    fn live_columns_mut(&mut self, of: &mut dyn FnMut(&mut [T])) {
+        let m = self.rows().max(1);
+        let bodies = std::iter::once(&mut self.races).chain(&mut self.elastic);
+        for list in bodies.flat_map(Gradients::lists_mut) {
+            list.as_mut_slice().chunks_exact_mut(m).for_each(&mut *of);
+        }
+        self.meshes.iter_mut().flat_map(LagGradients::live_columns_mut).for_each(of);
     }
 
     /// Expresses the gradients of the bodies' modes in the frames one tooth back, or renumbers the planets.
@@ -217,7 +258,7 @@ impl SetDerivative {
         turn: Option<&(Symmetry, DMatrix<f64>)>,
     ) {
         if let Some((own, turn)) = turn {
-            let transposed = turn.transpose();
+            let transposed = turn.transpose().map(T::of);
             self.races.lists_mut().into_iter().for_each(|list| *list *= &transposed);
             let planets = self.meshes.len() / 2;
             let meshes = (0..2 * planets).map(|mesh| self.meshes[own.later(mesh, planets)].clone());
@@ -226,7 +267,8 @@ impl SetDerivative {
         }
         for (own, shift) in self.elastic.iter_mut().zip(shifts) {
             if let Some(shift) = shift {
-                own.lists_mut().into_iter().for_each(|list| *list *= shift.transposed());
+                let shift = shift.transposed().map(T::of);
+                own.lists_mut().into_iter().for_each(|list| *list *= &shift);
             }
         }
     }
@@ -234,33 +276,30 @@ impl SetDerivative {
     /// Replaces the changes by those combinations of them of which each changes one displacement or velocity now by
     /// its size.
     fn follow_motion(&mut self, rate: f64) -> Result<(), FeError> {
-        let m = self.rows();
-        let mut now = DMatrix::zeros(m, m);
+        let (m, n) = (self.rows(), self.active.len());
+        let mut now = DMatrix::zeros(n, n);
         let mut at = 0;
         for own in std::iter::once(&self.races).chain(&self.elastic) {
             for (list, size) in [(&own.x, 1.0), (&own.v, rate)] {
-                now.columns_mut(at, list.ncols()).copy_from(&(list / size));
+                let own = list.rows(0, n).map(|x| x.double() / size);
+                now.columns_mut(at, list.ncols()).copy_from(&own);
                 at += list.ncols();
             }
         }
-        // Of pairs that have left contact for good no gradient is left: their columns stay 0.
-        let is_live = |column: &&mut [f64]| column.iter().any(|x| *x != 0.0);
-        let each = |list: &mut DMatrix<f64>, of: &mut dyn FnMut(&mut [f64])| {
-            list.as_mut_slice().chunks_exact_mut(m.max(1)).filter(is_live).for_each(of);
-        };
         let mut columns = Vec::new();
-        self.lists_mut().for_each(|list| each(list, &mut |own| columns.extend_from_slice(own)));
+        self.live_columns_mut(&mut |own| columns.extend(own.iter().map(|x| x.double())));
         let count = columns.len() / m.max(1);
-        let factor = MatRef::from_column_major_slice(now.as_slice(), m, m).partial_piv_lu();
-        factor.solve_in_place(MatMut::from_column_major_slice_mut(&mut columns, m, count));
+        let factor = MatRef::from_column_major_slice(now.as_slice(), n, n).partial_piv_lu();
+        let all = MatMut::from_column_major_slice_mut(&mut columns, m, count);
+        factor.solve_in_place(all.subrows_mut(0, n));
         if !columns.iter().all(|x| x.is_finite()) {
             return Err(FeError::NoEquilibrium("motions that differ become equal".into()));
         }
         let mut solved = columns.chunks_exact(m.max(1));
-        let mut put = |own: &mut [f64]| {
-            solved.next().into_iter().for_each(|column| own.copy_from_slice(column));
-        };
-        self.lists_mut().for_each(|list| each(list, &mut put));
+        self.live_columns_mut(&mut |own| {
+            let solved = solved.next().into_iter().flatten();
+            own.iter_mut().zip(solved).for_each(|(own, x)| *own = T::of(*x));
+        });
         Ok(())
     }
 
@@ -269,8 +308,9 @@ impl SetDerivative {
     fn compress(&mut self, rate: f64) {
         let mut columns: Vec<(DVector<f64>, f64)> = Vec::new();
         for (list, size) in self.lists(rate) {
-            let nonzero = list.column_iter().filter(|column| column.iter().any(|x| *x != 0.0));
-            columns.extend(nonzero.map(|column| (column.into_owned(), size)));
+            let nonzero =
+                list.column_iter().filter(|column| column.iter().any(|x| *x != T::of(0.0)));
+            columns.extend(nonzero.map(|column| (column.map(Number::double), size)));
         }
         let m = self.rows();
         let scaled = faer::Mat::from_fn(m, columns.len(), |i, j| columns[j].0[i] / columns[j].1);
@@ -280,11 +320,12 @@ impl SetDerivative {
         let largest = if size > 0 { r[(0, 0)].abs() } else { 0.0 };
         let rank = (0..size).take_while(|k| r[(*k, *k)].abs() > RANK * largest).count();
         // NaN, which is reported at the end, has no rank.
-        if rank == 0 || rank == m {
+        let left = rank.next_multiple_of(BLOCK);
+        if rank == 0 || left == m {
             return;
         }
         let q = qr.compute_thin_Q();
-        let q = DMatrix::from_fn(m, rank, |i, j| q[(i, j)]);
+        let q = DMatrix::from_fn(m, left, |i, j| T::of(if j < rank { q[(i, j)] } else { 0.0 }));
         let transposed = q.transpose();
         self.lists_mut().for_each(|list| *list = &transposed * &*list);
         self.basis = Some(match self.basis.take() {
@@ -297,16 +338,28 @@ impl SetDerivative {
     fn map_derivative(&self, rate: f64) -> MapDerivative {
         let lists = self.lists(rate);
         let count = lists.iter().map(|(list, _)| list.ncols()).sum();
-        let mut columns = DMatrix::zeros(count, self.rows());
+        let n = self.active.len();
+        let back = self.basis.as_ref().map(|basis| basis.rows(0, n).map(Number::double));
+        let mut columns = DMatrix::zeros(count, n);
         let mut scales = Vec::with_capacity(count);
         for (list, scale) in lists {
             for column in list.column_iter() {
-                columns.row_mut(scales.len()).tr_copy_from(&column);
+                let row = scales.len();
                 scales.push(scale);
+                if column.as_slice().iter().all(|x| *x == T::of(0.0)) {
+                    continue;
+                }
+                match &back {
+                    Some(basis) => {
+                        let own = basis * column.map(Number::double);
+                        columns.row_mut(row).tr_copy_from(&own);
+                    }
+                    None => {
+                        let own = columns.as_mut_slice()[row..].iter_mut().step_by(count);
+                        own.zip(column.as_slice()).for_each(|(own, x)| *own = x.double());
+                    }
+                }
             }
-        }
-        if let Some(basis) = &self.basis {
-            columns *= basis.transpose();
         }
         for (mut column, (_, size)) in columns.column_iter_mut().zip(&self.active) {
             column /= *size;

@@ -13,7 +13,7 @@
 //! touched in the last step to their position and the second-order terms, so that a whole cycle can be
 //! differentiated after it was marched.
 
-use dynamics::{Computation, Simd, wide};
+use dynamics::{Computation, Number, Simd, wide};
 use nalgebra::{DMatrix, DVector};
 
 use super::body::Port;
@@ -26,14 +26,14 @@ use crate::short_row::ShortRow;
 use crate::statics::CARRIER;
 
 /// A derivative that is carried over a step.
-struct Carrying<'c, 's> {
+struct Carrying<'c, 's, T> {
     set: &'c VibratingSet<'s>,
-    derivative: &'c mut SetDerivative,
+    derivative: &'c mut SetDerivative<T>,
     step: usize,
     cycles: i64,
 }
 
-impl Computation for Carrying<'_, '_> {
+impl<T: Number> Computation for Carrying<'_, '_, T> {
     type Output = ();
 
     #[inline(always)]
@@ -44,12 +44,17 @@ impl Computation for Carrying<'_, '_> {
 
 impl VibratingSet<'_> {
     /// Carries the derivative over a step, 1 to the number of steps, of the cycle after `cycles` whole ones.
-    pub(super) fn carry_derivative(&self, d: &mut SetDerivative, step: usize, cycles: i64) {
+    pub(super) fn carry_derivative<T: Number>(
+        &self,
+        d: &mut SetDerivative<T>,
+        step: usize,
+        cycles: i64,
+    ) {
         wide(Carrying { set: self, derivative: d, step, cycles });
     }
 
     #[inline(always)]
-    fn carry_over_step(&self, d: &mut SetDerivative, step: usize, cycles: i64) {
+    fn carry_over_step<T: Number>(&self, d: &mut SetDerivative<T>, step: usize, cycles: i64) {
         let count = self.clock.rotation.count();
         let (k, cycles) = (step % count, cycles + (step / count) as i64);
         let Some(frame) = self.frames.current(k) else { return };
@@ -58,14 +63,17 @@ impl VibratingSet<'_> {
             d.meshes[*mesh].move_on();
         }
         let weights = self.pairs.lag.weights();
-        d.meshes.iter_mut().for_each(|mesh| mesh.predict(weights));
+        for mesh in &mut d.meshes {
+            mesh.predict(weights);
+        }
         let (rule, m) = (&self.clock.rule, d.rows());
         let newmark = [rule.inertia(), rule.damping()];
         let mut work = std::mem::take(&mut d.work);
         d.races.write_histories(newmark, [&mut work.acceleration, &mut work.velocity]);
         // L' = m a*' + (α m + τ k + G + bearings) v*'
-        work.load.resize(work.velocity.len(), 0.0);
-        d.velocity_load.times_transposed(&mut work.load, &work.velocity, m);
+        let zero = T::of(0.0);
+        work.load.resize(work.velocity.len(), zero);
+        d.velocity_load.times_transposed(&mut work.load, &work.velocity, m, &mut work.matrix);
         let columns = work.load.chunks_exact_mut(m).zip(work.acceleration.chunks_exact(m));
         for ((load, a), mass) in columns.zip(&self.race_dynamics.mass) {
             add(load, *mass, a);
@@ -75,7 +83,7 @@ impl VibratingSet<'_> {
             d.expect(rule.step(), &mut work.ahead);
         }
         self.add_bent(d, plain, &mut work);
-        work.next.resize(work.load.len(), 0.0);
+        work.next.resize(work.load.len(), zero);
         let chosen = &frame.combinations[frame.used];
         work.column_of.clear();
         work.column_of.resize(frame.offsets.len(), None);
@@ -83,8 +91,8 @@ impl VibratingSet<'_> {
             work.column_of[*pair] = Some(at);
         }
         work.b.clear();
-        work.b.resize(m * chosen.touching.len(), 0.0);
-        work.forces.resize(m * chosen.touching.len(), 0.0);
+        work.b.resize(m * chosen.touching.len(), zero);
+        work.forces.resize(m * chosen.touching.len(), zero);
         self.add_gaps(d, frame, &bodies, &mut work);
         // (A + Rᵀ S' R) x' = L' − Rᵀ S' b'
         chosen.press(&mut work.forces, &work.b, m);
@@ -93,7 +101,7 @@ impl VibratingSet<'_> {
                 add(column_mut(&mut work.load, m, i), -r, column(&work.forces, m, at));
             }
         }
-        chosen.inverse.times_transposed(&mut work.next, &work.load, m);
+        chosen.inverse.times_transposed(&mut work.next, &work.load, m, &mut work.matrix);
         // P' = S' (R x' + b')
         for (at, pair) in chosen.touching.iter().enumerate() {
             for (i, r) in frame.rows()[*pair].entries() {
@@ -117,12 +125,15 @@ impl VibratingSet<'_> {
 
     /// Load on the races from the second-order terms of corner gaps.
     #[inline(always)]
-    fn add_bent(&self, d: &SetDerivative, frame: &Frame, work: &mut Work) {
+    fn add_bent<T: Number>(&self, d: &SetDerivative<T>, frame: &Frame, work: &mut Work<T>) {
         let m = d.rows();
         for bend in frame.bends.iter().filter(|bend| bend.force > 0.0) {
             along(&bend.row, m, &work.ahead, &mut work.expected);
             let pressed = &mut work.expected;
-            pressed.iter_mut().for_each(|x| *x *= bend.curvature * bend.force);
+            let stiffness = T::of(bend.curvature * bend.force);
+            for x in pressed.iter_mut() {
+                *x *= stiffness;
+            }
             if let Some(slot) = bend.slot.place() {
                 let [_, now, before] = d.meshes[bend.mesh].lists();
                 let share = bend.curvature * bend.moved;
@@ -137,7 +148,13 @@ impl VibratingSet<'_> {
 
     /// Adds to the approaches of the touching pairs what corner gaps, the bodies' modes and the lag contribute.
     #[inline(always)]
-    fn add_gaps(&self, d: &SetDerivative, frame: &Frame, bodies: &[BodyStep], work: &mut Work) {
+    fn add_gaps<T: Number>(
+        &self,
+        d: &SetDerivative<T>,
+        frame: &Frame,
+        bodies: &[BodyStep<T>],
+        work: &mut Work<T>,
+    ) {
         let m = d.rows();
         let Work { b, column_of, ahead, expected, .. } = work;
         for bend in &frame.bends {
@@ -176,17 +193,18 @@ impl VibratingSet<'_> {
     }
 
     /// Starts the step of the bodies' modes and of the bearings; adds their loads on the races.
-    fn predict_bodies(
+    fn predict_bodies<T: Number>(
         &self,
-        d: &SetDerivative,
+        d: &SetDerivative<T>,
         frame: &Frame,
         (k, cycles): (usize, i64),
-        work: &mut Work,
-    ) -> Vec<BodyStep> {
+        work: &mut Work<T>,
+    ) -> Vec<BodyStep<T>> {
         let rule = &self.clock.rule;
         let newmark = [rule.inertia(), rule.damping()];
         let races = &self.statics.races;
         let (m, turned) = (d.rows(), cycles as f64 + self.clock.position(k));
+        let one = T::of(1.0);
         let mut all = Vec::with_capacity(d.elastic.len());
         let has_modes = d.elastic.iter().any(|own| own.x.ncols() > 0);
         for (body, vibrating) in self.bodies.all().filter(|_| has_modes) {
@@ -215,19 +233,19 @@ impl VibratingSet<'_> {
                         sum
                     })
                 });
-                let mut pulled: [DVector<f64>; 3] = std::array::from_fn(|_| DVector::zeros(m));
+                let mut pulled: [DVector<T>; 3] = std::array::from_fn(|_| DVector::zeros(m));
                 for (j, mode) in modal.modes.iter().enumerate() {
                     let (a, v) = (histories[0].column(j), histories[1].column(j));
-                    let mut next = a + v * (alpha + beta * mode.lambda);
+                    let mut next = a + v * T::of(alpha + beta * mode.lambda);
                     for (gamma, along) in mode.participation.iter().zip(&turned) {
                         if let Some(along) = along {
-                            next.axpy(*gamma, along, 1.0);
+                            next.axpy(T::of(*gamma), along, one);
                         }
                     }
-                    next /= modal.dynamic[j];
-                    let pull = a + v * alpha - &next * c;
+                    next /= T::of(modal.dynamic[j]);
+                    let pull = a + v * T::of(alpha) - &next * T::of(c);
                     for (sum, gamma) in pulled.iter_mut().zip(mode.participation) {
-                        sum.axpy(gamma, &pull, 1.0);
+                        sum.axpy(T::of(gamma), &pull, one);
                     }
                     free.set_column(j, &next);
                 }
@@ -240,24 +258,25 @@ impl VibratingSet<'_> {
             all.push(BodyStep { histories, free, angle, ports });
         }
         if let Some(seats) = all.get(CARRIER).and_then(|carrier| self.seats_of_modes(carrier)) {
-            let loads = seats * self.race_dynamics.bearings.seats_onto_races().transpose();
+            let onto = self.race_dynamics.bearings.seats_onto_races().transpose();
+            let loads = seats * onto.map(T::of);
             add(&mut work.load, 1.0, loads.as_slice());
         }
         all
     }
 
     /// Ends the step of the bodies' modes with the races' displacements and the forces of the touching pairs.
-    fn finish_bodies(
+    fn finish_bodies<T: Number>(
         &self,
-        d: &mut SetDerivative,
+        d: &mut SetDerivative<T>,
         frame: &Frame,
-        bodies: Vec<BodyStep>,
-        work: &Work,
+        bodies: Vec<BodyStep<T>>,
+        work: &Work<T>,
     ) {
         let rule = &self.clock.rule;
         let newmark = [rule.inertia(), rule.damping()];
         let races = &self.statics.races;
-        let m = d.rows();
+        let (m, one) = (d.rows(), T::of(1.0));
         for ((body, vibrating), step) in self.bodies.all().zip(bodies) {
             let Some(modal) = vibrating.modal().filter(|modal| !modal.modes.is_empty()) else {
                 continue;
@@ -274,16 +293,17 @@ impl VibratingSet<'_> {
                 let bearings = &self.race_dynamics.bearings;
                 let x = DMatrix::from_column_slice(m, races.count, &work.next);
                 let velocity = DMatrix::from_column_slice(m, races.count, &work.velocity);
-                let mut stretched = x * bearings.rows.transpose();
-                stretched -= velocity * bearings.rigid.transpose() * bearings.history_weight(rule);
+                let weighted = bearings.rigid.transpose() * bearings.history_weight(rule);
+                let mut stretched = x * bearings.rows.transpose().map(T::of);
+                stretched -= velocity * weighted.map(T::of);
                 if let Some(seats) = self.seats_of_modes(&step) {
                     stretched -= seats;
                 }
-                let pulling = stretched * &bearings.dynamic;
+                let pulling = stretched * bearings.dynamic.map(T::of);
                 for (port, pulling) in bearings.ports.iter().zip(pulling.column_iter()) {
                     for (j, mode) in modal.modes.iter().enumerate() {
                         let along = port.read(&mode.shape) / modal.dynamic[j];
-                        next.column_mut(j).axpy(along, &pulling, 1.0);
+                        next.column_mut(j).axpy(T::of(along), &pulling, one);
                     }
                 }
             } else {
@@ -300,7 +320,8 @@ impl VibratingSet<'_> {
             for (j, mode) in modal.modes.iter().enumerate() {
                 for (gamma, along) in mode.participation.iter().zip(&turned) {
                     if let Some(along) = along {
-                        next.column_mut(j).axpy(-c * gamma / modal.dynamic[j], along, 1.0);
+                        let factor = T::of(-c * gamma / modal.dynamic[j]);
+                        next.column_mut(j).axpy(factor, along, one);
                     }
                 }
             }
@@ -310,17 +331,18 @@ impl VibratingSet<'_> {
     }
 
     /// What the carrier's modes add to `free` of the bearings, by seats; `None` for a carrier without modes.
-    fn seats_of_modes(&self, carrier: &BodyStep) -> Option<DMatrix<f64>> {
+    fn seats_of_modes<T: Number>(&self, carrier: &BodyStep<T>) -> Option<DMatrix<T>> {
         let modal = self.bodies.carrier.modal().filter(|modal| !modal.modes.is_empty())?;
         let bearings = &self.race_dynamics.bearings;
         let weight = bearings.history_weight(&self.clock.rule);
+        let one = T::of(1.0);
         let mut seats = DMatrix::zeros(carrier.free.nrows(), bearings.ports.len());
         for (i, port) in bearings.ports.iter().enumerate() {
             for (j, mode) in modal.modes.iter().enumerate() {
                 let along = port.read(&mode.shape);
                 let mut seat = seats.column_mut(i);
-                seat.axpy(along, &carrier.free.column(j), 1.0);
-                seat.axpy(-along * weight, &carrier.histories[1].column(j), 1.0);
+                seat.axpy(T::of(along), &carrier.free.column(j), one);
+                seat.axpy(T::of(-along * weight), &carrier.histories[1].column(j), one);
             }
         }
         Some(seats)
@@ -329,17 +351,19 @@ impl VibratingSet<'_> {
 
 /// Writes what a row makes of columns of length `m`.
 #[inline(always)]
-fn along(row: &ShortRow, m: usize, columns: &[f64], out: &mut Vec<f64>) {
+fn along<T: Number>(row: &ShortRow, m: usize, columns: &[T], out: &mut Vec<T>) {
     out.clear();
-    out.resize(m, 0.0);
-    row.entries().for_each(|(i, r)| add(out, r, column(columns, m, i)));
+    out.resize(m, T::of(0.0));
+    for (i, r) in row.entries() {
+        add(out, r, column(columns, m, i));
+    }
 }
 
 /// The start of a step of one body.
-struct BodyStep {
-    histories: [DMatrix<f64>; 2],
+struct BodyStep<T> {
+    histories: [DMatrix<T>; 2],
     /// η at the end of the step with the race at its origin and no loads.
-    free: DMatrix<f64>,
+    free: DMatrix<T>,
     /// Angle of the body's frame, rad.
     angle: f64,
     /// Ports of a gear's pairs.

@@ -1,6 +1,7 @@
 //! Small dense matrices (about 20×20) for the products of every time step, stored in the order in
 //! which they are read, without the strides of a general library.
 
+use dynamics::Number;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::DMatrix;
@@ -144,15 +145,24 @@ impl Packed {
         exists.then(|| Self::new(&inverse))
     }
 
-    /// out = G Aᵀ for columns G of length `m`, as many as A has columns.
-    pub(super) fn times_transposed(&self, out: &mut [f64], g: &[f64], m: usize) {
+    /// out = G Aᵀ for columns G of length `m`, as many as A has columns; `own` is room for A in the precision of G.
+    #[inline(always)]
+    pub(super) fn times_transposed<T: Number>(
+        &self,
+        out: &mut [T],
+        g: &[T],
+        m: usize,
+        own: &mut Vec<T>,
+    ) {
+        let own = T::all(self.data.as_flattened(), own);
         let g = MatRef::from_column_major_slice(&g[..m * self.columns], m, self.columns);
-        let blocks = self.data.chunks_exact(self.columns.max(1));
+        let blocks = own.chunks_exact((BLOCK * self.columns).max(1));
         for (block, out) in blocks.zip(out[..m * self.rows].chunks_mut(m * BLOCK)) {
             let rows = out.len() / m.max(1);
-            let block = MatRef::from_column_major_slice(block.as_flattened(), BLOCK, self.columns);
+            let block = MatRef::from_column_major_slice(block, BLOCK, self.columns);
             let out = MatMut::from_column_major_slice_mut(out, m, rows);
-            matmul(out, Accum::Replace, g, block.subrows(0, rows).transpose(), 1.0, Par::Seq);
+            let (block, one) = (block.subrows(0, rows).transpose(), T::of(1.0));
+            matmul(out, Accum::Replace, g, block, one, Par::Seq);
         }
     }
 
@@ -208,7 +218,7 @@ mod tests {
             assert!((own - DMatrix::identity(n, n)).amax() < 1e-11, "{n}");
             let g = DMatrix::from_fn(5, n, |i, j| 0.2 * i as f64 - 0.1 * j as f64);
             let mut out = DMatrix::zeros(5, n);
-            Packed::new(&a).times_transposed(out.as_mut_slice(), g.as_slice(), 5);
+            Packed::new(&a).times_transposed(out.as_mut_slice(), g.as_slice(), 5, &mut Vec::new());
             let exact = &g * a.transpose();
             assert!((&out - &exact).amax() <= 1e-13 * exact.amax(), "{n}");
         }
