@@ -180,8 +180,8 @@ fn apart(a: Multiplier, b: Multiplier) -> f64 {
     (a.re - b.re).abs().max((a.size().powi(2) - b.size().powi(2)).abs())
 }
 
-/// The derivative of a steady cycle along displacements and velocities, and with respect to every coordinate.
-fn both_derivatives(fidelity: Fidelity) -> [MapDerivative; 2] {
+/// The derivative of a steady cycle along displacements and velocities, and another one.
+fn both_derivatives(fidelity: Fidelity, other: Along) -> [MapDerivative; 2] {
     let scene = scene("oh58_4p", fidelity, 56);
     let bodies = Bodies::new(&scene).unwrap();
     let model = fe(&scene, &bodies, 1130.0);
@@ -189,7 +189,7 @@ fn both_derivatives(fidelity: Fidelity) -> [MapDerivative; 2] {
     set.rest().unwrap();
     // The cycle before the start must be as that before the end.
     (0..400).for_each(|_| march_cycle(set.as_mut(), 56));
-    [Along::Motion, Along::Every].map(|along| set.derivative().unwrap().of_cycle(along).unwrap())
+    [Along::Motion, other].map(|along| set.derivative().unwrap().of_cycle(along).unwrap())
 }
 
 /// Largest difference of the multipliers above 0.01 of the second from those of the first.
@@ -204,7 +204,7 @@ fn multipliers_off(first: &MapDerivative, second: &MapDerivative) -> f64 {
 /// multipliers of the derivative with respect to every coordinate.
 #[test]
 fn multipliers_follow_from_displacements_and_velocities() {
-    let [motion, every] = both_derivatives(Fidelity::QuasiStatic);
+    let [motion, every] = both_derivatives(Fidelity::QuasiStatic, Along::Every);
     let off = multipliers_off(&motion, &every);
     assert!(off < 1e-8, "{off:e}");
 }
@@ -212,7 +212,7 @@ fn multipliers_follow_from_displacements_and_velocities() {
 /// The same with modes of the bodies.
 #[test]
 fn multipliers_follow_from_displacements_and_velocities_of_modal_bodies() {
-    let [motion, every] = both_derivatives(Fidelity::Modal(4));
+    let [motion, every] = both_derivatives(Fidelity::Modal(4), Along::Every);
     let off = multipliers_off(&motion, &every);
     println!("{off:e}");
     assert!(off < 1e-8, "{off:e}");
@@ -224,20 +224,12 @@ fn multipliers_follow_from_displacements_and_velocities_of_modal_bodies() {
 #[test]
 fn the_rough_derivative_leaves_little_of_an_error() {
     for fidelity in [Fidelity::QuasiStatic, Fidelity::Modal(4)] {
-        let scene = scene("oh58_4p", fidelity, 56);
-        let bodies = Bodies::new(&scene).unwrap();
-        let model = fe(&scene, &bodies, 1130.0);
-        let mut set = model.turning(&model.case().at_speed(2200.0), 0).unwrap();
-        set.rest().unwrap();
-        (0..400).for_each(|_| march_cycle(set.as_mut(), 56));
-        let mut scaled = |along: Along| {
-            let own = set.derivative().unwrap().of_cycle(along).unwrap();
+        let [exact, rough] = both_derivatives(fidelity, Along::MotionRoughly).map(|own| {
             let (active, s) = (&own.active, &own.scales);
             DMatrix::from_fn(active.len(), active.len(), |i, j| {
                 own.columns[(active[i], j)] * s[active[j]] / s[active[i]]
             })
-        };
-        let [exact, rough] = [Along::Motion, Along::MotionRoughly].map(&mut scaled);
+        });
         let n = exact.nrows();
         let left = (DMatrix::identity(n, n) - &exact).lu().solve(&(&rough - &exact)).unwrap();
         let largest = left.complex_eigenvalues().iter().fold(0.0f64, |a, x| a.max(x.norm()));
@@ -250,7 +242,7 @@ fn the_rough_derivative_leaves_little_of_an_error() {
 /// that keeps it, by more than the two ways to keep it differ.
 #[test]
 fn a_forgotten_lag_shows_in_the_multipliers() {
-    let [motion, every] = both_derivatives(Fidelity::QuasiStatic);
+    let [motion, every] = both_derivatives(Fidelity::QuasiStatic, Along::Every);
     let mut forgets = every.clone();
     let kept: Vec<usize> =
         (0..forgets.active.len()).filter(|k| forgets.scales[forgets.active[*k]] != 1e9).collect();
