@@ -2,6 +2,7 @@
 //! periodic solutions by shooting with their stability, periodic motions by harmonic balance, branches of
 //! solutions, spectra of records, identification of modes from records, and discretisation errors from three grids.
 
+mod bundles;
 pub mod continuation;
 mod coupled;
 mod error;
@@ -25,6 +26,7 @@ mod subspace;
 mod symmetric;
 mod wide;
 
+pub use bundles::{Bundle, Bundles, InBundles, MOST as MOST_IN_BUNDLE, in_bundles};
 pub use coupled::{
     Coupled, CoupledDerivative, CoupledError, CoupledState, Coupling, CouplingForce, CyclePart,
     LinearPart, PassedSteps, Renumbering,

@@ -47,7 +47,7 @@ fn monodromy(a: f64, q: f64, steps: usize) -> Matrix2<f64> {
         set.step().unwrap();
         set.keep_step(&mut passed);
     }
-    let columns = set.derivative_of(&passed, 1.0).unwrap().columns;
+    let columns = set.derivative_of::<f64>(&passed, 1.0).unwrap().columns;
     assert_eq!(columns.shape(), (2, 2));
     Matrix2::from_fn(|i, j| columns[(i, j)])
 }

@@ -107,7 +107,8 @@ impl PeriodMap for Cycles {
     }
 
     fn derivative(&mut self) -> Result<MapDerivative, CoupledError> {
-        let mut own = self.system.derivative_of(&self.passed, 30.0).expect("a cycle was marched");
+        let mut own =
+            self.system.derivative_of::<f64>(&self.passed, 30.0).expect("a cycle was marched");
         own.columns[(0, 0)] *= self.spoilt;
         Ok(own)
     }

@@ -184,7 +184,10 @@ fn apart(a: Multiplier, b: Multiplier) -> f64 {
 fn both_derivatives(fidelity: Fidelity, other: Along) -> [MapDerivative; 2] {
     let scene = scene("oh58_4p", fidelity, 56);
     let bodies = Bodies::new(&scene).unwrap();
-    let model = fe(&scene, &bodies, 1130.0);
+    both_derivatives_of(&fe(&scene, &bodies, 1130.0), other)
+}
+
+fn both_derivatives_of(model: &dyn SweepModel, other: Along) -> [MapDerivative; 2] {
     let mut set = model.turning(&model.case().at_speed(2200.0), 0).unwrap();
     set.rest().unwrap();
     // The cycle before the start must be as that before the end.
@@ -218,13 +221,23 @@ fn multipliers_follow_from_displacements_and_velocities_of_modal_bodies() {
     assert!(off < 1e-8, "{off:e}");
 }
 
-/// The rough derivative, in single precision and with a shorter follow-up of the lag, differs from the exact one by less than
-/// corrections of a state need, also with modes of the bodies: (I − D)⁻¹ D' − (I − D)⁻¹ D is what a correction leaves of an
-/// error.
+/// The rough derivative, in single precision and of FE/contact with a shorter follow-up of the lag, differs from the exact one
+/// by less than corrections of a state need, also with modes of the bodies and with tabulated mesh forces:
+/// (I − D)⁻¹ D' − (I − D)⁻¹ D is what a correction leaves of an error.
 #[test]
 fn the_rough_derivative_leaves_little_of_an_error() {
-    for fidelity in [Fidelity::QuasiStatic, Fidelity::Modal(4)] {
-        let [exact, rough] = both_derivatives(fidelity, Along::MotionRoughly).map(|own| {
+    let scene = scene("oh58_4p", Fidelity::MeshLaw, 56);
+    let bodies = Bodies::new(&scene).unwrap();
+    let case = LoadCase::of_scene(&scene).unwrap().with_sun_torque(1130.0);
+    let law = MeshLawModel::new(&scene, &bodies, case).unwrap();
+    let all = [
+        ("quasi_static", both_derivatives(Fidelity::QuasiStatic, Along::MotionRoughly)),
+        ("modal", both_derivatives(Fidelity::Modal(4), Along::MotionRoughly)),
+        ("mesh_law", both_derivatives_of(&law, Along::MotionRoughly)),
+        ("lumped", both_derivatives_of(&law.lumped(), Along::MotionRoughly)),
+    ];
+    for (name, both) in all {
+        let [exact, rough] = both.map(|own| {
             let (active, s) = (&own.active, &own.scales);
             DMatrix::from_fn(active.len(), active.len(), |i, j| {
                 own.columns[(active[i], j)] * s[active[j]] / s[active[i]]
@@ -233,8 +246,8 @@ fn the_rough_derivative_leaves_little_of_an_error() {
         let n = exact.nrows();
         let left = (DMatrix::identity(n, n) - &exact).lu().solve(&(&rough - &exact)).unwrap();
         let largest = left.complex_eigenvalues().iter().fold(0.0f64, |a, x| a.max(x.norm()));
-        println!("{fidelity:?}: left {largest:.1e}, entries off by {:.1e}", (rough - exact).amax());
-        assert!(largest > 1e-9 && largest < 1e-2, "{fidelity:?}: {largest:e}");
+        println!("{name}: left {largest:.1e}, entries off by {:.1e}", (rough - exact).amax());
+        assert!(largest > 1e-9 && largest < 1e-2, "{name}: {largest:e}");
     }
 }
 

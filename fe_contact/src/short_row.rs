@@ -3,17 +3,17 @@
 
 use nalgebra::DVector;
 
-/// Most non-zero entries of a row: three coordinates of each of the two bodies of a tooth pair.
-const SHORT: usize = 6;
-
 /// A row with at most six non-zero entries, stored as places and values.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct ShortRow {
-    places: [u16; SHORT],
-    values: [f64; SHORT],
+    places: [u16; Self::MOST],
+    values: [f64; Self::MOST],
 }
 
 impl ShortRow {
+    /// Most entries that are not zero: of three coordinates of each of the two bodies of a tooth pair.
+    pub(crate) const MOST: usize = 6;
+
     /// `None` if more than six entries are non-zero.
     pub(crate) fn new(row: impl Iterator<Item = f64>) -> Option<Self> {
         let mut short = Self::default();

@@ -17,7 +17,7 @@ use nalgebra::DMatrix;
 
 use dynamics::{
     AverageAcceleration, Coupled, CoupledState, Coupling, CouplingForce, CyclePart, LinearPart,
-    MapDerivative, Motion, PassedSteps, Renumbering,
+    MapDerivative, Motion, Number, PassedSteps, Renumbering,
 };
 use gearset::{Facing, MeshLaw, Scene, Symmetry};
 
@@ -233,9 +233,17 @@ impl TimeVarying {
     /// # Errors
     /// If there is no equilibrium.
     pub fn rest(&mut self, torque_nm: f64) -> Result<(), LumpedError> {
-        let force: Vec<f64> = self.layout.by_torque.iter().map(|f| f * torque_nm).collect();
-        self.system.set_external(&force)?;
+        self.load(torque_nm)?;
         Ok(self.system.rest()?)
+    }
+
+    /// Loads the set by a torque on the sun (N m, magnitude) from now on, its state left as it is.
+    ///
+    /// # Errors
+    /// None with a set that was made.
+    pub fn load(&mut self, torque_nm: f64) -> Result<(), LumpedError> {
+        let force: Vec<f64> = self.layout.by_torque.iter().map(|f| f * torque_nm).collect();
+        Ok(self.system.set_external(&force)?)
     }
 
     /// One step.
@@ -374,9 +382,13 @@ impl TimeVarying {
     }
 
     /// The derivative of the last of the states passed with respect to the first, between which every step was
-    /// kept; frequencies of the motion are of the order of `rate` (rad/s). `None` without a state.
-    pub fn derivative_of(&self, passed: &PassedSteps, rate: f64) -> Option<MapDerivative> {
-        self.system.derivative_of(passed, rate)
+    /// kept, computed in the precision of T; frequencies of the motion are of the order of `rate` (rad/s). `None` without a state.
+    pub fn derivative_of<T: Number>(
+        &self,
+        passed: &PassedSteps,
+        rate: f64,
+    ) -> Option<MapDerivative> {
+        self.system.derivative_of::<T>(passed, rate)
     }
 
     /// Free coordinates.
@@ -394,12 +406,13 @@ impl TimeVarying {
 /// The law's side loads on the free coordinates, by step, N.
 fn side_loads(model: &LumpedModel, law: &MeshLaw) -> Vec<Vec<f64>> {
     let planets = model.psi.len();
+    let directions: Vec<(f64, f64)> = model.psi.iter().map(|psi| psi.sin_cos()).collect();
     let of_step = |step: usize| {
         let mut load = vec![0.0; model.coordinates.count()];
         for mesh in 0..law.meshes() {
             let n = mesh % planets;
             let central = if mesh < planets { Body::Sun } else { Body::Ring };
-            let (sin, cos) = model.psi[n].sin_cos();
+            let (sin, cos) = directions[n];
             let [radial, tangential, u, zeta, eta, spin] = law.side_load(mesh, step);
             let [x, y] = [cos * radial - sin * tangential, sin * radial + cos * tangential];
             for (body, own) in [(central, [x, y, u]), (Body::Planet(n), [zeta, eta, spin])] {

@@ -15,12 +15,13 @@ use super::error::CoupledError;
 use super::gradients::{Gradients, StepGradient};
 use super::system::Coupled;
 use crate::newmark::Motion;
+use crate::number::Number;
 use crate::periodic::MapDerivative;
 
 /// Gradients of displacements, velocities and accelerations of the modes with respect to the 2n coordinates
 /// (displacements, velocities) at the start of a period.
 #[derive(Debug, Clone)]
-pub struct CoupledDerivative(Gradients);
+pub struct CoupledDerivative<T = f64>(Gradients<T>);
 
 /// States that a system passed through, from which the derivative between the first and the last follows.
 #[derive(Debug, Clone, Default)]
@@ -64,17 +65,22 @@ impl<L: CouplingForce> Coupled<L> {
     }
 
     /// The derivative of the last of the states passed with respect to the first, between which every step was
-    /// kept; frequencies are of the order of `rate` (rad/s). `None` without a state.
-    pub fn derivative_of(&self, passed: &PassedSteps, rate: f64) -> Option<MapDerivative> {
+    /// kept, computed in the precision of T; frequencies are of the order of `rate` (rad/s). `None` without a state.
+    pub fn derivative_of<T: Number>(
+        &self,
+        passed: &PassedSteps,
+        rate: f64,
+    ) -> Option<MapDerivative> {
         let n = self.modes.count;
         let of = |k: usize| {
             let (step, is_rare) = *passed.steps.get(k)?;
             let (x, v) = passed.states.get(2 * n * k..2 * n * (k + 1))?.split_at(n);
             Some(Passed { x, v, step, is_rare })
         };
-        let mut derivative = self.start_at(of(0)?);
+        let mut derivative = self.start_at::<T>(of(0)?);
+        let mut tangents = Vec::new();
         for k in 1..passed.steps.len() {
-            self.carry_to(&mut derivative, of(k)?);
+            self.carry_to(&mut derivative, of(k)?, &mut tangents);
         }
         Some(self.map_derivative(&derivative, rate))
     }
@@ -122,7 +128,7 @@ impl<L: CouplingForce> Coupled<L> {
         self.start_at(self.present())
     }
 
-    fn start_at(&self, at: Passed<'_>) -> CoupledDerivative {
+    fn start_at<T: Number>(&self, at: Passed<'_>) -> CoupledDerivative<T> {
         let n = self.modes.count;
         let x = DMatrix::from_fn(2 * n, n, |row, j| f64::from(u8::from(row == j)));
         let v = DMatrix::from_fn(2 * n, n, |row, j| f64::from(u8::from(row == n + j)));
@@ -132,7 +138,9 @@ impl<L: CouplingForce> Coupled<L> {
         for (j, lambda) in self.modes.lambda.iter().enumerate().take(n) {
             a.column_mut(j).axpy(-lambda, &x.column(j), 1.0);
         }
-        for (k, tangent) in self.tangents(all, at).into_iter().enumerate() {
+        let mut tangents = Vec::new();
+        self.tangents(all, at, &mut tangents);
+        for (k, tangent) in tangents.into_iter().enumerate() {
             if tangent != 0.0 {
                 let z = all.along(k, &x) + all.along(k, &v) * all.lags[k];
                 for j in 0..n {
@@ -140,24 +148,33 @@ impl<L: CouplingForce> Coupled<L> {
                 }
             }
         }
-        CoupledDerivative(Gradients::new([&x, &v, &a]))
+        CoupledDerivative(Gradients::new([&x, &v, &a], &self.modes, &self.rule))
     }
 
     /// Carries the derivative over the last step.
     pub fn carry_derivative(&self, d: &mut CoupledDerivative) {
-        self.carry_to(d, self.present());
+        self.carry_to(d, self.present(), &mut Vec::new());
     }
 
-    fn carry_to(&self, d: &mut CoupledDerivative, at: Passed<'_>) {
+    fn carry_to<T: Number>(
+        &self,
+        d: &mut CoupledDerivative<T>,
+        at: Passed<'_>,
+        tangents: &mut Vec<f64>,
+    ) {
         let group = if at.is_rare { self.all() } else { &self.usual };
-        let tangents = self.tangents(group, at);
-        let step =
-            StepGradient { modes: &self.modes, rule: &self.rule, group, tangents: &tangents };
-        d.0.carry(&step);
+        self.tangents(group, at, tangents);
+        d.0.carry(&StepGradient {
+            modes: &self.modes,
+            rule: &self.rule,
+            group,
+            is_rare: at.is_rare,
+            tangents,
+        });
     }
 
     /// The derivative of the map from the start to now; frequencies are of the order of `rate` (rad/s).
-    pub fn map_derivative(&self, d: &CoupledDerivative, rate: f64) -> MapDerivative {
+    pub fn map_derivative<T: Number>(&self, d: &CoupledDerivative<T>, rate: f64) -> MapDerivative {
         let n = self.modes.count;
         MapDerivative {
             active: (0..2 * n).collect(),
@@ -181,15 +198,18 @@ impl<L: CouplingForce> Coupled<L> {
         }
     }
 
-    /// Tangents of a group's couplings at a state, N/m.
-    fn tangents(&self, group: &Condensed, at: Passed<'_>) -> Vec<f64> {
-        let mut reach = vec![0.0; group.count];
-        group.deflections(at.x, &mut reach);
+    /// Writes the tangents of a group's couplings at a state, N/m.
+    fn tangents(&self, group: &Condensed, at: Passed<'_>, reach: &mut Vec<f64>) {
+        reach.clear();
+        reach.resize(group.count, 0.0);
+        group.deflections(at.x, reach);
         for (k, reach) in reach.iter_mut().enumerate().filter(|(k, _)| group.lags[*k] != 0.0) {
             let own = at.v.iter().enumerate().map(|(j, v)| group.rows[j * group.width + k] * v);
             *reach += group.lags[k] * own.sum::<f64>();
         }
-        reach.iter().enumerate().map(|(k, z)| self.law.answer(k, at.step, *z).1).collect()
+        for (k, z) in reach.iter_mut().enumerate() {
+            *z = self.law.answer(k, at.step, *z).1;
+        }
     }
 }
 

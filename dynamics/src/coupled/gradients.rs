@@ -1,32 +1,29 @@
 //! Gradients of the modes' motion, carried over time steps.
 //!
-//! They are by far the dearest part of a steady state found by shooting. All that happens to one row of them in a
-//! step is independent of the other rows, so that the rows that fit a vector pass through the whole step together.
+//! All that happens to one row of them in a step is independent of the other rows, so that bundles of rows pass through
+//! the whole step together.
 
 use nalgebra::DMatrix;
 
 use super::condensed::{Condensed, at_width};
 use super::linear::Modes;
 use super::newton;
+use crate::bundles::{Bundle, Bundles, InBundles, MOST, in_bundles};
 use crate::newmark::AverageAcceleration;
+use crate::number::Number;
 use crate::wide::{Computation, Simd, wide};
 
-/// Rows that are stored together: a multiple of the lanes of every vector in use.
-const ROWS: usize = 4;
-
-/// Rows of A⁻¹ whose products are formed at the same time.
-const AT_ONCE: usize = 8;
-
-/// Gradients of displacements, velocities and accelerations of n modes with respect to 2n coordinates at the start:
-/// by bundles of [`ROWS`] of these, then modes, then displacement, velocity and acceleration.
+/// Gradients of displacements, velocities and accelerations of n modes with respect to 2n coordinates at the start, in
+/// the precision of T: column after column, each with zeros to whole vectors.
 #[derive(Debug, Clone)]
-pub(super) struct Gradients {
+pub(super) struct Gradients<T> {
     modes: usize,
-    own: Vec<f64>,
-    /// Of the rows of one vector by mode: A⁻¹ (a*' + C v*'), v*', a*', load.
-    within: Vec<f64>,
-    /// Answers of the modes to z', by mode, then coupling.
-    by_reach: Vec<f64>,
+    /// Rows with zeros to whole vectors.
+    rows: usize,
+    motion: [Vec<T>; 3],
+    factors: Factors<T>,
+    /// Memory within a step.
+    room: Vec<T>,
 }
 
 /// A step over which gradients are carried.
@@ -35,227 +32,365 @@ pub(super) struct StepGradient<'s> {
     pub(super) rule: &'s AverageAcceleration,
     /// The couplings that took part.
     pub(super) group: &'s Condensed,
+    /// Whether rare ones did.
+    pub(super) is_rare: bool,
     /// Their tangents at the end of the step, N/m.
     pub(super) tangents: &'s [f64],
 }
 
-/// Gradients that are carried over a step with W couplings.
-struct Carrying<'g, 's, const W: usize>(&'g mut Gradients, &'g StepGradient<'s>);
-
-impl<const W: usize> Computation for Carrying<'_, '_, W> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Simd>(self, simd: S) {
-        self.0.carry_with::<S, W>(simd, self.1);
-    }
+/// Factors of the steps, in the precision of the gradients.
+#[derive(Debug, Clone)]
+struct Factors<T> {
+    linear: LinearFactors<T>,
+    /// Of the usual couplings, and of all; `None` until they take part.
+    groups: [Option<GroupFactors<T>>; 2],
+    /// A⁻¹ Rᵀ D (I + g Y D)⁻¹, by mode, then coupling.
+    by_reach: Vec<T>,
 }
 
-impl Gradients {
+/// Factors of the modes.
+#[derive(Debug, Clone)]
+enum LinearFactors<T> {
+    /// Of each mode c and the entry of A⁻¹, where C is diagonal.
+    Diagonal(Vec<(T, T)>),
+    /// −(h²/4) (2/h + (h/2) λ) of each mode, h²/4, and (4/h²) A⁻¹ by rows: of the order of 1, so that in single precision
+    /// no product is too small to be a normal number, which would cost a hundred times as much.
+    Full(Vec<T>, T, Vec<T>),
+}
+
+/// Factors of a group of couplings.
+#[derive(Debug, Clone)]
+struct GroupFactors<T> {
+    /// g R, by mode, then coupling.
+    gain_rows: Vec<T>,
+    /// −τ R in the same order; none if no coupling has a lag.
+    lag_rows: Vec<T>,
+}
+
+impl<T: Number> Gradients<T> {
     /// Of displacements, velocities and accelerations, each 2n×n: rows by coordinate at the start, columns by mode.
-    pub(super) fn new([x, v, a]: [&DMatrix<f64>; 3]) -> Self {
-        let (rows, modes) = x.shape();
-        let mut own = vec![0.0; 3 * rows.next_multiple_of(ROWS) * modes];
-        for row in 0..rows {
-            for j in 0..modes {
-                for (kind, all) in [x, v, a].into_iter().enumerate() {
-                    own[place(modes, row, j, kind)] = all[(row, j)];
-                }
+    pub(super) fn new(
+        start: [&DMatrix<f64>; 3],
+        modes: &Modes,
+        rule: &AverageAcceleration,
+    ) -> Self {
+        let (count, n) = start[0].shape();
+        let rows = count.next_multiple_of(T::MOST_LANES);
+        let motion = start.map(|list| {
+            let mut own = vec![T::of(0.0); rows * n];
+            for (own, list) in own.chunks_exact_mut(rows.max(1)).zip(list.column_iter()) {
+                own.iter_mut().zip(&list).for_each(|(own, x)| *own = T::of(*x));
             }
-        }
-        Self { modes, own, within: Vec::new(), by_reach: Vec::new() }
+            own
+        });
+        let linear = match &modes.own_damping {
+            Some(damping) => {
+                let own = damping.iter().zip(&modes.own_inverse).take(n);
+                LinearFactors::Diagonal(own.map(|(c, a)| (T::of(*c), T::of(*a))).collect())
+            }
+            None => {
+                let (rate, inertia) = (rule.damping(), rule.inertia());
+                let along = modes.lambda.iter().take(n);
+                let along = along.map(|lambda| T::of(-(rate + lambda / rate) / inertia));
+                let inverse = modes.inverse.iter().map(|a| T::of(inertia * a)).collect();
+                LinearFactors::Full(along.collect(), T::of(1.0 / inertia), inverse)
+            }
+        };
+        let factors = Factors { linear, groups: [None, None], by_reach: Vec::new() };
+        Self { modes: n, rows, motion, factors, room: Vec::new() }
     }
 
     /// Displacements, then velocities of the modes at the end by those at the start, 2n×2n.
     pub(super) fn end_by_start(&self) -> DMatrix<f64> {
         let n = self.modes;
-        DMatrix::from_fn(2 * n, 2 * n, |i, row| self.own[place(n, row, i % n, i / n)])
+        let of = |i: usize, row: usize| self.motion[i / n][i % n * self.rows + row];
+        DMatrix::from_fn(2 * n, 2 * n, |i, row| of(i, row).double())
     }
 
     /// Carries them over a step.
     pub(super) fn carry(&mut self, step: &StepGradient<'_>) {
-        at_width!(step.group.width, W => wide(Carrying::<W>(self, step)));
-    }
-
-    #[inline(always)]
-    fn carry_with<S: Simd, const W: usize>(&mut self, simd: S, step: &StepGradient<'_>) {
-        const { assert!(ROWS.is_multiple_of(S::F64_LANES)) };
-        let n = self.modes;
-        self.answer_to_reach::<W>(step);
-        self.within.resize(4 * n * S::F64_LANES, 0.0);
-        let Self { own, within, by_reach, .. } = self;
-        let (within, _) = S::as_mut_simd_f64s(within);
-        let (within, loads) = within.split_at_mut(3 * n);
-        let step = Step::<S, W> {
-            simd,
-            modes: step.modes,
-            inertia: step.rule.inertia(),
-            rate: step.rule.damping(),
-            gain_rows: step.group.gain_rows.as_chunks().0,
-            lag_rows: step.group.has_lag.then(|| step.group.lag_rows.as_chunks().0),
-            by_reach: by_reach.as_chunks().0,
-            presses: step.tangents.iter().any(|tangent| *tangent != 0.0),
-        };
-        let parts = ROWS / S::F64_LANES;
-        let (own, _) = S::as_mut_simd_f64s(own);
-        for bundle in own.chunks_exact_mut((3 * n * parts).max(1)) {
-            for part in 0..parts {
-                step.carry(&mut bundle[part..], parts, within, loads);
-            }
-        }
-    }
-
-    /// A⁻¹ Rᵀ D (I + g Y D)⁻¹, by mode, then coupling.
-    #[inline(always)]
-    fn answer_to_reach<const W: usize>(&mut self, step: &StepGradient<'_>) {
-        let StepGradient { modes, rule, group, tangents } = step;
-        let (y, _) = group.receptance_by_row.as_chunks::<W>();
-        let (lags, rate) = (&group.lags[..W], rule.damping());
-        let mut d = [0.0; W];
-        d.iter_mut().zip(*tangents).for_each(|(d, tangent)| *d = *tangent);
-        // I + g Y D, by row.
-        let mut g: [[f64; W]; W] = std::array::from_fn(|k| {
-            let gain = 1.0 + lags[k] * rate;
-            std::array::from_fn(|l| gain * y[k][l] * d[l] + if k == l { 1.0 } else { 0.0 })
+        let group = self.factors.groups[usize::from(step.is_rare)].get_or_insert_with(|| {
+            let Condensed { gain_rows, lag_rows, has_lag, .. } = step.group;
+            let lag_rows = if *has_lag { rounded(lag_rows) } else { Vec::new() };
+            GroupFactors { gain_rows: rounded(gain_rows), lag_rows }
         });
-        newton::eliminate(&mut g);
-        let (n, padded) = (modes.count, group.answers.len() / W);
-        self.by_reach.clear();
-        self.by_reach.resize(n * W, 0.0);
-        let (out, _) = self.by_reach.as_chunks_mut::<W>();
+        let by_reach = &mut self.factors.by_reach;
+        at_width!(step.group.width, W => answer_to_reach::<T, W>(step, by_reach));
+        let presses = step.tangents.iter().any(|tangent| *tangent != 0.0);
+        wide(Carrying {
+            motion: self.motion.each_mut().map(Vec::as_mut_slice),
+            stride: self.rows,
+            modes: self.modes,
+            newmark: [step.rule.inertia(), step.rule.damping()],
+            linear: &self.factors.linear,
+            group,
+            by_reach,
+            width: step.group.width,
+            pressing: if presses { step.group.count } else { 0 },
+            room: &mut self.room,
+        });
+    }
+}
+
+fn rounded<T: Number>(list: &[f64]) -> Vec<T> {
+    list.iter().map(|x| T::of(*x)).collect()
+}
+
+/// A⁻¹ Rᵀ D (I + g Y D)⁻¹, by mode, then coupling.
+fn answer_to_reach<T: Number, const W: usize>(step: &StepGradient<'_>, out: &mut Vec<T>) {
+    let StepGradient { modes, rule, group, tangents, .. } = step;
+    let (y, _) = group.receptance_by_row.as_chunks::<W>();
+    let (lags, rate) = (&group.lags[..W], rule.damping());
+    let mut d = [0.0; W];
+    d.iter_mut().zip(*tangents).for_each(|(d, tangent)| *d = *tangent);
+    // I + g Y D, by row.
+    let mut g: [[f64; W]; W] = std::array::from_fn(|k| {
+        let gain = 1.0 + lags[k] * rate;
+        std::array::from_fn(|l| gain * y[k][l] * d[l] + if k == l { 1.0 } else { 0.0 })
+    });
+    newton::eliminate(&mut g);
+    let (n, padded) = (modes.count, group.answers.len() / W);
+    out.clear();
+    for j in 0..n {
+        let mut sum = [0.0; W];
         for ((answers, row), d) in group.answers.chunks_exact(padded).zip(&g).zip(&d) {
-            for (out, answer) in out.iter_mut().zip(answers) {
-                newton::add(out, row, answer * d);
-            }
+            newton::add(&mut sum, row, answers[j] * d);
         }
+        out.extend(sum.iter().map(|x| T::of(*x)));
     }
 }
 
-/// Where a row of a mode is: displacement, velocity or acceleration as `kind`.
-fn place(modes: usize, row: usize, mode: usize, kind: usize) -> usize {
-    ((row / ROWS * modes + mode) * 3 + kind) * ROWS + row % ROWS
-}
-
-/// A step as vectors of rows need it.
-struct Step<'s, S: Simd, const W: usize> {
-    simd: S,
-    modes: &'s Modes,
+/// Gradients that are carried over a step.
+struct Carrying<'c, T> {
+    motion: [&'c mut [T]; 3],
+    stride: usize,
+    modes: usize,
     /// 4/h², 2/h.
-    inertia: f64,
-    rate: f64,
-    /// g R, by mode.
-    gain_rows: &'s [[f64; W]],
-    /// −τ R, by mode, if any coupling has a lag.
-    lag_rows: Option<&'s [[f64; W]]>,
-    /// A⁻¹ Rᵀ D (I + g Y D)⁻¹, by mode.
-    by_reach: &'s [[f64; W]],
-    /// Whether any coupling has a tangent.
-    presses: bool,
+    newmark: [f64; 2],
+    linear: &'c LinearFactors<T>,
+    group: &'c GroupFactors<T>,
+    by_reach: &'c [T],
+    width: usize,
+    /// Couplings, if any of them has a tangent.
+    pressing: usize,
+    room: &'c mut Vec<T>,
 }
 
-impl<S: Simd, const W: usize> Step<'_, S, W> {
-    /// Carries the rows of one vector: `own` has it at every multiple of `parts`, by mode displacement, velocity, acceleration.
+impl<T: Number> Computation for Carrying<'_, T> {
+    type Output = ();
+
     #[inline(always)]
-    fn carry(
-        &self,
-        own: &mut [S::f64s],
-        parts: usize,
-        within: &mut [S::f64s],
-        loads: &mut [S::f64s],
-    ) {
-        let (simd, n) = (self.simd, self.modes.count);
-        let [inertia, rate, twice] =
-            [self.inertia, self.rate, 2.0 * self.rate].map(|x| simd.splat_f64s(x));
-        let (within, _) = within.as_chunks_mut::<3>();
-        let within = &mut within[..n];
-        for (j, [q, v1, a1]) in within.iter_mut().enumerate() {
-            let [x, v, a] = [0, 1, 2].map(|kind| own[(3 * j + kind) * parts]);
-            // a* = (4/h²) x + (4/h) ẋ + ẍ,  v* = (2/h) x + ẋ
-            *a1 = simd.mul_add_f64s(inertia, x, simd.mul_add_f64s(twice, v, a));
-            *v1 = simd.mul_add_f64s(rate, x, v);
-            *q = *a1;
-        }
-        self.solve(within, loads);
-        if self.presses {
-            let z = self.reach(within);
-            let less = z.map(|z| simd.neg_f64s(z));
-            for (answer, [q, ..]) in self.by_reach.iter().zip(within.iter_mut()) {
-                let own = answer.iter().zip(&less);
-                *q = own.fold(*q, |q, (a, z)| simd.mul_add_f64s(simd.splat_f64s(*a), *z, q));
-            }
-        }
-        for (j, [q, v1, a1]) in within.iter().enumerate() {
-            own[3 * j * parts] = *q;
-            own[(3 * j + 1) * parts] = simd.sub_f64s(simd.mul_f64s(rate, *q), *v1);
-            own[(3 * j + 2) * parts] = simd.sub_f64s(simd.mul_f64s(inertia, *q), *a1);
+    fn run<S: Simd>(self, simd: S) {
+        let Self { motion, stride, modes, newmark, linear, group, by_reach, .. } = self;
+        let (sums, lanes) = (Bundles::<S, T>::new(simd), Bundles::<S, T>::lanes());
+        self.room.resize((4 * modes + self.pressing) * MOST * lanes, T::of(0.0));
+        let [inertia, rate] = newmark;
+        let mut rows = Rows {
+            sums,
+            motion: motion.map(|list| T::vectors_mut::<S>(list)),
+            stride: stride / lanes,
+            at: 0,
+            modes,
+            newmark: [inertia, rate, 2.0 * rate, 1.0 / rate].map(|x| sums.spread(T::of(x))),
+            linear,
+            group,
+            by_reach,
+            width: self.width,
+            pressing: self.pressing,
+            room: T::vectors_mut::<S>(self.room),
+        };
+        in_bundles(rows.stride, &mut rows);
+    }
+}
+
+/// Rows of gradients on their way through a step: column j of a list begins at j `stride`.
+struct Rows<'r, S: Simd, T: Number> {
+    sums: Bundles<S, T>,
+    motion: [&'r mut [T::Vector<S>]; 3],
+    stride: usize,
+    /// First of the vectors that pass through the step now.
+    at: usize,
+    modes: usize,
+    /// 4/h², 2/h, 4/h, h/2.
+    newmark: [T::Vector<S>; 4],
+    linear: &'r LinearFactors<T>,
+    group: &'r GroupFactors<T>,
+    by_reach: &'r [T],
+    width: usize,
+    pressing: usize,
+    room: &'r mut [T::Vector<S>],
+}
+
+/// Bundles within a step, by mode: v* and a* of Newmark's rule, load and displacement; and by coupling the deflection.
+struct Within<'w, V, const U: usize> {
+    v: &'w mut [[V; U]],
+    a: &'w mut [[V; U]],
+    load: &'w mut [[V; U]],
+    q: &'w mut [[V; U]],
+    z: &'w mut [[V; U]],
+}
+
+impl<S: Simd, T: Number> InBundles for Rows<'_, S, T> {
+    #[inline(always)]
+    fn run<const U: usize>(&mut self, at: usize) {
+        self.at = at;
+        let room = std::mem::take(&mut self.room);
+        let (v, rest) = room.as_chunks_mut::<U>().0.split_at_mut(self.modes);
+        let (a, rest) = rest.split_at_mut(self.modes);
+        let (load, rest) = rest.split_at_mut(self.modes);
+        let (q, rest) = rest.split_at_mut(self.modes);
+        let mut within = Within { v, a, load, q, z: &mut rest[..self.pressing] };
+        self.start(&mut within);
+        self.solve(&mut within);
+        self.reach(&mut within);
+        self.press(&mut within);
+        self.finish(&within);
+        self.room = room;
+    }
+}
+
+impl<S: Simd, T: Number> Rows<'_, S, T> {
+    /// a*' = (4/h²) x' + (4/h) ẋ' + ẍ',  v*' = (2/h) x' + ẋ'.
+    #[inline(always)]
+    fn start<const U: usize>(&self, within: &mut Within<'_, T::Vector<S>, U>) {
+        let sums = self.sums;
+        let [inertia, rate, twice, _] = self.newmark;
+        let [x, v, a] = &self.motion;
+        for (j, (v1, a1)) in within.v.iter_mut().zip(within.a.iter_mut()).enumerate() {
+            let place = j * self.stride + self.at;
+            let (x, v, a) = (sums.at(x, place), sums.at(v, place), sums.at(a, place));
+            *a1 = sums.plus(inertia, &x, sums.plus(twice, &v, a));
+            *v1 = sums.plus(rate, &x, v);
         }
     }
 
-    /// z' = g R x' − τ R v*', without coupling forces.
-    #[inline(always)]
-    fn reach(&self, within: &[[S::f64s; 3]]) -> [S::f64s; W] {
-        let simd = self.simd;
-        let mut z = [simd.splat_f64s(0.0); W];
-        for (gain, [q, ..]) in self.gain_rows.iter().zip(within) {
-            add(simd, &mut z, gain, *q);
-        }
-        for (lag, [_, v1, _]) in self.lag_rows.into_iter().flatten().zip(within) {
-            add(simd, &mut z, lag, *v1);
-        }
-        z
-    }
-
-    /// Replaces a*' by A⁻¹ (a*' + C v*') in all modes. Where C is full, C = (h/2) (A − (4/h²) I − Λ) leaves one
-    /// product with a full matrix,
+    /// The displacements without coupling forces, A⁻¹ (a*' + C v*'). Where C is full, C = (h/2) (A − (4/h²) I − Λ) leaves
+    /// one product with a full matrix,
     ///
     /// ```text
     /// A⁻¹ (a* + C v*) = (h/2) v* + A⁻¹ (a* − (2/h) v* − (h/2) Λ v*)
     /// ```
     #[inline(always)]
-    fn solve(&self, within: &mut [[S::f64s; 3]], loads: &mut [S::f64s]) {
-        let (simd, modes) = (self.simd, self.modes);
-        let n = modes.count;
-        if let Some(damping) = &modes.own_damping {
-            let own = damping.iter().zip(&modes.own_inverse);
-            for ([q, v1, _], (c, inverse)) in within.iter_mut().zip(own) {
-                let load = simd.mul_add_f64s(simd.splat_f64s(*c), *v1, *q);
-                *q = simd.mul_f64s(simd.splat_f64s(*inverse), load);
-            }
-            return;
-        }
-        let loads = &mut loads[..n];
-        for ((load, [q, v1, _]), lambda) in loads.iter_mut().zip(&*within).zip(&modes.lambda) {
-            let along = simd.splat_f64s(-(self.rate + lambda / self.rate));
-            *load = simd.mul_add_f64s(along, *v1, *q);
-        }
-        let half = simd.splat_f64s(1.0 / self.rate);
-        let mut first = 0;
-        while first < n {
-            // The last block begins earlier than where the one before it ended, so that all are whole.
-            let start = first.min(n.saturating_sub(AT_ONCE));
-            first = start + AT_ONCE;
-            let block = &mut within[start..first.min(n)];
-            let rows: [&[f64]; AT_ONCE] = std::array::from_fn(|i| {
-                let row = (start + i).min(n - 1);
-                &modes.inverse[row * n..(row + 1) * n]
-            });
-            let mut sums = [simd.splat_f64s(0.0); AT_ONCE];
-            for (k, load) in loads.iter().enumerate() {
-                for (sum, row) in sums.iter_mut().zip(rows) {
-                    *sum = simd.mul_add_f64s(simd.splat_f64s(row[k]), *load, *sum);
+    fn solve<const U: usize>(&self, within: &mut Within<'_, T::Vector<S>, U>) {
+        let sums = self.sums;
+        let Within { v, a, load, q, .. } = within;
+        match self.linear {
+            LinearFactors::Diagonal(own) => {
+                let histories = v.iter().zip(a.iter()).zip(own);
+                for (q, ((v, a), (c, inverse))) in q.iter_mut().zip(histories) {
+                    let load = sums.plus(sums.spread(*c), v, *a);
+                    *q = sums.times(sums.spread(*inverse), load);
                 }
             }
-            for ([q, v1, _], sum) in block.iter_mut().zip(sums) {
-                *q = simd.mul_add_f64s(half, *v1, sum);
+            LinearFactors::Full(along, scale, inverse) => {
+                let histories = v.iter().zip(a.iter()).zip(along);
+                for (load, ((v, a), along)) in load.iter_mut().zip(histories) {
+                    let own = sums.times(sums.spread(*scale), *a);
+                    *load = sums.plus(sums.spread(*along), v, own);
+                }
+                let mut first = 0;
+                while first < self.modes {
+                    // As many sums as hide the latency of a sum and fit the registers.
+                    let own = &mut q[first..];
+                    first += match (U, self.modes - first) {
+                        (1, 8..) => self.answer::<U, 8>(&inverse[first * self.modes..], load, own),
+                        (1..=3, 4..) => {
+                            self.answer::<U, 4>(&inverse[first * self.modes..], load, own)
+                        }
+                        (_, 2..) => self.answer::<U, 2>(&inverse[first * self.modes..], load, own),
+                        _ => self.answer::<U, 1>(&inverse[first * self.modes..], load, own),
+                    };
+                }
+                let half = self.newmark[3];
+                for (q, v) in q.iter_mut().zip(v.iter()) {
+                    *q = sums.plus(half, v, *q);
+                }
             }
         }
     }
-}
 
-/// Adds a mode's part to the deflections of all couplings.
-#[inline(always)]
-fn add<S: Simd, const W: usize>(simd: S, z: &mut [S::f64s; W], along: &[f64; W], x: S::f64s) {
-    for (z, along) in z.iter_mut().zip(along) {
-        *z = simd.mul_add_f64s(simd.splat_f64s(*along), x, *z);
+    /// The first R rows of a matrix times the loads. Returns R.
+    #[inline(always)]
+    fn answer<const U: usize, const R: usize>(
+        &self,
+        matrix: &[T],
+        load: &[Bundle<S, T, U>],
+        q: &mut [Bundle<S, T, U>],
+    ) -> usize {
+        let (sums, n) = (self.sums, load.len());
+        let mut rows: [&[T]; R] = [&[]; R];
+        for (r, row) in rows.iter_mut().enumerate() {
+            *row = &matrix[r * n..(r + 1) * n];
+        }
+        let mut all = [sums.zero(); R];
+        for (k, load) in load.iter().enumerate() {
+            for r in 0..R {
+                all[r] = sums.plus(sums.spread(rows[r][k]), load, all[r]);
+            }
+        }
+        q[..R].copy_from_slice(&all);
+        R
+    }
+
+    /// z' = g R x' − τ R v*', without coupling forces.
+    #[inline(always)]
+    fn reach<const U: usize>(&self, within: &mut Within<'_, T::Vector<S>, U>) {
+        let sums = self.sums;
+        let Within { v, q, z, .. } = within;
+        let GroupFactors { gain_rows, lag_rows } = self.group;
+        for (k, pair) in z.chunks_mut(2).enumerate() {
+            let own = self.along(gain_rows, q, 2 * k, [sums.zero(); 2]);
+            let own = self.along(lag_rows, v, 2 * k, own);
+            pair.copy_from_slice(&own[..pair.len()]);
+        }
+    }
+
+    /// Adds what rows make of gradients of the modes, for two couplings at a time, of which the second may be a padded
+    /// one.
+    #[inline(always)]
+    fn along<const U: usize>(
+        &self,
+        rows: &[T],
+        x: &[Bundle<S, T, U>],
+        coupling: usize,
+        mut all: [Bundle<S, T, U>; 2],
+    ) -> [Bundle<S, T, U>; 2] {
+        let sums = self.sums;
+        for (row, x) in rows.chunks_exact(self.width).zip(x) {
+            let own = &row[coupling..coupling + 2];
+            for r in 0..2 {
+                all[r] = sums.plus(sums.spread(own[r]), x, all[r]);
+            }
+        }
+        all
+    }
+
+    /// x' less A⁻¹ Rᵀ D (I + g Y D)⁻¹ z'.
+    #[inline(always)]
+    fn press<const U: usize>(&self, within: &mut Within<'_, T::Vector<S>, U>) {
+        let sums = self.sums;
+        let Within { q, z, .. } = within;
+        for (answer, q) in self.by_reach.chunks_exact(self.width).zip(q.iter_mut()) {
+            let mut sum = *q;
+            for (a, z) in answer.iter().zip(z.iter()) {
+                sum = sums.minus(sums.spread(*a), z, sum);
+            }
+            *q = sum;
+        }
+    }
+
+    /// ẋ' = (2/h) x' − v*',  ẍ' = (4/h²) x' − a*'.
+    #[inline(always)]
+    fn finish<const U: usize>(&mut self, within: &Within<'_, T::Vector<S>, U>) {
+        let sums = self.sums;
+        let [inertia, rate, ..] = self.newmark;
+        let Within { v: v1, a: a1, q, .. } = within;
+        let [x, v, a] = &mut self.motion;
+        for (j, (q, (v1, a1))) in q.iter().zip(v1.iter().zip(a1.iter())).enumerate() {
+            let place = j * self.stride + self.at;
+            sums.put(x, place, q);
+            sums.put(v, place, &sums.times_less(rate, q, *v1));
+            sums.put(a, place, &sums.times_less(inertia, q, *a1));
+        }
     }
 }

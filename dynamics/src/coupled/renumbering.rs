@@ -55,17 +55,20 @@ impl<L: CouplingForce> Coupled<L> {
         }
         let mut p = DMatrix::zeros(n, n);
         own.coordinates.iter().for_each(|(i, j, value)| p[(*i, *j)] += value);
-        let diagonal = |of: &[f64]| DMatrix::from_fn(n, n, |i, j| if i == j { of[i] } else { 0.0 });
-        let mass = diagonal(&self.modes.mass);
-        let commutes =
-            |p: &DMatrix<f64>, a: &DMatrix<f64>| (p * a - a * p).amax() <= EQUAL * a.amax();
+        // (P A − A P)_ij = P_ij (a_j − a_i) with a diagonal A
+        let commutes_with_diagonal = |p: &DMatrix<f64>, a: &[f64]| {
+            let largest = a[..n].iter().fold(0.0f64, |largest, a| largest.max(a.abs()));
+            let is_kept = |i: usize, j: usize| (p[(i, j)] * (a[j] - a[i])).abs() <= EQUAL * largest;
+            (0..n).all(|j| (0..n).all(|i| is_kept(i, j)))
+        };
         // Q = Φ⁻¹ P Φ = Φᵀ M P Φ
         let shapes = DMatrix::from_fn(n, n, |i, j| self.modes.shapes[(i, j)]);
-        let turn = shapes.transpose() * &mass * &p * &shapes;
+        let weighted = DMatrix::from_fn(n, n, |i, j| self.modes.mass[i] * p[(i, j)]);
+        let turn = shapes.tr_mul(&(weighted * &shapes));
         let damping = DMatrix::from_fn(n, n, |i, j| self.modes.damping[(i, j)]);
-        let is_linear_part_kept = commutes(&p, &mass)
-            && commutes(&turn, &diagonal(&self.modes.lambda))
-            && commutes(&turn, &damping);
+        let is_linear_part_kept = commutes_with_diagonal(&p, &self.modes.mass)
+            && commutes_with_diagonal(&turn, &self.modes.lambda)
+            && (&turn * &damping - &damping * &turn).amax() <= EQUAL * damping.amax();
         let part = CyclePart { parts: own.parts, turn, couplings: own.couplings.clone() };
         let is_kept = is_linear_part_kept
             && self.couplings_are_kept(&part)
@@ -104,12 +107,11 @@ impl<L: CouplingForce> Coupled<L> {
     /// Whether P f(step + S/p) = f(step).
     fn loads_are_kept(&self, part: &CyclePart) -> bool {
         let (n, steps) = (self.modes.count, self.steps_per_cycle);
-        let load =
-            |step: usize| DMatrix::from_column_slice(n, 1, &self.external(step % steps)[..n]);
-        let heaviest = (0..steps).map(|step| load(step).amax()).fold(0.0, f64::max);
+        let loads = DMatrix::from_fn(n, steps, |i, step| self.external(step)[i]);
+        let (turned, largest) = (&part.turn * &loads, EQUAL * loads.amax());
         (0..steps).all(|step| {
-            let after = &part.turn * load(step + steps / part.parts);
-            (after - load(step)).amax() <= EQUAL * heaviest
+            let after = turned.column((step + steps / part.parts) % steps);
+            (after - loads.column(step)).amax() <= largest
         })
     }
 

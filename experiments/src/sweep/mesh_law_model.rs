@@ -227,7 +227,7 @@ macro_rules! marching {
 
             fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError> {
                 // The load belongs to the set, not to its state.
-                self.rest()?;
+                self.set.load(self.torque)?;
                 let state = shaped(state, self.set.state()).ok_or(FOREIGN)?;
                 Ok(self.set.set_state(&state)?)
             }
@@ -278,8 +278,13 @@ macro_rules! marching {
             }
 
             /// Displacements and velocities are all coordinates.
-            fn of_cycle(&mut self, _: Along) -> Result<MapDerivative, ExperimentError> {
-                let found = self.set.derivative_of(&self.passed, self.rate);
+            fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError> {
+                let found = match along {
+                    Along::MotionRoughly => self.set.derivative_of::<f32>(&self.passed, self.rate),
+                    Along::Motion | Along::Every => {
+                        self.set.derivative_of::<f64>(&self.passed, self.rate)
+                    }
+                };
                 let found = found.ok_or(ExperimentError::Incomplete("cycle to differentiate"))?;
                 Ok(match self.part.iter().flatten().next() {
                     Some((_, part)) if self.passed.ends_within_cycle() => part.renumbered(found),

@@ -17,11 +17,10 @@
 //! E couples the pairs of a mesh or, on bodies with elastic states, all pairs. The matrix of the races is of the order of
 //! their coordinates; its symmetric part is positive definite.
 
-use dynamics::{Computation, Number, Simd, wide};
+use dynamics::{Computation, Simd, wide};
 use nalgebra::{DMatrixView, DMatrixViewMut};
 
 use super::frame::Frame;
-use super::gradients::{add, column, column_mut};
 use super::packed::{LANES, Packed};
 use crate::contact::ContactMaps;
 use crate::error::FeError;
@@ -34,9 +33,9 @@ pub(super) struct Combination {
     /// Pairs that touch: those with a force that changes with the approaches, in the order of the groups that E couples.
     pub(super) touching: Vec<usize>,
     /// How many of them each group has.
-    groups: Vec<usize>,
+    pub(super) groups: Vec<usize>,
     /// S' of each group by rows, N/m.
-    stiffness: Vec<f64>,
+    pub(super) stiffness: Vec<f64>,
     /// P₀' of the touching pairs, N.
     preload: Vec<f64>,
     /// Columns of E of the touching pairs, each with the rows of the pairs of its group, m/N.
@@ -106,22 +105,6 @@ impl Combination {
             (preload, rest.2) = rest.2.split_at(*count);
             (touching, stiffness, preload)
         })
-    }
-
-    /// Writes S' G for columns G of length `m`, one for each touching pair.
-    #[inline(always)]
-    pub(super) fn press<T: Number>(&self, out: &mut [T], g: &[T], m: usize) {
-        out[..m * self.touching.len()].fill(T::of(0.0));
-        let mut first = 0;
-        for (touching, stiffness, _) in self.groups() {
-            let count = touching.len();
-            for (i, row) in stiffness.chunks_exact(count.max(1)).enumerate() {
-                for (j, s) in row.iter().enumerate() {
-                    add(column_mut(out, m, first + i), *s, column(g, m, first + j));
-                }
-            }
-            first += count;
-        }
     }
 
     /// Memory, bytes.

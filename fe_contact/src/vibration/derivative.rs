@@ -6,10 +6,10 @@ use faer::{MatMut, MatRef};
 use gearset::Symmetry;
 use nalgebra::{DMatrix, DVector};
 
-use super::gradients::{BLOCK, Gradients, LagGradients};
+use super::gradients::{Gradients, LagGradients};
 use super::lag::WIDTH;
-use super::packed::Packed;
 use super::set::VibratingSet;
+use super::step_terms::StepTerms;
 use super::tooth_shift::ToothShift;
 use crate::error::FeError;
 
@@ -50,15 +50,15 @@ pub(super) struct SetDerivative<T> {
     /// Modes of carrier, ring, sun and planets.
     pub(super) elastic: Vec<Gradients<T>>,
     pub(super) meshes: Vec<LagGradients<T>>,
-    /// Load on the races by v*, n×n, N s/m.
-    pub(super) velocity_load: Packed,
+    pub(super) terms: StepTerms<T>,
     pub(super) work: Work<T>,
     /// Q, (active coordinates)×rows, once the rows of the gradients were compressed: the gradients with respect to
     /// the active coordinates are Q times these.
     basis: Option<DMatrix<T>>,
 }
 
-/// Gradients used within a step, column after column, kept so that steps allocate little memory.
+/// Gradients used within a step, kept so that steps allocate little memory; those of the races and of the touching pairs,
+/// column after column, only where bodies have modes.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Work<T> {
     pub(super) acceleration: Vec<T>,
@@ -67,13 +67,8 @@ pub(super) struct Work<T> {
     pub(super) next: Vec<T>,
     pub(super) b: Vec<T>,
     pub(super) forces: Vec<T>,
-    /// Of the displacements of the races expected at the end of the step, and of one along a row.
-    pub(super) ahead: Vec<T>,
-    pub(super) expected: Vec<T>,
-    /// A matrix in the precision of the gradients.
-    pub(super) matrix: Vec<T>,
-    /// Column of each pair among the touching ones.
-    pub(super) column_of: Vec<Option<usize>>,
+    /// Rows of one vector.
+    pub(super) rows: Vec<T>,
 }
 
 /// Steps after which the rows of the gradients with respect to every coordinate are compressed.
@@ -168,7 +163,7 @@ impl VibratingSet<'_> {
                 active.extend(nonzero.map(|slot| (first + slot, STIFFNESS)));
             }
         }
-        let m = active.len().next_multiple_of(BLOCK);
+        let m = active.len().next_multiple_of(T::MOST_LANES);
         let unit = |first: usize, count: usize| {
             let mut own = DMatrix::zeros(m, count);
             for (row, (i, size)) in active.iter().enumerate() {
@@ -197,25 +192,14 @@ impl VibratingSet<'_> {
         });
         let meshes = meshes.collect();
         let races = gradients(0, n);
-        let velocity_load = Packed::new(&self.race_dynamics.velocity_load(&self.clock.rule));
+        let own = &self.race_dynamics;
+        let terms = StepTerms::new(&own.mass, &own.velocity_load(&self.clock.rule));
         let (work, basis) = (Work::default(), None);
-        SetDerivative { active, races, elastic, meshes, velocity_load, work, basis }
+        SetDerivative { active, races, elastic, meshes, terms, work, basis }
     }
 }
 
 impl<T: Number> SetDerivative<T> {
-    /// Writes the displacements of the races that are expected at the end of the step, column after column:
-    /// x + h (v + ½ h a).
-    #[inline(always)]
-    pub(super) fn expect(&self, h: f64, out: &mut Vec<T>) {
-        let (h, half) = (T::of(h), T::of(0.5 * h * h));
-        let [x, v, a] = [&self.races.x, &self.races.v, &self.races.a].map(|list| list.as_slice());
-        out.resize(x.len(), T::of(0.0));
-        for (((out, x), v), a) in out.iter_mut().zip(x).zip(v).zip(a) {
-            *out = *x + h * *v + half * *a;
-        }
-    }
-
     /// Rows of the gradients.
     pub(super) fn rows(&self) -> usize {
         self.races.x.nrows()
@@ -261,8 +245,11 @@ impl<T: Number> SetDerivative<T> {
             let transposed = turn.transpose().map(T::of);
             self.races.lists_mut().into_iter().for_each(|list| *list *= &transposed);
             let planets = self.meshes.len() / 2;
-            let meshes = (0..2 * planets).map(|mesh| self.meshes[own.later(mesh, planets)].clone());
-            self.meshes = meshes.collect();
+            // Each mesh takes the place of one other.
+            let mut meshes: Vec<_> = self.meshes.drain(..).map(Some).collect();
+            let turned =
+                (0..2 * planets).filter_map(|mesh| meshes[own.later(mesh, planets)].take());
+            self.meshes = turned.collect();
             return;
         }
         for (own, shift) in self.elastic.iter_mut().zip(shifts) {
@@ -320,7 +307,7 @@ impl<T: Number> SetDerivative<T> {
         let largest = if size > 0 { r[(0, 0)].abs() } else { 0.0 };
         let rank = (0..size).take_while(|k| r[(*k, *k)].abs() > RANK * largest).count();
         // NaN, which is reported at the end, has no rank.
-        let left = rank.next_multiple_of(BLOCK);
+        let left = rank.next_multiple_of(T::MOST_LANES);
         if rank == 0 || left == m {
             return;
         }

@@ -13,34 +13,17 @@
 //! touched in the last step to their position and the second-order terms, so that a whole cycle can be
 //! differentiated after it was marched.
 
-use dynamics::{Computation, Number, Simd, wide};
+use dynamics::{Number, wide};
 use nalgebra::{DMatrix, DVector};
 
 use super::body::Port;
 use super::derivative::{SetDerivative, Work};
 use super::flexible_bodies::FlexibleBodies;
 use super::frame::Frame;
-use super::gradients::{add, column, column_mut, out_of_turned, turned_into};
+use super::gradients::{LagGradients, add, column, column_mut, out_of_turned, turned_into};
 use super::set::VibratingSet;
-use crate::short_row::ShortRow;
+use super::step_rows::{Carrying, StepWeights};
 use crate::statics::CARRIER;
-
-/// A derivative that is carried over a step.
-struct Carrying<'c, 's, T> {
-    set: &'c VibratingSet<'s>,
-    derivative: &'c mut SetDerivative<T>,
-    step: usize,
-    cycles: i64,
-}
-
-impl<T: Number> Computation for Carrying<'_, '_, T> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<S: Simd>(self, _: S) {
-        self.set.carry_over_step(self.derivative, self.step, self.cycles);
-    }
-}
 
 impl VibratingSet<'_> {
     /// Carries the derivative over a step, 1 to the number of steps, of the cycle after `cycles` whole ones.
@@ -50,11 +33,6 @@ impl VibratingSet<'_> {
         step: usize,
         cycles: i64,
     ) {
-        wide(Carrying { set: self, derivative: d, step, cycles });
-    }
-
-    #[inline(always)]
-    fn carry_over_step<T: Number>(&self, d: &mut SetDerivative<T>, step: usize, cycles: i64) {
         let count = self.clock.rotation.count();
         let (k, cycles) = (step % count, cycles + (step / count) as i64);
         let Some(frame) = self.frames.current(k) else { return };
@@ -62,131 +40,53 @@ impl VibratingSet<'_> {
         for mesh in &self.pairs.restarts[k] {
             d.meshes[*mesh].move_on();
         }
-        let weights = self.pairs.lag.weights();
-        for mesh in &mut d.meshes {
-            mesh.predict(weights);
-        }
-        let (rule, m) = (&self.clock.rule, d.rows());
-        let newmark = [rule.inertia(), rule.damping()];
+        let (rule, lag) = (&self.clock.rule, &self.pairs.lag);
+        let weights = StepWeights {
+            step: rule.step(),
+            newmark: [rule.inertia(), rule.damping()],
+            lag: lag.weights(),
+        };
+        d.terms.prepare(frame, plain, &mut d.meshes, lag.forgotten());
         let mut work = std::mem::take(&mut d.work);
-        d.races.write_histories(newmark, [&mut work.acceleration, &mut work.velocity]);
-        // L' = m a*' + (α m + τ k + G + bearings) v*'
-        let zero = T::of(0.0);
-        work.load.resize(work.velocity.len(), zero);
-        d.velocity_load.times_transposed(&mut work.load, &work.velocity, m, &mut work.matrix);
-        let columns = work.load.chunks_exact_mut(m).zip(work.acceleration.chunks_exact(m));
-        for ((load, a), mass) in columns.zip(&self.race_dynamics.mass) {
-            add(load, *mass, a);
+        let has_modes = d.elastic.iter().any(|own| own.x.ncols() > 0);
+        let bodies = has_modes.then(|| self.predict_bodies(d, frame, (k, cycles), &mut work));
+        let Work { load, b, next, forces, rows, .. } = &mut work;
+        let modes = has_modes.then_some([load, b, next, forces].map(Vec::as_mut_slice));
+        wide(Carrying {
+            terms: &d.terms,
+            weights: &weights,
+            races: &mut d.races,
+            meshes: &mut d.meshes,
+            modes,
+            room: rows,
+        });
+        d.meshes.iter_mut().for_each(LagGradients::end_step);
+        if let Some(bodies) = bodies {
+            self.finish_bodies(d, frame, bodies, &work);
         }
-        let bodies = self.predict_bodies(d, frame, (k, cycles), &mut work);
-        if !plain.bends.is_empty() || !frame.bends.is_empty() {
-            d.expect(rule.step(), &mut work.ahead);
-        }
-        self.add_bent(d, plain, &mut work);
-        work.next.resize(work.load.len(), zero);
-        let chosen = &frame.combinations[frame.used];
-        work.column_of.clear();
-        work.column_of.resize(frame.offsets.len(), None);
-        for (at, pair) in chosen.touching.iter().enumerate() {
-            work.column_of[*pair] = Some(at);
-        }
-        work.b.clear();
-        work.b.resize(m * chosen.touching.len(), zero);
-        work.forces.resize(m * chosen.touching.len(), zero);
-        self.add_gaps(d, frame, &bodies, &mut work);
-        // (A + Rᵀ S' R) x' = L' − Rᵀ S' b'
-        chosen.press(&mut work.forces, &work.b, m);
-        for (at, pair) in chosen.touching.iter().enumerate() {
-            for (i, r) in frame.rows()[*pair].entries() {
-                add(column_mut(&mut work.load, m, i), -r, column(&work.forces, m, at));
-            }
-        }
-        chosen.inverse.times_transposed(&mut work.next, &work.load, m, &mut work.matrix);
-        // P' = S' (R x' + b')
-        for (at, pair) in chosen.touching.iter().enumerate() {
-            for (i, r) in frame.rows()[*pair].entries() {
-                add(column_mut(&mut work.b, m, at), r, column(&work.next, m, i));
-            }
-        }
-        chosen.press(&mut work.forces, &work.b, m);
-        self.finish_bodies(d, frame, bodies, &work);
-        let mut pressed = Vec::new();
-        for (mesh, own) in frame.meshes.iter().zip(&mut d.meshes) {
-            let pairs = mesh.first..mesh.first + mesh.count;
-            pressed.clear();
-            pressed.extend(pairs.filter_map(|pair| {
-                Some((frame.pattern.slots[pair].place()?, work.column_of[pair]?))
-            }));
-            own.advance((weights[0], self.pairs.lag.forgotten()), &pressed, &work.forces);
-        }
-        d.races.advance(newmark, &work.next, [&work.acceleration, &work.velocity]);
         d.work = work;
     }
 
-    /// Load on the races from the second-order terms of corner gaps.
-    #[inline(always)]
-    fn add_bent<T: Number>(&self, d: &SetDerivative<T>, frame: &Frame, work: &mut Work<T>) {
-        let m = d.rows();
-        for bend in frame.bends.iter().filter(|bend| bend.force > 0.0) {
-            along(&bend.row, m, &work.ahead, &mut work.expected);
-            let pressed = &mut work.expected;
-            let stiffness = T::of(bend.curvature * bend.force);
-            for x in pressed.iter_mut() {
-                *x *= stiffness;
-            }
-            if let Some(slot) = bend.slot.place() {
-                let [_, now, before] = d.meshes[bend.mesh].lists();
-                let share = bend.curvature * bend.moved;
-                add(pressed, 2.0 * share, column(now.as_slice(), m, slot));
-                add(pressed, -share, column(before.as_slice(), m, slot));
-            }
-            for (i, r) in bend.row.entries() {
-                add(column_mut(&mut work.load, m, i), r, pressed);
-            }
-        }
-    }
-
-    /// Adds to the approaches of the touching pairs what corner gaps, the bodies' modes and the lag contribute.
-    #[inline(always)]
-    fn add_gaps<T: Number>(
+    /// Approaches of the touching pairs by the bodies' modes.
+    fn add_approaches<T: Number>(
         &self,
         d: &SetDerivative<T>,
         frame: &Frame,
         bodies: &[BodyStep<T>],
-        work: &mut Work<T>,
+        b: &mut [T],
     ) {
-        let m = d.rows();
-        let Work { b, column_of, ahead, expected, .. } = work;
-        for bend in &frame.bends {
-            let Some(at) = column_of[bend.pair] else { continue };
-            along(&bend.row, m, ahead, expected);
-            add(column_mut(b, m, at), -bend.curvature * bend.moved, expected);
-        }
         for (gear, own) in frame.pattern.own.iter().enumerate() {
             let Some(modal) = self.bodies.gears[gear].vibrating.modal() else { continue };
             let Some(step) = bodies.get(gear + 1) else { continue };
             for ((pair, _), port) in own.iter().zip(&step.ports) {
-                let Some(at) = column_of[*pair] else { continue };
+                let Some(at) = d.terms.touching(*pair) else { continue };
                 for (j, mode) in modal.modes.iter().enumerate() {
                     let along = port.read(&mode.shape);
-                    add(column_mut(b, m, at), along, column(step.free.as_slice(), m, j));
-                }
-            }
-        }
-        let mut lags = frame.lags();
-        for (own, mesh) in d.meshes.iter().zip(&frame.meshes) {
-            let rows = frame.lagged_by(mesh);
-            for slot in &frame.pattern.slots[mesh.first..mesh.first + mesh.count] {
-                let lagged;
-                (lagged, lags) = lags.split_at(rows.len());
-                let Some(place) = slot.place().filter(|place| own.is_live(*place)) else {
-                    continue;
-                };
-                let known = own.known(place);
-                for (row, f) in rows.clone().zip(lagged).filter(|(_, f)| **f != 0.0) {
-                    if let Some(at) = column_of[row] {
-                        add(column_mut(b, m, at), -f, known);
-                    }
+                    add(
+                        column_mut(b, d.rows(), at),
+                        along,
+                        column(step.free.as_slice(), d.rows(), j),
+                    );
                 }
             }
         }
@@ -206,8 +106,18 @@ impl VibratingSet<'_> {
         let (m, turned) = (d.rows(), cycles as f64 + self.clock.position(k));
         let one = T::of(1.0);
         let mut all = Vec::with_capacity(d.elastic.len());
-        let has_modes = d.elastic.iter().any(|own| own.x.ncols() > 0);
-        for (body, vibrating) in self.bodies.all().filter(|_| has_modes) {
+        d.races.write_histories(newmark, [&mut work.acceleration, &mut work.velocity]);
+        let zero = T::of(0.0);
+        for (list, columns) in [
+            (&mut work.load, races.count),
+            (&mut work.next, races.count),
+            (&mut work.b, d.terms.count()),
+            (&mut work.forces, d.terms.count()),
+        ] {
+            list.clear();
+            list.resize(m * columns, zero);
+        }
+        for (body, vibrating) in self.bodies.all() {
             let own = &d.elastic[body];
             let histories = own.histories(newmark);
             let mut free = DMatrix::zeros(m, own.x.ncols());
@@ -262,6 +172,7 @@ impl VibratingSet<'_> {
             let loads = seats * onto.map(T::of);
             add(&mut work.load, 1.0, loads.as_slice());
         }
+        self.add_approaches(d, frame, &all, &mut work.b);
         all
     }
 
@@ -309,7 +220,7 @@ impl VibratingSet<'_> {
             } else {
                 let own = frame.pattern.own[body - 1].iter().zip(&step.ports);
                 for ((pair, _), port) in own {
-                    let Some(at) = work.column_of[*pair] else { continue };
+                    let Some(at) = d.terms.touching(*pair) else { continue };
                     for (j, mode) in modal.modes.iter().enumerate() {
                         let along = -port.read(&mode.shape) / modal.dynamic[j];
                         let forces = column(&work.forces, m, at);
@@ -346,16 +257,6 @@ impl VibratingSet<'_> {
             }
         }
         Some(seats)
-    }
-}
-
-/// Writes what a row makes of columns of length `m`.
-#[inline(always)]
-fn along<T: Number>(row: &ShortRow, m: usize, columns: &[T], out: &mut Vec<T>) {
-    out.clear();
-    out.resize(m, T::of(0.0));
-    for (i, r) in row.entries() {
-        add(out, r, column(columns, m, i));
     }
 }
 

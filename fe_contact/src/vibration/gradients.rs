@@ -6,22 +6,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::lag::WIDTH;
 
-/// Rows of gradients come in whole blocks of this many, so that no loop over a column has a rest.
-pub(super) const BLOCK: usize = 8;
-
-/// y += factor x, for columns of whole blocks.
+/// y += factor x.
 #[inline(always)]
 pub(super) fn add<T: Number>(y: &mut [T], factor: f64, x: &[T]) {
     let factor = T::of(factor);
-    let (y, x) = (y.as_chunks_mut::<BLOCK>().0, x.as_chunks::<BLOCK>().0);
-    for (y, x) in y.iter_mut().zip(x) {
-        // Read as a whole: the compiler then needs not know that x is not y.
-        let (mut sum, x) = (*y, *x);
-        for i in 0..BLOCK {
-            sum[i] += factor * x[i];
-        }
-        *y = sum;
-    }
+    y.iter_mut().zip(x).for_each(|(y, x)| *y += factor * *x);
 }
 
 /// Column j of columns of length `m`, stored one after another.
@@ -88,6 +77,17 @@ impl<T: Number> Gradients<T> {
     }
 }
 
+/// What becomes of the lag of a pair in a step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum LagEnd {
+    /// It has the force of a touching pair.
+    Pressed(usize),
+    /// It has no force.
+    Parted,
+    /// It has no force, and nothing is left of earlier ones.
+    Forgotten,
+}
+
 /// Gradients of the lag of one mesh: of P̃ (within a step of the part of it at its end that is known at its start), of the
 /// forces at the end of the last step, and of those one step earlier.
 #[derive(Debug, Clone)]
@@ -122,70 +122,35 @@ impl<T: Number> LagGradients<T> {
         })
     }
 
-    #[inline(always)]
-    pub(super) fn is_live(&self, slot: usize) -> bool {
-        self.live[slot]
+    /// Pairs with gradients other than zero.
+    pub(super) fn live(&self) -> [bool; WIDTH] {
+        self.live
     }
 
-    /// Starts a step: replaces P̃ by the part of it at the end of the step that is known, as in
-    /// [`PairMemory::known`](super::lag::PairMemory::known).
-    #[inline(always)]
-    pub(super) fn predict(&mut self, weights: [f64; 4]) {
-        let [_, start, before, state] = weights.map(T::of);
-        let m = self.lists[0].nrows();
-        let [filtered, now, earlier] = &mut self.lists;
-        for slot in (0..WIDTH).filter(|slot| self.live[*slot]) {
-            let own = column_mut(filtered.as_mut_slice(), m, slot).as_chunks_mut::<BLOCK>().0;
-            let [now, earlier] = [&*now, &*earlier]
-                .map(|list| column(list.as_slice(), m, slot).as_chunks::<BLOCK>().0);
-            for ((f, n), e) in own.iter_mut().zip(now).zip(earlier) {
-                let (mut sum, n, e) = (*f, *n, *e);
-                for i in 0..BLOCK {
-                    sum[i] = state * sum[i] + start * n[i] + before * e[i];
-                }
-                *f = sum;
-            }
-        }
-    }
-
-    /// The known part of a live pair, within a step.
-    pub(super) fn known(&self, slot: usize) -> &[T] {
-        column(self.lists[0].as_slice(), self.lists[0].nrows(), slot)
-    }
-
-    /// Advances by a step at whose end the pairs `pressed` (slot, column of `forces`) have forces. `forgotten`: steps after
-    /// which nothing is left of the lag of a pair that does not touch.
-    #[inline(always)]
-    pub(super) fn advance(
+    /// What becomes of the lag of a pair at the end of a step, at which it may be one of those that touch; `None` if it has
+    /// no gradients before and after. `forgotten`: steps after which nothing is left of the lag of a pair that does not
+    /// touch.
+    pub(super) fn end(
         &mut self,
-        (end, forgotten): (f64, usize),
-        pressed: &[(usize, usize)],
-        forces: &[T],
-    ) {
-        let m = self.lists[0].nrows();
-        let [filtered, now, before] = &mut self.lists;
-        // The list of the forces one step earlier becomes that of the new ones.
-        std::mem::swap(now, before);
-        let (filtered, now) = (filtered.as_mut_slice(), now.as_mut_slice());
-        for slot in 0..WIDTH {
-            match pressed.iter().find(|(own, _)| *own == slot) {
-                Some((_, k)) => {
-                    let force = column(forces, m, *k);
-                    add(column_mut(filtered, m, slot), end, force);
-                    column_mut(now, m, slot).copy_from_slice(force);
-                    (self.live[slot], self.parted[slot]) = (true, 0);
-                }
-                None if self.live[slot] => {
-                    column_mut(now, m, slot).fill(T::of(0.0));
-                    self.parted[slot] += 1;
-                    if self.parted[slot] > forgotten {
-                        column_mut(filtered, m, slot).fill(T::of(0.0));
-                        self.live[slot] = false;
-                    }
-                }
-                None => {}
-            }
+        slot: usize,
+        touching: Option<usize>,
+        forgotten: usize,
+    ) -> Option<LagEnd> {
+        if let Some(pair) = touching {
+            (self.live[slot], self.parted[slot]) = (true, 0);
+            return Some(LagEnd::Pressed(pair));
         }
+        if !self.live[slot] {
+            return None;
+        }
+        self.parted[slot] += 1;
+        self.live[slot] = self.parted[slot] <= forgotten;
+        Some(if self.live[slot] { LagEnd::Parted } else { LagEnd::Forgotten })
+    }
+
+    /// Ends a step whose forces are in the list of those one step earlier.
+    pub(super) fn end_step(&mut self) {
+        self.lists.swap(1, 2);
     }
 
     /// The mesh starts a new cycle: what was pair k is pair k + 1.

@@ -40,6 +40,8 @@ mod rest;
 mod rotation;
 mod set;
 mod step;
+mod step_rows;
+mod step_terms;
 mod symmetry;
 mod teeth;
 mod tooth_shift;

@@ -1,15 +1,12 @@
 //! Small dense matrices (about 20×20) for the products of every time step, stored in the order in
 //! which they are read, without the strides of a general library.
 
-use dynamics::Number;
-use faer::linalg::matmul::matmul;
-use faer::{Accum, MatMut, MatRef, Par};
 use nalgebra::DMatrix;
 
 use crate::short_row::ShortRow;
 
 /// Rows of a block, whose sums are formed simultaneously.
-const BLOCK: usize = 8;
+pub(super) const BLOCK: usize = 8;
 
 /// Rows of a part of a column in an elimination: half a block, so that fewer rows are padding.
 pub(super) const LANES: usize = BLOCK / 2;
@@ -145,25 +142,9 @@ impl Packed {
         exists.then(|| Self::new(&inverse))
     }
 
-    /// out = G Aᵀ for columns G of length `m`, as many as A has columns; `own` is room for A in the precision of G.
-    #[inline(always)]
-    pub(super) fn times_transposed<T: Number>(
-        &self,
-        out: &mut [T],
-        g: &[T],
-        m: usize,
-        own: &mut Vec<T>,
-    ) {
-        let own = T::all(self.data.as_flattened(), own);
-        let g = MatRef::from_column_major_slice(&g[..m * self.columns], m, self.columns);
-        let blocks = own.chunks_exact((BLOCK * self.columns).max(1));
-        for (block, out) in blocks.zip(out[..m * self.rows].chunks_mut(m * BLOCK)) {
-            let rows = out.len() / m.max(1);
-            let block = MatRef::from_column_major_slice(block, BLOCK, self.columns);
-            let out = MatMut::from_column_major_slice_mut(out, m, rows);
-            let (block, one) = (block.subrows(0, rows).transpose(), T::of(1.0));
-            matmul(out, Accum::Replace, g, block, one, Par::Seq);
-        }
+    /// Entries by blocks of [`BLOCK`] rows, columns, and rows of the block, the last block padded with zeros.
+    pub(super) fn entries(&self) -> &[f64] {
+        self.data.as_flattened()
     }
 
     /// All entries.
@@ -203,7 +184,7 @@ mod tests {
     /// Of matrices as those of a step: symmetric and positive definite, with a skew part as gyroscopic terms have it, and
     /// rows of units that differ by a factor of 1000.
     #[test]
-    fn inverses_and_products_of_columns_are_right() {
+    fn inverses_are_right() {
         for n in [1, 7, 8, 17, 24] {
             let root = DMatrix::from_fn(n, n, |i, j| (1.3 * i as f64 + 2.7 * (j * j) as f64).sin());
             let skew = DMatrix::from_fn(n, n, |i, j| 0.1 * (i as f64 - j as f64));
@@ -216,11 +197,6 @@ mod tests {
             let own =
                 &units * (inverse.full() * &a) * units.map(|u| if u > 0.0 { 1.0 / u } else { 0.0 });
             assert!((own - DMatrix::identity(n, n)).amax() < 1e-11, "{n}");
-            let g = DMatrix::from_fn(5, n, |i, j| 0.2 * i as f64 - 0.1 * j as f64);
-            let mut out = DMatrix::zeros(5, n);
-            Packed::new(&a).times_transposed(out.as_mut_slice(), g.as_slice(), 5, &mut Vec::new());
-            let exact = &g * a.transpose();
-            assert!((&out - &exact).amax() <= 1e-13 * exact.amax(), "{n}");
         }
         assert!(Packed::new(&DMatrix::zeros(3, 3)).inverse(&mut Vec::new()).is_none());
     }

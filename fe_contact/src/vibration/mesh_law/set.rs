@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use dynamics::{
     AverageAcceleration, Coupled, CoupledState, Coupling, CyclePart, LinearPart, MapDerivative,
-    Motion, PassedSteps, Renumbering,
+    Motion, Number, PassedSteps, Renumbering,
 };
 use gearset::{Facing, MeshLaw, Scene, Symmetry};
 use nalgebra::{DMatrix, DVector};
@@ -135,8 +135,16 @@ impl<'s> MeshLawSet<'s> {
     /// # Errors
     /// If there is no equilibrium.
     pub fn rest(&mut self, torque_nm: f64) -> Result<(), FeError> {
-        self.set_external(self.statics.load(torque_nm).as_slice())?;
+        self.load(torque_nm)?;
         self.system.rest().map_err(|cause| failed(&self.statics, cause))
+    }
+
+    /// Loads the set by a torque on the sun (N m, magnitude) from now on, its state left as it is.
+    ///
+    /// # Errors
+    /// None with a set that was made.
+    pub fn load(&mut self, torque_nm: f64) -> Result<(), FeError> {
+        self.set_external(self.statics.load(torque_nm).as_slice())
     }
 
     /// Sets the external forces on the races' coordinates (N) from now on.
@@ -253,9 +261,13 @@ impl<'s> MeshLawSet<'s> {
     }
 
     /// The derivative of the last of the states passed with respect to the first, between which every step was
-    /// kept; frequencies of the motion are of the order of `rate` (rad/s). `None` without a state.
-    pub fn derivative_of(&self, passed: &PassedSteps, rate: f64) -> Option<MapDerivative> {
-        self.system.derivative_of(passed, rate)
+    /// kept, computed in the precision of T; frequencies of the motion are of the order of `rate` (rad/s). `None` without a state.
+    pub fn derivative_of<T: Number>(
+        &self,
+        passed: &PassedSteps,
+        rate: f64,
+    ) -> Option<MapDerivative> {
+        self.system.derivative_of::<T>(passed, rate)
     }
 
     /// Time since the start, s.
