@@ -7,8 +7,7 @@
 //!   well, which marching does not: the ratio of the motion alone leaves out the time of the last derivative and of its
 //!   eigenvalues.
 //! - **The default sweep** of 97 speeds, four planets, set-up shared: shooting against marching with leaps.
-//! - **Prices**: the first cycle at a new speed, a later one, a derivative, and one for corrections (of the FE/contact set in
-//!   single precision).
+//! - **Prices**: the first cycle at a new speed, a later one, a derivative, and one for corrections (in single precision).
 //!
 //! `RAYON_NUM_THREADS=1 cargo bench --bench steady_states`; arguments `resonance`, `sweep`, `prices` choose parts.
 
