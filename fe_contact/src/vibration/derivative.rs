@@ -67,7 +67,7 @@ pub(super) struct Work<T> {
     pub(super) next: Vec<T>,
     pub(super) b: Vec<T>,
     pub(super) forces: Vec<T>,
-    /// Rows of one vector.
+    /// Memory for the rows that pass through a step together.
     pub(super) rows: Vec<T>,
 }
 
