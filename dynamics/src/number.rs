@@ -58,9 +58,8 @@ pub trait Number: RealField + ComplexField + Copy + Default {
 /// What differs between the two precisions in name only.
 macro_rules! vectors {
     (
-        $own:ty, $lanes:literal, $vector:ident, $list:ident, $list_mut:ident, $splat:ident, $product:ident, $fused:ident,
-        $fused_less:ident,
-        $negative:ident
+        $lanes:literal, $vector:ident, $list:ident, $list_mut:ident, $splat:ident, $product:ident, $fused:ident,
+        $fused_less:ident, $negative:ident
     ) => {
         const MOST_LANES: usize = $lanes;
 
@@ -115,7 +114,6 @@ impl Number for f64 {
     }
 
     vectors!(
-        f64,
         4,
         f64s,
         as_simd_f64s,
@@ -140,7 +138,6 @@ impl Number for f32 {
     }
 
     vectors!(
-        f32,
         8,
         f32s,
         as_simd_f32s,

@@ -336,9 +336,6 @@ impl<S: Simd, T: Number> Rows<'_, S, T> {
             // ẋ = (2/h) x − v*,  ẍ = (4/h²) x − a*
             sums.put(v, place, &sums.times_less(rate, &x, *v1));
             sums.put(a, place, &sums.times_less(inertia, &x, *a1));
-            if let Some([_, _, displacements, _]) = &mut self.modes {
-                sums.put(displacements, place, &x);
-            }
         }
         let end = self.lag_weights[0];
         for lag in &self.terms.lags {
@@ -357,10 +354,14 @@ impl<S: Simd, T: Number> Rows<'_, S, T> {
                 }
             }
         }
-        for (k, force) in forces.iter().enumerate() {
-            let place = self.place(k);
-            if let Some([.., pressed]) = &mut self.modes {
-                sums.put(pressed, place, force);
+        let (stride, at) = (self.stride, self.at);
+        if let Some([_, _, displacements, pressed]) = &mut self.modes {
+            for j in 0..v1.len() {
+                let place = j * stride + at;
+                sums.put(displacements, place, &sums.at::<U>(self.races[0], place));
+            }
+            for (k, force) in forces.iter().enumerate() {
+                sums.put(pressed, k * stride + at, force);
             }
         }
     }
