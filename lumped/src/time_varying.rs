@@ -211,21 +211,25 @@ impl TimeVarying {
         law: impl Into<Arc<MeshLaw>>,
         mesh_frequency_hz: f64,
     ) -> Result<Self, LumpedError> {
-        if !(mesh_frequency_hz > 0.0 && mesh_frequency_hz.is_finite()) {
-            return Err(LumpedError::Frequency(mesh_frequency_hz));
-        }
         let law = law.into();
-        let parts = Parts::new(scene, sense, &law)?;
         let steps = law.steps();
-        let rule = AverageAcceleration::new(1.0 / (mesh_frequency_hz * steps as f64))
-            .map_err(|_| LumpedError::Frequency(mesh_frequency_hz))?;
-        let Parts { layout, linear, front, backside, side_loads } = parts;
+        let rule = time_steps(mesh_frequency_hz, steps)?;
+        let Parts { layout, linear, front, backside, side_loads } = Parts::new(scene, sense, &law)?;
         let mut system =
             Coupled::new(&linear, &front, &backside, MeshLawCouplings(law), rule, steps)?;
         for (step, load) in side_loads.iter().enumerate() {
             system.add_in_cycle(step, load)?;
         }
         Ok(Self { layout, system })
+    }
+
+    /// The same set under the same torque at another mesh frequency, at the origin at step 0 of a mesh cycle.
+    ///
+    /// # Errors
+    /// If the frequency is out of range.
+    pub fn at_frequency(&self, mesh_frequency_hz: f64) -> Result<Self, LumpedError> {
+        let rule = time_steps(mesh_frequency_hz, self.system.law().0.steps())?;
+        Ok(Self { layout: self.layout.clone(), system: self.system.at(rule)? })
     }
 
     /// Puts the set to rest under a torque on the sun (N m, magnitude) at its current step.
@@ -401,6 +405,15 @@ impl TimeVarying {
         let steps = self.system.state().steps.max(1) as f64;
         (self.system.iterations as f64 / steps, self.system.with_rare)
     }
+}
+
+/// Time steps of which some `steps` make a mesh cycle.
+fn time_steps(mesh_frequency_hz: f64, steps: usize) -> Result<AverageAcceleration, LumpedError> {
+    if !(mesh_frequency_hz > 0.0 && mesh_frequency_hz.is_finite()) {
+        return Err(LumpedError::Frequency(mesh_frequency_hz));
+    }
+    AverageAcceleration::new(1.0 / (mesh_frequency_hz * steps as f64))
+        .map_err(|_| LumpedError::Frequency(mesh_frequency_hz))
 }
 
 /// The law's side loads on the free coordinates, by step, N.

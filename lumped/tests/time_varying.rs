@@ -238,6 +238,30 @@ fn states_resume_bit_by_bit() {
     assert_eq!(end, set.motion());
 }
 
+/// A set taken to another speed marches bit by bit as one made there, whatever it was doing and with its torque kept.
+#[test]
+fn a_set_at_another_frequency_is_the_set_made_there() {
+    for name in ["oh58_4p.toml", "oh58_3p.toml"] {
+        let scene = scene(name);
+        let law = changing(&scene, 140);
+        let at = |f| TimeVarying::new(&scene, Facing::Clockwise, law.clone(), f).unwrap();
+        let mut first = at(FREQUENCY);
+        first.rest(TORQUE).unwrap();
+        (0..77).for_each(|_| first.step().unwrap());
+        let mut taken = first.at_frequency(1.7 * FREQUENCY).unwrap();
+        let mut made = at(1.7 * FREQUENCY);
+        made.load(TORQUE).unwrap();
+        assert_eq!(taken.state(), made.state());
+        for _ in 0..200 {
+            taken.step().unwrap();
+            made.step().unwrap();
+        }
+        assert_eq!(taken.motion(), made.motion());
+        assert_eq!(taken.time(), made.time());
+        assert!(first.at_frequency(0.0).unwrap_err().to_string().contains("mesh frequency"));
+    }
+}
+
 #[test]
 fn what_does_not_fit_is_refused() {
     let scene = scene("oh58_4p.toml");

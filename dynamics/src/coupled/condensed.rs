@@ -67,7 +67,7 @@ impl Condensed {
         couplings: &[&Coupling],
     ) -> Option<Self> {
         let (count, n) = (couplings.len(), modes.count);
-        let (width, padded) = (width(count)?, n.next_multiple_of(LANES));
+        let width = width(count)?;
         let mut rows = vec![0.0; n * width];
         for (k, coupling) in couplings.iter().enumerate() {
             for j in 0..n {
@@ -75,6 +75,34 @@ impl Condensed {
                 rows[j * width + k] = (0..n).map(of).sum();
             }
         }
+        let fill = |of: fn(&Coupling) -> f64| -> Vec<f64> {
+            let given = couplings.iter().map(|c| of(c));
+            given.chain(std::iter::repeat_n(0.0, width - count)).collect()
+        };
+        let (lags, offsets) = (fill(|c| c.lag), fill(|c| c.offset));
+        let has_lag = lags.iter().any(|lag| *lag != 0.0);
+        let lag_rows = rows.iter().enumerate().map(|(i, r)| -lags[i % width] * r).collect();
+        let own = Self {
+            count,
+            width,
+            rows,
+            gain_rows: Vec::new(),
+            lag_rows,
+            answers: Vec::new(),
+            receptance: Vec::new(),
+            receptance_by_row: Vec::new(),
+            offsets,
+            lags,
+            has_lag,
+        };
+        Some(own.at(modes, rule))
+    }
+
+    /// The same couplings with modes at other time steps.
+    pub(super) fn at(self, modes: &Modes, rule: &AverageAcceleration) -> Self {
+        let Self { count, width, rows, lags, .. } = &self;
+        let (count, width, n) = (*count, *width, modes.count);
+        let padded = n.next_multiple_of(LANES);
         let mut answers = vec![0.0; width * padded];
         let mut receptance = vec![0.0; width * width];
         let mut receptance_by_row = receptance.clone();
@@ -91,31 +119,9 @@ impl Condensed {
                 receptance_by_row[l * width + k] = of;
             }
         }
-        let fill = |of: fn(&Coupling) -> f64| -> Vec<f64> {
-            let given = couplings.iter().map(|c| of(c));
-            given.chain(std::iter::repeat_n(0.0, width - count)).collect()
-        };
-        let lags = fill(|c| c.lag);
-        let has_lag = lags.iter().any(|lag| *lag != 0.0);
-        let scaled = |factor: &dyn Fn(f64) -> f64| -> Vec<f64> {
-            rows.iter().enumerate().map(|(i, r)| factor(lags[i % width]) * r).collect()
-        };
-        let gain_rows = scaled(&|lag| 1.0 + lag * rule.damping());
-        let lag_rows = scaled(&|lag| -lag);
-        let offsets = fill(|c| c.offset);
-        Some(Self {
-            count,
-            width,
-            rows,
-            gain_rows,
-            lag_rows,
-            answers,
-            receptance,
-            receptance_by_row,
-            offsets,
-            lags,
-            has_lag,
-        })
+        let gain = |(i, r): (usize, &f64)| (1.0 + lags[i % width] * rule.damping()) * r;
+        let gain_rows = rows.iter().enumerate().map(gain).collect();
+        Self { gain_rows, answers, receptance, receptance_by_row, ..self }
     }
 
     /// Deflections at modal displacements, m.

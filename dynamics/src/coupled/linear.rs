@@ -47,6 +47,11 @@ pub(super) struct Modes {
     pub(super) own_inverse: Vec<f64>,
 }
 
+/// n numbers, padded with zeros to a multiple of [`LANES`].
+fn padded(n: usize, of: impl Fn(usize) -> f64) -> Vec<f64> {
+    (0..n.next_multiple_of(LANES)).map(|i| if i < n { of(i) } else { 0.0 }).collect()
+}
+
 impl Modes {
     pub(super) fn new(
         linear: &LinearPart,
@@ -71,32 +76,32 @@ impl Modes {
             }
         }
         let is_proportional = across <= PROPORTIONAL * largest;
-        let mut a = if is_proportional { Mat::zeros(n, n) } else { &damping * rule.damping() };
+        let own_damping = is_proportional.then(|| padded(n, |i| damping[(i, i)]));
+        let mass = linear.mass.clone();
+        let (inverse, own_inverse) = (Vec::new(), Vec::new());
+        let (count, lambda) = (n, modes.lambda);
+        Self { count, shapes, lambda, mass, damping, own_damping, inverse, own_inverse }.at(rule)
+    }
+
+    /// The same modes at other time steps.
+    pub(super) fn at(self, rule: &AverageAcceleration) -> Result<Self, CoupledError> {
+        let n = self.count;
+        let mut a = match self.own_damping {
+            Some(_) => Mat::zeros(n, n),
+            None => &self.damping * rule.damping(),
+        };
         for i in 0..n {
-            let own = if is_proportional { rule.damping() * damping[(i, i)] } else { 0.0 };
-            a[(i, i)] += own + rule.inertia() + modes.lambda[i];
+            let own = self.own_damping.as_ref().map_or(0.0, |damping| rule.damping() * damping[i]);
+            a[(i, i)] += own + rule.inertia() + self.lambda[i];
         }
         let inverse = a.partial_piv_lu().solve(Mat::<f64>::identity(n, n));
         let is_finite = (0..n).all(|j| (0..n).all(|i| inverse[(i, j)].is_finite()));
         if !is_finite {
             return Err(CoupledError::Singular);
         }
-        let padded = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
-            (0..n.next_multiple_of(LANES)).map(|i| if i < n { of(i) } else { 0.0 }).collect()
-        };
-        let own_damping = is_proportional.then(|| padded(&|i| damping[(i, i)]));
-        let own_inverse = padded(&|i| inverse[(i, i)]);
+        let own_inverse = padded(n, |i| inverse[(i, i)]);
         let inverse = (0..n * n).map(|k| inverse[(k / n, k % n)]).collect();
-        Ok(Self {
-            count: n,
-            shapes,
-            lambda: modes.lambda,
-            mass: linear.mass.clone(),
-            damping,
-            own_damping,
-            inverse,
-            own_inverse,
-        })
+        Ok(Self { inverse, own_inverse, ..self })
     }
 
     /// Φᵀ f, padded.

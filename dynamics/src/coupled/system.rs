@@ -56,6 +56,18 @@ pub struct CoupledState {
     pub forces: [Vec<f64>; 2],
 }
 
+impl CoupledState {
+    /// At rest at step 0, of some modes (padded) and couplings.
+    fn at_rest(padded: usize, couplings: usize) -> Self {
+        Self {
+            step_in_cycle: 0,
+            steps: 0,
+            modal: Motion::at_rest(padded),
+            forces: [vec![0.0; couplings], vec![0.0; couplings]],
+        }
+    }
+}
+
 #[derive(Debug, Clone)]
 struct Work {
     acceleration_history: Vec<f64>,
@@ -133,12 +145,39 @@ impl<L: CouplingForce> Coupled<L> {
             steps_per_cycle,
             cycle: nil.repeat(steps_per_cycle),
             steady: nil.clone(),
-            state: CoupledState {
-                step_in_cycle: 0,
-                steps: 0,
-                modal: Motion::at_rest(padded),
-                forces: [vec![0.0; count], vec![0.0; count]],
-            },
+            state: CoupledState::at_rest(padded, count),
+            took_rare: false,
+            iterations: 0,
+            with_rare: 0,
+        })
+    }
+
+    /// The same system with the same external forces, at rest at the origin at step 0 of a cycle, at other time steps.
+    ///
+    /// # Errors
+    /// If the equations of a step are singular.
+    pub fn at(&self, rule: AverageAcceleration) -> Result<Self, CoupledError>
+    where
+        L: Clone,
+    {
+        let modes = self.modes.clone().at(&rule)?;
+        let group = |own: &Condensed| own.clone().at(&modes, &rule);
+        let usual = group(&self.usual);
+        let rare = self.rare.as_ref().map(|(rare, all)| (group(rare), group(all)));
+        let (padded, count) = (self.steady.len(), self.state.forces[0].len());
+        Ok(Self {
+            law: self.law.clone(),
+            rule,
+            modes,
+            least_mass: self.least_mass,
+            usual,
+            rare,
+            silent: self.silent.clone(),
+            steps_per_cycle: self.steps_per_cycle,
+            steady: self.steady.clone(),
+            cycle: self.cycle.clone(),
+            state: CoupledState::at_rest(padded, count),
+            work: self.work.clone(),
             took_rare: false,
             iterations: 0,
             with_rare: 0,

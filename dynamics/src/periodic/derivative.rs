@@ -62,15 +62,14 @@ impl MapDerivative {
             }
         }
         let shifted = Mat::from_fn(n, n, |i, j| f64::from(u8::from(i == j)) - m[(i, j)]);
-        let (mut following, mut rows) = (Vec::new(), Vec::new());
-        let mut active = self.active.iter().peekable();
-        for (i, row) in self.columns.row_iter().enumerate() {
-            let is_active = active.next_if(|a| **a == i).is_some();
-            if !is_active && row.iter().any(|x| *x != 0.0) {
-                following.push(i);
-                rows.extend(&row);
-            }
+        let mut follows = vec![false; self.columns.nrows()];
+        for column in self.columns.as_slice().chunks_exact(follows.len().max(1)) {
+            follows.iter_mut().zip(column).for_each(|(follows, x)| *follows |= *x != 0.0);
         }
+        self.active.iter().for_each(|i| follows[*i] = false);
+        let following: Vec<usize> = (0..follows.len()).filter(|i| follows[*i]).collect();
+        let mut rows = Vec::with_capacity(following.len() * n);
+        following.iter().for_each(|i| rows.extend(&self.columns.row(*i)));
         Ok(Correction { factor: shifted.partial_piv_lu(), derivative: self, following, rows })
     }
 }

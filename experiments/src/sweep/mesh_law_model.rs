@@ -1,7 +1,7 @@
 //! Models whose meshes follow a tabulated law: the FE/contact fidelity `mesh_law`, and the lumped model in
 //! time.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use dynamics::{CoupledState, CyclePart, MapDerivative, PassedSteps};
 use fe_contact::FeError;
@@ -28,7 +28,13 @@ pub struct MeshLawModel<'s> {
     loaded: Option<StaticSet<'s>>,
     case: LoadCase,
     law: Arc<MeshLaw>,
+    /// The lumped set of the model's own scene at the first speed asked for, and its symmetry: sets at other speeds differ in
+    /// their time steps only.
+    known: OnceLock<(TimeVarying, Part)>,
 }
+
+/// Symmetry after a part of the cycle, if a set has one.
+type Part = Option<(Symmetry, CyclePart)>;
 
 impl<'s> MeshLawModel<'s> {
     /// The FE/contact set under the torque of a load case.
@@ -43,7 +49,7 @@ impl<'s> MeshLawModel<'s> {
         let law = mesh_law(&scene, bodies, case.sense(), steps, &settings)?;
         let loaded = StaticSet::new(&scene, bodies, case.sense(), Imperfections::default())?;
         let loaded = loaded.under(case.sun_load_nm())?;
-        Ok(Self { scene, loaded: Some(loaded), case, law: law.into() })
+        Ok(Self { scene, loaded: Some(loaded), case, law: law.into(), known: OnceLock::new() })
     }
 
     /// The lumped model with the same law in its meshes.
@@ -83,25 +89,48 @@ impl<'s> MeshLawModel<'s> {
         let rate = scaling_rate(mesh_frequency);
         let Some(loaded) = &self.loaded else {
             let set = TimeVarying::new(scene, sense, law, mesh_frequency)?;
-            return Ok(Box::new(LumpedMarching {
-                set,
-                torque,
-                has_backside,
-                rate,
-                passed: PassedSteps::default(),
-                part: None,
-            }));
+            return Ok(Box::new(self.lumped_marching(set, None, case)));
         };
         let set = MeshLawSet::on(scene, loaded, mesh_frequency, law)?;
         let passed = PassedSteps::default();
         Ok(Box::new(LawMarching { set, torque, has_backside, rate, passed, part: None }))
+    }
+
+    /// The lumped set of the model's own scene.
+    fn own_lumped(&self, case: &LoadCase) -> Result<LumpedMarching, ExperimentError> {
+        check_sense(&self.case, case)?;
+        let mesh_frequency = case.mesh_frequency_hz;
+        if let Some((known, part)) = self.known.get() {
+            let set = known.at_frequency(mesh_frequency)?;
+            return Ok(self.lumped_marching(set, Some(part.clone()), case));
+        }
+        let law = Arc::clone(&self.law);
+        let set = TimeVarying::new(&self.scene, self.case.sense(), law, mesh_frequency)?;
+        let (_, part) = self.known.get_or_init(|| (set.clone(), set.symmetry()));
+        Ok(self.lumped_marching(set, Some(part.clone()), case))
+    }
+
+    fn lumped_marching(
+        &self,
+        set: TimeVarying,
+        part: Option<Part>,
+        case: &LoadCase,
+    ) -> LumpedMarching {
+        LumpedMarching {
+            set,
+            torque: case.sun_load_nm(),
+            has_backside: self.law.has_backside(),
+            rate: scaling_rate(case.mesh_frequency_hz),
+            passed: PassedSteps::default(),
+            part,
+        }
     }
 }
 
 impl MeshLawModel<'static> {
     /// The lumped model of a scene with any law in its meshes, under the torque of a load case.
     pub fn lumped_with(scene: &Scene, case: LoadCase, law: impl Into<Arc<MeshLaw>>) -> Self {
-        Self { scene: scene.clone(), loaded: None, case, law: law.into() }
+        Self { scene: scene.clone(), loaded: None, case, law: law.into(), known: OnceLock::new() }
     }
 }
 
@@ -132,6 +161,9 @@ impl SweepModel for MeshLawModel<'_> {
         damping_factor: f64,
         _: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+        if self.loaded.is_none() && damping_factor == 1.0 {
+            return Ok(Box::new(self.own_lumped(case)?));
+        }
         self.set_of(&damped(&self.scene, damping_factor), case)
     }
 }
@@ -176,7 +208,7 @@ struct LawMarching<'s> {
     /// States of the cycle marched last, or of the part of it after which the set is itself.
     passed: PassedSteps,
     /// Symmetry after a part of the cycle; `None` until it is asked for.
-    part: Option<Option<(Symmetry, CyclePart)>>,
+    part: Option<Part>,
 }
 
 /// The same for the lumped set.
@@ -186,7 +218,7 @@ struct LumpedMarching {
     has_backside: bool,
     rate: f64,
     passed: PassedSteps,
-    part: Option<Option<(Symmetry, CyclePart)>>,
+    part: Option<Part>,
 }
 
 macro_rules! marching {

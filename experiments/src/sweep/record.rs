@@ -135,7 +135,12 @@ impl Record {
     /// The whole cycle of which this is the first part, of a set that is itself after every part.
     pub(super) fn of_whole_cycle(self, symmetry: &Symmetry) -> Self {
         let (planets, width, parts) = (self.shape.planets, self.width(), symmetry.parts);
-        let mut whole = Self { samples: Vec::new(), backside: Vec::new(), ..self.clone() };
+        let mut whole = Self {
+            samples: Vec::with_capacity(parts * self.samples.len()),
+            backside: Vec::with_capacity(parts * self.backside.len()),
+            forces: Vec::new(),
+            ..self
+        };
         for part in 0..parts {
             let (sin, cos) = (part as f64 * symmetry.angle_rad).sin_cos();
             // What planet n does now, planet n + shift does in the next part.
@@ -216,10 +221,17 @@ impl Record {
 
     /// Largest peak-to-peak value of all translations (m) and of all rotations (rad).
     pub(super) fn sizes(&self) -> [f64; 2] {
+        let count = self.displacements();
+        let mut ranges = vec![(f64::INFINITY, f64::NEG_INFINITY); count];
+        for row in self.samples.chunks_exact(self.width().max(1)) {
+            for ((low, high), x) in ranges.iter_mut().zip(row) {
+                (*low, *high) = (low.min(*x), high.max(*x));
+            }
+        }
         let mut sizes = [0.0f64; 2];
-        for channel in 0..self.displacements() {
+        for (channel, (low, high)) in ranges.into_iter().enumerate() {
             let own = &mut sizes[usize::from(channel % 3 == 2)];
-            *own = own.max(self.range(channel));
+            *own = own.max(high - low);
         }
         sizes
     }

@@ -72,6 +72,8 @@ pub(crate) struct RecordedCycles<'m> {
     steps: usize,
     now: Record,
     before: Record,
+    /// Peak-to-peak vibration of the last cycle, by which deviations are judged.
+    sizes: [f64; 2],
     /// Whether the last cycle followed the one before, and the next will follow the last.
     follows: [bool; 2],
     /// Whether a derivative was computed.
@@ -90,10 +92,18 @@ impl<'m> RecordedCycles<'m> {
         first_planet_rad: f64,
         steps: usize,
     ) -> Self {
-        let (now, before) = (Record::new(shape), Record::new(shape));
-        let (follows, has_derivative) = ([false; 2], false);
-        let (rest_of, rest) = (None, None);
-        Self { set, first_planet_rad, steps, now, before, follows, has_derivative, rest_of, rest }
+        Self {
+            set,
+            first_planet_rad,
+            steps,
+            now: Record::new(shape),
+            before: Record::new(shape),
+            sizes: [0.0; 2],
+            follows: [false; 2],
+            has_derivative: false,
+            rest_of: None,
+            rest: None,
+        }
     }
 
     /// Samples the kinematic rest of those cycles, of `steps` in all, that may be the solution: shooting ends with one
@@ -148,6 +158,7 @@ impl PeriodMap for RecordedCycles<'_> {
             }
         })?;
         self.rest = rest;
+        self.sizes = self.now.sizes();
         self.set.derivative().ok_or(LOST)?.end()
     }
 
@@ -168,10 +179,9 @@ impl PeriodMap for RecordedCycles<'_> {
             // NaN is kept.
             *own = if value.abs() <= *own { *own } else { value.abs() };
         }
-        let sizes = self.now.sizes();
         let ratio = |kind: usize| match largest[kind] {
             0.0 => 0.0,
-            deviation => deviation / sizes[kind],
+            deviation => deviation / self.sizes[kind],
         };
         let (a, b) = (ratio(0), ratio(1));
         // NaN is kept.
@@ -228,13 +238,19 @@ pub(crate) fn shot(
     let critical = CriticalMotion::of(&*set, &found.derivative, &of_part, parts)?;
     let mut multipliers = of_whole_cycle(of_part, parts);
     multipliers.retain(|m| m.size() >= SMALL);
-    let [record, mut both] = [now, before].map(|part| match &symmetry {
+    let whole = |part: Record| match &symmetry {
         Some(own) => part.of_whole_cycle(own),
         None => part,
-    });
-    both.append(record.clone());
-    let is_asked = settings.between_cycles > 0;
-    let between = is_asked.then(|| both.between_harmonics(2)).transpose()?;
+    };
+    let record = whole(now);
+    let between = match settings.between_cycles {
+        0 => None,
+        _ => {
+            let mut both = whole(before);
+            both.append(record.clone());
+            Some(both.between_harmonics(2)?)
+        }
+    };
     Ok(Ok(Shot {
         between,
         rest: rest.map(|rest| rest.rest(&record)),

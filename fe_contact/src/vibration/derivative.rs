@@ -327,29 +327,26 @@ impl<T: Number> SetDerivative<T> {
         let count = lists.iter().map(|(list, _)| list.ncols()).sum();
         let n = self.active.len();
         let back = self.basis.as_ref().map(|basis| basis.rows(0, n).map(Number::double));
-        let mut columns = DMatrix::zeros(count, n);
         let mut scales = Vec::with_capacity(count);
+        // Gradients that are not 0, each with the row that it becomes.
+        let mut nonzero: Vec<(usize, DVector<f64>)> = Vec::new();
         for (list, scale) in lists {
             for column in list.column_iter() {
-                let row = scales.len();
+                if column.as_slice().iter().any(|x| *x != T::of(0.0)) {
+                    let own = column.map(Number::double);
+                    let own = match &back {
+                        Some(basis) => basis * own,
+                        None => own,
+                    };
+                    nonzero.push((scales.len(), own));
+                }
                 scales.push(scale);
-                if column.as_slice().iter().all(|x| *x == T::of(0.0)) {
-                    continue;
-                }
-                match &back {
-                    Some(basis) => {
-                        let own = basis * column.map(Number::double);
-                        columns.row_mut(row).tr_copy_from(&own);
-                    }
-                    None => {
-                        let own = columns.as_mut_slice()[row..].iter_mut().step_by(count);
-                        own.zip(column.as_slice()).for_each(|(own, x)| *own = x.double());
-                    }
-                }
             }
         }
-        for (mut column, (_, size)) in columns.column_iter_mut().zip(&self.active) {
-            column /= *size;
+        let mut columns = DMatrix::zeros(count, n);
+        for (j, (_, size)) in self.active.iter().enumerate() {
+            let own = &mut columns.as_mut_slice()[j * count..(j + 1) * count];
+            nonzero.iter().for_each(|(row, gradient)| own[*row] = gradient[j] / size);
         }
         MapDerivative { active: self.active.iter().map(|(i, _)| *i).collect(), columns, scales }
     }

@@ -172,13 +172,14 @@ impl Frame {
         }
     }
 
-    /// Compliance E of pair i under a force on pair j within a step beyond that of the cells, m/N. Where no body has
-    /// an elastic state, it is that of the forces which the lag holds back: −(1 − end) F.
+    /// Compliance E between pairs within a step beyond that of the cells, m/N, as a factor and the numbers that it multiplies:
+    /// of each [group](Self::groups) the columns of its pairs, with their rows. Where no body has an elastic state, E is that of
+    /// the forces which the lag holds back: −(1 − end) F.
     #[inline]
-    pub(super) fn excess(&self, i: usize, j: usize) -> f64 {
+    pub(super) fn excess(&self) -> (f64, &[f64]) {
         match &self.elastic {
-            Some(own) => own.excess[(i, j)],
-            None => -self.lag_known * self.pattern.within[(i, j)],
+            Some(own) => (1.0, own.excess.as_slice()),
+            None => (-self.lag_known, &self.pattern.within_meshes),
         }
     }
 

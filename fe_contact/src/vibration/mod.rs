@@ -6,6 +6,7 @@ mod build;
 mod checkpoint;
 mod clock;
 mod combination;
+mod combining;
 mod contact_tables;
 mod coordinates;
 mod damping;

@@ -69,6 +69,46 @@ impl Packed {
         }
     }
 
+    /// Number of columns.
+    pub(super) fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// out += A rᵀ, out to the end of the last block.
+    #[inline(always)]
+    pub(super) fn add_times_row(&self, row: &ShortRow, out: &mut [f64]) {
+        let (parts, _) = out.as_chunks_mut::<BLOCK>();
+        for (columns, out) in self.data.chunks_exact(self.columns.max(1)).zip(parts) {
+            let mut sum = *out;
+            for (j, r) in row.terms() {
+                sum.iter_mut().zip(&columns[j]).for_each(|(sum, a)| *sum += r * a);
+            }
+            *out = sum;
+        }
+    }
+
+    /// out += r A.
+    #[inline(always)]
+    pub(super) fn add_row_times(&self, row: &ShortRow, out: &mut [f64]) {
+        for (i, r) in row.entries() {
+            let columns = &self.data[i / BLOCK * self.columns..][..self.columns];
+            out.iter_mut().zip(columns).for_each(|(out, column)| *out += r * column[i % BLOCK]);
+        }
+    }
+
+    /// Adds the product of a column, to the end of the last block, with a whole row.
+    #[inline(always)]
+    pub(super) fn add_product_of(&mut self, column: &[f64], row: &[f64]) {
+        let (parts, _) = column.as_chunks::<BLOCK>();
+        for (columns, part) in self.data.chunks_exact_mut(self.columns.max(1)).zip(parts) {
+            for (own, r) in columns.iter_mut().zip(row) {
+                let mut sum = *own;
+                sum.iter_mut().zip(part).for_each(|(sum, c)| *sum += c * r);
+                *own = sum;
+            }
+        }
+    }
+
     /// The inverse; `None` where there is none.
     ///
     /// Elimination by Gauss and Jordan without pivoting: where the symmetric part is positive definite, as that of a step's
@@ -104,7 +144,9 @@ impl Packed {
                 parts.for_each(|(own, part)| *own = *part);
             }
         }
-        for k in 0..n {
+        // From the last to the first: planets, of which each is coupled with the central bodies alone, come last, and
+        // until those are eliminated most factors are 0.
+        for k in (0..n).rev() {
             let (part, lane) = (k / LANES, k % LANES);
             let pivot = own[k][part][lane];
             if pivot.is_nan() || pivot <= 0.0 {
@@ -116,6 +158,9 @@ impl Packed {
             pivot_column[part][lane] = 0.0;
             own[k][part][lane] = 1.0;
             for column in own.iter_mut() {
+                if column[part][lane] == 0.0 {
+                    continue;
+                }
                 let factor = column[part][lane] * inverse;
                 for (own, pivot_part) in column.iter_mut().zip(&pivot_column) {
                     own.iter_mut().zip(pivot_part).for_each(|(a, p)| *a -= p * factor);
@@ -131,7 +176,14 @@ impl Packed {
                 parts.for_each(|(own, part)| *part = *own);
             }
         }
-        own.iter().flatten().flatten().all(|x| x.is_finite()).then_some(inverse)
+        // 0 times what is not finite is no number.
+        let mut zeros = [[0.0; LANES]; PARTS];
+        for column in own.iter() {
+            for (zeros, part) in zeros.iter_mut().zip(column) {
+                zeros.iter_mut().zip(part).for_each(|(zero, x)| *zero += 0.0 * x);
+            }
+        }
+        zeros.as_flattened().iter().all(|zero| *zero == 0.0).then_some(inverse)
     }
 
     /// The inverse by elimination with pivoting.

@@ -146,12 +146,12 @@ impl VibratingSet<'_> {
         let forces = &mut self.pairs.forces.as_mut_slice()[..count];
         if frame.meshes.iter().any(|mesh| mesh.map(&self.contact.maps).is_none()) {
             // First guess at a position not visited before, or for a mesh whose map was replaced:
-            // the forces of the last step.
+            // the forces that the last two steps lead to.
             forces.fill(0.0);
             for (memory, mesh) in self.pairs.memory.iter().zip(&frame.meshes) {
                 let own = mesh.first..mesh.first + mesh.count;
                 let slots = frame.pattern.slots[own.clone()].iter();
-                forces[own].iter_mut().zip(slots).for_each(|(p, slot)| *p = memory.now(*slot));
+                forces[own].iter_mut().zip(slots).for_each(|(p, slot)| *p = memory.expected(*slot));
             }
             // A x = L − Rᵀ P,  δ = R x + b − E P
             work.left.copy_from(&work.load);
@@ -163,11 +163,14 @@ impl VibratingSet<'_> {
             for ((delta, b), row) in approaches.iter_mut().zip(b).zip(frame.rows()) {
                 *delta = b + row.dot(work.x.as_slice());
             }
+            let (factor, mut columns) = frame.excess();
             for group in frame.groups() {
-                for j in group.clone().filter(|j| forces[*j] != 0.0) {
-                    for i in group.clone() {
-                        approaches[i] -= frame.excess(i, j) * forces[j];
-                    }
+                for force in &forces[group.clone()] {
+                    let column;
+                    (column, columns) = columns.split_at(group.len());
+                    let yielded = factor * force;
+                    let of_group = approaches[group.clone()].iter_mut().zip(column);
+                    of_group.for_each(|(delta, e)| *delta -= e * yielded);
                 }
             }
             self.contact.find_lost(frame, approaches)?;

@@ -116,18 +116,18 @@ impl<T: Number> StepTerms<T> {
         self.touching_of.resize(frame.offsets.len(), None);
         self.pairs.clear();
         self.entries.clear();
-        for (at, pair) in chosen.touching.iter().enumerate() {
+        for (at, pair) in chosen.touching().iter().enumerate() {
             self.touching_of[*pair] = Some(at);
             self.entries.extend(frame.rows()[*pair].entries().map(|(i, r)| (i, T::of(r))));
             self.pairs.push(self.entries.len());
         }
         self.groups.clear();
-        self.groups.extend_from_slice(&chosen.groups);
+        self.groups.extend_from_slice(chosen.groups());
         let rounded = |out: &mut Vec<T>, list: &[f64]| {
             out.clear();
             out.extend(list.iter().map(|x| T::of(*x)));
         };
-        rounded(&mut self.stiffness, &chosen.stiffness);
+        rounded(&mut self.stiffness, chosen.stiffness());
         rounded(&mut self.inverse, chosen.inverse.entries());
     }
 

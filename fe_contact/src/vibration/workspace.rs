@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use super::combination::CombiningWork;
+use super::combining::CombiningWork;
 
 /// Workspace of a step; n: the races' coordinates.
 #[derive(Debug)]
