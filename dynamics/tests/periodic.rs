@@ -58,6 +58,9 @@ struct Cycles {
     /// Factor on all of it where a rough one is asked for, and how many were.
     rough: f64,
     rough_ones: usize,
+    /// Periods marched, and the one of which a step in the middle fails.
+    marched: usize,
+    failing: Option<usize>,
     scale: f64,
 }
 
@@ -66,7 +69,18 @@ impl Cycles {
         let records = [Vec::new(), Vec::new()];
         let passed = PassedSteps::default();
         let (spoilt, rough, scale) = (1.0, 1.0, 1.0);
-        Self { system, records, follows: [false; 2], passed, spoilt, rough, rough_ones: 0, scale }
+        Self {
+            system,
+            records,
+            follows: [false; 2],
+            passed,
+            spoilt,
+            rough,
+            rough_ones: 0,
+            marched: 0,
+            failing: None,
+            scale,
+        }
     }
 
     /// Carried along with the steps.
@@ -97,7 +111,12 @@ impl PeriodMap for Cycles {
         self.passed.clear();
         self.system.keep_step(&mut self.passed);
         let mut record = Vec::new();
-        for _ in 0..STEPS {
+        self.marched += 1;
+        for step in 0..STEPS {
+            if self.failing == Some(self.marched) && step == STEPS / 3 {
+                let (time_s, value) = (self.system.time(), f64::NAN);
+                return Err(CoupledError::Diverged { time_s, coordinate: 0, value });
+            }
             self.system.step()?;
             self.system.keep_step(&mut self.passed);
             record.push(self.system.displacements());
@@ -268,6 +287,49 @@ fn corrections_by_rough_derivatives_lead_to_the_solution() {
             assert!((a - b).abs() < 1e-9, "{rough}: {a} {b}");
         }
     }
+}
+
+/// A correction from the end of the first period is kept where it contracts. Where it does not, because a derivative is wrong
+/// or because it leads to where no step can be taken, shooting goes on from that end as if the period had been marched only to
+/// settle.
+#[test]
+fn periods_are_marched_to_settle_only_where_the_first_correction_is_early() {
+    let shot = |gap: f64, settling: usize, rough: f64, failing: Option<usize>| {
+        let law = Springs { stiffness: 800.0, variation: 0.2, gap };
+        let mut cycles = Cycles::new(chain(law, 0.03, 1e-4, 0.29));
+        (cycles.rough, cycles.failing) = (rough, failing);
+        let found = shoot(&mut cycles, &ShootingSettings { settling, ..SETTINGS }).unwrap();
+        (found.periods, cycles.system.displacements())
+    };
+    // Linear springs: one correction is enough.
+    let (at_once, exact) = shot(0.0, 0, 1.0, None);
+    assert_eq!(shot(0.0, 1, 1.0, None), (at_once, exact));
+    for (gap, rough, failing) in [(0.0, 0.0, None), (0.0, 1.0, Some(2)), (2e-4, 1.0, None)] {
+        let (_, exact) = shot(gap, 0, 1.0, None);
+        let (periods, x) = shot(gap, 1, rough, failing);
+        assert!(periods > at_once && periods <= at_once + 6, "{gap} {rough}: {periods}");
+        for (a, b) in x.iter().zip(&exact) {
+            assert!((a - b).abs() < 1e-9, "{gap} {rough}: {a} {b}");
+        }
+    }
+}
+
+/// A period that was left in its middle, after a step that failed, is begun anew by setting the coordinates.
+#[test]
+fn a_period_begins_where_coordinates_are_set() {
+    let law = Springs { stiffness: 800.0, variation: 0.4, gap: 2e-4 };
+    let mut cycles = Cycles::new(chain(law, 0.3, 1e-4, 0.42));
+    cycles.advance().unwrap();
+    let start = cycles.coordinates();
+    cycles.advance().unwrap();
+    let end = cycles.coordinates();
+    cycles.failing = Some(3);
+    cycles.advance().unwrap_err();
+    cycles.set_coordinates(&start).unwrap();
+    cycles.advance().unwrap();
+    let again = cycles.coordinates();
+    let size = end.iter().fold(0.0f64, |a, x| a.max(x.abs()));
+    assert!(end.iter().zip(&again).all(|(a, b)| (a - b).abs() < 1e-12 * size), "{end:?} {again:?}");
 }
 
 /// Columns of the derivative against central differences, with couplings that part during the cycle.

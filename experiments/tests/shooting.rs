@@ -140,6 +140,55 @@ fn end_of_cycle(set: &mut dyn Marching, start: &[f64], steps: usize) -> Vec<f64>
     set.derivative().unwrap().coordinates()
 }
 
+/// A cycle in the middle of which a step failed is begun anew by setting coordinates or a state: the same cycle follows, but for
+/// the rounding of contact patterns that were met in between.
+#[test]
+fn a_cycle_that_fails_leaves_nothing_behind() {
+    let steps = 28;
+    for fidelity in [Fidelity::QuasiStatic, Fidelity::Modal(4)] {
+        let scene = scene("oh58_4p", fidelity, steps as u32);
+        let bodies = Bodies::new(&scene).unwrap();
+        let model = fe(&scene, &bodies, 1130.0);
+        let mut set = model.turning(&model.case().at_speed(1500.0), 0).unwrap();
+        set.rest().unwrap();
+        march_cycle(set.as_mut(), steps);
+        let (start, state) = (set.derivative().unwrap().coordinates(), set.state());
+        let end = end_of_cycle(set.as_mut(), &start, steps);
+        // Away from the motion by more and more, until a mesh gives way beyond its tables in the middle of the cycle.
+        let fail = |set: &mut dyn Marching| {
+            (0..60).any(|k| {
+                let factor = 2f64.powf(0.5 * f64::from(k));
+                let away = |(a, b): (&f64, &f64)| a + factor * (b - a);
+                let wild: Vec<f64> = start.iter().zip(&end).map(away).collect();
+                set.derivative().unwrap().set_coordinates(&wild).unwrap();
+                let failed = (0..steps).find(|_| set.step().is_err());
+                if failed.is_none() {
+                    set.derivative().unwrap().end().unwrap();
+                }
+                failed.is_some_and(|step| step > 0)
+            })
+        };
+        let displaced = |set: &dyn Marching, y: &[f64]| -> Vec<f64> {
+            let (central, planets) = set.displacements_of(y);
+            central.iter().chain(&planets).flatten().copied().collect()
+        };
+        let expected = displaced(set.as_ref(), &end);
+        let size = expected.iter().fold(0.0f64, |a, x| a.max(x.abs()));
+        let is_same = |set: &dyn Marching, y: &[f64]| {
+            let found = displaced(set, y);
+            found.iter().zip(&expected).all(|(a, b)| (a - b).abs() < 1e-10 * size)
+        };
+        assert!(fail(set.as_mut()));
+        let again = end_of_cycle(set.as_mut(), &start, steps);
+        assert!(is_same(set.as_ref(), &again), "{fidelity:?}");
+        assert!(fail(set.as_mut()));
+        set.restore(&state).unwrap();
+        march_cycle(set.as_mut(), steps);
+        let again = set.derivative().unwrap().coordinates();
+        assert!(is_same(set.as_ref(), &again), "{fidelity:?}");
+    }
+}
+
 /// Columns of the derivative against central differences over a whole cycle.
 #[test]
 fn the_derivative_is_that_of_the_cycle() {

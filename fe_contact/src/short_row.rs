@@ -43,6 +43,11 @@ impl ShortRow {
         self.terms().filter(|(_, r)| *r != 0.0)
     }
 
+    /// How many entries are not zero: they are the first of the [terms](Self::terms).
+    pub(crate) fn count(&self) -> usize {
+        self.values.iter().take_while(|r| **r != 0.0).count()
+    }
+
     pub(crate) fn dot(&self, x: &[f64]) -> f64 {
         self.places.iter().zip(&self.values).map(|(i, r)| x[usize::from(*i)] * r).sum()
     }
@@ -65,6 +70,8 @@ mod tests {
         let x = [7.0, 3.0, 9.0, 4.0, 2.0];
         let short = ShortRow::new(row.into_iter()).unwrap();
         assert_eq!(short.dot(&x), 3.0);
+        assert_eq!(short.count(), 3);
+        assert!(short.entries().eq(short.terms().take(3)));
         let mut sum = x;
         short.add_to(2.0, &mut sum);
         assert_eq!(sum, [7.0, 7.0, 9.0, 2.0, 3.0]);

@@ -98,8 +98,8 @@ impl<L: CouplingForce> Coupled<L> {
         [&self.state.modal.x[..n], &self.state.modal.v[..n]].concat()
     }
 
-    /// Continues from displacements and velocities of the modes at the present step of the cycle; accelerations
-    /// follow from the balance of forces.
+    /// Continues from displacements and velocities of the modes at the start of a cycle; accelerations follow from the balance
+    /// of forces.
     ///
     /// # Errors
     /// If there are not 2n finite numbers.
@@ -112,6 +112,7 @@ impl<L: CouplingForce> Coupled<L> {
             let (time_s, coordinate) = (self.time(), 0);
             return Err(CoupledError::Diverged { time_s, coordinate, value });
         }
+        self.state.step_in_cycle = 0;
         self.state.modal.x[..n].copy_from_slice(&y[..n]);
         self.state.modal.v[..n].copy_from_slice(&y[n..]);
         self.balance();

@@ -1,8 +1,6 @@
 //! The derivative of a map of one period, and Newton's correction from it.
 
-use faer::Mat;
-use faer::linalg::solvers::{PartialPivLu, Solve};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 use crate::error::EigenError;
 
@@ -26,7 +24,7 @@ pub struct MapDerivative {
 #[derive(Debug, Clone)]
 pub struct Correction {
     derivative: MapDerivative,
-    factor: PartialPivLu<f64>,
+    factor: LU<f64, Dyn, Dyn>,
     /// Coordinates without a column that change with the active ones, and their rows of DΦ one after another.
     following: Vec<usize>,
     rows: Vec<f64>,
@@ -40,9 +38,9 @@ impl MapDerivative {
     }
 
     /// The rows and columns of the active coordinates, scaled: S⁻¹ DΦ S.
-    pub(super) fn scaled(&self) -> Mat<f64> {
+    pub(super) fn scaled(&self) -> DMatrix<f64> {
         let (active, s) = (&self.active, &self.scales);
-        Mat::from_fn(active.len(), active.len(), |i, j| {
+        DMatrix::from_fn(active.len(), active.len(), |i, j| {
             self.columns[(active[i], j)] * s[active[j]] / s[active[i]]
         })
     }
@@ -61,7 +59,7 @@ impl MapDerivative {
                 }
             }
         }
-        let shifted = Mat::from_fn(n, n, |i, j| f64::from(u8::from(i == j)) - m[(i, j)]);
+        let shifted = DMatrix::identity(n, n) - m;
         let mut follows = vec![false; self.columns.nrows()];
         for column in self.columns.as_slice().chunks_exact(follows.len().max(1)) {
             follows.iter_mut().zip(column).for_each(|(follows, x)| *follows |= *x != 0.0);
@@ -70,7 +68,7 @@ impl MapDerivative {
         let following: Vec<usize> = (0..follows.len()).filter(|i| follows[*i]).collect();
         let mut rows = Vec::with_capacity(following.len() * n);
         following.iter().for_each(|i| rows.extend(&self.columns.row(*i)));
-        Ok(Correction { factor: shifted.partial_piv_lu(), derivative: self, following, rows })
+        Ok(Correction { factor: shifted.lu(), derivative: self, following, rows })
     }
 }
 
@@ -78,10 +76,13 @@ impl Correction {
     /// Δy with (I − DΦ) Δy = r for r = Φ(y) − y, all n coordinates.
     pub fn of(&self, residual: &[f64]) -> Vec<f64> {
         let MapDerivative { active, scales, .. } = &self.derivative;
-        let scaled = Mat::from_fn(active.len(), 1, |i, _| residual[active[i]] / scales[active[i]]);
-        let solved = self.factor.solve(&scaled);
-        let along: Vec<f64> =
-            active.iter().enumerate().map(|(k, a)| solved[(k, 0)] * scales[*a]).collect();
+        let scaled = active.iter().map(|a| residual[*a] / scales[*a]);
+        let mut solved = DVector::from_iterator(active.len(), scaled);
+        if !self.factor.solve_mut(&mut solved) {
+            // A multiplier of 1 to the bit: no correction is finite.
+            solved.fill(f64::INFINITY);
+        }
+        let along: Vec<f64> = solved.iter().zip(active).map(|(x, a)| x * scales[*a]).collect();
         // Coordinates without a column: Δy_j = r_j + Σ DΦ_ja Δy_a.
         let mut change = residual.to_vec();
         for (i, row) in self.following.iter().zip(self.rows.chunks_exact(along.len().max(1))) {

@@ -33,7 +33,8 @@ const CLOSE: f64 = 0.3;
 pub struct ShootingSettings {
     /// Largest change from one period to the next, relative to the peak-to-peak vibration.
     pub tolerance: f64,
-    /// Periods marched before the first derivative, in which fast transients decay and the contact pattern settles.
+    /// Periods marched before the first derivative, in which fast transients decay and the contact pattern settles. They are
+    /// spared where a correction from the end of the first of them contracts.
     pub settling: usize,
     /// Periods marched in all after which shooting is given up.
     pub most_periods: usize,
@@ -89,7 +90,9 @@ pub fn shoot<M: PeriodMap + ?Sized>(
     let mut errors: Vec<f64> = Vec::new();
     let (mut derivatives, mut failures) = (0, 0);
     let mut last: Option<Taken> = None;
-    let (mut is_closing, mut march_on) = (false, settings.settling);
+    let (mut is_closing, mut march_on) = (false, 0);
+    // Whether no correction was judged yet, so that the first period may turn out to be one of those that settle.
+    let mut may_settle = settings.settling > 0;
     // Corrections may use rough derivatives until the first correction of one does not contract, or shows an end that is
     // none.
     let (mut may_be_rough, mut is_new) = (true, false);
@@ -99,6 +102,12 @@ pub fn shoot<M: PeriodMap + ?Sized>(
             // A correction led to where no step can be taken.
             errors.push(f64::INFINITY);
             let Some(taken) = last.take() else { return Err(ShootingError::Map(cause)) };
+            if std::mem::take(&mut may_settle) {
+                // It was made too early.
+                map.set_coordinates(&taken.end).map_err(ShootingError::Map)?;
+                (correction, is_new, march_on) = (None, false, settings.settling - 1);
+                continue;
+            }
             last = retry(map, taken, &mut failures, &mut march_on)
                 .map_err(|other| ShootingError::Map(other.unwrap_or(cause)))?;
             (correction, is_closing, may_be_rough) = (None, false, false);
@@ -132,6 +141,16 @@ pub fn shoot<M: PeriodMap + ?Sized>(
         let contracts = |step: &Step| {
             (is_whole && step.error <= KEPT * before) || step.error <= CLOSE * settings.tolerance
         };
+        if let Some(taken) = last.take_if(|_| std::mem::take(&mut may_settle)) {
+            if step.as_ref().is_some_and(contracts) {
+                last = Some(taken);
+            } else {
+                errors.push(step.map_or(f64::NAN, |step| step.error));
+                map.set_coordinates(&taken.end).map_err(ShootingError::Map)?;
+                (correction, is_new, march_on) = (None, false, settings.settling - 1);
+                continue;
+            }
+        }
         let step = match step.filter(contracts) {
             Some(step) => {
                 is_new = false;
@@ -152,7 +171,7 @@ pub fn shoot<M: PeriodMap + ?Sized>(
         is_closing = step.error <= CLOSE * settings.tolerance;
         if is_closing {
             // One more period shows the change from period to period and the derivative there.
-            last = None;
+            (last, may_settle) = (None, false);
             continue;
         }
         let is_worse = step.error.is_nan() || step.error > WORSE * before;

@@ -19,8 +19,8 @@ use crate::error::ExperimentError;
 /// Cycles after which shooting is given up and the motion marched: what it needs otherwise is about ten.
 const MOST_CYCLES: usize = 80;
 
-/// Cycles, or parts of a cycle, marched before the first derivative. Without any, motions in which teeth part are more
-/// often not found; more change nothing.
+/// Cycles, or parts of a cycle, marched before the first derivative where a correction from the first of them does not
+/// contract. Without any, motions in which teeth part are more often not found; more change nothing.
 const SETTLING: usize = 1;
 
 /// Multipliers below this size are left out: such perturbations are gone after one cycle.

@@ -32,16 +32,19 @@ const REMEMBERED: usize = 8;
 /// Affine law of one set of touching cells.
 #[derive(Debug, Clone)]
 pub struct ContactMap {
-    /// S, k×k by rows, N/m.
-    pub stiffness: Vec<f64>,
-    /// P₀, k, N.
-    pub forces: Vec<f64>,
+    /// δ at which the set was found (k, m), P₀ (k, N), S (k×k by rows, N/m), then how far δ may change before the set does:
+    /// all in one place, because what a map that was not asked for lately costs is the way to the memory.
+    numbers: Vec<f64>,
+    /// Number k of pairs.
+    pairs: usize,
+    /// Lanes of cells among the numbers.
+    lanes: usize,
+    /// What slack makes of a room at least and at most, m.
+    slack: [f64; 2],
     /// ½ g_Aᵀ C_AA⁻¹ g_A, J.
     energy: f64,
     /// Cells that touch.
     active: Vec<bool>,
-    /// By how much δ may change before the set does.
-    rooms: Rooms,
     /// Pair whose patch reaches the end of its grid.
     pub overflows: Option<usize>,
 }
@@ -68,7 +71,7 @@ impl Held {
     fn keep_room(&mut self, map: &ContactMap, delta: &[f64], room: f64) {
         self.at.iter_mut().zip(delta).for_each(|(at, d)| *at = *d);
         // Half the slack is far above rounding: looked at cell by cell, the map would hold as well.
-        self.within = room - 0.5 * map.rooms.slack[0];
+        self.within = room - 0.5 * map.slack[0];
     }
 }
 
@@ -89,7 +92,7 @@ impl SharedMaps {
         let maps = self.maps.read().unwrap_or_else(PoisonError::into_inner);
         let inside = |place: usize| {
             let map = maps.get(place)?;
-            let room = map.rooms.least_at(delta).filter(|room| *room > 2.0 * map.rooms.slack[1])?;
+            let room = map.rooms().least_at(delta).filter(|room| *room > 2.0 * map.slack[1])?;
             Some((Arc::clone(map), room))
         };
         // At most one map holds beyond its slack, so that the order of the search is a matter of time only.
@@ -133,14 +136,33 @@ pub struct ContactMaps {
 }
 
 impl ContactMap {
+    /// S, k×k by rows, N/m.
+    #[inline]
+    pub fn stiffness(&self) -> &[f64] {
+        &self.numbers[2 * self.pairs..][..self.pairs * self.pairs]
+    }
+
+    /// P₀, k, N.
+    #[inline]
+    pub fn forces(&self) -> &[f64] {
+        &self.numbers[self.pairs..2 * self.pairs]
+    }
+
+    /// By how much δ may change before the set does.
+    #[inline]
+    fn rooms(&self) -> Rooms<'_> {
+        let (law, written) = self.numbers.split_at((2 + self.pairs) * self.pairs);
+        Rooms::read(&law[..self.pairs], self.lanes, written)
+    }
+
     /// ½ pᵀ C p at approaches δ, J.
     pub fn energy(&self, delta: &[f64]) -> f64 {
         let k = delta.len();
         let mut sum = self.energy;
         for (i, d) in delta.iter().enumerate() {
-            let row = &self.stiffness[i * k..(i + 1) * k];
+            let row = &self.stiffness()[i * k..(i + 1) * k];
             let along: f64 = row.iter().zip(delta).map(|(s, d)| s * d).sum();
-            sum += d * (0.5 * along + self.forces[i]);
+            sum += d * (0.5 * along + self.forces()[i]);
         }
         sum
     }
@@ -212,8 +234,10 @@ impl ContactMap {
             let ends = [own[0], own[own.len() - 1]];
             (0..2).any(|i| ends[i] && !pair.ends_at_tip[i])
         });
-        let rooms = Rooms::new(&cells, &active, delta, scale);
-        Some(Self { stiffness, forces, energy, active, rooms, overflows })
+        let mut numbers = [delta, &forces, &stiffness].concat();
+        let (lanes, slack) = Rooms::write(&cells, &active, delta, scale, &mut numbers);
+        numbers.shrink_to_fit();
+        Some(Self { numbers, pairs: k, lanes, slack, energy, active, overflows })
     }
 }
 
@@ -232,12 +256,7 @@ impl ContactMaps {
 
     /// Memory of the maps, bytes.
     pub fn bytes(&self) -> usize {
-        self.maps
-            .iter()
-            .map(|Numbered { map, .. }| {
-                map.rooms.bytes() + 8 * map.stiffness.len() + map.active.len()
-            })
-            .sum()
+        self.maps.iter().map(|Numbered { map, .. }| 8 * map.numbers.len() + map.active.len()).sum()
     }
 
     /// Number of maps.
@@ -264,7 +283,7 @@ impl ContactMaps {
 
     fn holds_cell_by_cell(&self, place: usize, held: &mut Held, delta: &[f64]) -> bool {
         let Some(Numbered { id, map }) = self.maps.get(place) else { return false };
-        let Some(room) = map.rooms.least_at(delta) else { return false };
+        let Some(room) = map.rooms().least_at(delta) else { return false };
         (held.place, held.id) = (Some(place), *id);
         held.keep_room(map, delta, room);
         true
@@ -385,8 +404,8 @@ mod tests {
                 let answer = table.answer(&delta, &vec![0.0; k], &ActiveSet, None).unwrap();
                 let total: f64 = answer.pair_forces.iter().sum();
                 for i in 0..k {
-                    let force: f64 = map.forces[i]
-                        + (0..k).map(|j| map.stiffness[i * k + j] * delta[j]).sum::<f64>();
+                    let force: f64 = map.forces()[i]
+                        + (0..k).map(|j| map.stiffness()[i * k + j] * delta[j]).sum::<f64>();
                     assert!((force - answer.pair_forces[i]).abs() <= 1e-9 * total.max(1.0));
                 }
                 assert!((map.energy(&delta) - answer.energy).abs() <= 1e-9 * answer.energy + 1e-15);

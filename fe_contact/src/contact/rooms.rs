@@ -15,22 +15,27 @@ const LANES: usize = 4;
 ///
 /// so that no room changes by more than the largest change of a pair's approach. Cells are sorted by their room at the
 /// approaches at which the set was found: those whose room cannot be the smallest at others are not looked at.
-#[derive(Debug, Clone)]
-pub(super) struct Rooms {
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Rooms<'m> {
     /// Approaches at which the set was found, k, m.
-    found_at: Vec<f64>,
-    /// c₀ (m), then c_k, in lanes of cells; slack included.
-    cells: Vec<[f64; LANES]>,
+    found_at: &'m [f64],
     /// Least room of the cells of each lane and of all after it at the approaches at which the set was found, m.
-    bounds: Vec<f64>,
-    /// What slack makes of a room at least and at most, m.
-    pub(super) slack: [f64; 2],
+    bounds: &'m [f64],
+    /// c₀ (m), then c_k, in lanes of cells; slack included.
+    cells: &'m [[f64; LANES]],
 }
 
-impl Rooms {
-    /// From the cells' forces (of those that touch) or gaps, each at δ = 0 and then its k derivatives. `found_at`: δ at which
+impl<'m> Rooms<'m> {
+    /// Writes, behind other numbers, those of the cells' forces (of those that touch) or gaps, each at δ = 0 and then its k
+    /// derivatives: how many lanes they fill, and what slack makes of a room at least and at most (m). `found_at`: δ at which
     /// the set was found; `scale`: load (N) and window (m) of the table.
-    pub(super) fn new(cells: &[f64], active: &[bool], found_at: &[f64], scale: (f64, f64)) -> Self {
+    pub(super) fn write(
+        cells: &[f64],
+        active: &[bool],
+        found_at: &[f64],
+        scale: (f64, f64),
+        numbers: &mut Vec<f64>,
+    ) -> (usize, [f64; 2]) {
         let k = found_at.len();
         let mut slacks = [f64::INFINITY, 0.0f64];
         let one = |(cell, active): (&[f64], &bool)| {
@@ -47,26 +52,34 @@ impl Rooms {
         let mut sorted: Vec<(f64, Vec<f64>)> =
             cells.chunks_exact(k + 1).zip(active).map(one).collect();
         sorted.sort_by(|(a, _), (b, _)| a.total_cmp(b));
-        let (mut cells, mut bounds) = (Vec::new(), Vec::new());
-        for lane in sorted.chunks(LANES) {
-            bounds.push(lane[0].0);
+        let lanes = sorted.chunks(LANES);
+        numbers.extend(lanes.clone().map(|lane| lane[0].0));
+        let count = lanes.len();
+        for lane in lanes {
             // Lanes that are left over after the last cell must never be the ones that end a map's range.
             let mut own = vec![[0.0; LANES]; k + 1];
             own[0] = [f64::INFINITY; LANES];
             for (place, (_, cell)) in lane.iter().enumerate() {
                 own.iter_mut().zip(cell).for_each(|(own, c)| own[place] = *c);
             }
-            cells.extend(own);
+            numbers.extend(own.as_flattened());
         }
-        Self { found_at: found_at.to_vec(), cells, bounds, slack: slacks }
+        (count, slacks)
+    }
+
+    /// Those of a set found at some approaches (k, m) from what was written of it, of so many lanes.
+    #[inline]
+    pub(super) fn read(found_at: &'m [f64], lanes: usize, written: &'m [f64]) -> Self {
+        let (bounds, cells) = written.split_at(lanes);
+        Self { found_at, bounds, cells: cells.as_chunks().0 }
     }
 
     /// Smallest room of any cell at approaches δ, m; `None` if one has none.
     pub(super) fn least_at(&self, delta: &[f64]) -> Option<f64> {
-        let changes = delta.iter().zip(&self.found_at).map(|(d, at)| (d - at).abs());
+        let changes = delta.iter().zip(self.found_at).map(|(d, at)| (d - at).abs());
         let change = changes.fold(0.0, f64::max);
         let mut least = f64::INFINITY;
-        for (cells, bound) in self.cells.chunks_exact(delta.len() + 1).zip(&self.bounds) {
+        for (cells, bound) in self.cells.chunks_exact(delta.len() + 1).zip(self.bounds) {
             if bound - change > least {
                 break;
             }
@@ -83,11 +96,6 @@ impl Rooms {
             least = value.into_iter().fold(least, f64::min);
         }
         Some(least)
-    }
-
-    /// Memory, bytes.
-    pub(super) fn bytes(&self) -> usize {
-        8 * (LANES * self.cells.len() + self.bounds.len() + self.found_at.len())
     }
 }
 
@@ -107,7 +115,9 @@ mod tests {
             .collect();
         let active = vec![false; count];
         let found_at = [0.2e-6, -0.1e-6, 0.3e-6];
-        let rooms = Rooms::new(&cells, &active, &found_at, (1.0, 1e-5));
+        let mut numbers = Vec::new();
+        let (lanes, _) = Rooms::write(&cells, &active, &found_at, (1.0, 1e-5), &mut numbers);
+        let rooms = Rooms::read(&found_at, lanes, &numbers);
         let mut held = 0;
         for step in 0..200 {
             let delta: Vec<f64> =

@@ -14,7 +14,8 @@ impl VibratingSet<'_> {
         out
     }
 
-    /// Continues from a state of a set of the same scene and fidelity, at this set's own speed.
+    /// Continues from a state of a set of the same scene and fidelity, at this set's own speed and at the start of a mesh
+    /// cycle.
     ///
     /// # Errors
     /// If the state is that of another kind of set.
@@ -25,7 +26,7 @@ impl VibratingSet<'_> {
             return Err(foreign(state.len(), "finite numbers"));
         }
         replace(rest, &mut |each| self.visit(each))?;
-        self.clock.cycles = cycles as i64;
+        (self.clock.step_in_cycle, self.clock.cycles) = (0, cycles as i64);
         Ok(())
     }
 

@@ -243,7 +243,7 @@ impl Pressing {
         let meshes = || group.meshes.iter().filter_map(|of| Some((of, of.map(maps)?)));
         let first = touching.len();
         for (of, map) in meshes() {
-            for (i, row) in map.stiffness.chunks_exact(of.count.max(1)).enumerate() {
+            for (i, row) in map.stiffness().chunks_exact(of.count.max(1)).enumerate() {
                 if row.iter().any(|s| *s != 0.0) {
                     touching.push(of.first + i);
                 }
@@ -263,11 +263,12 @@ impl Pressing {
             let end = of.first + of.count;
             let count = touching[at..].iter().take_while(|pair| **pair < end).count();
             let among = at..at + count;
+            let (forces, all) = (map.forces(), map.stiffness());
             for i in among.clone() {
                 let pair = touching[i] - of.first;
-                right[size * size + i] = map.forces[pair];
+                right[size * size + i] = forces[pair];
                 for j in among.clone() {
-                    right[j * size + i] = map.stiffness[pair * of.count + touching[j] - of.first];
+                    right[j * size + i] = all[pair * of.count + touching[j] - of.first];
                 }
             }
             at += count;

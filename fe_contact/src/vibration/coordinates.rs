@@ -24,12 +24,14 @@ impl VibratingSet<'_> {
         out
     }
 
-    /// Continues from other coordinates; bearings follow.
+    /// Continues from other coordinates at the start of the mesh cycle in which the set is, wherever in it a step failed;
+    /// bearings follow.
     ///
     /// # Errors
     /// If they are too few or too many, or not finite.
     pub fn set_coordinates(&mut self, y: &[f64]) -> Result<(), FeError> {
         replace(y, &mut |each| self.visit_coordinates(each))?;
+        self.clock.step_in_cycle = 0;
         self.follow_bearings();
         Ok(())
     }

@@ -225,12 +225,12 @@ impl<T: Number> SetDerivative<T> {
         bodies.flat_map(Gradients::lists_mut).chain(meshes)
     }
 
-    /// Hands over all columns but those of pairs without gradients, which are 0.
-    fn live_columns_mut(&mut self, of: &mut dyn FnMut(&mut [T])) {
+    /// Hands over the columns of what follows from displacements and velocities: of accelerations, and of the lag of pairs that
+    /// have gradients.
+    fn following_columns_mut(&mut self, of: &mut dyn FnMut(&mut [T])) {
         let m = self.rows().max(1);
-        let bodies = std::iter::once(&mut self.races).chain(&mut self.elastic);
-        for list in bodies.flat_map(Gradients::lists_mut) {
-            list.as_mut_slice().chunks_exact_mut(m).for_each(&mut *of);
+        for own in std::iter::once(&mut self.races).chain(&mut self.elastic) {
+            own.a.as_mut_slice().chunks_exact_mut(m).for_each(&mut *of);
         }
         self.meshes.iter_mut().flat_map(LagGradients::live_columns_mut).for_each(of);
     }
@@ -266,15 +266,18 @@ impl<T: Number> SetDerivative<T> {
         let (m, n) = (self.rows(), self.active.len());
         let mut now = DMatrix::zeros(n, n);
         let mut at = 0;
-        for own in std::iter::once(&self.races).chain(&self.elastic) {
-            for (list, size) in [(&own.x, 1.0), (&own.v, rate)] {
-                let own = list.rows(0, n).map(|x| x.double() / size);
-                now.columns_mut(at, list.ncols()).copy_from(&own);
-                at += list.ncols();
+        for own in std::iter::once(&mut self.races).chain(&mut self.elastic) {
+            for (list, size) in [(&mut own.x, 1.0), (&mut own.v, rate)] {
+                let count = list.ncols();
+                let changes = list.rows(0, n).map(|x| x.double() / size);
+                now.columns_mut(at, count).copy_from(&changes);
+                list.fill(T::of(0.0));
+                (0..count).for_each(|k| list[(at + k, k)] = T::of(size));
+                at += count;
             }
         }
         let mut columns = Vec::new();
-        self.live_columns_mut(&mut |own| columns.extend(own.iter().map(|x| x.double())));
+        self.following_columns_mut(&mut |own| columns.extend(own.iter().map(|x| x.double())));
         let count = columns.len() / m.max(1);
         let factor = MatRef::from_column_major_slice(now.as_slice(), n, n).partial_piv_lu();
         let all = MatMut::from_column_major_slice_mut(&mut columns, m, count);
@@ -283,7 +286,7 @@ impl<T: Number> SetDerivative<T> {
             return Err(FeError::NoEquilibrium("motions that differ become equal".into()));
         }
         let mut solved = columns.chunks_exact(m.max(1));
-        self.live_columns_mut(&mut |own| {
+        self.following_columns_mut(&mut |own| {
             let solved = solved.next().into_iter().flatten();
             own.iter_mut().zip(solved).for_each(|(own, x)| *own = T::of(*x));
         });

@@ -134,10 +134,10 @@ impl VibratingSet<'_> {
         for mesh in &frame.meshes {
             let lost = || FeError::NoEquilibrium("no contact was found at this position".into());
             let map = mesh.map(&self.contact.maps).ok_or_else(lost)?;
-            mesh_tangents.push(map.stiffness.iter().sum());
+            mesh_tangents.push(map.stiffness().iter().sum());
             for i in 0..mesh.count {
                 for j in 0..mesh.count {
-                    s[(mesh.first + i, mesh.first + j)] = map.stiffness[i * mesh.count + j];
+                    s[(mesh.first + i, mesh.first + j)] = map.stiffness()[i * mesh.count + j];
                 }
             }
         }

@@ -17,11 +17,21 @@ const MOST_ITERATIONS: usize = 60;
 const BOUND: f64 = 1e-2;
 
 impl VibratingSet<'_> {
-    /// One step; the external forces must be those at its end.
+    /// One step; the external forces must be those at its end. After a step that fails the set is in the mesh cycle in which
+    /// the step began, with a motion to be replaced.
     ///
     /// # Errors
     /// If contact cannot be solved, its cells do not suffice, or the motion diverges.
     pub fn step(&mut self) -> Result<(), FeError> {
+        let cycles = self.clock.cycles;
+        let done = self.step_on();
+        if done.is_err() {
+            self.clock.cycles = cycles;
+        }
+        done
+    }
+
+    fn step_on(&mut self) -> Result<(), FeError> {
         self.tick();
         let turned = self.clock.turned();
         self.work.load.copy_from(&self.external);

@@ -68,6 +68,13 @@ pub(super) struct LagTerms {
     pub(super) end: LagEnd,
 }
 
+/// Entries of a row, and how many there are.
+fn rounded_row<T: Number>(row: &ShortRow) -> ([(usize, T); ShortRow::MOST], usize) {
+    let mut own = [(0, T::of(0.0)); ShortRow::MOST];
+    own.iter_mut().zip(row.terms()).for_each(|(own, (i, r))| *own = (i, T::of(r)));
+    (own, row.count())
+}
+
 impl<T: Number> StepTerms<T> {
     /// Of races with masses (n, kg) and the load by v* (n×n, N s/m); of no step yet.
     pub(super) fn new(mass: &[f64], damping: &DMatrix<f64>) -> Self {
@@ -118,7 +125,8 @@ impl<T: Number> StepTerms<T> {
         self.entries.clear();
         for (at, pair) in chosen.touching().iter().enumerate() {
             self.touching_of[*pair] = Some(at);
-            self.entries.extend(frame.rows()[*pair].entries().map(|(i, r)| (i, T::of(r))));
+            let (row, count) = rounded_row(&frame.rows()[*pair]);
+            self.entries.extend_from_slice(&row[..count]);
             self.pairs.push(self.entries.len());
         }
         self.groups.clear();
@@ -133,12 +141,7 @@ impl<T: Number> StepTerms<T> {
 
     fn add_bend(&mut self, bend: &FrameBend, [loads, opens]: [bool; 2]) {
         let share = bend.curvature * bend.moved;
-        let mut row = [(0, T::of(0.0)); ShortRow::MOST];
-        let mut count = 0;
-        for (own, (i, r)) in row.iter_mut().zip(bend.row.entries()) {
-            *own = (i, T::of(r));
-            count += 1;
-        }
+        let (row, count) = rounded_row(&bend.row);
         let load = (loads && bend.force > 0.0).then(|| BendLoad {
             stiffness: T::of(bend.curvature * bend.force),
             share: T::of(share),
