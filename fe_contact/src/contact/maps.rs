@@ -9,7 +9,6 @@
 //! (E: which pair a cell belongs to, g: gaps at δ = 0). The map holds while p_A ≥ 0 and the other
 //! cells' gaps g − E δ + C p ≥ 0; only when none of the known ones does is contact solved anew.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, PoisonError, RwLock};
 
 use nalgebra::{Cholesky, DMatrix, Dyn};
@@ -80,35 +79,41 @@ impl Held {
 /// The contact problem has one solution, so inside the range where a map holds it is the map that a set would
 /// find by itself: who shares gets the same bits as who does not, whatever others found before.
 #[derive(Debug, Default)]
-pub struct SharedMaps {
-    maps: RwLock<Vec<Arc<ContactMap>>>,
-    /// Place of the map that was asked for last, which the next set is likely to ask for as well.
-    last: AtomicUsize,
+pub struct SharedMaps(RwLock<FoundMaps>);
+
+/// Maps, and the approaches at which they were found, one after another.
+#[derive(Debug, Default)]
+struct FoundMaps {
+    maps: Vec<Arc<ContactMap>>,
+    found_at: Vec<f64>,
 }
 
 impl SharedMaps {
     /// The map that holds at approaches δ (less gap offsets), and not merely by its slack, with its smallest room (m).
     fn inside(&self, delta: &[f64]) -> Option<(Arc<ContactMap>, f64)> {
-        let maps = self.maps.read().unwrap_or_else(PoisonError::into_inner);
+        let FoundMaps { maps, found_at } = &*self.0.read().unwrap_or_else(PoisonError::into_inner);
         let inside = |place: usize| {
             let map = maps.get(place)?;
             let room = map.rooms().least_at(delta).filter(|room| *room > 2.0 * map.slack[1])?;
             Some((Arc::clone(map), room))
         };
-        // At most one map holds beyond its slack, so that the order of the search is a matter of time only.
-        let last = self.last.load(Ordering::Relaxed);
-        inside(last).or_else(|| {
-            let others = (0..maps.len()).filter(|place| *place != last);
-            let (place, found) = others.filter_map(|place| Some((place, inside(place)?))).next()?;
-            self.last.store(place, Ordering::Relaxed);
-            Some(found)
-        })
+        // At most one map holds beyond its slack, so that the order of the search is a matter of time only: the one that was
+        // found nearest is the likeliest.
+        let away = |at: &[f64]| -> f64 {
+            at.iter().zip(delta).fold(0.0, |most, (at, d)| most.max((at - d).abs()))
+        };
+        let all = found_at.chunks_exact(delta.len().max(1)).map(away).enumerate();
+        let nearest = all.min_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(0, |(place, _)| place);
+        inside(nearest)
+            .or_else(|| (0..maps.len()).filter(|place| *place != nearest).find_map(inside))
     }
 
     fn add(&self, map: &Arc<ContactMap>) {
-        let mut maps = self.maps.write().unwrap_or_else(PoisonError::into_inner);
+        let FoundMaps { maps, found_at } =
+            &mut *self.0.write().unwrap_or_else(PoisonError::into_inner);
         if maps.len() < MOST_SHARED && maps.iter().all(|own| own.active != map.active) {
             maps.push(Arc::clone(map));
+            found_at.extend(map.found_at());
         }
     }
 }
@@ -136,6 +141,11 @@ pub struct ContactMaps {
 }
 
 impl ContactMap {
+    /// δ at which the set was found, k, m.
+    fn found_at(&self) -> &[f64] {
+        &self.numbers[..self.pairs]
+    }
+
     /// S, k×k by rows, N/m.
     #[inline]
     pub fn stiffness(&self) -> &[f64] {
@@ -151,8 +161,8 @@ impl ContactMap {
     /// By how much δ may change before the set does.
     #[inline]
     fn rooms(&self) -> Rooms<'_> {
-        let (law, written) = self.numbers.split_at((2 + self.pairs) * self.pairs);
-        Rooms::read(&law[..self.pairs], self.lanes, written)
+        let written = &self.numbers[(2 + self.pairs) * self.pairs..];
+        Rooms::read(self.found_at(), self.lanes, written)
     }
 
     /// ½ pᵀ C p at approaches δ, J.
