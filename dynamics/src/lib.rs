@@ -41,8 +41,8 @@ pub use lowest_modes::{LowMode, ModalOperator, lowest_modes};
 pub use newmark::{AverageAcceleration, Motion, StepError};
 pub use number::Number;
 pub use periodic::{
-    Correction, MapDerivative, Multiplier, MultiplierKind, PeriodMap, PeriodicSolution,
-    ShootingError, ShootingSettings, floquet_vector, multipliers, shoot,
+    CarriedChange, Correction, MapDerivative, Multiplier, MultiplierKind, PeriodMap,
+    PeriodicSolution, ShootingError, ShootingSettings, floquet_vector, multipliers, shoot,
 };
 pub use rotating_frame::RotatingFrame;
 pub use spectrum::{Spectrum, Window, spectrum};

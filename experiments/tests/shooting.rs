@@ -1,13 +1,13 @@
 //! Steady states by shooting against marching, on all fidelities that have a derivative.
 
-use dynamics::{MapDerivative, Multiplier, multipliers};
+use dynamics::{CarriedChange, MapDerivative, Multiplier, multipliers};
 use experiments::ExperimentError;
 use experiments::sweep::{
     Coordinate, CycleDerivative, Effort, FeModel, Marching, MeshLawModel, Record, SteadyMethod,
     SteadySettings, SweepModel, steady,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use fe_contact::vibration::Along;
+use fe_contact::vibration::{Along, LoadedStep};
 use gearset::{Fidelity, LoadCase, Scene, Symmetry};
 use nalgebra::DMatrix;
 
@@ -340,8 +340,12 @@ impl Marching for Told<'_> {
         self.set.mesh_forces(out);
     }
 
-    fn kinematic_rest(&self) -> Option<[f64; 2]> {
-        self.set.kinematic_rest()
+    fn loaded_step(&self) -> Option<LoadedStep> {
+        self.set.loaded_step()
+    }
+
+    fn kinematic_rest(&self, at: &LoadedStep) -> Option<[f64; 2]> {
+        self.set.kinematic_rest(at)
     }
 
     fn effort(&self) -> Effort {
@@ -400,6 +404,13 @@ impl CycleDerivative for Told<'_> {
 
     fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError> {
         self.set.derivative().unwrap().of_cycle(along)
+    }
+
+    fn of_cycle_with(
+        &mut self,
+        change: CarriedChange<'_>,
+    ) -> Result<MapDerivative, ExperimentError> {
+        self.set.derivative().unwrap().of_cycle_with(change)
     }
 }
 

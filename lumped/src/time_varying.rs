@@ -16,8 +16,8 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use dynamics::{
-    AverageAcceleration, Coupled, CoupledState, Coupling, CouplingForce, CyclePart, LinearPart,
-    MapDerivative, Motion, Number, PassedSteps, Renumbering,
+    AverageAcceleration, CarriedChange, Coupled, CoupledState, Coupling, CouplingForce, CyclePart,
+    LinearPart, MapDerivative, Motion, Number, PassedSteps, Renumbering,
 };
 use gearset::{Facing, MeshLaw, Scene, Symmetry};
 
@@ -393,6 +393,17 @@ impl TimeVarying {
         rate: f64,
     ) -> Option<MapDerivative> {
         self.system.derivative_of::<T>(passed, rate)
+    }
+
+    /// The same in double precision, with a change of the coordinates at the start carried along. `None` also for a change of
+    /// another size.
+    pub fn derivative_with(
+        &self,
+        passed: &PassedSteps,
+        rate: f64,
+        change: CarriedChange<'_>,
+    ) -> Option<MapDerivative> {
+        self.system.derivative_with(passed, rate, change)
     }
 
     /// Free coordinates.

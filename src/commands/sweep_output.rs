@@ -125,7 +125,10 @@ const COLUMNS: [(&str, &str); 14] = [
         "phase of A cos(2 pi l f_m t + phase), t from position 0, rad; 0 for quantities without phase",
     ),
     ("cycles", "mesh cycles marched"),
-    ("residual", "change of the last two cycles over the largest peak-to-peak vibration"),
+    (
+        "residual",
+        "change of the last two cycles, with shooting from the last to the next one, over the largest peak-to-peak vibration",
+    ),
 ];
 
 impl SweepOutput {
@@ -240,7 +243,7 @@ backside: part of the time in which backside flanks of any mesh press; n/a for a
 grazing: least of lowest over mean force of the meshes that never part, near 0 of which μ loses its meaning; – where all part
 repeats: mesh cycles after which the motion repeats; – for none up to 8: not periodic, or not settled yet
 μ: size of the largest Floquet multiplier, below 1 if the motion is stable; – where it was marched
-cycles: mesh cycles integrated; residual: change between the last two of them over the peak-to-peak vibration";
+cycles: mesh cycles integrated; residual: change between the last two of them, with shooting from the last to the next one, over the peak-to-peak vibration";
 
 /// One line per speed: strongest harmonics of the sun's motion, contact, cycles and residual; then a legend,
 /// warnings, and the speeds that could not be computed.

@@ -16,7 +16,7 @@ use super::gradients::{Gradients, StepGradient};
 use super::system::Coupled;
 use crate::newmark::Motion;
 use crate::number::Number;
-use crate::periodic::MapDerivative;
+use crate::periodic::{CarriedChange, MapDerivative};
 
 /// Gradients of displacements, velocities and accelerations of the modes with respect to the 2n coordinates
 /// (displacements, velocities) at the start of a period.
@@ -71,18 +71,43 @@ impl<L: CouplingForce> Coupled<L> {
         passed: &PassedSteps,
         rate: f64,
     ) -> Option<MapDerivative> {
-        let n = self.modes.count;
-        let of = |k: usize| {
-            let (step, is_rare) = *passed.steps.get(k)?;
-            let (x, v) = passed.states.get(2 * n * k..2 * n * (k + 1))?.split_at(n);
-            Some(Passed { x, v, step, is_rare })
-        };
-        let mut derivative = self.start_at::<T>(of(0)?);
+        let mut derivative = self.start_at::<T>(self.passed(passed, 0)?, None);
         let mut tangents = Vec::new();
         for k in 1..passed.steps.len() {
-            self.carry_to(&mut derivative, of(k)?, &mut tangents);
+            self.carry_to(&mut derivative, self.passed(passed, k)?, &mut tangents);
         }
         Some(self.map_derivative(&derivative, rate))
+    }
+
+    /// The same in double precision, with a change of the 2n coordinates at the start carried along. `None` also for a change of
+    /// another size.
+    pub fn derivative_with(
+        &self,
+        passed: &PassedSteps,
+        rate: f64,
+        change: CarriedChange<'_>,
+    ) -> Option<MapDerivative> {
+        let n = self.modes.count;
+        let CarriedChange { start, hear } = change;
+        if start.len() != 2 * n {
+            return None;
+        }
+        let mut derivative = self.start_at::<f64>(self.passed(passed, 0)?, Some(start));
+        let (mut tangents, mut x) = (Vec::new(), vec![0.0; n]);
+        for k in 1..passed.steps.len() {
+            derivative.0.write_displacements(2 * n, &mut x);
+            hear(&x);
+            self.carry_to(&mut derivative, self.passed(passed, k)?, &mut tangents);
+        }
+        Some(self.map_derivative(&derivative, rate))
+    }
+
+    /// One of the states that were passed.
+    fn passed<'p>(&self, passed: &'p PassedSteps, k: usize) -> Option<Passed<'p>> {
+        let n = self.modes.count;
+        let (step, is_rare) = *passed.steps.get(k)?;
+        let (x, v) = passed.states.get(2 * n * k..2 * n * (k + 1))?.split_at(n);
+        Some(Passed { x, v, step, is_rare })
     }
 
     fn present(&self) -> Passed<'_> {
@@ -126,13 +151,19 @@ impl<L: CouplingForce> Coupled<L> {
 
     /// The derivative at the start of a period: one in the coordinates themselves.
     pub fn start_derivative(&self) -> CoupledDerivative {
-        self.start_at(self.present())
+        self.start_at(self.present(), None)
     }
 
-    fn start_at<T: Number>(&self, at: Passed<'_>) -> CoupledDerivative<T> {
+    /// The derivative at a state, and a change of the coordinates there as one row more.
+    fn start_at<T: Number>(&self, at: Passed<'_>, change: Option<&[f64]>) -> CoupledDerivative<T> {
         let n = self.modes.count;
-        let x = DMatrix::from_fn(2 * n, n, |row, j| f64::from(u8::from(row == j)));
-        let v = DMatrix::from_fn(2 * n, n, |row, j| f64::from(u8::from(row == n + j)));
+        let gradient = |first: usize| {
+            DMatrix::from_fn(2 * n + usize::from(change.is_some()), n, |row, j| match change {
+                Some(change) if row == 2 * n => change[first + j],
+                _ => f64::from(u8::from(row == first + j)),
+            })
+        };
+        let (x, v) = (gradient(0), gradient(n));
         let all = self.all();
         // a' = −Λ x' − C v' − Rᵀ D (R x' + τ R v')
         let mut a = -self.damped(&v);

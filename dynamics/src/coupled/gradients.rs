@@ -68,7 +68,8 @@ struct GroupFactors<T> {
 }
 
 impl<T: Number> Gradients<T> {
-    /// Of displacements, velocities and accelerations, each 2n×n: rows by coordinate at the start, columns by mode.
+    /// Of displacements, velocities and accelerations, each 2n×n: rows by coordinate at the start, columns by mode. A row more is
+    /// a change of all coordinates.
     pub(super) fn new(
         start: [&DMatrix<f64>; 3],
         modes: &Modes,
@@ -98,6 +99,12 @@ impl<T: Number> Gradients<T> {
         };
         let factors = Factors { linear, groups: [None, None], by_reach: Vec::new() };
         Self { modes: n, rows, motion, factors, room: Vec::new() }
+    }
+
+    /// Writes one row of the gradients of the displacements.
+    pub(super) fn write_displacements(&self, row: usize, out: &mut [f64]) {
+        let own = self.motion[0].chunks_exact(self.rows.max(1));
+        out.iter_mut().zip(own).for_each(|(x, column)| *x = column[row].double());
     }
 
     /// Displacements, then velocities of the modes at the end by those at the start, 2n×2n.

@@ -20,6 +20,14 @@ pub struct MapDerivative {
     pub scales: Vec<f64>,
 }
 
+/// A change of the state at the start of a period, carried over its steps beside the derivative.
+pub struct CarriedChange<'c> {
+    /// Changes of all coordinates at the start, n.
+    pub start: &'c [f64],
+    /// Hears at the start of every step what has become of the displacements, the leading coordinates.
+    pub hear: &'c mut dyn FnMut(&[f64]),
+}
+
 /// Newton's correction towards a fixed point of the map, (I − DΦ) factorised.
 #[derive(Debug, Clone)]
 pub struct Correction {

@@ -41,7 +41,17 @@ pub trait PeriodMap {
     /// Size of a deviation of the coordinates (n) relative to the peak-to-peak vibration over the last period.
     fn relative(&self, deviation: &[f64]) -> f64;
 
-    /// Largest change of the last period from the one before it, relative to the peak-to-peak vibration;
-    /// infinite unless the one followed the other.
-    fn change(&self) -> f64;
+    /// The derivative over the period marched last, y(0) to y(T), and the largest change from that period to the one that
+    /// would follow it, relative to its peak-to-peak vibration.
+    ///
+    /// The next period begins `residual` = y(T) − y(0) (n) beside this one, so that at step k it differs by P_k (y(T) − y(0))
+    /// with P_k the derivative of the first k steps, to first order. At the end of shooting the residual is some 1e-9 of the
+    /// vibration, and the second order is rounding.
+    ///
+    /// # Errors
+    /// If there is none.
+    fn derivative_and_change(
+        &mut self,
+        residual: &[f64],
+    ) -> Result<(MapDerivative, f64), Self::Error>;
 }

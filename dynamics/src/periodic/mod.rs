@@ -12,7 +12,7 @@ mod map;
 mod multipliers;
 mod shooting;
 
-pub use derivative::{Correction, MapDerivative};
+pub use derivative::{CarriedChange, Correction, MapDerivative};
 pub use map::PeriodMap;
 pub use multipliers::{Multiplier, MultiplierKind, floquet_vector, multipliers};
 pub use shooting::{PeriodicSolution, ShootingError, ShootingSettings, shoot};

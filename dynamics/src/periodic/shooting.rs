@@ -24,8 +24,8 @@ const LEAST: f64 = 1.0 / 64.0;
 /// Corrections given up, after each of which twice as many periods are marched, until shooting is given up.
 const PATIENCE: usize = 4;
 
-/// The error to the periodic solution that is asked for, beside the tolerance on the change from period to
-/// period.
+/// The error to the periodic solution that is asked for at the start and at the end of the last period, as a share of the
+/// tolerance on the change from period to period.
 const CLOSE: f64 = 0.3;
 
 /// When shooting ends.
@@ -43,7 +43,7 @@ pub struct ShootingSettings {
 /// A periodic solution; the motion stands at the start of a period.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PeriodicSolution {
-    /// Change of the last period from the one before it, relative to the peak-to-peak vibration.
+    /// Change from the last period to the one that follows it, to first order, relative to the peak-to-peak vibration.
     pub residual: f64,
     /// Periods marched.
     pub periods: usize,
@@ -90,12 +90,14 @@ pub fn shoot<M: PeriodMap + ?Sized>(
     let mut errors: Vec<f64> = Vec::new();
     let (mut derivatives, mut failures) = (0, 0);
     let mut last: Option<Taken> = None;
-    let (mut is_closing, mut march_on) = (false, 0);
+    let mut march_on = 0;
     // Whether no correction was judged yet, so that the first period may turn out to be one of those that settle.
     let mut may_settle = settings.settling > 0;
-    // Corrections may use rough derivatives until the first correction of one does not contract, or shows an end that is
-    // none.
+    // Corrections may use rough derivatives until the first correction of one does not contract, or shows an end that the
+    // exact one does not confirm.
     let (mut may_be_rough, mut is_new) = (true, false);
+    // Whether the last period ended close to the solution.
+    let mut is_close = false;
     while errors.len() < settings.most_periods {
         let start = map.coordinates();
         if let Err(cause) = map.advance() {
@@ -110,7 +112,7 @@ pub fn shoot<M: PeriodMap + ?Sized>(
             }
             last = retry(map, taken, &mut failures, &mut march_on)
                 .map_err(|other| ShootingError::Map(other.unwrap_or(cause)))?;
-            (correction, is_closing, may_be_rough) = (None, false, false);
+            (correction, may_be_rough) = (None, false);
             continue;
         }
         if march_on > 0 {
@@ -120,21 +122,7 @@ pub fn shoot<M: PeriodMap + ?Sized>(
         }
         let end = map.coordinates();
         let residual: Vec<f64> = end.iter().zip(&start).map(|(e, s)| e - s).collect();
-        let has_ended = is_closing && map.change() <= settings.tolerance;
-        if is_closing && !has_ended && may_be_rough {
-            (correction, may_be_rough) = (None, false);
-        }
         let step = correction.as_ref().map(|own| Step::new(map, own, &residual));
-        if has_ended {
-            derivatives += 1;
-            return Ok(PeriodicSolution {
-                residual: map.change(),
-                periods: errors.len() + 1,
-                derivatives,
-                errors: errors.into_iter().chain(step.map(|step| step.error)).collect(),
-                derivative: map.derivative().map_err(ShootingError::Map)?,
-            });
-        }
         // NaN is not contracted.
         let before = last.as_ref().map_or(f64::INFINITY, |taken| taken.error_by(map));
         let is_whole = last.as_ref().is_none_or(|taken| taken.fraction == 1.0);
@@ -151,7 +139,7 @@ pub fn shoot<M: PeriodMap + ?Sized>(
                 continue;
             }
         }
-        let step = match step.filter(contracts) {
+        let mut step = match step.filter(contracts) {
             Some(step) => {
                 is_new = false;
                 step
@@ -167,10 +155,31 @@ pub fn shoot<M: PeriodMap + ?Sized>(
                 step
             }
         };
+        let close = CLOSE * settings.tolerance;
+        let was_close = std::mem::replace(&mut is_close, step.error <= close);
+        if is_close && step.error_at_start <= close {
+            derivatives += 1;
+            let (derivative, change) =
+                map.derivative_and_change(&residual).map_err(ShootingError::Map)?;
+            if change <= settings.tolerance {
+                errors.push(step.error);
+                let periods = errors.len();
+                let residual = change;
+                return Ok(PeriodicSolution { residual, periods, derivatives, errors, derivative });
+            }
+            let own = derivative.correction()?;
+            step = Step::new(map, &own, &residual);
+            (correction, is_new, may_be_rough) = (Some(own), true, false);
+        } else if is_close && was_close && may_be_rough {
+            // The period before ended as close, and yet this one did not begin there.
+            derivatives += 1;
+            let own = map.derivative().map_err(ShootingError::Map)?.correction()?;
+            step = Step::new(map, &own, &residual);
+            (correction, is_new, may_be_rough) = (Some(own), true, false);
+        }
         errors.push(step.error);
-        is_closing = step.error <= CLOSE * settings.tolerance;
-        if is_closing {
-            // One more period shows the change from period to period and the derivative there.
+        if step.error <= close {
+            // The next period begins close to the solution.
             (last, may_settle) = (None, false);
             continue;
         }
@@ -230,15 +239,17 @@ struct Step {
     change: Vec<f64>,
     /// y* − y(T).
     left: Vec<f64>,
-    /// Size of y* − y(T), relative to the peak-to-peak vibration.
+    /// Sizes of y* − y(T) and of y* − y(0), relative to the peak-to-peak vibration.
     error: f64,
+    error_at_start: f64,
 }
 
 impl Step {
     fn new<M: PeriodMap + ?Sized>(map: &M, own: &Correction, residual: &[f64]) -> Self {
         let change = own.of(residual);
         let left: Vec<f64> = change.iter().zip(residual).map(|(c, r)| c - r).collect();
-        Self { error: map.relative(&left), change, left }
+        let (error, error_at_start) = (map.relative(&left), map.relative(&change));
+        Self { error, error_at_start, change, left }
     }
 }
 

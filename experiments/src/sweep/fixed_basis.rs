@@ -1,6 +1,6 @@
 //! A set of a varied scene in the coordinates of the first one.
 
-use dynamics::MapDerivative;
+use dynamics::{CarriedChange, MapDerivative};
 use fe_contact::vibration::Along;
 use gearset::Symmetry;
 use nalgebra::{DMatrix, DVector};
@@ -162,6 +162,24 @@ impl CycleDerivative for FixedBasis<'_> {
 
     fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError> {
         let own = self.own()?.of_cycle(along)?;
+        Ok(self.in_first(own))
+    }
+
+    fn of_cycle_with(
+        &mut self,
+        change: CarriedChange<'_>,
+    ) -> Result<MapDerivative, ExperimentError> {
+        let CarriedChange { start, hear } = change;
+        let (start, to_first) = (both(&self.from_first, start), self.to_first.clone());
+        let hear = &mut |x: &[f64]| hear(&both(&to_first, x));
+        let own = self.own()?.of_cycle_with(CarriedChange { start: &start, hear })?;
+        Ok(self.in_first(own))
+    }
+}
+
+impl FixedBasis<'_> {
+    /// A derivative in the coordinates of the first set.
+    fn in_first(&self, own: MapDerivative) -> MapDerivative {
         let (n, count) = (self.to_first.nrows(), 2 * self.to_first.nrows());
         let mut whole = DMatrix::zeros(count, count);
         for (k, active) in own.active.iter().enumerate() {
@@ -174,6 +192,6 @@ impl CycleDerivative for FixedBasis<'_> {
             })
         };
         let columns = doubled(&self.to_first) * whole * doubled(&self.from_first);
-        Ok(MapDerivative { active: (0..count).collect(), columns, scales: own.scales })
+        MapDerivative { active: (0..count).collect(), columns, scales: own.scales }
     }
 }

@@ -1,8 +1,8 @@
 //! Interface between a sweep and a model that is integrated in time.
 
-use dynamics::MapDerivative;
+use dynamics::{CarriedChange, MapDerivative};
 use fe_contact::statics::SUN;
-use fe_contact::vibration::{Along, VibratingSet};
+use fe_contact::vibration::{Along, LoadedStep, VibratingSet};
 use gearset::Symmetry;
 
 use super::shooting::CycleDerivative;
@@ -46,14 +46,16 @@ pub trait Marching {
         true
     }
 
-    /// Whether the model has approaches of single pairs, and so a kinematic rest.
-    fn has_kinematic_rest(&self) -> bool {
-        false
+    /// What the kinematic rest at the present state is computed from; `None` for a model without approaches of single
+    /// pairs, which has none.
+    fn loaded_step(&self) -> Option<LoadedStep> {
+        None
     }
 
-    /// Kinematic rest (largest deviation of a pair's approach from its linear form) and the sun's base
-    /// radius, m; `None` for a model without approaches of single pairs.
-    fn kinematic_rest(&self) -> Option<[f64; 2]> {
+    /// Kinematic rest (largest deviation of a pair's approach from its linear form) at a step since which the set has not passed
+    /// that position of the cycle, and the sun's base radius, m; `None` as [`loaded_step`](Self::loaded_step).
+    fn kinematic_rest(&self, at: &LoadedStep) -> Option<[f64; 2]> {
+        let _ = at;
         None
     }
 
@@ -123,12 +125,12 @@ impl Marching for FeMarching<'_> {
         self.set.mesh_forces(out);
     }
 
-    fn has_kinematic_rest(&self) -> bool {
-        true
+    fn loaded_step(&self) -> Option<LoadedStep> {
+        Some(self.set.loaded_step())
     }
 
-    fn kinematic_rest(&self) -> Option<[f64; 2]> {
-        Some([self.set.kinematic_rest(), self.set.races().radii[SUN]])
+    fn kinematic_rest(&self, at: &LoadedStep) -> Option<[f64; 2]> {
+        Some([self.set.kinematic_rest(at), self.set.races().radii[SUN]])
     }
 
     fn effort(&self) -> Effort {
@@ -201,5 +203,12 @@ impl CycleDerivative for FeMarching<'_> {
 
     fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError> {
         Ok(self.set.cycle_derivative(along, self.rate)?)
+    }
+
+    fn of_cycle_with(
+        &mut self,
+        change: CarriedChange<'_>,
+    ) -> Result<MapDerivative, ExperimentError> {
+        Ok(self.set.cycle_derivative_with(self.rate, change)?)
     }
 }

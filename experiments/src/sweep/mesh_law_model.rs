@@ -3,7 +3,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use dynamics::{CoupledState, CyclePart, MapDerivative, PassedSteps};
+use dynamics::{CarriedChange, CoupledState, CyclePart, MapDerivative, PassedSteps};
 use fe_contact::FeError;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use fe_contact::vibration::{Along, MeshLawSet, MeshLawSettings, mesh_law};
@@ -317,14 +317,31 @@ macro_rules! marching {
                         self.set.derivative_of::<f64>(&self.passed, self.rate)
                     }
                 };
-                let found = found.ok_or(ExperimentError::Incomplete("cycle to differentiate"))?;
-                Ok(match self.part.iter().flatten().next() {
-                    Some((_, part)) if self.passed.ends_within_cycle() => part.renumbered(found),
-                    _ => found,
-                })
+                of_part(found, &self.part, &self.passed)
+            }
+
+            fn of_cycle_with(
+                &mut self,
+                change: CarriedChange<'_>,
+            ) -> Result<MapDerivative, ExperimentError> {
+                let found = self.set.derivative_with(&self.passed, self.rate, change);
+                of_part(found, &self.part, &self.passed)
             }
         }
     };
+}
+
+/// The derivative of the steps passed, renumbered where they make a part of the cycle only.
+fn of_part(
+    found: Option<MapDerivative>,
+    part: &Option<Part>,
+    passed: &PassedSteps,
+) -> Result<MapDerivative, ExperimentError> {
+    let found = found.ok_or(ExperimentError::Incomplete("cycle to differentiate"))?;
+    Ok(match part.iter().flatten().next() {
+        Some((_, part)) if passed.ends_within_cycle() => part.renumbered(found),
+        _ => found,
+    })
 }
 
 marching!(LawMarching<'_>, coordinates, |set: &MeshLawSet<'_>| {

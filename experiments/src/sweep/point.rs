@@ -34,7 +34,8 @@ pub struct SweepPoint {
     /// sets of fewer than three planets.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub critical: Option<CriticalMotion>,
-    /// Change of the last two cycles over the largest peak-to-peak vibration.
+    /// Change of the last two cycles over the largest peak-to-peak vibration; of a motion found by shooting, that from the last
+    /// cycle to the next one, carried by the derivative.
     pub residual: f64,
     /// Whether that is within the tolerance and the transient, where that is a question, within 1 %.
     pub is_steady: bool,
@@ -99,7 +100,7 @@ pub struct TableRow {
     pub phase_rad: f64,
     /// Cycles marched.
     pub cycles: usize,
-    /// Change of the last two cycles.
+    /// Change of the last two cycles, or from the last to the next one.
     pub residual: f64,
 }
 

@@ -25,6 +25,12 @@ pub struct Record {
 /// Channels of the sun: x, y, rotation.
 pub(super) const SUN: [usize; 3] = [6, 7, 8];
 
+/// Displacements of carrier, ring and sun with x and y turned to radial (towards planet 0, at ψ₀) and tangential.
+pub(super) fn radial(central: [[f64; 3]; 3], first_planet_rad: f64) -> [[f64; 3]; 3] {
+    let (sin, cos) = first_planet_rad.sin_cos();
+    central.map(|[x, y, theta]| [cos * x + sin * y, cos * y - sin * x, theta])
+}
+
 impl Record {
     /// An empty record of a set of N planets or of another shape.
     pub fn new(shape: impl Into<SetShape>) -> Self {
@@ -64,11 +70,8 @@ impl Record {
     /// Appends the present state; x and y of the central members are rotated by ψ₀ to radial (towards
     /// planet 0) and tangential.
     fn take(&mut self, set: &dyn Marching, first_planet_rad: f64) {
-        let (sin, cos) = first_planet_rad.sin_cos();
         let (central, planets) = set.displacements();
-        for [x, y, theta] in central {
-            self.samples.extend([cos * x + sin * y, cos * y - sin * x, theta]);
-        }
+        self.samples.extend(radial(central, first_planet_rad).iter().flatten());
         self.samples.extend(planets.iter().flatten());
         set.mesh_forces(&mut self.forces);
         let fronts = self.shape.meshes();
@@ -123,6 +126,15 @@ impl Record {
         }
         mean.backside.truncate(self.backside.len() / cycles.max(1));
         mean
+    }
+
+    /// The record with changes of the displacements, sample by sample; forces and backside flanks as they are.
+    pub(super) fn changed_by(&self, changes: &[f64]) -> Self {
+        let (width, displacements) = (self.width().max(1), self.displacements().max(1));
+        let mut changed = self.clone();
+        let rows = changed.samples.chunks_mut(width).zip(changes.chunks(displacements));
+        rows.for_each(|(row, own)| row.iter_mut().zip(own).for_each(|(x, change)| *x += change));
+        changed
     }
 
     /// Appends the samples of a record of the same set that follows this one in time.

@@ -1,7 +1,8 @@
 //! Steady state by shooting: the periodic solution of the very steps that marching takes.
 
 use dynamics::{
-    MapDerivative, Multiplier, PeriodMap, ShootingError, ShootingSettings, multipliers, shoot,
+    CarriedChange, MapDerivative, Multiplier, PeriodMap, ShootingError, ShootingSettings,
+    multipliers, shoot,
 };
 
 use fe_contact::statics::KinematicRest;
@@ -10,7 +11,7 @@ use gearset::Symmetry;
 
 use super::critical_motion::CriticalMotion;
 use super::marching::Marching;
-use super::record::Record;
+use super::record::{Record, radial};
 use super::rest_samples::RestSamples;
 use super::set_shape::SetShape;
 use super::steady::SteadySettings;
@@ -63,24 +64,30 @@ pub trait CycleDerivative {
     /// # Errors
     /// If the bodies have no derivative.
     fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError>;
+
+    /// The same along [`Along::Motion`], with a change of the coordinates at the start of that cycle carried along: it is heard
+    /// of the leading coordinates, those that [`Marching::displacements_of`] needs.
+    ///
+    /// # Errors
+    /// If the bodies have no derivative, or the change is one of other coordinates.
+    fn of_cycle_with(
+        &mut self,
+        change: CarriedChange<'_>,
+    ) -> Result<MapDerivative, ExperimentError>;
 }
 
-/// Whole cycles of a set, or parts after which it is itself, the last two recorded.
+/// Whole cycles of a set, or parts after which it is itself, the last one recorded.
 pub(crate) struct RecordedCycles<'m> {
     set: &'m mut dyn Marching,
     first_planet_rad: f64,
     steps: usize,
     now: Record,
-    before: Record,
+    /// Change of the displacements from the last cycle to the one that would follow it, step by step; empty until it is
+    /// computed.
+    ahead: Vec<f64>,
     /// Peak-to-peak vibration of the last cycle, by which deviations are judged.
     sizes: [f64; 2],
-    /// Whether the last cycle followed the one before, and the next will follow the last.
-    follows: [bool; 2],
-    /// Whether a derivative was computed.
-    has_derivative: bool,
-    /// Steps of a whole cycle if its kinematic rest is sampled.
-    rest_of: Option<usize>,
-    /// Kinematic rest of the last cycle, if it may be the solution.
+    /// States of the last cycle for its kinematic rest, if that is sampled.
     rest: Option<RestSamples>,
 }
 
@@ -92,24 +99,8 @@ impl<'m> RecordedCycles<'m> {
         first_planet_rad: f64,
         steps: usize,
     ) -> Self {
-        Self {
-            set,
-            first_planet_rad,
-            steps,
-            now: Record::new(shape),
-            before: Record::new(shape),
-            sizes: [0.0; 2],
-            follows: [false; 2],
-            has_derivative: false,
-            rest_of: None,
-            rest: None,
-        }
-    }
-
-    /// Samples the kinematic rest of those cycles, of `steps` in all, that may be the solution: shooting ends with one
-    /// that follows another after a derivative was computed.
-    fn sample_rest(&mut self, steps: usize) {
-        self.rest_of = Some(steps);
+        let (now, ahead) = (Record::new(shape), Vec::new());
+        Self { set, first_planet_rad, steps, now, ahead, sizes: [0.0; 2], rest: None }
     }
 
     /// The derivative of the last cycle.
@@ -117,7 +108,6 @@ impl<'m> RecordedCycles<'m> {
     /// # Errors
     /// If the bodies have no derivative.
     pub(crate) fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError> {
-        self.has_derivative = true;
         self.set.derivative().ok_or(LOST)?.of_cycle(along)
     }
 
@@ -138,26 +128,23 @@ impl PeriodMap for RecordedCycles<'_> {
     }
 
     fn set_coordinates(&mut self, y: &[f64]) -> Result<(), ExperimentError> {
-        self.follows[1] = false;
         self.set.derivative().ok_or(LOST)?.set_coordinates(y)
     }
 
     fn advance(&mut self) -> Result<(), ExperimentError> {
-        std::mem::swap(&mut self.now, &mut self.before);
-        let is_solution = self.follows[1] && self.has_derivative;
-        self.follows = [self.follows[1], true];
         self.set.derivative().ok_or(LOST)?.start();
-        let steps = self.rest_of.filter(|_| is_solution);
-        let mut rest = steps.and_then(|steps| RestSamples::new(self.set, steps));
+        if let Some(rest) = &mut self.rest {
+            rest.clear();
+        }
+        let rest = &mut self.rest;
         self.now.march_and(self.set, self.first_planet_rad, self.steps, &mut |set, step| {
             if let Some(derivative) = set.derivative() {
                 derivative.keep_step();
             }
-            if let Some(rest) = &mut rest {
+            if let Some(rest) = rest {
                 rest.take(set, step);
             }
         })?;
-        self.rest = rest;
         self.sizes = self.now.sizes();
         self.set.derivative().ok_or(LOST)?.end()
     }
@@ -172,10 +159,36 @@ impl PeriodMap for RecordedCycles<'_> {
 
     fn relative(&self, deviation: &[f64]) -> f64 {
         let (central, planets) = self.set.displacements_of(deviation);
+        let all = central.iter().chain(&planets).flatten();
+        self.relative_to_vibration(all.copied().enumerate())
+    }
+
+    fn derivative_and_change(
+        &mut self,
+        residual: &[f64],
+    ) -> Result<(MapDerivative, f64), ExperimentError> {
+        let mut leading: Vec<Vec<f64>> = Vec::with_capacity(self.steps);
+        let hear = &mut |x: &[f64]| leading.push(x.to_vec());
+        let change = CarriedChange { start: residual, hear };
+        let derivative = self.set.derivative().ok_or(LOST)?.of_cycle_with(change)?;
+        self.ahead.clear();
+        for x in leading {
+            let (central, planets) = self.set.displacements_of(&x);
+            self.ahead.extend(radial(central, self.first_planet_rad).iter().flatten());
+            self.ahead.extend(planets.iter().flatten());
+        }
+        let change = self.relative_to_vibration(self.ahead.iter().copied().enumerate());
+        Ok((derivative, change))
+    }
+}
+
+impl RecordedCycles<'_> {
+    /// The larger of the ratios of deviations and vibration of translations and of rotations; every third number, the last of
+    /// each body, is a rotation.
+    fn relative_to_vibration(&self, deviations: impl Iterator<Item = (usize, f64)>) -> f64 {
         let mut largest = [0.0f64; 2];
-        for (axis, value) in central.iter().chain(&planets).flat_map(|body| body.iter().enumerate())
-        {
-            let own = &mut largest[usize::from(axis == 2)];
+        for (i, value) in deviations {
+            let own = &mut largest[usize::from(i % 3 == 2)];
             // NaN is kept.
             *own = if value.abs() <= *own { *own } else { value.abs() };
         }
@@ -187,17 +200,13 @@ impl PeriodMap for RecordedCycles<'_> {
         // NaN is kept.
         if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
     }
-
-    fn change(&self) -> f64 {
-        if self.follows[0] { self.now.change_from(&self.before) } else { f64::INFINITY }
-    }
 }
 
 /// A periodic solution found by shooting.
 pub(crate) struct Shot {
     /// The last cycle.
     pub(super) record: Record,
-    /// Energy between harmonics over the last two cycles, if requested.
+    /// Energy between harmonics over the last cycle and the one that follows it, if requested.
     pub(super) between: Option<f64>,
     /// Whole cycles that the periods marched amount to.
     pub(super) cycles: usize,
@@ -228,13 +237,13 @@ pub(crate) fn shot(
     let mut cycles = RecordedCycles::new(set, shape, first_planet_rad, steps / parts);
     let most_periods = parts * settings.most_cycles.clamp(2, MOST_CYCLES);
     let own = ShootingSettings { tolerance: settings.tolerance, settling: SETTLING, most_periods };
-    cycles.sample_rest(steps);
+    cycles.rest = Some(RestSamples::new(steps));
     let found = match shoot(&mut cycles, &own) {
         Ok(found) => found,
         Err(why) => return Ok(Err(why)),
     };
     let of_part = multipliers(&found.derivative)?;
-    let RecordedCycles { now, before, set, rest, .. } = cycles;
+    let RecordedCycles { now, ahead, set, rest, .. } = cycles;
     let critical = CriticalMotion::of(&*set, &found.derivative, &of_part, parts)?;
     let mut multipliers = of_whole_cycle(of_part, parts);
     multipliers.retain(|m| m.size() >= SMALL);
@@ -242,18 +251,19 @@ pub(crate) fn shot(
         Some(own) => part.of_whole_cycle(own),
         None => part,
     };
+    let next = (settings.between_cycles > 0).then(|| whole(now.changed_by(&ahead)));
     let record = whole(now);
-    let between = match settings.between_cycles {
-        0 => None,
-        _ => {
-            let mut both = whole(before);
-            both.append(record.clone());
+    let between = match next {
+        None => None,
+        Some(next) => {
+            let mut both = record.clone();
+            both.append(next);
             Some(both.between_harmonics(2)?)
         }
     };
     Ok(Ok(Shot {
         between,
-        rest: rest.map(|rest| rest.rest(&record)),
+        rest: rest.and_then(|rest| rest.rest(&*set, &record)),
         record,
         cycles: found.periods.div_ceil(parts),
         derivatives: found.derivatives,

@@ -40,7 +40,7 @@ pub struct SteadySettings {
     /// Highest harmonic kept.
     pub harmonics: usize,
     /// Cycles on which the energy between harmonics of a marched motion is measured; 0 leaves that out. Of a
-    /// motion found by shooting it is measured on the last two cycles.
+    /// motion found by shooting it is measured on the last cycle and the one that follows it.
     pub between_cycles: usize,
     /// Whether sets that are themselves after a part of the cycle are shot over whole cycles all the same. Motions that
     /// break the symmetry are then found too, and what the symmetry forbids is a result instead of a premise.
@@ -81,7 +81,8 @@ pub struct Steady {
     pub record: Record,
     /// Cycles marched, the last of which is recorded.
     pub cycles: usize,
-    /// Change from the last cycle but one to the last, relative as [`SteadySettings::tolerance`].
+    /// Change from the last cycle but one to the last, relative as [`SteadySettings::tolerance`]; of a motion found by
+    /// shooting that from the last cycle to the one that follows it, to first order.
     pub residual: f64,
     /// Share of the vibration's energy that lies between mesh harmonics, if requested.
     pub between: Option<f64>,
@@ -325,10 +326,13 @@ fn sampled_rest(
     record: &Record,
     steps: usize,
 ) -> Result<Option<KinematicRest>, ExperimentError> {
-    let Some(mut rest) = RestSamples::new(set, steps) else { return Ok(None) };
+    if set.loaded_step().is_none() {
+        return Ok(None);
+    }
+    let mut rest = RestSamples::new(steps);
     for step in 0..steps {
         set.step()?;
         rest.take(set, step);
     }
-    Ok(Some(rest.rest(record)))
+    Ok(rest.rest(set, record))
 }

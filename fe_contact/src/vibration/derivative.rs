@@ -1,11 +1,12 @@
 //! The derivative of the mesh cycle that a set marched last, computed from what its frames keep of every step.
 
-use dynamics::{MapDerivative, Number};
+use dynamics::{CarriedChange, MapDerivative, Number};
 use faer::linalg::solvers::Solve;
 use faer::{MatMut, MatRef};
 use gearset::Symmetry;
 use nalgebra::{DMatrix, DVector};
 
+use super::checkpoint::replace;
 use super::gradients::{Gradients, LagGradients};
 use super::lag::WIDTH;
 use super::set::VibratingSet;
@@ -86,21 +87,37 @@ impl VibratingSet<'_> {
     /// If a body's modes are not those of equal teeth.
     pub fn cycle_derivative(&mut self, along: Along, rate: f64) -> Result<MapDerivative, FeError> {
         match along {
-            Along::MotionRoughly => self.cycle_derivative_in::<f32>(along, rate),
-            Along::Motion | Along::Every => self.cycle_derivative_in::<f64>(along, rate),
+            Along::MotionRoughly => self.cycle_derivative_in::<f32>(along, rate, None),
+            Along::Motion | Along::Every => self.cycle_derivative_in::<f64>(along, rate, None),
         }
     }
 
-    /// The same with gradients in the precision of T.
+    /// The same along the motion, with a change of the state carried from the start of the cycle on; it is heard of the
+    /// displacements of the races.
+    ///
+    /// # Errors
+    /// If a body's modes are not those of equal teeth, or the change has not as many numbers as the
+    /// [coordinates](VibratingSet::coordinates).
+    pub fn cycle_derivative_with(
+        &mut self,
+        rate: f64,
+        change: CarriedChange<'_>,
+    ) -> Result<MapDerivative, FeError> {
+        self.cycle_derivative_in::<f64>(Along::Motion, rate, Some(change))
+    }
+
+    /// The derivative with gradients in the precision of T.
     fn cycle_derivative_in<T: Number>(
         &mut self,
         along: Along,
         rate: f64,
+        mut change: Option<CarriedChange<'_>>,
     ) -> Result<MapDerivative, FeError> {
         let (count, cycles) = (self.clock.rotation.count(), self.clock.cycles);
         let turn = self.present_renumbering();
         let steps = turn.as_ref().map_or(count, |(own, _)| count / own.parts);
-        let mut derivative: SetDerivative<T> = self.start_derivative(along, rate);
+        let more = usize::from(change.is_some());
+        let mut derivative: SetDerivative<T> = self.start_derivative(along, rate, more);
         let settling = match along {
             Along::Motion => Some((FORGOTTEN, FEWEST)),
             Along::MotionRoughly => Some((FORGOTTEN_ROUGHLY, FEWEST_ROUGHLY)),
@@ -116,7 +133,13 @@ impl VibratingSet<'_> {
             derivative.turn_back(self.tooth_shifts()?, turn.as_ref());
             derivative.follow_motion(rate)?;
         }
+        if let Some(change) = &change {
+            derivative.set_last_row(change.start)?;
+        }
         for step in 1..=steps {
+            if let Some(change) = &mut change {
+                (change.hear)(&derivative.last_row_of_races());
+            }
             self.carry_derivative(&mut derivative, step, cycles);
             if along == Along::Every && COMPRESSED.contains(&step) {
                 derivative.compress(rate);
@@ -126,8 +149,13 @@ impl VibratingSet<'_> {
         Ok(derivative.map_derivative(rate))
     }
 
-    /// Changes at the start of a step.
-    fn start_derivative<T: Number>(&mut self, along: Along, rate: f64) -> SetDerivative<T> {
+    /// Changes at the start of a step, in gradients with some `more` rows.
+    fn start_derivative<T: Number>(
+        &mut self,
+        along: Along,
+        rate: f64,
+        more: usize,
+    ) -> SetDerivative<T> {
         let n = self.statics.races.count;
         let unknowns: Vec<usize> = self.bodies.all().map(|(_, body)| body.unknowns()).collect();
         let mut active: Vec<(usize, f64)> = Vec::new();
@@ -163,7 +191,7 @@ impl VibratingSet<'_> {
                 active.extend(nonzero.map(|slot| (first + slot, STIFFNESS)));
             }
         }
-        let m = active.len().next_multiple_of(T::MOST_LANES);
+        let m = (active.len() + more).next_multiple_of(T::MOST_LANES);
         let unit = |first: usize, count: usize| {
             let mut own = DMatrix::zeros(m, count);
             for (row, (i, size)) in active.iter().enumerate() {
@@ -203,6 +231,25 @@ impl<T: Number> SetDerivative<T> {
     /// Rows of the gradients.
     pub(super) fn rows(&self) -> usize {
         self.races.x.nrows()
+    }
+
+    /// Puts a change of all coordinates in the row after those of the active ones.
+    fn set_last_row(&mut self, change: &[f64]) -> Result<(), FeError> {
+        let row = self.active.len();
+        replace(change, &mut |each| {
+            for list in self.lists_mut() {
+                let mut own: Vec<f64> = list.row(row).iter().map(|x| x.double()).collect();
+                each(&mut own);
+                list.row_mut(row).iter_mut().zip(own).for_each(|(x, own)| *x = T::of(own));
+            }
+        })?;
+        self.meshes.iter_mut().for_each(|own| own.add_live(row));
+        Ok(())
+    }
+
+    /// What has become of that change of the races' displacements, m.
+    fn last_row_of_races(&self) -> Vec<f64> {
+        self.races.x.row(self.active.len()).iter().map(|x| x.double()).collect()
     }
 
     /// All gradients in the order of the coordinates, each list with the size of its quantities beside that of a

@@ -31,6 +31,16 @@ pub struct StepWork {
     pub against_contact: f64,
 }
 
+/// What the kinematic rest of a step is computed from.
+#[derive(Debug, Clone)]
+pub struct LoadedStep {
+    step_in_cycle: usize,
+    /// Displacements of the races, m.
+    x: DVector<f64>,
+    /// Forces of the tooth pairs, N.
+    forces: Vec<f64>,
+}
+
 /// State of the races at the start of a step.
 #[derive(Debug, Clone)]
 pub struct StepStart {
@@ -41,17 +51,24 @@ pub struct StepStart {
 }
 
 impl VibratingSet<'_> {
-    /// Kinematic rest: largest difference of a loaded pair's approach, by exact kinematics at the
-    /// present displacements, from its linear form about the reference, m; 0 where kinematics are
-    /// exact at every step.
-    pub fn kinematic_rest(&self) -> f64 {
-        let (Some(frame), None) =
-            (self.frames.current(self.clock.step_in_cycle), &self.contact.grid)
+    /// The step that ended last.
+    pub fn loaded_step(&self) -> LoadedStep {
+        LoadedStep {
+            step_in_cycle: self.clock.step_in_cycle,
+            x: DVector::from_column_slice(&self.motion().x),
+            forces: self.pairs.forces.as_slice().to_vec(),
+        }
+    }
+
+    /// Kinematic rest of a step: largest difference of a loaded pair's approach, by exact kinematics at the displacements,
+    /// from its linear form about the reference, m; 0 where kinematics are exact at every step. The set must not have passed
+    /// the step's position in the cycle since.
+    pub fn kinematic_rest(&self, at: &LoadedStep) -> f64 {
+        let (Some(frame), None) = (self.frames.current(at.step_in_cycle), &self.contact.grid)
         else {
             return 0.0;
         };
-        let x = DVector::from_column_slice(&self.motion().x);
-        let position = self.clock.position(self.clock.step_in_cycle);
+        let position = self.clock.position(at.step_in_cycle);
         let fronts = frame.meshes.iter().take(self.pairs.memory.len());
         let linear = frame.pattern.linear(|| {
             let each = fronts.clone().enumerate().map(|(which, mesh)| {
@@ -62,8 +79,8 @@ impl VibratingSet<'_> {
         });
         let Ok(linear) = linear else { return f64::NAN };
         larger(fronts.zip(linear).map(|(mesh, linear)| {
-            let forces = &self.pairs.forces.as_slice()[mesh.first..mesh.first + mesh.count];
-            self.statics.rest_of_mesh(linear, &x, forces)
+            let forces = at.forces.get(mesh.first..mesh.first + mesh.count);
+            forces.map_or(f64::NAN, |forces| self.statics.rest_of_mesh(linear, &at.x, forces))
         }))
     }
 

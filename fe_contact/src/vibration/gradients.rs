@@ -122,6 +122,14 @@ impl<T: Number> LagGradients<T> {
         })
     }
 
+    /// Adds the pairs with an entry other than zero in a row to those with gradients.
+    pub(super) fn add_live(&mut self, row: usize) {
+        for list in &self.lists {
+            let own = list.row(row);
+            self.live.iter_mut().zip(&own).for_each(|(live, x)| *live |= *x != T::of(0.0));
+        }
+    }
+
     /// Pairs with gradients other than zero.
     pub(super) fn live(&self) -> [bool; WIDTH] {
         self.live

@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use dynamics::{
-    AverageAcceleration, Coupled, CoupledState, Coupling, CyclePart, LinearPart, MapDerivative,
-    Motion, Number, PassedSteps, Renumbering,
+    AverageAcceleration, CarriedChange, Coupled, CoupledState, Coupling, CyclePart, LinearPart,
+    MapDerivative, Motion, Number, PassedSteps, Renumbering,
 };
 use gearset::{Facing, MeshLaw, Scene, Symmetry};
 use nalgebra::{DMatrix, DVector};
@@ -268,6 +268,17 @@ impl<'s> MeshLawSet<'s> {
         rate: f64,
     ) -> Option<MapDerivative> {
         self.system.derivative_of::<T>(passed, rate)
+    }
+
+    /// The same in double precision, with a change of the coordinates at the start carried along. `None` also for a change of
+    /// another size.
+    pub fn derivative_with(
+        &self,
+        passed: &PassedSteps,
+        rate: f64,
+        change: CarriedChange<'_>,
+    ) -> Option<MapDerivative> {
+        self.system.derivative_with(passed, rate, change)
     }
 
     /// Time since the start, s.
