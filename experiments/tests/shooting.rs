@@ -261,6 +261,22 @@ fn multipliers_follow_from_displacements_and_velocities() {
     assert!(off < 1e-8, "{off:e}");
 }
 
+/// The same with a fifth and a twentieth of the damping, whose lag is a smaller part of a step and is followed over fewer steps.
+#[test]
+fn multipliers_follow_from_displacements_and_velocities_at_little_damping() {
+    for factor in [0.2, 0.05] {
+        let mut scene = scene("oh58_4p", Fidelity::QuasiStatic, 56);
+        scene.damping.mass_proportional_per_s *= factor;
+        scene.damping.stiffness_proportional_s *= factor;
+        scene.damping.bearing_s *= factor;
+        let bodies = Bodies::new(&scene).unwrap();
+        let [motion, every] = both_derivatives_of(&fe(&scene, &bodies, 1130.0), Along::Every);
+        let off = multipliers_off(&motion, &every);
+        println!("{factor}: {off:e}");
+        assert!(off < 1e-8, "{factor}: {off:e}");
+    }
+}
+
 /// The same with modes of the bodies.
 #[test]
 fn multipliers_follow_from_displacements_and_velocities_of_modal_bodies() {

@@ -20,13 +20,18 @@ const STIFFNESS: f64 = 1e9;
 /// The lag forgets its state as e^{−t/β}: after this many β a share of 1e-10 is left.
 const FORGOTTEN: f64 = 23.0;
 
-/// Steps after which accelerations follow from displacements and velocities, and so do the forces of the last two steps
-/// that the parabola of the lag passes through: of these a share of about 0.3 was left after each step of 10 β.
-const FEWEST: usize = 12;
+/// Share that may be left of the forces of the last two steps, which the parabola of the lag passes through, until they follow
+/// from displacements and velocities as accelerations do after one step.
+const LEFT: f64 = 1e-8;
+
+/// Most steps that are waited for that: with a longer β the compliance of the cells, which has no lag, leaves less of them
+/// than the lag alone does (0.3 after a step of 10 β).
+const MOST_LEFT: usize = 12;
 
 /// The same for corrections of a state: shares of 1e-3 and 2e-3 are left.
 const FORGOTTEN_ROUGHLY: f64 = 7.0;
-const FEWEST_ROUGHLY: usize = 5;
+const LEFT_ROUGHLY: f64 = 2e-3;
+const MOST_LEFT_ROUGHLY: usize = 5;
 
 /// Changes of the state at the start of a cycle whose effect at its end is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -119,14 +124,17 @@ impl VibratingSet<'_> {
         let more = usize::from(change.is_some());
         let mut derivative: SetDerivative<T> = self.start_derivative(along, rate, more);
         let settling = match along {
-            Along::Motion => Some((FORGOTTEN, FEWEST)),
-            Along::MotionRoughly => Some((FORGOTTEN_ROUGHLY, FEWEST_ROUGHLY)),
+            Along::Motion => Some((FORGOTTEN, LEFT, MOST_LEFT)),
+            Along::MotionRoughly => Some((FORGOTTEN_ROUGHLY, LEFT_ROUGHLY, MOST_LEFT_ROUGHLY)),
             Along::Every => None,
         };
-        if let Some((forgotten, fewest)) = settling {
+        if let Some((forgotten, left, most)) = settling {
             // In a periodic motion the steps before the start are those before the end, taken back as the end is.
             let settling = forgotten * self.race_dynamics.damping.beta / self.clock.rule.step();
-            let settling = (settling.ceil() as usize + fewest).min(steps);
+            // NaN, without any lag, is no step.
+            let falling = left.ln() / self.pairs.lag.left_after_step().ln();
+            let falling = (falling.ceil() as usize).clamp(1, most);
+            let settling = (settling.ceil() as usize + falling).min(steps);
             for step in steps - settling + 1..=steps {
                 self.carry_derivative(&mut derivative, step, cycles);
             }
@@ -396,7 +404,10 @@ impl<T: Number> SetDerivative<T> {
         let mut columns = DMatrix::zeros(count, n);
         for (j, (_, size)) in self.active.iter().enumerate() {
             let own = &mut columns.as_mut_slice()[j * count..(j + 1) * count];
-            nonzero.iter().for_each(|(row, gradient)| own[*row] = gradient[j] / size);
+            match *size {
+                1.0 => nonzero.iter().for_each(|(row, gradient)| own[*row] = gradient[j]),
+                size => nonzero.iter().for_each(|(row, gradient)| own[*row] = gradient[j] / size),
+            }
         }
         MapDerivative { active: self.active.iter().map(|(i, _)| *i).collect(), columns, scales }
     }

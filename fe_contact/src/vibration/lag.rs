@@ -44,6 +44,14 @@ impl LagRule {
         2 + if falling.is_finite() { falling.ceil() as usize } else { 0 }
     }
 
+    /// Share of a change of the forces of the last two steps that is left in the force after one more, for the same approaches:
+    /// these determine P̃, so that e P₁ + s P₀ + b P₋₁ does not change, and P falls as the larger root r of e r² + s r + b = 0.
+    pub(super) fn left_after_step(&self) -> f64 {
+        let (half, product) = (0.5 * self.start / self.end, self.before / self.end);
+        let square = half * half - product;
+        if square < 0.0 { product.sqrt() } else { half.abs() + square.sqrt() }
+    }
+
     pub(super) fn new(beta: f64, rule: &AverageAcceleration) -> Self {
         if beta <= 0.0 {
             return Self { end: 1.0, start: 0.0, before: 0.0, state: 0.0 };
@@ -240,6 +248,23 @@ mod tests {
             assert!(left < 2e-18 && memory.now(slot) == 0.0, "{z}: {left:e}");
         }
         assert_eq!(LagRule::new(0.0, &AverageAcceleration::new(1e-5).unwrap()).forgotten(), 2);
+    }
+
+    /// Where the same approaches keep asking for the force 1 (P̃ = 1 at the end of every step), errors 1 and −r of the last two forces
+    /// leave r² in the next: −r is the larger root.
+    #[test]
+    fn forces_follow_from_approaches_as_said() {
+        for z in [3.0, 8.0, 14.0, 50.0, 140.0] {
+            let (rule, slot) = (rule(z), PairSlot::of(0));
+            let r = rule.left_after_step();
+            let mut memory = PairMemory::default();
+            memory.rest([(slot, 1.0)].into_iter());
+            (memory.before[LEAST as usize], memory.now[LEAST as usize]) = (2.0, 1.0 - r);
+            let force = (1.0 - memory.known(&rule, slot)) / rule.end;
+            assert!((force - 1.0 - r * r).abs() < 1e-12, "{z}: {r}, {force}");
+        }
+        let none = LagRule::new(0.0, &AverageAcceleration::new(1e-5).unwrap());
+        assert_eq!(none.left_after_step(), 0.0);
     }
 
     #[test]
