@@ -18,6 +18,9 @@ pub trait Number: RealField + ComplexField + Copy + Default {
     /// The same in double precision.
     fn double(self) -> f64;
 
+    /// The nearest ones of a list: itself in double precision, else written to `room`.
+    fn nearest<'l>(list: &'l [f64], room: &'l mut Vec<Self>) -> &'l [Self];
+
     /// The whole vectors of a list.
     fn vectors<S: Simd>(list: &[Self]) -> &[Self::Vector<S>];
 
@@ -113,6 +116,11 @@ impl Number for f64 {
         self
     }
 
+    #[inline(always)]
+    fn nearest<'l>(list: &'l [f64], _: &'l mut Vec<Self>) -> &'l [Self] {
+        list
+    }
+
     vectors!(
         4,
         f64s,
@@ -135,6 +143,13 @@ impl Number for f32 {
     #[inline(always)]
     fn double(self) -> f64 {
         f64::from(self)
+    }
+
+    #[inline(always)]
+    fn nearest<'l>(list: &'l [f64], room: &'l mut Vec<Self>) -> &'l [Self] {
+        room.resize(list.len(), 0.0);
+        room.iter_mut().zip(list).for_each(|(own, x)| *own = *x as f32);
+        room
     }
 
     vectors!(

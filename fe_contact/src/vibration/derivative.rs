@@ -73,8 +73,9 @@ pub(super) struct Work<T> {
     pub(super) next: Vec<T>,
     pub(super) b: Vec<T>,
     pub(super) forces: Vec<T>,
-    /// Memory for the rows that pass through a step together.
+    /// Memory for the rows that pass through a step together, and for its matrices.
     pub(super) rows: Vec<T>,
+    pub(super) matrices: [Vec<T>; 2],
 }
 
 /// Steps after which the rows of the gradients with respect to every coordinate are compressed.

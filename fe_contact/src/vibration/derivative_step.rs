@@ -50,15 +50,19 @@ impl VibratingSet<'_> {
         let mut work = std::mem::take(&mut d.work);
         let has_modes = d.elastic.iter().any(|own| own.x.ncols() > 0);
         let bodies = has_modes.then(|| self.predict_bodies(d, frame, (k, cycles), &mut work));
-        let Work { load, b, next, forces, rows, .. } = &mut work;
+        let Work { load, b, next, forces, rows, matrices, .. } = &mut work;
+        let chosen = &frame.combinations[frame.used];
         let modes = has_modes.then_some([load, b, next, forces].map(Vec::as_mut_slice));
         wide(Carrying {
             terms: &d.terms,
+            stiffness: chosen.stiffness(),
+            inverse: chosen.inverse.entries(),
             weights: &weights,
             races: &mut d.races,
             meshes: &mut d.meshes,
             modes,
             room: rows,
+            matrices: matrices.each_mut(),
         });
         d.meshes.iter_mut().for_each(LagGradients::end_step);
         if let Some(bodies) = bodies {

@@ -22,6 +22,9 @@ pub(super) struct StepWeights {
 /// Gradients that are carried over a step.
 pub(super) struct Carrying<'c, T> {
     pub(super) terms: &'c StepTerms<T>,
+    /// S' of each group by rows, N/m, and (A + Rᵀ S' R)⁻¹ as [`Packed`](super::packed::Packed) has it, m/N.
+    pub(super) stiffness: &'c [f64],
+    pub(super) inverse: &'c [f64],
     pub(super) weights: &'c StepWeights,
     pub(super) races: &'c mut Gradients<T>,
     pub(super) meshes: &'c mut [LagGradients<T>],
@@ -30,6 +33,8 @@ pub(super) struct Carrying<'c, T> {
     pub(super) modes: Option<[&'c mut [T]; 4]>,
     /// Memory within the step.
     pub(super) room: &'c mut Vec<T>,
+    /// Memory for the two matrices in the precision of T.
+    pub(super) matrices: [&'c mut Vec<T>; 2],
 }
 
 impl<T: Number> Computation for Carrying<'_, T> {
@@ -37,7 +42,9 @@ impl<T: Number> Computation for Carrying<'_, T> {
 
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) {
-        let Self { terms, weights, races, meshes, modes, room } = self;
+        let Self { terms, stiffness, inverse, weights, races, meshes, modes, room, matrices } =
+            self;
+        let [of_stiffness, of_inverse] = matrices;
         let lanes = Bundles::<S, T>::lanes();
         let stride = races.x.nrows() / lanes;
         let races = races.lists_mut().map(|list| T::vectors_mut::<S>(list.as_mut_slice()));
@@ -56,6 +63,8 @@ impl<T: Number> Computation for Carrying<'_, T> {
         let mut rows = Rows::<S, T> {
             sums,
             terms,
+            stiffness: T::nearest(stiffness, of_stiffness),
+            inverse: T::nearest(inverse, of_inverse),
             stride,
             at: 0,
             ahead: [step, half].map(all),
@@ -84,6 +93,8 @@ struct Within<'w, V, const U: usize> {
 struct Rows<'r, S: Simd, T: Number> {
     sums: Bundles<S, T>,
     terms: &'r StepTerms<T>,
+    stiffness: &'r [T],
+    inverse: &'r [T],
     stride: usize,
     /// First of the vectors that pass through the step now.
     at: usize,
@@ -235,7 +246,7 @@ impl<S: Simd, T: Number> Rows<'_, S, T> {
     #[inline(always)]
     fn press<const U: usize>(&self, within: &mut Within<'_, T::Vector<S>, U>) {
         let sums = self.sums;
-        let (mut first, mut rest) = (0, self.terms.stiffness.as_slice());
+        let (mut first, mut rest) = (0, self.stiffness);
         for count in &self.terms.groups {
             let own;
             (own, rest) = rest.split_at(count * count);
@@ -269,7 +280,7 @@ impl<S: Simd, T: Number> Rows<'_, S, T> {
     #[inline(always)]
     fn displace<const U: usize>(&mut self, within: &Within<'_, T::Vector<S>, U>) {
         let load = &*within.load;
-        let blocks = self.terms.inverse.chunks_exact((load.len() * BLOCK).max(1));
+        let blocks = self.inverse.chunks_exact((load.len() * BLOCK).max(1));
         for (block, columns) in blocks.enumerate() {
             let (columns, first) = (columns.as_chunks().0, block * BLOCK);
             let count = (load.len() - first).min(BLOCK);
@@ -314,10 +325,13 @@ impl<S: Simd, T: Number> Rows<'_, S, T> {
     fn approach<const U: usize>(&self, within: &mut Within<'_, T::Vector<S>, U>) {
         let (sums, mut first) = (self.sums, 0);
         for (end, b) in self.terms.pairs.iter().zip(within.b.iter_mut()) {
+            // A sum in memory would wait for its store at every entry.
+            let mut sum = *b;
             for (i, r) in &self.terms.entries[first..*end] {
                 let x = sums.at(self.races[0], self.place(*i));
-                *b = sums.plus(sums.spread(*r), &x, *b);
+                sum = sums.plus(sums.spread(*r), &x, sum);
             }
+            *b = sum;
             first = *end;
         }
     }

@@ -16,16 +16,12 @@ pub(super) struct StepTerms<T> {
     pub(super) races: Vec<(T, usize)>,
     /// Load on the races by v*, N s/m: entries of each coordinate, as column and value.
     pub(super) damping: Vec<(usize, T)>,
-    /// (A + Rᵀ S' R)⁻¹ as [`Packed`](super::packed::Packed) has it, m/N.
-    pub(super) inverse: Vec<T>,
     /// Of each touching pair, where its entries in `entries` end.
     pub(super) pairs: Vec<usize>,
     /// Entries of R of the touching pairs, as coordinate and value.
     pub(super) entries: Vec<(usize, T)>,
     /// Touching pairs of each group that E couples.
     pub(super) groups: Vec<usize>,
-    /// S' of each group by rows, N/m.
-    pub(super) stiffness: Vec<T>,
     pub(super) bends: Vec<BendTerms<T>>,
     pub(super) lags: Vec<LagTerms>,
     /// −F between pairs: touching pair and value, m/N.
@@ -125,23 +121,16 @@ impl<T: Number> StepTerms<T> {
         self.entries.clear();
         for (at, pair) in chosen.touching().iter().enumerate() {
             self.touching_of[*pair] = Some(at);
-            let (row, count) = rounded_row(&frame.rows()[*pair]);
-            self.entries.extend_from_slice(&row[..count]);
+            let entries = frame.rows()[*pair].terms().take_while(|(_, r)| *r != 0.0);
+            self.entries.extend(entries.map(|(i, r)| (i, T::of(r))));
             self.pairs.push(self.entries.len());
         }
         self.groups.clear();
         self.groups.extend_from_slice(chosen.groups());
-        let rounded = |out: &mut Vec<T>, list: &[f64]| {
-            out.clear();
-            out.extend(list.iter().map(|x| T::of(*x)));
-        };
-        rounded(&mut self.stiffness, chosen.stiffness());
-        rounded(&mut self.inverse, chosen.inverse.entries());
     }
 
     fn add_bend(&mut self, bend: &FrameBend, [loads, opens]: [bool; 2]) {
         let share = bend.curvature * bend.moved;
-        let (row, count) = rounded_row(&bend.row);
         let load = (loads && bend.force > 0.0).then(|| BendLoad {
             stiffness: T::of(bend.curvature * bend.force),
             share: T::of(share),
@@ -150,6 +139,7 @@ impl<T: Number> StepTerms<T> {
         let touching = self.touching_of.get(bend.pair).copied().flatten();
         let gap = touching.filter(|_| opens).map(|at| (at, T::of(-share)));
         if load.is_some() || gap.is_some() {
+            let (row, count) = rounded_row(&bend.row);
             self.bends.push(BendTerms { row, count, load, gap });
         }
     }
@@ -178,6 +168,9 @@ impl<T: Number> StepTerms<T> {
                     }
                 }
                 self.lags.push(LagTerms { mesh, slot, is_live, lagging: self.lagging.len(), end });
+            }
+            if left == [false; WIDTH] {
+                continue;
             }
             for slot in (0..WIDTH).filter(|slot| left[*slot]) {
                 if let Some(end) = own.end(slot, None, forgotten) {
