@@ -121,8 +121,7 @@ impl<T: Number> StepTerms<T> {
         self.entries.clear();
         for (at, pair) in chosen.touching().iter().enumerate() {
             self.touching_of[*pair] = Some(at);
-            let entries = frame.rows()[*pair].terms().take_while(|(_, r)| *r != 0.0);
-            self.entries.extend(entries.map(|(i, r)| (i, T::of(r))));
+            self.entries.extend(frame.rows()[*pair].entries().map(|(i, r)| (i, T::of(r))));
             self.pairs.push(self.entries.len());
         }
         self.groups.clear();
@@ -168,9 +167,6 @@ impl<T: Number> StepTerms<T> {
                     }
                 }
                 self.lags.push(LagTerms { mesh, slot, is_live, lagging: self.lagging.len(), end });
-            }
-            if left == [false; WIDTH] {
-                continue;
             }
             for slot in (0..WIDTH).filter(|slot| left[*slot]) {
                 if let Some(end) = own.end(slot, None, forgotten) {
