@@ -83,23 +83,8 @@ impl<'b> Curve<'b> {
     /// As [`at`](Self::at).
     pub(super) fn refine(&mut self, count: u32, about: u32) -> Result<(), ExperimentError> {
         self.at(&self.even(count))?;
-        let least = self.finest / about;
         loop {
-            let points = self.points();
-            let mirrored: Vec<[f64; 2]> = points.iter().map(|[x, y]| [*x, -y]).collect();
-            let [high, low] = [&points, &mirrored].map(|list| highest(list));
-            let rise = LEAST_RISE * (high + low);
-            let keys: Vec<u32> = self.known.keys().copied().collect();
-            let n = keys.len();
-            let wanted = (0..n).filter_map(|k| {
-                let (left, right) = (keys[(k + 1) % n], keys[(k + 2) % n]);
-                let width = (right + self.finest - left) % self.finest;
-                let rises = top(&points, k).is_some_and(|y| y > high + rise)
-                    || top(&mirrored, k).is_some_and(|y| y > low + rise);
-                (rises && width > least).then(|| (left + width / 2) % self.finest)
-            });
-            let mut wanted: Vec<u32> = wanted.collect();
-            wanted.sort_unstable();
+            let wanted = missing(&self.points(), self.finest, about);
             if wanted.is_empty() {
                 return Ok(());
             }
@@ -112,6 +97,38 @@ impl<'b> Curve<'b> {
         let finest = f64::from(self.finest);
         self.known.iter().map(|(x, y)| [f64::from(*x) / finest, *y]).collect()
     }
+
+    /// Values by position, in parts of the finest division, m.
+    pub(super) fn known(&self) -> &BTreeMap<u32, f64> {
+        &self.known
+    }
+
+    /// Positions into which a mesh cycle is divided at the finest.
+    pub(super) fn finest(&self) -> u32 {
+        self.finest
+    }
+}
+
+/// Positions that are missing about the extremes of a periodic curve at the spacing of `about`, in parts of the finest division:
+/// the middle of every wider interval whose lines on either side meet beyond the extremes.
+pub(super) fn missing(points: &[[f64; 2]], finest: u32, about: u32) -> Vec<u32> {
+    let least = finest / about;
+    let mirrored: Vec<[f64; 2]> = points.iter().map(|[x, y]| [*x, -y]).collect();
+    let [high, low] = [points, &mirrored].map(highest);
+    let rise = LEAST_RISE * (high + low);
+    let keys: Vec<u32> =
+        points.iter().map(|[x, _]| (x * f64::from(finest)).round() as u32).collect();
+    let n = keys.len();
+    let wanted = (0..n).filter_map(|k| {
+        let (left, right) = (keys[(k + 1) % n], keys[(k + 2) % n]);
+        let width = (right + finest - left) % finest;
+        let rises = top(points, k).is_some_and(|y| y > high + rise)
+            || top(&mirrored, k).is_some_and(|y| y > low + rise);
+        (rises && width > least).then(|| (left + width / 2) % finest)
+    });
+    let mut wanted: Vec<u32> = wanted.collect();
+    wanted.sort_unstable();
+    wanted
 }
 
 fn highest(points: &[[f64; 2]]) -> f64 {
@@ -121,6 +138,11 @@ fn highest(points: &[[f64; 2]]) -> f64 {
 /// Largest less smallest value.
 pub(super) fn range(points: &[[f64; 2]]) -> f64 {
     highest(points) - points.iter().fold(f64::INFINITY, |a, [_, y]| a.min(*y))
+}
+
+/// Mean value of the points of a curve.
+pub(super) fn mean(points: &[[f64; 2]]) -> f64 {
+    points.iter().map(|[_, y]| y).sum::<f64>() / points.len() as f64
 }
 
 /// Where the lines through the points k and k + 1 and through k + 2 and k + 3 of a periodic curve meet, if that is above the

@@ -10,10 +10,12 @@ mod amplitude_indicators;
 mod amplitude_run;
 mod choice;
 mod cycle_curve;
+mod cycle_request;
 mod elastic_change;
 mod elastic_response;
 mod energy;
 mod error_parts;
+mod finer_curve;
 mod frequency;
 mod response;
 mod settings;
@@ -22,8 +24,7 @@ mod trial;
 
 pub use amplitude::{AmplitudeRequest, ChosenSweep, amplitude_with, choose_amplitude};
 pub use choice::{AutoError, Choice, ErrorPart, PassedOver};
+pub use cycle_request::{CycleRequest, CycleValue};
 pub use frequency::{FrequencyRequest, choose_frequency, frequency_with};
 pub use settings::{AutoModel, AutoSettings};
-pub use transmission_error::{
-    CycleRequest, CycleValue, choose_transmission_error, transmission_error_with,
-};
+pub use transmission_error::{choose_transmission_error, transmission_error_with};

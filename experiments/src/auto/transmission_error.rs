@@ -7,85 +7,12 @@ use fe_contact::statics::Bodies;
 use gearset::{LoadCase, Scene};
 
 use super::choice::{AutoError, Choice, ErrorPart, Together};
-use super::cycle_curve::{Curve, overshoot, range, undershoot};
+use super::cycle_curve::{Curve, mean, overshoot, range, undershoot};
+use super::cycle_request::{CycleRequest, CycleValue, DOUBLINGS, POSITIONS};
+use super::finer_curve::{Corrected, Sought, corrected, corrected_about_extremes};
 use super::settings::{AutoSettings, MESHES, divided, phase_parts, size_ratio};
 use super::trial::Trial;
 use crate::error::ExperimentError;
-
-/// What is read from the transmission error r_b θ of the sun over a mesh cycle at rest.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CycleValue {
-    /// Its largest less its smallest value.
-    PeakToPeak,
-    /// Its mean.
-    Mean,
-}
-
-/// The transmission error under a load.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CycleRequest {
-    /// What is read from it.
-    pub value: CycleValue,
-    /// Wanted accuracy, percent.
-    pub tolerance_percent: f64,
-}
-
-impl std::fmt::Display for CycleRequest {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self.value {
-            CycleValue::PeakToPeak => "peak-to-peak transmission error of the sun at rest",
-            CycleValue::Mean => "mean transmission error of the sun at rest",
-        })
-    }
-}
-
-/// Even positions of a candidate, those about the extremes apart; of a mean the fewest, others have two, four and eight times as
-/// many, so that those of fewer are among those of more.
-const POSITIONS: u32 = 60;
-
-/// Most doublings of the positions, everywhere or about the extremes.
-const DOUBLINGS: u32 = 3;
-
-/// Candidates for a mean from cheap to dear: number of the mesh, and how often the positions are doubled. A finer mesh costs
-/// as much as 5, 15, 60 or 200 positions: gears are meshed and factored, cells of a pair are more.
-const ORDER_OF_MEANS: [(usize, u32); 16] = [
-    (0, 0),
-    (1, 0),
-    (2, 0),
-    (0, 1),
-    (1, 1),
-    (2, 1),
-    (0, 2),
-    (1, 2),
-    (3, 0),
-    (2, 2),
-    (3, 1),
-    (3, 2),
-    (0, 3),
-    (1, 3),
-    (2, 3),
-    (3, 3),
-];
-
-/// The same for peak to peak, where each doubling about the extremes costs as much as some twenty positions.
-const ORDER_OF_PEAKS: [(usize, u32); 16] = [
-    (0, 0),
-    (1, 0),
-    (0, 1),
-    (1, 1),
-    (0, 2),
-    (1, 2),
-    (2, 0),
-    (0, 3),
-    (1, 3),
-    (2, 1),
-    (2, 2),
-    (2, 3),
-    (3, 0),
-    (3, 1),
-    (3, 2),
-    (3, 3),
-];
 
 /// Factor on estimates by extrapolation (grid convergence: Roache 1994).
 const SAFETY: f64 = 1.25;
@@ -97,43 +24,12 @@ const NO_ORDER: f64 = 3.0;
 /// in the period of the curve.
 const COMPARED: [u32; 2] = [5, 4];
 
+/// Share of the tolerance to which a finer mesh's value is known beside all positions of the coarser one.
+const OF_TOLERANCE: f64 = 0.05;
+
 /// Doubling the positions divides the part of the positions by this at most, where they are not yet run: the error is of
 /// second order where the curve is smooth, of first order at a corner.
 const QUARTERED: f64 = 0.25;
-
-impl CycleRequest {
-    /// All candidates for a scene, from cheap to dear.
-    pub fn candidates(&self, scene: &Scene) -> Vec<AutoSettings> {
-        let base = divided(scene, POSITIONS);
-        self.order().iter().map(|(mesh, doubled)| self.settings(base, *mesh, *doubled)).collect()
-    }
-
-    fn order(&self) -> [(usize, u32); 16] {
-        match self.value {
-            CycleValue::PeakToPeak => ORDER_OF_PEAKS,
-            CycleValue::Mean => ORDER_OF_MEANS,
-        }
-    }
-
-    fn settings(&self, base: u32, mesh: usize, doubled: u32) -> AutoSettings {
-        let (elements, cells) = MESHES[mesh];
-        let own = AutoSettings::quasi_static(elements, cells);
-        match self.value {
-            CycleValue::PeakToPeak if doubled > 0 => {
-                own.at_positions(base).about_extremes(base << doubled)
-            }
-            _ => own.at_positions(base << doubled),
-        }
-    }
-
-    /// The value of a curve, m.
-    fn of(&self, points: &[[f64; 2]]) -> f64 {
-        match self.value {
-            CycleValue::PeakToPeak => range(points),
-            CycleValue::Mean => mean(points),
-        }
-    }
-}
 
 /// The transmission error with given settings, µm.
 ///
@@ -160,7 +56,8 @@ pub fn transmission_error_with(
 /// The cheapest candidate whose estimated error is within the tolerance, with its answer.
 ///
 /// Two parts: elements and cells by the curves on two meshes, positions by the straight lines that the curve follows
-/// on either side of its extremes.
+/// on either side of its extremes. Meshes finer than the first that gives an answer are computed at some of its positions, where the curve
+/// may have its extremes among them; what may lie between these is a third part.
 ///
 /// # Errors
 /// If FE/contact refuses the scene on all meshes, or no candidate is estimated to be within the tolerance.
@@ -182,6 +79,7 @@ pub fn choose_transmission_error(
         every: compared_every(base, base / phase_parts(scene)),
         bodies: &bodies,
         curves: [const { None }; MESHES.len()],
+        finer: [const { None }; MESHES.len()],
         run: BTreeMap::default(),
         compared: None,
     };
@@ -214,8 +112,10 @@ struct Search<'s> {
     /// Meshes are compared at one in so many of them.
     every: u32,
     bodies: &'s [OnceCell<Made>; MESHES.len()],
-    /// Positions computed on each mesh.
+    /// The positions computed on each mesh up to the coarsest that has an answer.
     curves: [Option<Result<Curve<'s>, String>>; MESHES.len()],
+    /// Those computed on each finer mesh, about the mean configuration of that one.
+    finer: [Option<Curve<'s>>; MESHES.len()],
     /// Curves by mesh and doublings, or why there is none.
     run: BTreeMap<(usize, u32), Run>,
     /// The coarsest mesh that has an answer, and the part of its elements and cells.
@@ -242,8 +142,12 @@ impl<'s> Search<'s> {
         if !self.trial.is_expected(settings, expected) {
             return None;
         }
-        let points = match self.curve(mesh, doubled) {
-            Ok(points) => points,
+        let found = match mesh > coarsest {
+            true => self.corrected((coarsest, mesh), doubled),
+            false => self.curve(mesh, doubled).map(|points| Corrected { points, doubt: 0.0 }),
+        };
+        let Corrected { points, doubt } = match found {
+            Ok(found) => found,
             Err(why) => {
                 self.trial.refused(settings, why);
                 return None;
@@ -255,12 +159,17 @@ impl<'s> Search<'s> {
             false => 0.0,
         };
         let of_mesh = of_mesh.max(seen * size_ratio(coarsest, mesh));
-        let parts = vec![
+        let value = self.request.of(&points);
+        let mut parts = vec![
             ErrorPart::new("finite elements and contact cells", of_mesh),
             ErrorPart::new("positions of the mesh cycle", between_positions(self.request, &points)),
         ];
-        let value = 1e6 * self.request.of(&points);
-        self.trial.judged(settings, value, parts, || "the transmission error is constant".into())
+        if mesh > coarsest {
+            let source = "positions at which the coarser mesh stands for the finer one";
+            parts.push(ErrorPart::new(source, (doubt / value).abs()));
+        }
+        let no_bound = || "the transmission error is constant".into();
+        self.trial.judged(settings, 1e6 * value, parts, no_bound)
     }
 
     fn bodies(&self, mesh: usize) -> Result<&'s Bodies, String> {
@@ -303,14 +212,72 @@ impl<'s> Search<'s> {
         found
     }
 
-    /// Part of elements and cells of the coarsest mesh beside a finer one that was run, at the even positions of both.
-    fn beside_coarsest(&mut self, coarsest: usize, mesh: usize) -> f64 {
-        let base = self.base;
-        let mut even = |mesh: usize| {
-            let found = self.positions(mesh).ok().map(|curve| curve.at(&curve.even(base)));
-            found.and_then(Result::ok).unwrap_or_default()
+    /// The curve of a candidate on a mesh finer than the coarsest, at the positions of that.
+    fn corrected(
+        &mut self,
+        (coarsest, mesh): (usize, usize),
+        doubled: u32,
+    ) -> Result<Corrected, String> {
+        self.curve(coarsest, if self.is_mean() { doubled } else { 0 })?;
+        let mut finer = match self.finer[mesh].take() {
+            Some(finer) => finer,
+            None => self.beside(coarsest, mesh)?,
         };
-        let (coarse, fine) = (even(coarsest), even(mesh));
+        let share = 0.01 * OF_TOLERANCE * self.request.tolerance_percent;
+        let (is_mean, about) = (self.is_mean(), self.base << doubled);
+        let coarse = self.positions(coarsest)?;
+        let found = match (is_mean, doubled) {
+            (true, _) => corrected(coarse, &mut finer, Sought::Mean, share),
+            (false, 0) => corrected(coarse, &mut finer, Sought::Extremes, share),
+            (false, _) => corrected_about_extremes(coarse, &mut finer, about, share),
+        };
+        let found = found.map_err(|e| e.to_string());
+        let points = found.as_ref().map(|found| found.points.clone());
+        self.run.insert((mesh, doubled), points.map_err(Clone::clone));
+        self.finer[mesh] = Some(finer);
+        found
+    }
+
+    fn is_mean(&self) -> bool {
+        self.request.value == CycleValue::Mean
+    }
+
+    /// A finer mesh about the mean configuration of a coarser one, at the positions at which they are compared.
+    fn beside(&mut self, coarse: usize, finer: usize) -> Result<Curve<'s>, String> {
+        let bodies = self.bodies(finer)?;
+        let list = self.compared_positions(coarse)?;
+        let mut own = self.positions(coarse)?.on_bodies(bodies);
+        own.at(&list).map_err(|e| e.to_string())?;
+        Ok(own)
+    }
+
+    /// Some even positions, and of peak to peak those of the extremes: p changes by as much as the curve there, to first
+    /// order.
+    fn compared_positions(&mut self, mesh: usize) -> Result<Vec<u32>, String> {
+        let (base, every, is_mean) = (self.base, self.every, self.is_mean());
+        let coarse = self.positions(mesh)?;
+        let even = coarse.even(base);
+        let values = coarse.at(&even).map_err(|e| e.to_string())?;
+        let mut list: Vec<u32> = even.iter().step_by(every as usize).copied().collect();
+        if !is_mean {
+            let place = |sign: f64| {
+                let of = |k: &usize| sign * values[*k];
+                (0..values.len()).max_by(|a, b| of(a).total_cmp(&of(b))).map(|k| even[k])
+            };
+            list.extend([place(1.0), place(-1.0)].into_iter().flatten());
+            list.sort_unstable();
+            list.dedup();
+        }
+        Ok(list)
+    }
+
+    /// Part of elements and cells of the coarsest mesh beside a finer one, at the positions of that.
+    fn beside_coarsest(&mut self, coarsest: usize, mesh: usize) -> f64 {
+        let fine = self.finer[mesh].as_ref().map(Curve::known);
+        let list: Vec<(u32, f64)> = fine.into_iter().flatten().map(|(x, y)| (*x, *y)).collect();
+        let (positions, fine): (Vec<u32>, Vec<f64>) = list.into_iter().unzip();
+        let coarse = self.positions(coarsest).ok().map(|curve| curve.at(&positions));
+        let coarse = coarse.and_then(Result::ok).unwrap_or_default();
         between_meshes(self.request, &coarse, &fine)
     }
 
@@ -330,25 +297,9 @@ impl<'s> Search<'s> {
             found.map_err(|e| why = e).is_ok()
         });
         let Some(mesh) = answered else { return Err(why) };
-        let finer = self.bodies(mesh + 1)?;
-        let (base, every, request) = (self.base, self.every, self.request);
-        let coarse = self.positions(mesh)?;
-        let even = coarse.even(base);
-        let values = coarse.at(&even).map_err(|e| e.to_string())?;
-        let mut list: Vec<u32> = even.iter().step_by(every as usize).copied().collect();
-        if request.value == CycleValue::PeakToPeak {
-            // p changes by as much as the curve at its extremes, to first order.
-            let place = |sign: f64| {
-                let of = |k: &usize| sign * values[*k];
-                (0..values.len()).max_by(|a, b| of(a).total_cmp(&of(b))).map(|k| even[k])
-            };
-            list.extend([place(1.0), place(-1.0)].into_iter().flatten());
-            list.sort_unstable();
-            list.dedup();
-        }
-        let own = coarse.at(&list).map_err(|e| e.to_string())?;
-        let fine = coarse.on_bodies(finer).at(&list).map_err(|e| e.to_string())?;
-        Ok((mesh, between_meshes(request, &own, &fine)))
+        let finer = self.beside(mesh, mesh + 1)?;
+        self.finer[mesh + 1] = Some(finer);
+        Ok((mesh, self.beside_coarsest(mesh, mesh + 1)))
     }
 
     /// The least part of the positions that is expected with so many; 0 if nothing is known.
@@ -400,10 +351,6 @@ fn between_positions(request: &CycleRequest, points: &[[f64; 2]]) -> f64 {
                 (mean(&second) / mean(points) - 1.0).abs()
             }
         }
-}
-
-fn mean(points: &[[f64; 2]]) -> f64 {
-    points.iter().map(|[_, y]| y).sum::<f64>() / points.len() as f64
 }
 
 #[cfg(test)]
