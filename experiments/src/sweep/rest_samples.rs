@@ -10,7 +10,7 @@ use super::record::{Record, SUN};
 const SAMPLED: usize = 14;
 
 /// States at the positions of one cycle, or of a part of it after which the set is itself.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub(super) struct RestSamples {
     /// Steps from one position to the next.
     every: usize,
@@ -30,7 +30,7 @@ impl RestSamples {
 
     /// Takes the state after a step, counted from 0, if it is among the sample.
     pub(super) fn take(&mut self, set: &dyn Marching, step: usize) {
-        if step.is_multiple_of(self.every.max(1)) {
+        if step.is_multiple_of(self.every) {
             self.steps.extend(set.loaded_step());
         }
     }

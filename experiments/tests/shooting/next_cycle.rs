@@ -6,16 +6,9 @@ use experiments::sweep::{
 };
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::Along;
-use gearset::{Fidelity, LoadCase, Scene};
+use gearset::{Fidelity, LoadCase};
 
-fn scene(name: &str, fidelity: Fidelity, steps: u32) -> Scene {
-    let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-    let mut scene = Scene::from_file(path.as_ref()).unwrap();
-    scene.fe_contact.flank_elements = 6;
-    scene.dynamics.steps_per_cycle = steps;
-    scene.dynamics.fidelity = fidelity;
-    scene
-}
+use super::sets::{fe, march_cycle, scene};
 
 /// Of translations and of rotations.
 #[derive(Default)]
@@ -104,11 +97,10 @@ fn the_change_of_the_next_cycle_is_that_marched() {
         let modal = scene(name, Fidelity::Modal(4), 56);
         let modal_bodies = Bodies::new(&modal).unwrap();
         let case = LoadCase::of_scene(&quasi_static).unwrap().with_sun_torque(torque);
-        let fe = |scene, bodies| FeModel::new(scene, bodies, Imperfections::default(), case);
         let law = MeshLawModel::new(&quasi_static, &bodies, case).unwrap();
         let all: [(&dyn SweepModel, usize); 4] = [
-            (&fe(&quasi_static, &bodies), parts),
-            (&fe(&modal, &modal_bodies), 1),
+            (&fe(&quasi_static, &bodies, torque), parts),
+            (&fe(&modal, &modal_bodies, torque), 1),
             (&law, parts),
             (&law.lumped(), parts),
         ];
@@ -149,13 +141,8 @@ fn a_change_is_carried_beside_the_derivative() {
         let mut set = model.turning(&model.case().at_speed(1450.0), 0).unwrap();
         set.rest().unwrap();
         let steps = model.steps_per_cycle();
-        set.derivative().unwrap().start();
-        for _ in 0..steps {
-            set.step().unwrap();
-            set.derivative().unwrap().keep_step();
-        }
+        march_cycle(set.as_mut(), steps);
         let own = set.derivative().unwrap();
-        own.end().unwrap();
         let alone = own.of_cycle(Along::Motion).unwrap();
         let start: Vec<f64> = (0..own.coordinates().len()).map(|i| (i as f64).sin()).collect();
         let mut carried = |factor: f64| {
