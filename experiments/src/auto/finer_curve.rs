@@ -3,18 +3,17 @@
 //! Between positions at which both meshes are computed the difference d is taken to be linear, with the doubt
 //!
 //! ```text
-//! 4 max(|d[i,j,k]|, |d[j,k,l]|) (x − x_j)(x_k − x),   x_i < x_j ≤ x ≤ x_k < x_l
+//! r max(|d[i,j,k]|, |d[j,k,l]|) (x − x_j)(x_k − x),   r = (x_l − x_i)/(x_k − x_j) + 1,   x_i < x_j ≤ x ≤ x_k < x_l
 //! ```
 //!
-//! where d[·,·,·] are divided differences of second order. The remainder of linear interpolation is a quarter of that where d is
-//! smooth, and the error at one corner within an interval of even positions is at most that. The positions must be close enough to
-//! show how d swings: at three in its period the doubt is too small, four are enough.
+//! where d[·,·,·] are divided differences of second order. One corner of d between x_j and x_k, where its slope changes by s at a share
+//! θ of the interval w, makes them s(1 − θ)/(x_k − x_i) and sθ/(x_l − x_j), of which the larger is at least s/(r w), and the error at most
+//! sθ(1 − θ)w: no more than the doubt there, and equal to it at worst. The remainder of linear interpolation where d is smooth is a part 1/r of
+//! the doubt, a quarter at even positions. The positions must be close enough to show how d swings: at three in its period the doubt is too
+//! small, four are enough.
 
 use super::cycle_curve::{Curve, missing};
 use crate::error::ExperimentError;
-
-/// Factor on the remainder of linear interpolation, so that it bounds the error at one corner.
-const OF_CORNER: f64 = 4.0;
 
 /// What is read from a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -149,8 +148,9 @@ fn between(known: &[(u32, f64)], period: u32, position: u32) -> [f64; 2] {
     let slope = |a: [f64; 2], b: [f64; 2]| (b[1] - a[1]) / (b[0] - a[0]);
     let bend = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| (slope(b, c) - slope(a, b)) / (c[0] - a[0]);
     let curved = bend(i, j, k).abs().max(bend(j, k, l).abs());
+    let of_corner = (l[0] - i[0]) / (k[0] - j[0]) + 1.0;
     // x − x_j = −x_j and x_k − x = x_k
-    [j[1] - slope(j, k) * j[0], OF_CORNER * curved * -j[0] * k[0]]
+    [j[1] - slope(j, k) * j[0], of_corner * curved * -j[0] * k[0]]
 }
 
 #[cfg(test)]
@@ -181,15 +181,22 @@ mod tests {
                 [error.max(off), doubt.max(own)]
             })
         };
-        for place in [0.5, 0.503, 0.5208, 0.54] {
+        // At even positions, and with one more beside the corner.
+        for (place, more) in
+            [(0.5, 0), (0.503, 0), (0.5208, 0), (0.54, 0), (0.503, 610), (0.515, 610), (0.54, 640)]
+        {
             let corner = move |x: f64| (x - place).abs().min(0.25);
-            let nodes = known(50, &corner);
+            let mut nodes = known(50, &corner);
+            if more > 0 {
+                nodes.push((more, corner(f64::from(more) / f64::from(PERIOD))));
+                nodes.sort_unstable_by_key(|(x, _)| *x);
+            }
             let near = (480..720).map(|x| {
                 let [value, doubt] = between(&nodes, PERIOD, x);
                 ((value - corner(f64::from(x) / f64::from(PERIOD))).abs(), doubt)
             });
             for (off, doubt) in near {
-                assert!(off <= doubt * (1.0 + 1e-9) + 1e-12, "{place}: {off} {doubt}");
+                assert!(off <= doubt * (1.0 + 1e-9) + 1e-12, "{place} {more}: {off} {doubt}");
             }
         }
         let smooth = |x: f64| (std::f64::consts::TAU * (x - 0.123)).sin();
