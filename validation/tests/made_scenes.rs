@@ -1,13 +1,13 @@
 //! Scenes with fitted parameters still have the properties to which these were fitted, and drawn scenes those that are
 //! kept of them.
 
-use experiments::auto::choose_frequency;
+use experiments::auto::{choose_frequency, choose_transmission_error, transmission_error_with};
 use experiments::modal::{Preload, linear_modes, lumped_frequencies, of_type, preloaded};
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use gearset::{Facing, LoadCase, MeshKind};
 use lumped::ModeType;
-use validation::{PublishedScene, auto_tables, drawn_response, drawn_scene, scene};
+use validation::{Asked, PublishedScene, auto_tables, drawn_response, drawn_scene, scene};
 
 /// Printed lumped mesh stiffness, N/m.
 const PRINTED: f64 = 350e6;
@@ -129,4 +129,18 @@ fn the_record_of_auto_for_responses_holds_and_comes_out_again() {
         assert!((choice.value / number(row, 6) - 1.0).abs() < 1e-5, "{row:?} {}", choice.value);
         assert!((choice.estimated_error_percent - number(row, 5)).abs() < 1e-2, "{row:?}");
     }
+}
+
+/// A finer mesh that is computed at some positions of a cycle at rest has the extremes that it has at all of them, also where the
+/// difference of the meshes is not smooth: pairs of this set begin and end to touch at its extremes.
+#[test]
+fn finer_meshes_at_rest_keep_their_own_extremes() {
+    let (drawn, asked) = drawn_response(14071).unwrap();
+    let Asked::Cycle(request) = asked else { panic!("{asked}") };
+    let case = LoadCase::of_scene(&drawn.scene).unwrap();
+    let choice = choose_transmission_error(&drawn.scene, &case, &request).unwrap();
+    assert_eq!(choice.settings.flank_elements, Some(16), "{}", choice.settings);
+    let whole = transmission_error_with(&drawn.scene, &case, choice.settings, &request).unwrap();
+    let off = 100.0 * (choice.value / whole - 1.0).abs();
+    assert!(off < 0.1 * request.tolerance_percent, "{} beside {whole}", choice.value);
 }

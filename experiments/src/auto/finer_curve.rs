@@ -15,6 +15,9 @@
 use super::cycle_curve::{Curve, missing};
 use crate::error::ExperimentError;
 
+/// Positions on either side of an extreme that are computed on the finer mesh: the lines that the curve follows there need two.
+const BESIDE: usize = 2;
+
 /// What is read from a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sought {
@@ -22,7 +25,7 @@ pub(super) enum Sought {
     Mean,
 }
 
-/// The curve of a finer mesh at all positions of a coarser one.
+/// The curve of a finer mesh at the even positions of a candidate and those added.
 #[derive(Debug, Clone)]
 pub(super) struct Corrected {
     /// Position (cycles) and value (m).
@@ -31,27 +34,33 @@ pub(super) struct Corrected {
     pub(super) doubt: f64,
 }
 
-/// Adds positions on the finer mesh until what is sought of the curve at the positions of the coarser one is known to
+/// Adds positions on the finer mesh until what is sought of its curve at `even` positions, which the coarser mesh has, is known to
 /// `share` of it.
 ///
 /// Of extremes, positions are added where the curve may be beyond the highest or lowest value on the finer mesh by the doubt of the
-/// difference there; of the mean, where the doubt is largest.
+/// difference there, and about these values: where pairs begin and end to touch, the difference changes within a position or two.
+/// Of the mean, they are added where the doubt is largest.
 ///
 /// # Errors
 /// If contact cannot be solved on the finer mesh.
 pub(super) fn corrected(
-    coarse: &Curve<'_>,
+    (coarse, even): (&Curve<'_>, u32),
     finer: &mut Curve<'_>,
     sought: Sought,
     share: f64,
 ) -> Result<Corrected, ExperimentError> {
     loop {
-        let all = estimated(coarse, finer);
+        let all = estimated((coarse, even), finer);
         let (doubt, size, wanted) = match sought {
-            Sought::Extremes => beyond(&all, finer),
+            Sought::Extremes => beyond(&all),
             Sought::Mean => about_mean(&all),
         };
-        if doubt <= share * size || wanted.is_empty() {
+        let wanted = match (doubt <= share * size, sought) {
+            (false, _) => wanted,
+            (true, Sought::Extremes) => beside_extremes(&all),
+            (true, Sought::Mean) => Vec::new(),
+        };
+        if wanted.is_empty() {
             let finest = f64::from(coarse.finest());
             let points = all.iter().map(|own| [f64::from(own.position) / finest, own.value]);
             return Ok(Corrected { points: points.collect(), doubt });
@@ -60,53 +69,66 @@ pub(super) fn corrected(
     }
 }
 
-/// The same with positions added about the extremes of the finer mesh's curve, on the coarser mesh first, to the spacing of
-/// `about`.
+/// The same with positions added about the extremes of the finer mesh's curve, to the spacing of `about`.
 ///
 /// # Errors
-/// If contact cannot be solved on one of the meshes.
+/// If contact cannot be solved on the finer mesh.
 pub(super) fn corrected_about_extremes(
-    coarse: &mut Curve<'_>,
+    (coarse, even): (&Curve<'_>, u32),
     finer: &mut Curve<'_>,
     about: u32,
     share: f64,
 ) -> Result<Corrected, ExperimentError> {
     loop {
-        let found = corrected(coarse, finer, Sought::Extremes, share)?;
+        let found = corrected((coarse, even), finer, Sought::Extremes, share)?;
         let wanted = missing(&found.points, coarse.finest(), about);
         if wanted.is_empty() {
             return Ok(found);
         }
-        coarse.at(&wanted)?;
+        finer.at(&wanted)?;
     }
 }
 
-/// The finer mesh's value at a position of the coarser one, m.
+/// The finer mesh's value at a position, m.
 #[derive(Debug, Clone, Copy)]
 struct Estimated {
     position: u32,
     value: f64,
     doubt: f64,
+    /// Whether it was computed on the finer mesh.
+    is_known: bool,
 }
 
-fn estimated(coarse: &Curve<'_>, finer: &Curve<'_>) -> Vec<Estimated> {
+/// At the even positions and at those of the finer mesh, ascending.
+fn estimated((coarse, even): (&Curve<'_>, u32), finer: &Curve<'_>) -> Vec<Estimated> {
     let (a, b) = (coarse.known(), finer.known());
+    let spacing = coarse.finest() / even;
     let differences = b.iter().filter_map(|(x, b)| Some((*x, b - a.get(x)?)));
     let differences: Vec<(u32, f64)> = differences.collect();
-    let of = |(position, a): (&u32, &f64)| {
+    let by_coarse = a.iter().filter(|(x, _)| x.is_multiple_of(spacing) && !b.contains_key(x));
+    let by_coarse = by_coarse.map(|(position, a)| {
         let [difference, doubt] = between(&differences, coarse.finest(), *position);
-        Estimated { position: *position, value: a + difference, doubt }
-    };
-    a.iter().map(of).collect()
+        let value = a + difference;
+        Estimated { position: *position, value, doubt, is_known: false }
+    });
+    let known = b.iter().map(|(position, value)| {
+        let (position, value) = (*position, *value);
+        Estimated { position, value, doubt: 0.0, is_known: true }
+    });
+    let mut all: Vec<Estimated> = known.chain(by_coarse).collect();
+    all.sort_unstable_by_key(|own| own.position);
+    all
 }
 
 /// By how much the curve may be beyond its extremes on the finer mesh, above and below together; these extremes' distance; and
 /// where it may be farthest beyond each.
-fn beyond(all: &[Estimated], finer: &Curve<'_>) -> (f64, f64, Vec<u32>) {
+fn beyond(all: &[Estimated]) -> (f64, f64, Vec<u32>) {
     let of = |sign: f64| {
-        let known = finer.known().values().fold(f64::NEG_INFINITY, |high, y| high.max(sign * y));
+        let known = all.iter().filter(|own| own.is_known);
+        let known = known.fold(f64::NEG_INFINITY, |high, own| high.max(sign * own.value));
         let reach = |own: &Estimated| sign * own.value + own.doubt - known;
-        let farthest = all.iter().max_by(|a, b| reach(a).total_cmp(&reach(b)));
+        let others = all.iter().filter(|own| !own.is_known);
+        let farthest = others.max_by(|a, b| reach(a).total_cmp(&reach(b)));
         let farthest = farthest.map(|own| (own.position, reach(own)));
         (known, farthest.filter(|(_, reach)| *reach > 0.0))
     };
@@ -114,8 +136,23 @@ fn beyond(all: &[Estimated], finer: &Curve<'_>) -> (f64, f64, Vec<u32>) {
     let both: Vec<(u32, f64)> = above.into_iter().chain(below).collect();
     let mut wanted: Vec<u32> = both.iter().map(|(position, _)| *position).collect();
     wanted.dedup();
-    wanted.retain(|position| !finer.known().contains_key(position));
     (both.iter().fold(0.0, |sum, (_, reach)| sum + reach), high + low, wanted)
+}
+
+/// Positions to either side of the extremes on the finer mesh at which it was not computed.
+fn beside_extremes(all: &[Estimated]) -> Vec<u32> {
+    let n = all.len();
+    let place = |sign: f64| {
+        let known = (0..n).filter(|k| all[*k].is_known);
+        known.max_by(|a, b| (sign * all[*a].value).total_cmp(&(sign * all[*b].value)))
+    };
+    let about = |at: usize| (0..=2 * BESIDE).map(move |k| (at + n + k - BESIDE.min(n)) % n);
+    let extremes = [place(1.0), place(-1.0)].into_iter().flatten();
+    let wanted = extremes.flat_map(about).filter(|k| !all[*k].is_known);
+    let mut wanted: Vec<u32> = wanted.map(|k| all[k].position).collect();
+    wanted.sort_unstable();
+    wanted.dedup();
+    wanted
 }
 
 /// Mean doubt, mean value, and where the doubt is largest.
@@ -238,7 +275,7 @@ mod tests {
             {
                 let mut finer = coarse.on_bodies(&bodies[1]);
                 finer.at(&finer.even(8)).unwrap();
-                let found = corrected(&coarse, &mut finer, sought, share).unwrap();
+                let found = corrected((&coarse, 80), &mut finer, sought, share).unwrap();
                 let (value, exact) = (of(&found.points), of(&whole.points()));
                 let off = (value - exact).abs();
                 assert!(
@@ -247,12 +284,12 @@ mod tests {
                     found.doubt
                 );
                 assert!(found.doubt <= share * exact, "{sought:?} {share}: {:e}", found.doubt);
-                assert!(finer.known().len() <= 20, "{sought:?}: {}", finer.known().len());
+                assert!(finer.known().len() <= 24, "{sought:?}: {}", finer.known().len());
             }
         }
         let mut finer = coarse.on_bodies(&bodies[1]);
         finer.at(&finer.even(8)).unwrap();
-        let found = corrected_about_extremes(&mut coarse, &mut finer, 240, 1e-3).unwrap();
+        let found = corrected_about_extremes((&coarse, 80), &mut finer, 240, 1e-3).unwrap();
         whole.refine(80, 240).unwrap();
         let off = (range(&found.points) - range(&whole.points())).abs();
         assert!(off <= found.doubt + rounding, "{off:e} {:e}", found.doubt);

@@ -224,12 +224,12 @@ impl<'s> Search<'s> {
             None => self.beside(coarsest, mesh)?,
         };
         let share = 0.01 * OF_TOLERANCE * self.request.tolerance_percent;
-        let (is_mean, about) = (self.is_mean(), self.base << doubled);
-        let coarse = self.positions(coarsest)?;
+        let (is_mean, base, finest) = (self.is_mean(), self.base, self.base << doubled);
+        let coarse = &*self.positions(coarsest)?;
         let found = match (is_mean, doubled) {
-            (true, _) => corrected(coarse, &mut finer, Sought::Mean, share),
-            (false, 0) => corrected(coarse, &mut finer, Sought::Extremes, share),
-            (false, _) => corrected_about_extremes(coarse, &mut finer, about, share),
+            (true, _) => corrected((coarse, finest), &mut finer, Sought::Mean, share),
+            (false, 0) => corrected((coarse, base), &mut finer, Sought::Extremes, share),
+            (false, _) => corrected_about_extremes((coarse, base), &mut finer, finest, share),
         };
         let found = found.map_err(|e| e.to_string());
         let points = found.as_ref().map(|found| found.points.clone());

@@ -6,7 +6,9 @@
 //! estimates were programmed. 1001 to 1073 are those of an earlier record, whose misses were read before the estimates were
 //! changed, so that the record has others; it was made again when candidates got another matching depth.
 
-use validation::{AutoRow, ResponseRow, auto_row, auto_tables, response_row};
+use validation::{
+    Asked, AutoRow, ResponseRow, auto_row, auto_tables, drawn_response, response_row,
+};
 
 use super::Outcome;
 
@@ -14,9 +16,11 @@ use super::Outcome;
 const SEEDS: std::ops::Range<u64> = 5001..6001;
 const SETS: usize = 60;
 
-/// Seeds of the record of transmission errors at rest and amplitudes. Those below were read before the estimates were changed;
-/// these were read once with the present estimates, before more steps shared the tables of fewer.
-const RESPONSE_SEEDS: std::ops::Range<u64> = 13001..13181;
+/// Seeds of the record of transmission errors at rest, and of amplitudes: each has what is asked of its kind. Lower ones were read before the
+/// estimates of the kind were changed. Those in motion were read once with the present estimates, before more steps shared the
+/// tables of fewer; those at rest by nobody before the record was made.
+const SEEDS_AT_REST: std::ops::Range<u64> = 15001..15181;
+const SEEDS_IN_MOTION: std::ops::Range<u64> = 13001..13181;
 
 /// Seeds that `AUTO_SEEDS` asks for, if it is set.
 fn asked_seeds() -> Result<Option<std::ops::Range<u64>>, Box<dyn std::error::Error + Send + Sync>> {
@@ -27,15 +31,16 @@ fn asked_seeds() -> Result<Option<std::ops::Range<u64>>, Box<dyn std::error::Err
 
 /// Prints the row of each seed that has a truth, up to `most`; then the seeds without a truth.
 fn print_rows(
-    seeds: impl Iterator<Item = u64>,
+    seeds: impl Iterator<Item = u64> + Clone,
     most: usize,
     row: &dyn Fn(u64) -> Result<Row, experiments::ExperimentError>,
 ) -> Outcome {
     let (mut refused, mut done) = (Vec::new(), 0);
-    let mut seeds = seeds.peekable();
     // A process pays once for its first set, which would be a cost of what is run first.
-    if let Some(first) = seeds.peek() {
-        row(*first)?;
+    for seed in seeds.clone() {
+        if !matches!(row(seed)?, Row::OtherKind) {
+            break;
+        }
     }
     for seed in seeds {
         if done == most {
@@ -47,6 +52,7 @@ fn print_rows(
                 println!("{line}");
             }
             Row::NoTruth => refused.push(seed.to_string()),
+            Row::OtherKind => {}
         }
     }
     println!("# without a truth, because FE/contact refuses the set: seeds {}", refused.join(" "));
@@ -57,6 +63,8 @@ fn print_rows(
 enum Row {
     Line(String),
     NoTruth,
+    /// Something is asked of it that this part of the record is not about.
+    OtherKind,
 }
 
 /// `kept/auto_responses.csv`: transmission errors at rest, and amplitudes.
@@ -76,11 +84,25 @@ pub(super) fn remake_responses() -> Outcome {
     );
     // One thread, so that CPU times are those of the whole work.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    print_rows(asked_seeds()?.unwrap_or(RESPONSE_SEEDS), usize::MAX, &|seed| {
+    let row = |seed: u64| {
         let row = pool.install(|| response_row(seed))?;
         let has_truth = !row.truth_um.is_nan();
         Ok(if has_truth { Row::Line(response_line(&row)) } else { Row::NoTruth })
-    })
+    };
+    if let Some(asked) = asked_seeds()? {
+        return print_rows(asked, usize::MAX, &row);
+    }
+    let kinds: [(_, fn(&Asked) -> bool); 2] = [
+        (SEEDS_AT_REST, |asked| matches!(asked, Asked::Cycle(_))),
+        (SEEDS_IN_MOTION, |asked| matches!(asked, Asked::Amplitude(_))),
+    ];
+    for (seeds, is_of_kind) in kinds {
+        print_rows(seeds, usize::MAX, &|seed| match is_of_kind(&drawn_response(seed)?.1) {
+            true => row(seed),
+            false => Ok(Row::OtherKind),
+        })?;
+    }
+    Ok(())
 }
 
 /// Tables of `docs/auto.md`.
