@@ -92,14 +92,13 @@ pub(super) fn remake_responses() -> Outcome {
     if let Some(asked) = asked_seeds()? {
         return print_rows(asked, usize::MAX, &row);
     }
-    let kinds: [(_, fn(&Asked) -> bool); 2] = [
-        (SEEDS_AT_REST, |asked| matches!(asked, Asked::Cycle(_))),
-        (SEEDS_IN_MOTION, |asked| matches!(asked, Asked::Amplitude(_))),
-    ];
-    for (seeds, is_of_kind) in kinds {
-        print_rows(seeds, usize::MAX, &|seed| match is_of_kind(&drawn_response(seed)?.1) {
-            true => row(seed),
-            false => Ok(Row::OtherKind),
+    for (seeds, is_at_rest) in [(SEEDS_AT_REST, true), (SEEDS_IN_MOTION, false)] {
+        print_rows(seeds, usize::MAX, &|seed| {
+            let (_, asked) = drawn_response(seed)?;
+            match matches!(asked, Asked::Cycle(_)) == is_at_rest {
+                true => row(seed),
+                false => Ok(Row::OtherKind),
+            }
         })?;
     }
     Ok(())
