@@ -120,7 +120,11 @@ fn the_record_of_auto_for_responses_holds_and_comes_out_again() {
     }
     assert!(20 * missed <= answered.len(), "{missed}");
     let cheap = |row: &&&Vec<&str>| row[4].starts_with("quasi_static 6 ");
-    for row in answered.iter().filter(cheap).step_by(9) {
+    // Finer meshes at rest are computed at some positions only.
+    let finer =
+        |row: &&&Vec<&str>| row[2].ends_with("at rest") && row[4].starts_with("quasi_static 10 ");
+    let finer = answered.iter().filter(finer).step_by(4);
+    for row in answered.iter().filter(cheap).step_by(9).chain(finer) {
         let (drawn, asked) = drawn_response(row[0].parse().unwrap()).unwrap();
         assert_eq!(asked.to_string().replace(',', ""), row[2]);
         let case = LoadCase::of_scene(&drawn.scene).unwrap();

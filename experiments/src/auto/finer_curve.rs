@@ -21,7 +21,10 @@ const BESIDE: usize = 2;
 /// What is read from a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sought {
-    Extremes,
+    /// The extremes, with positions added about them to the spacing of so many in a mesh cycle; of the even ones, none.
+    Extremes {
+        about: u32,
+    },
     Mean,
 }
 
@@ -38,8 +41,8 @@ pub(super) struct Corrected {
 /// `share` of it.
 ///
 /// Of extremes, positions are added where the curve may be beyond the highest or lowest value on the finer mesh by the doubt of the
-/// difference there, and about these values: where pairs begin and end to touch, the difference changes within a position or two.
-/// Of the mean, they are added where the doubt is largest.
+/// difference there; beside these values, because the difference changes within a position or two where pairs begin and end to
+/// touch; and about them to the spacing asked for. Of the mean, they are added where the doubt is largest.
 ///
 /// # Errors
 /// If contact cannot be solved on the finer mesh.
@@ -49,41 +52,25 @@ pub(super) fn corrected(
     sought: Sought,
     share: f64,
 ) -> Result<Corrected, ExperimentError> {
+    let finest = coarse.finest();
     loop {
         let all = estimated((coarse, even), finer);
+        let points = all.iter().map(|own| [f64::from(own.position) / f64::from(finest), own.value]);
+        let points: Vec<[f64; 2]> = points.collect();
         let (doubt, size, wanted) = match sought {
-            Sought::Extremes => beyond(&all),
+            Sought::Extremes { .. } => beyond(&all),
             Sought::Mean => about_mean(&all),
         };
         let wanted = match (doubt <= share * size, sought) {
             (false, _) => wanted,
-            (true, Sought::Extremes) => beside_extremes(&all),
             (true, Sought::Mean) => Vec::new(),
+            (true, Sought::Extremes { about }) => match beside_extremes(&all) {
+                beside if beside.is_empty() => missing(&points, finest, about),
+                beside => beside,
+            },
         };
         if wanted.is_empty() {
-            let finest = f64::from(coarse.finest());
-            let points = all.iter().map(|own| [f64::from(own.position) / finest, own.value]);
-            return Ok(Corrected { points: points.collect(), doubt });
-        }
-        finer.at(&wanted)?;
-    }
-}
-
-/// The same with positions added about the extremes of the finer mesh's curve, to the spacing of `about`.
-///
-/// # Errors
-/// If contact cannot be solved on the finer mesh.
-pub(super) fn corrected_about_extremes(
-    (coarse, even): (&Curve<'_>, u32),
-    finer: &mut Curve<'_>,
-    about: u32,
-    share: f64,
-) -> Result<Corrected, ExperimentError> {
-    loop {
-        let found = corrected((coarse, even), finer, Sought::Extremes, share)?;
-        let wanted = missing(&found.points, coarse.finest(), about);
-        if wanted.is_empty() {
-            return Ok(found);
+            return Ok(Corrected { points, doubt });
         }
         finer.at(&wanted)?;
     }
@@ -270,9 +257,10 @@ mod tests {
         whole.at(&whole.even(80)).unwrap();
         let rounding = 1e-12 * mean(&whole.points());
         for share in [1e-2, 1e-3] {
-            for (sought, of) in
-                [(Sought::Extremes, &range as &dyn Fn(&[[f64; 2]]) -> f64), (Sought::Mean, &mean)]
-            {
+            for (sought, of) in [
+                (Sought::Extremes { about: 80 }, &range as &dyn Fn(&[[f64; 2]]) -> f64),
+                (Sought::Mean, &mean),
+            ] {
                 let mut finer = coarse.on_bodies(&bodies[1]);
                 finer.at(&finer.even(8)).unwrap();
                 let found = corrected((&coarse, 80), &mut finer, sought, share).unwrap();
@@ -289,7 +277,8 @@ mod tests {
         }
         let mut finer = coarse.on_bodies(&bodies[1]);
         finer.at(&finer.even(8)).unwrap();
-        let found = corrected_about_extremes((&coarse, 80), &mut finer, 240, 1e-3).unwrap();
+        let found =
+            corrected((&coarse, 80), &mut finer, Sought::Extremes { about: 240 }, 1e-3).unwrap();
         whole.refine(80, 240).unwrap();
         let off = (range(&found.points) - range(&whole.points())).abs();
         assert!(off <= found.doubt + rounding, "{off:e} {:e}", found.doubt);

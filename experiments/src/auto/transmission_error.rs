@@ -9,7 +9,7 @@ use gearset::{LoadCase, Scene};
 use super::choice::{AutoError, Choice, ErrorPart, Together};
 use super::cycle_curve::{Curve, mean, overshoot, range, undershoot};
 use super::cycle_request::{CycleRequest, CycleValue, DOUBLINGS, POSITIONS};
-use super::finer_curve::{Corrected, Sought, corrected, corrected_about_extremes};
+use super::finer_curve::{Corrected, Sought, corrected};
 use super::settings::{AutoSettings, MESHES, divided, phase_parts, size_ratio};
 use super::trial::Trial;
 use crate::error::ExperimentError;
@@ -212,7 +212,7 @@ impl<'s> Search<'s> {
         found
     }
 
-    /// The curve of a candidate on a mesh finer than the coarsest, at the positions of that.
+    /// The curve of a candidate on a mesh finer than the coarsest, at its even positions and those about its extremes.
     fn corrected(
         &mut self,
         (coarsest, mesh): (usize, usize),
@@ -224,13 +224,13 @@ impl<'s> Search<'s> {
             None => self.beside(coarsest, mesh)?,
         };
         let share = 0.01 * OF_TOLERANCE * self.request.tolerance_percent;
-        let (is_mean, base, finest) = (self.is_mean(), self.base, self.base << doubled);
-        let coarse = &*self.positions(coarsest)?;
-        let found = match (is_mean, doubled) {
-            (true, _) => corrected((coarse, finest), &mut finer, Sought::Mean, share),
-            (false, 0) => corrected((coarse, base), &mut finer, Sought::Extremes, share),
-            (false, _) => corrected_about_extremes((coarse, base), &mut finer, finest, share),
+        let about = self.base << doubled;
+        let (even, sought) = match self.request.value {
+            CycleValue::Mean => (about, Sought::Mean),
+            CycleValue::PeakToPeak => (self.base, Sought::Extremes { about }),
         };
+        let coarse = &*self.positions(coarsest)?;
+        let found = corrected((coarse, even), &mut finer, sought, share);
         let found = found.map_err(|e| e.to_string());
         let points = found.as_ref().map(|found| found.points.clone());
         self.run.insert((mesh, doubled), points.map_err(Clone::clone));
