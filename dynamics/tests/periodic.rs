@@ -332,6 +332,73 @@ fn periods_are_marched_to_settle_only_where_the_first_correction_is_early() {
     }
 }
 
+/// One number that a period multiplies by μ, with a derivative off by δ: a correction leaves δ/(1 − μ + δ) of the error. Its
+/// periodic solution is 0.
+struct Decay {
+    y: f64,
+    factor: f64,
+    off: f64,
+}
+
+impl PeriodMap for Decay {
+    type Error = std::convert::Infallible;
+
+    fn coordinates(&mut self) -> Vec<f64> {
+        vec![self.y]
+    }
+
+    fn set_coordinates(&mut self, y: &[f64]) -> Result<(), Self::Error> {
+        self.y = y[0];
+        Ok(())
+    }
+
+    fn advance(&mut self) -> Result<(), Self::Error> {
+        self.y *= self.factor;
+        Ok(())
+    }
+
+    fn derivative(&mut self) -> Result<MapDerivative, Self::Error> {
+        let columns = DMatrix::from_element(1, 1, self.factor - self.off);
+        Ok(MapDerivative { active: vec![0], columns, scales: vec![1.0] })
+    }
+
+    fn relative(&self, deviation: &[f64]) -> f64 {
+        deviation[0].abs()
+    }
+
+    fn derivative_and_change(
+        &mut self,
+        residual: &[f64],
+    ) -> Result<(MapDerivative, f64), Self::Error> {
+        Ok((self.derivative()?, self.relative(residual)))
+    }
+}
+
+/// Shooting ends, as marching does, where a period changes little, with an error of up to ten tolerances: here one correction
+/// before the error is within the tolerance.
+#[test]
+fn shooting_ends_with_the_change_that_is_asked_for() {
+    let settings = ShootingSettings { tolerance: 1e-9, settling: 0, most_periods: 60 };
+    let factor = 0.98;
+    let mut decay = Decay { y: 0.5, factor, off: (1.0 - factor) / 99.0 };
+    let found = shoot(&mut decay, &settings).unwrap();
+    // Errors of 0.5, 5e-3, 5e-5, 5e-7 and 5e-9, the last of which changes by 1e-10.
+    assert_eq!(found.periods, 5, "{found:?}");
+    assert!(found.residual <= 0.3e-9 && decay.y > 4e-9 && decay.y < 6e-9, "{found:?} {}", decay.y);
+}
+
+/// Where a period takes 1e-4 of an error, the change is within the tolerance at errors 10,000 times as large: it does not
+/// suffice.
+#[test]
+fn where_perturbations_hardly_decay_a_small_change_is_not_enough() {
+    let settings = ShootingSettings { tolerance: 1e-9, settling: 0, most_periods: 60 };
+    let factor = 1.0 - 1e-4;
+    let mut decay = Decay { y: 0.5, factor, off: (1.0 - factor) / 19.0 };
+    let found = shoot(&mut decay, &settings).unwrap();
+    // Errors fall to a twentieth; at 3.1e-6 the change of a period is 3.1e-10 already.
+    assert!(decay.y > 0.0 && decay.y < 1.1e-8, "{found:?} {}", decay.y);
+}
+
 /// A period that was left in its middle, after a step that failed, is begun anew by setting the coordinates.
 #[test]
 fn a_period_begins_where_coordinates_are_set() {

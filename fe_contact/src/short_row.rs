@@ -8,6 +8,8 @@ use nalgebra::DVector;
 pub(crate) struct ShortRow {
     places: [u16; Self::MOST],
     values: [f64; Self::MOST],
+    /// How many entries are not zero.
+    count: u16,
 }
 
 impl ShortRow {
@@ -21,6 +23,7 @@ impl ShortRow {
         for (k, (place, value)) in nonzero.enumerate() {
             *short.places.get_mut(k)? = u16::try_from(place).ok()?;
             short.values[k] = value;
+            short.count += 1;
         }
         Some(short)
     }
@@ -40,12 +43,12 @@ impl ShortRow {
 
     /// (Place, value) of the entries that are not zero.
     pub(crate) fn entries(&self) -> impl Iterator<Item = (usize, f64)> {
-        self.terms().filter(|(_, r)| *r != 0.0)
+        self.terms().take(self.count())
     }
 
     /// How many entries are not zero: they are the first of the [terms](Self::terms).
     pub(crate) fn count(&self) -> usize {
-        self.values.iter().take_while(|r| **r != 0.0).count()
+        usize::from(self.count)
     }
 
     pub(crate) fn dot(&self, x: &[f64]) -> f64 {
