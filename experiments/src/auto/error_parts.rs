@@ -70,8 +70,8 @@ pub(super) struct SetSize {
     seat: f64,
     /// First mode of each body with its race held, Hz: carrier, ring, sun, planet; infinite where it is rigid.
     first_modes_hz: [f64; KINDS],
-    /// Steps of the stiffness by contact cells over those of even ones.
-    cell_steps: f64,
+    /// How contact cells are laid out.
+    cells: CellLayout,
     /// Mean force of a mesh over the sun's base radius, N/m.
     turning: f64,
     /// Mean force of a mesh, N.
@@ -145,10 +145,7 @@ impl SetSize {
                     free,
                 ]
             },
-            cell_steps: match scene.fe_contact.cell_layout {
-                CellLayout::Even => 1.0,
-                CellLayout::Graded => 0.5,
-            },
+            cells: scene.fe_contact.cell_layout,
             turning: case.sun_load_nm() / sun.base_radius.powi(2) / planets,
             mesh_force: case.sun_load_nm() / sun.base_radius / planets,
             masses,
@@ -211,7 +208,7 @@ impl SetSize {
         flank_elements: u32,
         contact_cells: u32,
     ) -> [ErrorPart; 2] {
-        let [elements, cells] = self.stiffness_parts(flank_elements, contact_cells);
+        let [elements, cells] = stiffness_errors(self.cells, flank_elements, contact_cells);
         let half = 0.5 * mode.meshes;
         [
             ErrorPart::new("finite elements behind the flanks", half * elements),
@@ -219,19 +216,9 @@ impl SetSize {
         ]
     }
 
-    /// What elements and cells change the stiffness of a mesh by, δk/k each.
-    fn stiffness_parts(&self, flank_elements: u32, contact_cells: u32) -> [f64; 2] {
-        let (index, at, order) = STIFFNESS_INDEX;
-        let cell = 2.0 * GRID_HALF_WIDTHS / f64::from(contact_cells);
-        [
-            index * (at / f64::from(flank_elements)).powf(order),
-            HALF_WIDTH_INFLUENCE * 0.5 * cell * self.cell_steps,
-        ]
-    }
-
     /// Both together, δk/k: their causes are independent.
     pub(super) fn of_stiffness(&self, flank_elements: u32, contact_cells: u32) -> f64 {
-        let [elements, cells] = self.stiffness_parts(flank_elements, contact_cells);
+        let [elements, cells] = stiffness_errors(self.cells, flank_elements, contact_cells);
         elements.hypot(cells)
     }
 
@@ -304,6 +291,22 @@ impl SetSize {
             ErrorPart::new("corner contacts beside the line of action", CORNERS),
         ]
     }
+}
+
+/// What finite elements along a flank, of eight nodes, and contact cells are estimated to change the stiffness of any mesh by, δk/k
+/// each (`docs/auto.md`).
+pub fn stiffness_errors(layout: CellLayout, flank_elements: u32, contact_cells: u32) -> [f64; 2] {
+    let (index, at, order) = STIFFNESS_INDEX;
+    let cell = 2.0 * GRID_HALF_WIDTHS / f64::from(contact_cells);
+    // Both edges of a patch pass from one graded cell to the next in turn.
+    let steps = match layout {
+        CellLayout::Even => 1.0,
+        CellLayout::Graded => 0.5,
+    };
+    [
+        index * (at / f64::from(flank_elements)).powf(order),
+        HALF_WIDTH_INFLUENCE * 0.5 * cell * steps,
+    ]
 }
 
 /// First torsional mode of an annulus that is held at one edge and free at the other, Hz, by Rayleigh's quotient with a

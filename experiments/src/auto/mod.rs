@@ -25,6 +25,7 @@ mod trial;
 pub use amplitude::{AmplitudeRequest, ChosenSweep, amplitude_with, choose_amplitude};
 pub use choice::{AutoError, Choice, ErrorPart, PassedOver};
 pub use cycle_request::{CycleRequest, CycleValue};
+pub use error_parts::stiffness_errors;
 pub use frequency::{FrequencyRequest, choose_frequency, frequency_with};
 pub use settings::{AutoModel, AutoSettings};
 pub use transmission_error::{choose_transmission_error, transmission_error_with};
