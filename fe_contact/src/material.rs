@@ -26,14 +26,14 @@ impl Elastic {
         }
     }
 
-    /// E and ν of the plane-strain body that behaves as this one: plane stress is plane strain
-    /// with E (1+2ν)/(1+ν)² and ν/(1+ν).
+    /// E (Pa) and ν of the plane-strain body that behaves as this one.
     pub fn plane_strain_equivalent(&self) -> (f64, f64) {
-        let (e, nu) = (self.young, self.poisson);
-        match self.plane {
-            PlaneState::Strain => (e, nu),
-            PlaneState::Stress => (e * (1.0 + 2.0 * nu) / (1.0 + nu).powi(2), nu / (1.0 + nu)),
-        }
+        let material = Material {
+            young_modulus_pa: self.young,
+            poisson_ratio: self.poisson,
+            density_kg_per_m3: self.density,
+        };
+        material.plane_strain_equivalent(self.plane)
     }
 
     /// E' = E/(1 − ν²) in plane strain, E in plane stress, Pa.

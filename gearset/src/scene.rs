@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::choices::{DynamicsInput, FeContactInput};
+use crate::choices::{DynamicsInput, FeContactInput, PlaneState};
 use crate::mesh_kind::MeshKind;
 
 /// What the scene describes.
@@ -210,6 +210,18 @@ pub struct Material {
     pub poisson_ratio: f64,
     /// ρ, kg/m³.
     pub density_kg_per_m3: f64,
+}
+
+impl Material {
+    /// E (Pa) and ν of the plane-strain body that behaves as this one does in a state of the plane: plane stress is plane
+    /// strain with E (1+2ν)/(1+ν)² and ν/(1+ν).
+    pub fn plane_strain_equivalent(&self, plane: PlaneState) -> (f64, f64) {
+        let (e, nu) = (self.young_modulus_pa, self.poisson_ratio);
+        match plane {
+            PlaneState::Strain => (e, nu),
+            PlaneState::Stress => (e * (1.0 + 2.0 * nu) / (1.0 + nu).powi(2), nu / (1.0 + nu)),
+        }
+    }
 }
 
 /// How a central member may move.

@@ -8,6 +8,9 @@ pub enum LumpedError {
     /// The scene has no lumped parameters.
     #[error("[lumped] is absent: a lumped model needs masses, inertias and mesh stiffnesses")]
     NoParameters,
+    /// A scene whose parameters have no closed form.
+    #[error("no parameters in closed form: {0}")]
+    NotAnalytic(&'static str),
     /// A coordinate can move and has no inertia.
     #[error("`{key}` is absent, and the {body} can move")]
     NoInertia {

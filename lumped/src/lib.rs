@@ -5,6 +5,7 @@
 //! Source of the equations: Lin & Parker (1999), J. Vib. Acoust. 121, 316–321. Coordinates and
 //! signs are defined in [`springs`](Spring) and checked in the tests against matrices derived by hand.
 
+mod analytic;
 mod balanced;
 mod coordinates;
 mod energy;
@@ -22,6 +23,7 @@ mod springs;
 mod time_varying;
 mod type_tolerance;
 
+pub use analytic::AnalyticSet;
 pub use balanced::BalancedSet;
 pub use coordinates::{Axis, Body, Coordinates};
 pub use energy::{EnergyShare, kinetic_energy, strain_energy};

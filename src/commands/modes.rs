@@ -5,10 +5,11 @@ use std::f64::consts::TAU;
 use std::io::Write;
 
 use experiments::auto::{AutoModel, Choice, FrequencyRequest, choose_frequency};
+use experiments::modal::majority;
 use gearset::{AutoQuantity, LoadCase, Scene, SceneKind, Verb};
 use lumped::{
-    LumpedModel, ModeGroup, NaturalModes, Parameter, campbell, kinetic_energy, sensitivities,
-    strain_energy,
+    AnalyticSet, LumpedError, LumpedModel, ModeGroup, NaturalModes, Parameter, campbell,
+    kinetic_energy, sensitivities, strain_energy,
 };
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -23,8 +24,8 @@ use super::{auto_choice, needs, read_scene, refused, unfit};
 /// `modes --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
 pub(crate) struct ModesOutput {
-    /// One entry for each distinct frequency of the lumped model (and type, should two types coincide). Empty where
-    /// `auto` chose another model.
+    /// One entry for each distinct frequency of the lumped model (and type, should two types coincide); with `auto` that with
+    /// parameters in closed form. Empty where `auto` chose another model.
     pub(crate) modes: Vec<ModeEntry>,
     /// With `--carrier-speeds-rpm`: frequencies with gyroscopic terms.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -173,7 +174,8 @@ fn chosen(
         .map_err(|e| unfit(path, format!("`dynamics.fidelity` = \"auto\": {e}")))?;
     drop(working);
     let is_lumped = choice.settings.model == AutoModel::Lumped;
-    let listed = is_lumped.then(|| solve(scene)).transpose().map_err(|e| unfit(path, e))?;
+    let listed = is_lumped.then(|| in_closed_form(scene, &case)).transpose();
+    let listed = listed.map_err(|e| unfit(path, e.to_string()))?;
     let mut result = match &listed {
         Some((model, modes)) => describe(model, modes),
         None => ModesOutput { modes: Vec::new(), campbell: Vec::new(), auto: None },
@@ -188,6 +190,21 @@ fn chosen(
         Some(_) => Ok(write_text(&result, arguments.details, out)?),
         None => Ok(()),
     }
+}
+
+/// The set whose parameters `auto` takes from the geometry, its modes with the inertia of the bodies behind the teeth.
+fn in_closed_form(
+    scene: &Scene,
+    case: &LoadCase,
+) -> Result<(LumpedModel, NaturalModes), LumpedError> {
+    let set = AnalyticSet::new(scene, case, 0.0)?;
+    let mut modes = set.modes()?;
+    for group in &mut modes.groups {
+        group.frequency_hz *= 1.0 + set.inertia_change(group);
+        // Meshes of different phases mix the types a little; modes are numbered by the largest share.
+        group.mode_type = majority(&group.participation);
+    }
+    Ok((set.model, modes))
 }
 
 fn entry(model: &LumpedModel, group: &ModeGroup) -> ModeEntry {

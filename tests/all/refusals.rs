@@ -270,7 +270,7 @@ fn settings_that_meet_no_tolerance_are_refused_with_their_estimates() {
     assert_eq!((code, out.as_str()), (2, ""), "{err}");
     for words in [
         "`dynamics.fidelity`",
-        "lumped: estimated error",
+        "lumped with parameters in closed form: estimated error",
         "quasi_static, 6 flank",
         "allow a larger",
     ] {

@@ -32,7 +32,7 @@ pub struct DrawnScene {
 }
 
 /// The scene of a seed: equally spaced planets, 3 to 6, on the rack without profile shift, of drawn teeth, modules,
-/// widths, rims, bearings, loads, damping and tip relief; the parameters of its lumped model are estimates that are off
+/// widths, rims, bearings, loads, damping and tip relief; its `[lumped]`, which `auto` does not read, has estimates that are off
 /// by up to 5 % (masses, inertias) and 20 % (mesh stiffnesses). Sets that cannot be assembled, or that the reader of
 /// scenes refuses, are drawn again.
 ///
@@ -251,7 +251,7 @@ pub fn auto_row(seed: u64) -> Result<AutoRow, ExperimentError> {
     };
     let truth_hz = truth().unwrap_or(f64::NAN);
     let (mut cheapest, mut cost_ratio, mut fe_cost_ratio) = (None, None, None);
-    for settings in FrequencyRequest::candidates(scene) {
+    for settings in FrequencyRequest::candidates() {
         let mut value = Ok(f64::NAN);
         let own_s = timed(&mut || value = of(settings));
         let off = value.map_or(f64::NAN, |v| 100.0 * (v / truth_hz - 1.0).abs());

@@ -73,6 +73,7 @@ fn short(settings: &str) -> String {
         ("modal with ", ""),
         (" about the extremes as close as ", ", extremes "),
         ("quasi_static", "quasi-static"),
+        ("lumped with parameters in closed form", "lumped"),
     ];
     words.into_iter().fold(settings.to_owned(), |text, (long, own)| text.replace(long, own))
 }

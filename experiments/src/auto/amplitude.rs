@@ -122,7 +122,7 @@ pub fn choose_amplitude(
     request: &AmplitudeRequest,
 ) -> Result<ChosenSweep, AutoError> {
     let quantity = request.to_string();
-    let mut trial = Trial::new(quantity, "µm", request.tolerance_percent, Together::Squares)?;
+    let mut trial = Trial::new(quantity, "µm", request.tolerance_percent)?;
     let size = SetSize::new(scene, case)?;
     let (of, base) = ((scene, case), base(scene));
     for mesh in 0..MESHES.len() - 1 {
@@ -212,7 +212,7 @@ impl Search<'_, '_> {
             ErrorPart::new(PERIODICITY, LEFT_TO_GO * motions.residual()),
         ];
         let value = 1e6 * motions.largest();
-        let choice = trial.judged(own, value, parts, || known.why_no_bound())?;
+        let choice = trial.judged(own, value, parts, Together::Squares, || known.why_no_bound())?;
         let sweep = found.map_or_else(|| known.motions.sweep.clone(), |found| found.sweep);
         Some((choice, sweep))
     }
@@ -257,7 +257,8 @@ impl Search<'_, '_> {
             left_out = 0.5 * found.apart(&rigid);
             parts.push(ErrorPart::new(BODY_INERTIA, left_out));
             parts.push(ErrorPart::new(PERIODICITY, LEFT_TO_GO * found.residual()));
-            let choice = trial.judged(own, 1e6 * found.largest(), parts, String::new)?;
+            let choice =
+                trial.judged(own, 1e6 * found.largest(), parts, Together::Squares, String::new)?;
             Some((choice, found.sweep))
         })
     }

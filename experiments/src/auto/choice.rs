@@ -44,8 +44,8 @@ pub struct Choice {
     pub unit: String,
     /// Wanted accuracy, percent of the value.
     pub tolerance_percent: f64,
-    /// Estimated error of the value, percent: the sum of `error_parts`, of an amplitude 2/√3 of the root of the sum of their squares if
-    /// that is less.
+    /// Estimated error of the value, percent: the sum of `error_parts`, of an amplitude and of the lumped model 2/√3 of the root of the sum of
+    /// their squares if that is less.
     pub estimated_error_percent: f64,
     /// What the error consists of.
     pub error_parts: Vec<ErrorPart>,

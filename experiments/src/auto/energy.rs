@@ -100,15 +100,21 @@ const MIXED: [f64; 2] = [0.35, 0.65];
 /// Modes up to this ratio above the asked one may change places with it.
 const CLOSE: f64 = 1.05;
 
-/// Frequency of a mode up to the one asked for, or close above it, that is of the asked type about as much as of others, Hz.
-pub(super) fn mixed(modes: &[ModeEnergy], own: &ModeEnergy, mode_type: ModeType) -> Option<f64> {
+/// Frequency of a mode up to the one asked for, or close above it, that is of the asked type about as much as of others, Hz;
+/// modes as frequencies (Hz) with their shares in rotational, translational and planet motion.
+pub(super) fn mixed(
+    modes: impl IntoIterator<Item = (f64, [f64; 3])>,
+    own_hz: f64,
+    mode_type: ModeType,
+) -> Option<f64> {
     let place = match mode_type {
         ModeType::Rotational => 0,
         ModeType::Translational => 1,
         _ => 2,
     };
     let [low, high] = MIXED;
-    let counts = |m: &&ModeEnergy| m.frequency_hz <= CLOSE * own.frequency_hz;
-    let is_mixed = |m: &&ModeEnergy| (low..=high).contains(&m.of_types[place]);
-    modes.iter().filter(counts).find(is_mixed).map(|m| m.frequency_hz)
+    let is_mixed = |(hz, shares): &(f64, [f64; 3])| {
+        *hz <= CLOSE * own_hz && (low..=high).contains(&shares[place])
+    };
+    modes.into_iter().find(is_mixed).map(|(hz, _)| hz)
 }

@@ -3,9 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use gearset::{
-    CellLayout, Geometry, LoadCase, PerBody, Scene, estimated_inertias, estimated_mesh_stiffness,
+    CellLayout, Geometry, LoadCase, Scene, estimated_inertias, estimated_mesh_stiffness,
 };
-use lumped::{LumpedModel, ModeGroup, Parameter, sensitivities};
 
 use super::choice::ErrorPart;
 use super::energy::{KINDS, ModeEnergy};
@@ -34,20 +33,9 @@ const RIM_SHARE: f64 = 0.15;
 /// mesh by about 13/(E b).
 const HALF_WIDTH_INFLUENCE: f64 = 0.18;
 
-/// What the estimate of a mesh stiffness, E b/13 (0.75 ε + 0.25), may be off: ln 1.35, where ISO 6336-1 and computed
-/// stiffnesses differ by up to a third (`docs/fe_contact.md`).
-const STIFFNESS_DOUBT: f64 = 0.3;
-
-/// What the mass or inertia of an annulus with half of each tooth height filled may be off: teeth are about a third of
-/// such a body, and their filling is good to a tenth.
-const INERTIA_DOUBT: f64 = 0.03;
-
 /// Independent parameters that are anywhere within ±a: standard uncertainty a/√3 each, root of the sum of squares, and
 /// twice that (JCGM 100:2008, 4.3.7, 5.1.2 and 6.2).
 pub(super) const EXPANDED: f64 = 1.154_700_538_379_251_6;
-
-/// Largest effect of corner contacts that press along their own normals (`docs/fe_dynamics_effects.md`).
-const CORNERS: f64 = 0.006;
 
 /// Sizes of a set that estimates need.
 #[derive(Debug, Clone)]
@@ -61,8 +49,6 @@ pub(super) struct SetSize {
     teeth: [f64; KINDS],
     /// Least estimate of a mesh stiffness, N/m.
     mesh: f64,
-    /// Estimates of the mesh stiffnesses, N/m: sun–planet, ring–planet.
-    by_mesh: [f64; 2],
     /// E b, N/m.
     modulus_width: f64,
     bearing: f64,
@@ -76,9 +62,8 @@ pub(super) struct SetSize {
     turning: f64,
     /// Mean force of a mesh, N.
     mesh_force: f64,
-    /// Estimates of masses (kg) and polar inertias (kg m²).
-    masses: PerBody,
-    inertias: PerBody,
+    /// Base pitch of the planet, m.
+    base_pitch: f64,
 }
 
 impl SetSize {
@@ -127,7 +112,6 @@ impl SetSize {
                 largest * tooth(&geometry.planet),
             ],
             mesh: by_mesh[0].min(by_mesh[1]),
-            by_mesh,
             modulus_width: scene.material.young_modulus_pa * geometry.face_width,
             bearing: scene.supports.planet_bearing,
             // A disc of twice the seat's diameter.
@@ -147,9 +131,8 @@ impl SetSize {
             },
             cells: scene.fe_contact.cell_layout,
             turning: case.sun_load_nm() / sun.base_radius.powi(2) / planets,
+            base_pitch: sun_mesh.base_pitch,
             mesh_force: case.sun_load_nm() / sun.base_radius / planets,
-            masses,
-            inertias,
         })
     }
 
@@ -222,74 +205,23 @@ impl SetSize {
         elements.hypot(cells)
     }
 
+    /// Mean slope of the flanks of a loaded mesh: its deflection over a base pitch.
+    pub(super) fn slope(&self) -> f64 {
+        self.deflection() / self.base_pitch
+    }
+
     /// Mean deflection of a mesh by estimate, m.
     pub(super) fn deflection(&self) -> f64 {
         self.mesh_force / self.mesh
     }
 
-    /// Errors of the lumped model of a scene beside FE/contact with every degree of freedom.
-    pub(super) fn of_lumped(
-        &self,
-        model: &LumpedModel,
-        scene: &Scene,
-        group: &ModeGroup,
-        mode: &ModeEnergy,
-    ) -> Vec<ErrorPart> {
-        let Some(given) = &scene.lumped else { return Vec::new() };
-        let off = |own: Option<f64>, estimate: Option<f64>, doubt: f64| match (own, estimate) {
-            (Some(own), Some(estimate)) => (own / estimate).ln().abs() + doubt,
-            _ => doubt,
-        };
-        let over_r2 = |inertia: Option<f64>, radius: Option<f64>| Some(inertia? / radius?.powi(2));
-        let (m, i, i_est) = (&given.mass, &given.inertia_over_r2, &self.inertias);
-        let m_est = &self.masses;
-        let mut squares = 0.0;
-        for sensitivity in sensitivities(model, group) {
-            let size = sensitivity.logarithmic.abs();
-            match &sensitivity.parameter {
-                Parameter::StiffnessFamily(name) if name.ends_with("_mesh") => {
-                    let [sun, ring] = self.by_mesh;
-                    let (own, estimate) = match name.as_str() {
-                        "sun_mesh" => (given.mesh.sun_planet, sun),
-                        _ => (given.mesh.ring_planet, ring),
-                    };
-                    squares += (size * off(Some(own), Some(estimate), STIFFNESS_DOUBT)).powi(2);
-                }
-                Parameter::InertiaFamily(name) => {
-                    let r = &given.radius;
-                    let (own, estimate) = match name.as_str() {
-                        "carrier_mass" => (m.carrier, m_est.carrier),
-                        "ring_mass" => (m.ring, m_est.ring),
-                        "sun_mass" => (m.sun, m_est.sun),
-                        "planet_mass" => (m.planet, m_est.planet),
-                        "carrier_inertia" => (i.carrier, over_r2(i_est.carrier, r.carrier)),
-                        "ring_inertia" => (i.ring, over_r2(i_est.ring, r.ring)),
-                        "sun_inertia" => (i.sun, over_r2(i_est.sun, r.sun)),
-                        _ => (i.planet, over_r2(i_est.planet, r.planet)),
-                    };
-                    squares += (size * off(own, estimate, INERTIA_DOUBT)).powi(2);
-                }
-                _ => (),
-            }
-        }
-        // δf/f = ½ e_p k_p/(E b): a pin seat yields by about F/(E b).
-        let seats = match self.seat > 0.0 {
-            true => 0.5 * mode.bearings * self.bearing / self.modulus_width,
-            false => 0.0,
-        };
-        // δf/f = (F/r) Σ_b n_b τ_b/M_b /(2 ω²): a force that turns with its line of action.
+    /// What forces of meshes that turn with their lines of action do to a frequency, at most:
+    /// δf/f = (F/r) Σ_b n_b τ_b/M_b /(2 ω²).
+    pub(super) fn of_turning(&self, mode: &ModeEnergy) -> f64 {
         let omega = TAU * mode.frequency_hz;
         let moved: f64 =
             (1..KINDS).map(|b| self.meshes[b] * mode.kinetic[b] / self.inertia[b]).sum();
-        vec![
-            ErrorPart::new("parameters as given", EXPANDED * squares.sqrt()),
-            ErrorPart::new("carrier between pin seats and race", seats),
-            ErrorPart::new(
-                "mesh forces that turn with their lines of action",
-                0.5 * self.turning * moved / (omega * omega),
-            ),
-            ErrorPart::new("corner contacts beside the line of action", CORNERS),
-        ]
+        0.5 * self.turning * moved / (omega * omega)
     }
 }
 

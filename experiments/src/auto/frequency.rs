@@ -3,11 +3,12 @@
 use fe_contact::statics::Bodies;
 use fe_contact::vibration::ElasticInertia;
 use gearset::{AutoModeType, LoadCase, Scene};
-use lumped::{LumpedModel, ModeType, NaturalModes};
+use lumped::ModeType;
 
+use super::analytic_mode::AnalyticMode;
 use super::choice::{AutoError, Choice, ErrorPart, Together, total};
 use super::elastic_change::elastic_change;
-use super::energy::{ModeEnergy, mixed, of_group, of_linear};
+use super::energy::{ModeEnergy, mixed, of_linear};
 use super::error_parts::SetSize;
 use super::settings::{AutoModel, AutoSettings};
 use super::trial::Trial;
@@ -61,18 +62,33 @@ const LEAST_SHARE: f64 = 1.0 / 3.0;
 const MODAL: [AutoSettings; 2] = [AutoSettings::modal(4, 6, 20), AutoSettings::modal(4, 10, 30)];
 
 impl FrequencyRequest {
-    /// All candidates for a scene, from cheap to dear.
-    pub fn candidates(scene: &Scene) -> Vec<AutoSettings> {
-        let lumped = scene.lumped.as_ref().map(|_| AutoSettings::LUMPED);
-        lumped.into_iter().chain(QUASI_STATIC).chain(MODAL).collect()
+    /// All candidates, from cheap to dear.
+    pub fn candidates() -> Vec<AutoSettings> {
+        std::iter::once(AutoSettings::LUMPED).chain(QUASI_STATIC).chain(MODAL).collect()
     }
 
-    fn found(&self, modes: Vec<ModeEnergy>) -> Result<ModeEnergy, String> {
+    /// Why there is no such mode.
+    pub(super) fn missing(&self, count: usize) -> ExperimentError {
+        ExperimentError::Model(
+            format!("it has {count} modes of type {}", self.mode_type.name()).into(),
+        )
+    }
+
+    fn mixed(&self, frequency_hz: f64) -> ExperimentError {
+        let why = format!(
+            "its mode at {frequency_hz:.0} Hz is about as much of another type: on another mesh or with inertia of the bodies \
+             the number {} may belong to another mode",
+            self.number
+        );
+        ExperimentError::Model(why.into())
+    }
+
+    fn found(&self, modes: Vec<ModeEnergy>) -> Result<ModeEnergy, ExperimentError> {
         let of_type = modes.into_iter().filter(|m| m.mode_type == self.mode_type);
         let mut own: Vec<ModeEnergy> = of_type.collect();
         match (1..=own.len()).contains(&self.number) {
             true => Ok(own.swap_remove(self.number - 1)),
-            false => Err(format!("it has {} modes of type {}", own.len(), self.mode_type.name())),
+            false => Err(self.missing(own.len())),
         }
     }
 }
@@ -87,29 +103,10 @@ pub fn frequency_with(
     settings: AutoSettings,
     request: &FrequencyRequest,
 ) -> Result<f64, ExperimentError> {
-    let mode = match settings.model {
-        AutoModel::Lumped => lumped_mode(scene, request).map(|(_, _, mode)| mode),
-        _ => fe_mode(scene, case, settings, request),
-    };
-    mode.map(|m| m.frequency_hz)
-}
-
-type LumpedMode = (LumpedModel, lumped::ModeGroup, ModeEnergy);
-
-fn lumped_mode(scene: &Scene, request: &FrequencyRequest) -> Result<LumpedMode, ExperimentError> {
-    let model = LumpedModel::from_scene(scene)?;
-    let groups = NaturalModes::of(&model)?.groups;
-    let each = groups.into_iter().flat_map(|g| {
-        let energy = of_group(&model, &g);
-        std::iter::repeat_n((g.clone(), energy), g.multiplicity)
-    });
-    let all: Vec<_> = each.collect();
-    let mode = request
-        .found(all.iter().map(|(_, energy)| energy.clone()).collect())
-        .map_err(|e| ExperimentError::Model(e.into()))?;
-    let own = all.into_iter().find(|(_, energy)| *energy == mode);
-    let (group, _) = own.ok_or(ExperimentError::Incomplete("mode"))?;
-    Ok((model, group, mode))
+    match settings.model {
+        AutoModel::Lumped => AnalyticMode::of(scene, case, request).map(|mode| mode.frequency_hz()),
+        _ => fe_mode(scene, case, settings, request).map(|mode| mode.frequency_hz),
+    }
 }
 
 fn fe_mode(
@@ -122,7 +119,7 @@ fn fe_mode(
     let bodies = Bodies::new(&own)?;
     let set = preloaded(&own, &bodies, &standing(case))?;
     let modes = of_linear(&set, &set.linearised()?)?;
-    request.found(modes).map_err(|e| ExperimentError::Model(e.into()))
+    request.found(modes)
 }
 
 fn standing(case: &LoadCase) -> Preload {
@@ -141,7 +138,7 @@ pub fn choose_frequency(
     case: &LoadCase,
     request: &FrequencyRequest,
 ) -> Result<Choice, AutoError> {
-    let trial = Trial::new(request.to_string(), "Hz", request.tolerance_percent, Together::Sum)?;
+    let trial = Trial::new(request.to_string(), "Hz", request.tolerance_percent)?;
     let size = SetSize::new(scene, case)?;
     let mut search = Search { scene, case, request, size, trial, change: None, seen: None };
     let found = match search.lumped() {
@@ -165,14 +162,18 @@ struct Search<'s> {
 
 impl Search<'_> {
     fn lumped(&mut self) -> Option<Choice> {
-        self.scene.lumped.as_ref()?;
-        let (model, group, mode) = match lumped_mode(self.scene, self.request) {
-            Ok(found) => found,
-            Err(e) => return self.refused(AutoSettings::LUMPED, &e),
-        };
-        let mut parts = self.size.of_lumped(&model, self.scene, &group, &mode);
-        parts.push(ErrorPart::new(BODY_INERTIA, self.size.body_inertia(&mode)));
-        self.judged(AutoSettings::LUMPED, &mode, parts)
+        let found = AnalyticMode::of(self.scene, self.case, self.request);
+        let mode = found.and_then(|mode| match &mode.mixed_hz {
+            Some(mixed) => Err(self.request.mixed(*mixed)),
+            None => Ok(mode),
+        });
+        match mode {
+            Ok(mode) => {
+                let parts = mode.error_parts(&self.size);
+                self.judged(AutoSettings::LUMPED, mode.frequency_hz(), parts)
+            }
+            Err(e) => self.refused(AutoSettings::LUMPED, &e),
+        }
     }
 
     fn fe_contact(&mut self) -> Option<Choice> {
@@ -182,7 +183,7 @@ impl Search<'_> {
             Err(e) => return self.refused(first, &e),
         };
         let parts = self.quasi_static_parts(&probe, first);
-        if let Some(choice) = self.judged(first, &probe, parts) {
+        if let Some(choice) = self.judged(first, probe.frequency_hz, parts) {
             return Some(choice);
         }
         for settings in &QUASI_STATIC[1..] {
@@ -193,7 +194,7 @@ impl Search<'_> {
             match self.run(*settings, &probe) {
                 Ok(mode) => {
                     let parts = self.quasi_static_parts(&mode, *settings);
-                    if let Some(choice) = self.judged(*settings, &mode, parts) {
+                    if let Some(choice) = self.judged(*settings, mode.frequency_hz, parts) {
                         return Some(choice);
                     }
                 }
@@ -214,15 +215,10 @@ impl Search<'_> {
         let set = preloaded(&own, &bodies, &standing(self.case))?;
         let linear = set.linearised()?;
         let modes = of_linear(&set, &linear)?;
-        let found = self.request.found(modes.clone());
-        let mode = found.map_err(|e| ExperimentError::Model(e.into()))?;
-        if let Some(mixed) = mixed(&modes, &mode, self.request.mode_type) {
-            let why = format!(
-                "its mode at {mixed:.0} Hz is about as much of another type: on another mesh or with inertia of the bodies \
-                 the number {} may belong to another mode",
-                self.request.number
-            );
-            return Err(ExperimentError::Model(why.into()));
+        let mode = self.request.found(modes.clone())?;
+        let shares = modes.iter().map(|m| (m.frequency_hz, m.of_types));
+        if let Some(mixed) = mixed(shares, mode.frequency_hz, self.request.mode_type) {
+            return Err(self.request.mixed(mixed));
         }
         let is_enough =
             total(&self.quasi_static_parts(&mode, settings)) <= self.request.tolerance_percent;
@@ -295,7 +291,7 @@ impl Search<'_> {
                 };
                 let mut parts = self.mesh_parts(&rigid, settings);
                 parts.push(ErrorPart::new(BODY_INERTIA, *left_out));
-                self.judged(settings, &mode, parts)
+                self.judged(settings, mode.frequency_hz, parts)
             }
             Ok((expected, None, _)) => {
                 self.trial.is_expected(settings, expected);
@@ -332,19 +328,19 @@ impl Search<'_> {
         parts
     }
 
-    fn judged(
-        &mut self,
-        settings: AutoSettings,
-        mode: &ModeEnergy,
-        parts: Vec<ErrorPart>,
-    ) -> Option<Choice> {
-        let (hz, first) = (mode.frequency_hz, self.size.first_mode_hz());
+    fn judged(&mut self, settings: AutoSettings, hz: f64, parts: Vec<ErrorPart>) -> Option<Choice> {
+        // Parts of the closed forms have causes of their own.
+        let together = match settings.model {
+            AutoModel::Lumped => Together::Squares,
+            _ => Together::Sum,
+        };
+        let first = self.size.first_mode_hz();
         let no_bound = || {
             format!(
                 "{hz:.0} Hz is above the first mode of a body that is left out, about {first:.0} Hz"
             )
         };
-        self.trial.judged(settings, hz, parts, no_bound)
+        self.trial.judged(settings, hz, parts, together, no_bound)
     }
 
     fn refused(&mut self, settings: AutoSettings, error: &ExperimentError) -> Option<Choice> {
@@ -373,10 +369,25 @@ mod tests {
         FrequencyRequest { mode_type, number, tolerance_percent }
     }
 
+    /// Choice among FE/contact candidates alone.
+    fn among_fe(
+        scene: &Scene,
+        case: &LoadCase,
+        asked: &FrequencyRequest,
+    ) -> Result<Choice, AutoError> {
+        let trial = Trial::new(asked.to_string(), "Hz", asked.tolerance_percent)?;
+        let size = SetSize::new(scene, case)?;
+        let mut search =
+            Search { scene, case, request: asked, size, trial, change: None, seen: None };
+        let found = search.fe_contact();
+        search.trial.ended(found)
+    }
+
     /// Modes governed by bearings (0.8 to 2.2 kHz) and by meshes (7 to 12 kHz), against twelve modes of each body: every
-    /// estimate holds, and is not idle where parts of the error cannot cancel, in modes that meshes govern.
+    /// estimate holds, of quasi-static bodies and of the lumped model in closed form, and that of the former is not idle where
+    /// parts of the error cannot cancel, in modes that meshes govern.
     #[test]
-    fn estimates_of_quasi_static_bodies_hold_beside_modes_of_the_bodies() {
+    fn estimates_hold_beside_modes_of_the_bodies() {
         let (scene, case) = set(false);
         let own = AutoSettings::modal(12, 6, 20).applied_to(&scene);
         let bodies = Bodies::new(&own).unwrap();
@@ -392,7 +403,7 @@ mod tests {
             (ModeType::Planet, 2),
         ] {
             let asked = request(mode_type, number, 100.0);
-            let choice = choose_frequency(&scene, &case, &asked).unwrap();
+            let choice = among_fe(&scene, &case, &asked).unwrap();
             assert_eq!(choice.settings, QUASI_STATIC[0]);
             let truth = asked.found(finer.clone()).unwrap().frequency_hz;
             let error = 100.0 * (choice.value / truth - 1.0).abs();
@@ -402,6 +413,11 @@ mod tests {
                 assert!(estimate < 5.0 * error, "{asked}: {error} {estimate}");
             }
             errors.push(error);
+            let lumped = choose_frequency(&scene, &case, &asked).unwrap();
+            assert_eq!(lumped.settings, AutoSettings::LUMPED);
+            let error = 100.0 * (lumped.value / truth - 1.0).abs();
+            let estimate = lumped.estimated_error_percent;
+            assert!(error <= estimate && estimate < 5.0, "{asked}: {error} {estimate}");
         }
         // A mode of two types by nearly halves, at 8.2 kHz, has no answer.
         let mixed = choose_frequency(&scene, &case, &request(ModeType::Translational, 7, 100.0));
@@ -418,18 +434,21 @@ mod tests {
             let asked = request(ModeType::Rotational, 1, tolerance);
             choose_frequency(&scene, &case, &asked).map(|choice| {
                 assert!(choice.estimated_error_percent <= tolerance);
-                assert!(
-                    (total(&choice.error_parts) - choice.estimated_error_percent).abs() < 1e-12
-                );
+                let together = match choice.settings.model {
+                    AutoModel::Lumped => Together::Squares,
+                    _ => Together::Sum,
+                };
+                let error = together.of(&choice.error_parts);
+                assert!((error - choice.estimated_error_percent).abs() < 1e-12);
                 choice.settings
             })
         };
         assert_eq!(chosen(10.0).unwrap(), AutoSettings::LUMPED);
-        assert_eq!(chosen(1.0).unwrap(), QUASI_STATIC[0]);
+        assert_eq!(chosen(0.2).unwrap(), QUASI_STATIC[0]);
         let refusal = chosen(0.01).unwrap_err();
         let AutoError::NothingMeets { passed_over, .. } = &refusal else { panic!("{refusal}") };
         let tried: Vec<AutoSettings> = passed_over.iter().map(|p| p.settings).collect();
-        assert_eq!(tried, FrequencyRequest::candidates(&scene), "{refusal}");
+        assert_eq!(tried, FrequencyRequest::candidates(), "{refusal}");
         for bad in [0.0, -1.0, f64::NAN, 101.0] {
             assert!(matches!(chosen(bad), Err(AutoError::Tolerance(_))));
         }

@@ -8,7 +8,7 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum AutoModel {
-    /// The lumped model with the parameters of the scene.
+    /// The lumped model with parameters from the geometry in closed form.
     Lumped,
     /// FE/contact with bodies that have no elastic inertia.
     QuasiStatic,
@@ -49,7 +49,7 @@ pub struct AutoSettings {
 }
 
 impl AutoSettings {
-    /// The lumped model.
+    /// The lumped model with parameters in closed form.
     pub const LUMPED: Self = Self {
         model: AutoModel::Lumped,
         modes: None,
@@ -132,7 +132,7 @@ impl std::fmt::Display for AutoSettings {
             (Some(modes), Some(n), Some(cells)) => {
                 write!(f, "modal with {modes} modes, {n} flank elements, {cells} contact cells")?;
             }
-            _ => f.write_str("lumped")?,
+            _ => f.write_str("lumped with parameters in closed form")?,
         }
         if let Some(positions) = self.positions {
             write!(f, ", {positions} positions")?;

@@ -66,7 +66,7 @@ pub fn choose_transmission_error(
     case: &LoadCase,
     request: &CycleRequest,
 ) -> Result<Choice, AutoError> {
-    let trial = Trial::new(request.to_string(), "µm", request.tolerance_percent, Together::Sum)?;
+    let trial = Trial::new(request.to_string(), "µm", request.tolerance_percent)?;
     let base = divided(scene, POSITIONS);
     let scenes = [0, 1, 2, 3].map(|mesh| request.settings(base, mesh, 0).applied_to(scene));
     let bodies = [const { OnceCell::new() }; MESHES.len()];
@@ -169,7 +169,7 @@ impl<'s> Search<'s> {
             parts.push(ErrorPart::new(source, (doubt / value).abs()));
         }
         let no_bound = || "the transmission error is constant".into();
-        self.trial.judged(settings, 1e6 * value, parts, no_bound)
+        self.trial.judged(settings, 1e6 * value, parts, Together::Sum, no_bound)
     }
 
     fn bodies(&self, mesh: usize) -> Result<&'s Bodies, String> {

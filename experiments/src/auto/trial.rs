@@ -11,7 +11,6 @@ pub(super) struct Trial {
     /// Unit of its value.
     unit: &'static str,
     tolerance_percent: f64,
-    together: Together,
     passed_over: Vec<PassedOver>,
     /// Whether any candidate has the quantity.
     has_answer: bool,
@@ -26,14 +25,12 @@ impl Trial {
         quantity: String,
         unit: &'static str,
         tolerance_percent: f64,
-        together: Together,
     ) -> Result<Self, AutoError> {
         match tolerance_percent > 0.0 && tolerance_percent <= 100.0 {
             true => Ok(Self {
                 quantity,
                 unit,
                 tolerance_percent,
-                together,
                 passed_over: Vec::new(),
                 has_answer: false,
             }),
@@ -55,16 +52,17 @@ impl Trial {
         is
     }
 
-    /// The choice, if the parts of its error are within the tolerance; `no_bound` says why where one of them is infinite.
+    /// The choice, if the parts of its error, taken together, are within the tolerance; `no_bound` says why where one of them is infinite.
     pub(super) fn judged(
         &mut self,
         settings: AutoSettings,
         value: f64,
         parts: Vec<ErrorPart>,
+        together: Together,
         no_bound: impl Fn() -> String,
     ) -> Option<Choice> {
         self.has_answer = true;
-        let error = self.together.of(&parts);
+        let error = together.of(&parts);
         if error.is_infinite() {
             self.pass(settings, None, format!("no bound of its error: {}", no_bound()));
             return None;

@@ -1,0 +1,283 @@
+//! Tangent stiffness of a mesh at one phase under its mean force, in closed form: tooth pairs with gaps share the force.
+//!
+//! ```text
+//! δ − g_i = Σ_j C_ij f_j + h_i(f_i),   f_i ≥ 0,   Σ f_i = F,     k = 1ᵀ (C + diag h_i')⁻¹ 1 over the pairs that touch
+//! h_i = 2 f/(π E' b) [ln(2 d₁/a) + ln(2 d₂/a) − ν/(1 − ν)],   a = √(8 f R/(π E' b))
+//! ```
+//!
+//! C_ii: both teeth (`tooth.rs`); C_ij of neighbouring pairs: a fixed share of √(C_ii C_jj). h: what two half-planes yield
+//! between the flanks and the depths d of both axes (Weber & Banaschek 1953; Johnson, Contact Mechanics 1985, eq. 5.57), with
+//! the relative radius R of the flanks. The gap of a pair beyond an end of the path grows with the square of the distance
+//! ([`Mesh::corner_gap_curvature`]); tip relief adds to it.
+//!
+//! As the set rolls on by σ, gaps and flexibilities change: g' = ∂(g_i + C_ii f_i)/∂σ. The energy ½ (δ − g)ᵀ K (δ − g) of the pairs,
+//! K = (C + diag h')⁻¹, has the second derivatives
+//!
+//! ```text
+//! k = 1ᵀK 1,    −k s = −1ᵀK g',    c + k s² = g'ᵀK g' − Σ f_i g_i''
+//! ```
+//!
+//! with respect to δ, to δ and σ, and to σ; g'' is that of the corners.
+
+use std::f64::consts::PI;
+
+use gearset::{Mesh, MeshKind, MeshMember};
+use nalgebra::{Cholesky, Const, Matrix4, Vector4};
+
+use super::plane::Plane;
+use super::tooth::Tooth;
+
+/// C_ij of neighbouring pairs over √(C_ii C_jj): a rim that yields under one tooth carries its neighbour with it. Fitted to
+/// FE/contact (`docs/auto.md`).
+const NEIGHBOUR: f64 = 0.12;
+
+/// A pair that is off its mate by less than this part of the approach may touch, and one that carries less than that of
+/// the force may not: approach and gaps are good to about a tenth.
+const NEAR: [f64; 2] = [0.2, 0.06];
+
+/// Part of a cycle to either side over which a slope is taken.
+const STEP: f64 = 0.01;
+
+/// Least part of the force for which the half-width of contact of a pair is taken.
+const LEAST_SHARE: f64 = 0.02;
+
+type Factored = Cholesky<f64, Const<4>>;
+
+/// Most pairs that are looked at.
+const MOST: usize = 4;
+
+/// Stiffness of one mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct MeshTangent {
+    /// k, N/m.
+    pub(super) stiffness: f64,
+    /// ln of the factor on k if a pair that nearly touches does, or one that hardly carries does not; 0 if there is none.
+    pub(super) hand_over: f64,
+    /// s, m/m: slope of the approach under a constant force over the driver's roll length.
+    pub(super) slope: f64,
+    /// c, N/m: stiffness against rolling on with an approach that follows that slope.
+    pub(super) rolling: f64,
+}
+
+/// One pair near the path.
+#[derive(Debug, Clone, Copy, Default)]
+struct Pair {
+    gap: f64,
+    /// Flexibility of both teeth, m/N.
+    teeth: f64,
+    /// ln(4 d₁ d₂/a²) − ν/(1 − ν) at f = 1 N.
+    near: f64,
+    /// Driver's roll length on the common line, m.
+    along: f64,
+    /// Approach that is assumed for its place beyond an end of the path, m.
+    approach: f64,
+    /// g'' of a corner, 1/m.
+    curvature: f64,
+}
+
+impl Pair {
+    /// The pair where the driver's roll length on the common line is `along` and the flanks approach by `approach`; `None` where a
+    /// tooth is none that the closed forms hold for.
+    fn at(mesh: &Mesh, along: f64, approach: f64, plane: &Plane) -> Option<Self> {
+        let (driver, driven) = (mesh.gear(MeshMember::Driver), mesh.gear(MeshMember::Driven));
+        let (gap, curvature, s) = gap(mesh, along, approach);
+        let mate = mesh.driven_roll_length(s);
+        let relative = match mesh.kind {
+            MeshKind::SunPlanet => s * mate / (s + mate),
+            MeshKind::RingPlanet => s * mate / (mate - s),
+        };
+        let [a, b] = [Tooth::at(driver, s, plane)?, Tooth::at(driven, mate, plane)?];
+        // a² = 8 f R/(π E' b)
+        let squared = 8.0 * relative / (PI * plane.modulus * plane.width);
+        let poisson = plane.poisson / (1.0 - plane.poisson);
+        let near = (4.0 * a.depth * b.depth / squared).ln() - poisson;
+        Some(Self { gap, teeth: a.flexibility + b.flexibility, near, along, approach, curvature })
+    }
+
+    /// Slopes of gap (m/m) and of the flexibility of the teeth (1/N) over the driver's roll length.
+    fn rolled(&self, mesh: &Mesh, plane: &Plane) -> Option<(f64, f64)> {
+        let step = STEP * mesh.base_pitch;
+        let ends = [self.along + step, self.along - step];
+        let [after, before] = ends.map(|along| Self::at(mesh, along, self.approach, plane));
+        let (after, before) = (after?, before?);
+        let over = |x: f64| 0.5 * x / step;
+        Some((over(after.gap - before.gap), over(after.teeth - before.teeth)))
+    }
+}
+
+/// Gap of a pair (m), its second derivative at a corner (1/m), and the driver's roll length where it touches (m), of flanks that
+/// approach by `approach` (m): each gear is half of that further on its own path, towards a corner at either end.
+fn gap(mesh: &Mesh, along: f64, approach: f64) -> (f64, f64, f64) {
+    // The driven gear's tip enters, the driver's leaves.
+    let beyond = [
+        (MeshMember::Driven, mesh.path_start - along + 0.5 * approach),
+        (MeshMember::Driver, along + 0.5 * approach - mesh.path_end),
+    ];
+    let corner = beyond.into_iter().find(|(_, e)| *e > 0.0);
+    let curvature = corner.map_or(0.0, |(member, _)| mesh.corner_gap_curvature(member));
+    let s = along.clamp(mesh.path_start, mesh.path_end);
+    let (driver, driven) = (mesh.gear(MeshMember::Driver), mesh.gear(MeshMember::Driven));
+    let relief = driver.relief_at(s) + driven.relief_at(mesh.driven_roll_length(s));
+    let e = corner.map_or(0.0, |(_, e)| e);
+    (0.5 * curvature * e * e + relief, curvature, s)
+}
+
+/// The tangent stiffness of a mesh at a phase (cycles) under a force (N); `None` where a tooth is none that the closed forms
+/// hold for, or more than four pairs are near.
+pub(super) fn mesh_tangent(
+    mesh: &Mesh,
+    phase: f64,
+    force: f64,
+    plane: &Plane,
+) -> Option<MeshTangent> {
+    let near = Near::new(pairs_near(mesh, phase, force, plane)?, force, plane);
+    let shared = near.shared()?;
+    let stiffness = near.stiffness(&shared.touching, &shared.forces)?;
+    let mut slopes = Vector4::zeros();
+    let mut corners = 0.0;
+    for (i, pair) in near.pairs.iter().enumerate().filter(|(i, _)| shared.touching[*i]) {
+        let (of_gap, of_teeth) = pair.rolled(mesh, plane)?;
+        slopes[i] = of_gap + shared.forces[i] * of_teeth;
+        corners += shared.forces[i] * pair.curvature;
+    }
+    let pressed = near.tangent(&shared.touching, &shared.forces)?.solve(&slopes);
+    let slope = pressed.sum() / stiffness;
+    let rolling = slopes.dot(&pressed) - corners - stiffness * slope * slope;
+    let hand_over = near.hand_over(&shared, stiffness)?;
+    Some(MeshTangent { stiffness, hand_over, slope, rolling })
+}
+
+/// Which pairs touch.
+type Touching = [bool; MOST];
+
+/// The pairs near the path, and the force they share.
+struct Near {
+    pairs: Vec<Pair>,
+    /// C, m/N; 1 on the diagonal where there is no pair.
+    teeth: Matrix4<f64>,
+    /// 2/(π E' b), m/N.
+    line: f64,
+    force: f64,
+}
+
+/// How they share it.
+struct Shared {
+    touching: Touching,
+    /// N.
+    forces: Vector4<f64>,
+    /// m.
+    approach: f64,
+}
+
+impl Near {
+    fn new(pairs: Vec<Pair>, force: f64, plane: &Plane) -> Self {
+        let mut teeth = Matrix4::identity();
+        for (i, pair) in pairs.iter().enumerate() {
+            teeth[(i, i)] = pair.teeth;
+            if i > 0 {
+                let across = NEIGHBOUR * (pair.teeth * pairs[i - 1].teeth).sqrt();
+                (teeth[(i, i - 1)], teeth[(i - 1, i)]) = (across, across);
+            }
+        }
+        Self { pairs, teeth, line: 2.0 / (PI * plane.modulus * plane.width), force }
+    }
+
+    /// C + diag(h/f − less) of the pairs that touch, factored; the others have rows of the identity.
+    fn factored(&self, touching: &Touching, forces: &Vector4<f64>, less: f64) -> Option<Factored> {
+        let mut c = Matrix4::identity();
+        let count = self.pairs.len();
+        for i in (0..count).filter(|i| touching[*i]) {
+            for j in (0..count).filter(|j| touching[*j]) {
+                c[(i, j)] = self.teeth[(i, j)];
+            }
+            let own = forces[i].max(LEAST_SHARE * self.force);
+            c[(i, i)] += self.line * (self.pairs[i].near - own.ln()) - less;
+        }
+        c.cholesky()
+    }
+
+    /// C + diag h': with a ∝ √f on both flanks, h' = h/f − 2/(π E' b).
+    fn tangent(&self, touching: &Touching, forces: &Vector4<f64>) -> Option<Factored> {
+        self.factored(touching, forces, self.line)
+    }
+
+    /// 1ᵀ (C + diag h')⁻¹ 1, N/m.
+    fn stiffness(&self, touching: &Touching, forces: &Vector4<f64>) -> Option<f64> {
+        let ones = Vector4::from_fn(|i, _| f64::from(u8::from(touching[i])));
+        Some(self.tangent(touching, forces)?.solve(&ones).sum())
+    }
+
+    /// Pairs that are pulled are left out one by one; the half-widths of contact are those of the forces found before.
+    fn shared(&self) -> Option<Shared> {
+        let count = self.pairs.len();
+        let mut forces = Vector4::repeat(self.force / count as f64);
+        let (mut touching, mut approach): (Touching, f64) = ([false; MOST], 0.0);
+        for _ in 0..6 {
+            touching = std::array::from_fn(|i| i < count);
+            let next = loop {
+                let c = self.factored(&touching, &forces, 0.0)?;
+                let of = |i: usize, value: f64| if touching[i] { value } else { 0.0 };
+                let k = c.solve(&Vector4::from_fn(|i, _| of(i, 1.0)));
+                let gaps = |i: usize| self.pairs.get(i).map_or(0.0, |pair| of(i, pair.gap));
+                let own = c.solve(&Vector4::from_fn(|i, _| gaps(i)));
+                // Σ f = 1ᵀ K (δ − g) = F
+                approach = (self.force + own.sum()) / k.sum();
+                let next = k * approach - own;
+                let pulled = (0..count).filter(|i| touching[*i]);
+                let least = pulled.min_by(|a, b| next[*a].total_cmp(&next[*b]))?;
+                match next[least] < 0.0 {
+                    true => touching[least] = false,
+                    false => break next,
+                }
+            };
+            let change = (next - forces).amax();
+            forces = next;
+            if change < 1e-4 * self.force {
+                break;
+            }
+        }
+        Some(Shared { touching, forces, approach })
+    }
+
+    /// The largest change of ln k by a pair that nearly touches, or hardly carries.
+    fn hand_over(&self, shared: &Shared, stiffness: f64) -> Option<f64> {
+        let Shared { touching, forces, approach } = shared;
+        let [off, hardly] = NEAR;
+        let mut largest: f64 = 0.0;
+        for (i, pair) in self.pairs.iter().enumerate() {
+            let is_near = match touching[i] {
+                true => {
+                    let alone = touching.iter().filter(|t| **t).count() == 1;
+                    forces[i] < hardly * self.force && !alone
+                }
+                false => {
+                    let carried: f64 =
+                        (0..self.pairs.len()).map(|j| self.teeth[(i, j)] * forces[j]).sum();
+                    pair.gap + carried - approach < off * approach
+                }
+            };
+            if is_near {
+                let mut other = *touching;
+                other[i] = !other[i];
+                let change = (self.stiffness(&other, forces)? / stiffness).ln();
+                largest = if change.abs() > largest.abs() { change } else { largest };
+            }
+        }
+        Some(largest)
+    }
+}
+
+/// Pairs whose gap is less than twice what a single pair yields.
+fn pairs_near(mesh: &Mesh, phase: f64, force: f64, plane: &Plane) -> Option<Vec<Pair>> {
+    // One pair yields by about 13 F/(E' b) (ISO 6336-1).
+    let single = 13.0 * force / (plane.modulus * plane.width);
+    let approach = single / (0.75 * mesh.contact_ratio + 0.25);
+    let mut pairs = Vec::with_capacity(MOST);
+    for i in -1..=mesh.contact_ratio.ceil() as i32 {
+        let along = mesh.path_start + (phase.rem_euclid(1.0) + f64::from(i)) * mesh.base_pitch;
+        if gap(mesh, along, approach).0 < 2.0 * single {
+            pairs.push(Pair::at(mesh, along, approach, plane)?);
+        }
+    }
+    (1..=MOST).contains(&pairs.len()).then_some(pairs)
+}

@@ -1,0 +1,159 @@
+//! Parameters in closed form: limit cases, and what must not matter.
+
+use gearset::{Displacements, Geometry, LoadCase, PlanetOverride, Scene, SceneKind, template};
+use lumped::{AnalyticSet, LumpedError};
+
+fn oh58() -> Scene {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/oh58_4p.toml");
+    Scene::from_file(std::path::Path::new(path)).unwrap()
+}
+
+/// Equally spaced planets whose meshes have five phases.
+fn five_planets() -> Scene {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/five_planets.toml");
+    Scene::from_file(std::path::Path::new(path)).unwrap()
+}
+
+fn frequencies(scene: &Scene, position: f64) -> Vec<f64> {
+    let case = LoadCase::of_scene(scene).unwrap();
+    let set = AnalyticSet::new(scene, &case, position).unwrap();
+    let groups = set.modes().unwrap().groups;
+    let with = |g: &lumped::ModeGroup| g.frequency_hz * (1.0 + set.inertia_change(g));
+    let mut all: Vec<f64> =
+        groups.iter().flat_map(|g| std::iter::repeat_n(with(g), g.multiplicity)).collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+fn same(a: &[f64], b: &[f64], part: f64) {
+    assert_eq!(a.len(), b.len());
+    for (x, y) in a.iter().zip(b) {
+        assert!((x / y - 1.0).abs() < part, "{a:?}\n{b:?}");
+    }
+}
+
+/// A set under clockwise torque is its mirror image, planets that are not equally spaced included, under the other.
+#[test]
+fn a_mirrored_set_has_the_same_frequencies() {
+    let scene = oh58();
+    let mut mirrored = scene.clone();
+    let load = mirrored.operation.as_mut().unwrap();
+    load.torque_nm = -load.torque_nm;
+    mirrored.planets.psi_rad.iter_mut().for_each(|psi| *psi = -*psi);
+    mirrored.planets.steps.iter_mut().flatten().for_each(|step| *step = -*step);
+    assert!(LoadCase::of_scene(&mirrored).unwrap().sun_torque_nm < 0.0);
+    for position in [0.0, 0.3] {
+        same(&frequencies(&scene, position), &frequencies(&mirrored, position), 1e-9);
+    }
+}
+
+/// With another planet as the first one, the set is the same where that planet's mesh starts its path.
+#[test]
+fn a_renumbered_set_has_the_same_frequencies() {
+    let scene = five_planets();
+    let geometry = Geometry::from_scene(&scene).unwrap();
+    let case = LoadCase::of_scene(&scene).unwrap();
+    let phases =
+        gearset::Phasing::new(&geometry, &scene.planets).unwrap().phases(0.0, case.sense());
+    for first in 1..scene.planets.count() {
+        // Equal spacing: the turned set looks the same, one planet's phase later.
+        let later = (phases.sun_planet[0] - phases.sun_planet[first]).rem_euclid(1.0);
+        same(&frequencies(&scene, 0.0), &frequencies(&scene, later), 1e-8);
+    }
+    // Another position is another set.
+    let other = frequencies(&scene, 0.1);
+    let moved = frequencies(&scene, 0.0).into_iter().zip(&other).map(|(a, b)| (a / b - 1.0).abs());
+    assert!(moved.fold(0.0, f64::max) > 1e-3);
+}
+
+/// A carrier of a material that hardly yields is a rigid one. Masses and teeth of both sets are the same.
+#[test]
+fn a_rigid_carrier_is_the_limit_of_small_seats_flexibility() {
+    let scene = five_planets();
+    let case = LoadCase::of_scene(&scene).unwrap();
+    let mut rigid = scene.clone();
+    rigid.geometry.as_mut().unwrap().carrier.as_mut().unwrap().is_rigid = true;
+    let own = AnalyticSet::new(&scene, &case, 0.0).unwrap();
+    let limit = AnalyticSet::new(&rigid, &case, 0.0).unwrap();
+    assert!(own.seats.amax() > 0.0 && limit.seats.is_empty());
+    assert_eq!(own.model.mass, limit.model.mass);
+    assert!(own.seat_share(0) > 0.0 && limit.seat_share(0) == 0.0);
+    // A stiffer support never lowers a frequency.
+    for (soft, stiff) in own.modes().unwrap().lambda.iter().zip(limit.modes().unwrap().lambda) {
+        assert!(*soft <= stiff * (1.0 + 1e-9), "{soft} {stiff}");
+    }
+    // Reciprocity and symmetry of the seats.
+    let seats = &own.seats;
+    assert!((seats - seats.transpose()).amax() < 1e-12 * seats.amax());
+    assert!(seats.clone().cholesky().is_some());
+    let n = seats.nrows() / 2;
+    for i in 0..n {
+        let next = (i + 1) % n;
+        for (a, b) in [(0, 0), (0, 1), (1, 1)] {
+            let (one, two) = (seats[(2 * i + a, 2 * i + b)], seats[(2 * next + a, 2 * next + b)]);
+            assert!((one - two).abs() < 1e-12 * seats.amax());
+        }
+    }
+}
+
+/// Without load lines of action do not turn, and what they do grows with the load: it is F times the second derivatives of the
+/// approach, which the kinematics of displaced meshes know from elsewhere.
+#[test]
+fn turning_lines_of_action_have_the_second_derivatives_of_the_approach() {
+    let geometry = Geometry::from_scene(&oh58()).unwrap();
+    for (sign, mesh) in [
+        (-1.0, geometry.sun_planet.as_ref().unwrap()),
+        (1.0, geometry.ring_planet.as_ref().unwrap()),
+    ] {
+        let hessian = mesh.displaced(0.4, &Displacements::default()).unwrap().hessians().approach;
+        let length = mesh.center_distance * mesh.pressure_angle.sin();
+        let (sin, cos) = mesh.pressure_angle.sin_cos();
+        // Across the line of action of a mesh whose planet is at (a, 0).
+        let across = [cos, sign * sin];
+        for i in 0..2 {
+            for j in 0..2 {
+                let expected = sign * across[i] * across[j] / length;
+                assert!((hessian[3 + i][3 + j] - expected).abs() < 1e-9 / length, "{hessian:?}");
+            }
+        }
+    }
+}
+
+/// Each scene that the closed forms do not hold for is refused with what is wrong with it.
+#[test]
+fn scenes_without_closed_forms_are_refused() {
+    let refused = |change: &dyn Fn(&mut Scene), why: &str| {
+        let mut scene = oh58();
+        let case = LoadCase::of_scene(&scene).unwrap();
+        change(&mut scene);
+        let error = AnalyticSet::new(&scene, &case, 0.0).unwrap_err();
+        assert!(matches!(&error, LumpedError::NotAnalytic(own) if own.contains(why)), "{error}");
+    };
+    refused(&|s| s.kind = SceneKind::GearPair, "no planetary set");
+    refused(
+        &|s| s.overrides.push(PlanetOverride { planet: 0, mass: Some(1.0), ..Default::default() }),
+        "differ from each other",
+    );
+    refused(&|s| s.fe_contact.flexibility_factor.sun_planet = 0.5, "flexibility_factor");
+    refused(&|s| s.geometry = None, "no teeth");
+    refused(&|s| s.geometry.as_mut().unwrap().planet.body_radius = None, "a rim is thinner");
+    refused(
+        &|s| {
+            let planet = &mut s.geometry.as_mut().unwrap().planet;
+            planet.body_radius = Some(0.99 * planet.root_radius);
+        },
+        "a rim is thinner",
+    );
+    refused(
+        &|s| {
+            let carrier = s.geometry.as_mut().unwrap().carrier.as_mut().unwrap();
+            carrier.pin_seat_radius *= 2.0;
+        },
+        "pin seat",
+    );
+    let scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
+    let case = LoadCase::of_scene(&scene).unwrap();
+    assert!(AnalyticSet::new(&scene, &case, 0.0).is_ok());
+    let error = AnalyticSet::new(&scene, &case.with_sun_torque(0.0), 0.0).unwrap_err();
+    assert!(error.to_string().contains("no torque"), "{error}");
+}
