@@ -286,15 +286,23 @@ fn settings_that_meet_no_tolerance_are_refused_with_their_estimates() {
         assert_eq!((code, out.as_str()), (2, ""), "{line}");
         assert!(err.contains("`dynamics.fidelity`: \"auto\""), "{line}: {err}");
     }
-    let (code, out, err) = run(&["modes", &with("1"), "--format", "json"]);
-    assert_eq!(code, 0, "{err}");
-    let found: Value = serde_json::from_str(&out).unwrap();
-    let auto = &found["auto"];
-    assert_eq!(auto["settings"]["model"], "quasi_static");
-    assert!(auto["estimated_error_percent"].as_f64().unwrap() <= 1.0);
-    let hz = auto["value"].as_f64().unwrap();
-    // docs/fe_dynamics.md: 1152.3 Hz by linearisation at 1130 N·m.
-    assert!((hz / 1152.3 - 1.0).abs() < 0.01, "{hz}");
+    for (tolerance, model) in [("1", "lumped"), ("0.2", "quasi_static")] {
+        let (code, out, err) = run(&["modes", &with(tolerance), "--format", "json"]);
+        assert_eq!(code, 0, "{err}");
+        let found: Value = serde_json::from_str(&out).unwrap();
+        let auto = &found["auto"];
+        assert_eq!(auto["settings"]["model"], model);
+        let allowed: f64 = tolerance.parse().unwrap();
+        assert!(auto["estimated_error_percent"].as_f64().unwrap() <= allowed);
+        let hz = auto["value"].as_f64().unwrap();
+        // docs/fe_dynamics.md: 1152.3 Hz by linearisation at 1130 N·m.
+        assert!((100.0 * (hz / 1152.3 - 1.0)).abs() < allowed, "{hz}");
+        // The modes of the set that was chosen are listed, the answer among them.
+        let listed = found["modes"].as_array().unwrap();
+        assert_eq!(listed.is_empty(), model != "lumped");
+        let is_answer = |mode: &Value| mode["frequency_hz"].as_f64() == Some(hz);
+        assert_eq!(listed.iter().filter(|mode| is_answer(mode)).count(), listed.len().min(1));
+    }
 }
 
 /// `fidelity = "auto"` for a transmission error at rest and for an amplitude: the choice stands with the result, arguments
