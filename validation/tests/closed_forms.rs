@@ -83,7 +83,7 @@ fn closed_forms_hold_on_shipped_sets() {
     }
 }
 
-/// The figures of `docs/auto.md`, on drawn sets, every fourth of which the foundation of the teeth was fitted to.
+/// The figures of `docs/closed_forms.md`, on drawn sets, about every fourth of which the foundation of the teeth was fitted to.
 #[test]
 #[ignore = "three minutes"]
 fn closed_forms_hold_on_drawn_sets() {

@@ -28,7 +28,7 @@ use super::plane::Plane;
 use super::tooth::Tooth;
 
 /// C_ij of neighbouring pairs over √(C_ii C_jj): a rim that yields under one tooth carries its neighbour with it. Fitted to
-/// FE/contact (`docs/auto.md`).
+/// FE/contact (`docs/closed_forms.md`).
 const NEIGHBOUR: f64 = 0.12;
 
 /// A pair that is off its mate by less than this part of the approach may touch, and one that carries less than that of

@@ -10,7 +10,7 @@
 //! point P of the force; S: twice y there; u: distance along the axis from the base section to where the force meets the axis;
 //! t: depth of the rim from root circle to race. Beam, and the first two terms of the foundation, are those of Weber & Banaschek
 //! (Formänderung und Profilrücknahme bei gerad- und schrägverzahnten Rädern, 1953). The rest of the foundation is a rim on a
-//! rigid race instead of their half-plane: T and R are fitted to FE/contact (`docs/auto.md`).
+//! rigid race instead of their half-plane: T and R are fitted to FE/contact (`docs/closed_forms.md`).
 
 use gearset::involute::{pressure_angle_at, radius_at};
 use gearset::{Gear, ToothSide, gauss_points};
@@ -23,7 +23,7 @@ const BASE: f64 = 0.3;
 /// 50/(3π): rotation of the base section under its moment.
 const ROTATION: f64 = 5.305_164_769_729_845;
 
-/// T and R, from 25 drawn sets (`docs/auto.md`).
+/// T and R, from 25 drawn sets (`docs/closed_forms.md`).
 const FITTED: [f64; 2] = [0.08, 1.96];
 
 /// Ratios t/S of the rim to which they were fitted.
