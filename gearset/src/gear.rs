@@ -123,16 +123,21 @@ impl Gear {
 
     /// Tip relief at roll length `s`, measured along the line of action; zero without relief.
     pub fn relief_at(&self, roll_length: f64) -> f64 {
-        let Some(relief) = self.tip_relief else {
-            return 0.0;
-        };
+        self.relief_and_slope_at(roll_length)[0]
+    }
+
+    /// Tip relief (m) and its derivative with respect to the roll length (m/m); where relief starts the derivative is that
+    /// of the side without relief.
+    pub fn relief_and_slope_at(&self, roll_length: f64) -> [f64; 2] {
+        let Some(relief) = self.tip_relief else { return [0.0; 2] };
         let start = roll_length_at(self.base_radius, relief.start_radius);
         // Towards the tip the roll length grows on an external gear and shrinks on an internal one.
-        let x = (roll_length - start) / (self.tip_roll_length() - start);
+        let length = self.tip_roll_length() - start;
+        let x = (roll_length - start) / length;
         match relief.shape {
-            _ if x <= 0.0 => 0.0,
-            ReliefShape::Linear => relief.amount * x,
-            ReliefShape::Parabolic => relief.amount * x * x,
+            _ if x <= 0.0 => [0.0; 2],
+            ReliefShape::Linear => [relief.amount * x, relief.amount / length],
+            ReliefShape::Parabolic => [relief.amount * x * x, 2.0 * relief.amount * x / length],
         }
     }
 }
@@ -194,10 +199,21 @@ impl<'g> Flank<'g> {
 
     /// Point of the unrelieved flank at roll length `s`, m.
     pub fn point(&self, roll_length: f64) -> [f64; 2] {
-        let r = radius_at(self.gear.base_radius, roll_length);
-        let alpha = (roll_length / self.gear.base_radius).atan();
-        let angle = self.origin_angle - self.facing.sign() * inv(alpha);
-        [self.centre[0] + r * angle.cos(), self.centre[1] + r * angle.sin()]
+        self.point_and_radial(roll_length).0
+    }
+
+    /// Point P of the unrelieved flank at roll length s, m, and the unit radial direction e where its base tangent leaves
+    /// the base circle, so that dP/ds = (s/r_b) e:
+    ///
+    /// ```text
+    /// P = c + r_b e(φ) ± s e'(φ),   φ = θ₀ ∓ s/r_b   (upper sign: counter-clockwise end of the lobe)
+    /// ```
+    pub fn point_and_radial(&self, roll_length: f64) -> ([f64; 2], [f64; 2]) {
+        let (sign, r_b) = (self.facing.sign(), self.gear.base_radius);
+        let (sin, cos) = (self.origin_angle - sign * roll_length / r_b).sin_cos();
+        let along = sign * roll_length;
+        let [x, y] = [r_b * cos - along * sin, r_b * sin + along * cos];
+        ([self.centre[0] + x, self.centre[1] + y], [cos, sin])
     }
 
     /// Gap from the unrelieved flank to a point, measured along the base tangent through the point,

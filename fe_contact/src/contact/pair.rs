@@ -3,6 +3,8 @@
 //! Everything is taken in the mesh frame of [`Mesh`]: central gear at the origin, planet at (a, 0),
 //! the central input turning counter-clockwise.
 
+use std::sync::OnceLock;
+
 use gearset::involute::{radius_at, roll_length_at};
 use gearset::{Facing, Flank, Mesh, MeshKind, MeshMember, ToothSide};
 
@@ -33,6 +35,8 @@ pub struct PairFrame<'m> {
     pub gap: f64,
     driver: Flank<'m>,
     driven: Flank<'m>,
+    /// Tangential coordinate of the least gap, once it was asked for, m.
+    least_gap_at: OnceLock<f64>,
 }
 
 /// One flank in its own tooth's frame.
@@ -56,7 +60,8 @@ impl<'m> PairFrame<'m> {
         let (driver, driven) = mesh.flanks(roll_length);
         let on_driver = |flank: &Flank<'_>, angle: f64| outward(flank, angle);
         let at = |location, origin, normal, gap| {
-            Some(Self { index, location, origin, normal, gap, driver, driven })
+            let least_gap_at = OnceLock::new();
+            Some(Self { index, location, origin, normal, gap, driver, driven, least_gap_at })
         };
         if roll_length < mesh.path_start {
             let tip = driven.point(driven.gear.tip_roll_length());
@@ -202,21 +207,23 @@ impl<'m> PairFrame<'m> {
         let flank = self.flank(member);
         let [ox, oy] = [self.origin[0] - flank.centre[0], self.origin[1] - flank.centre[1]];
         let r_b = flank.gear.base_radius;
+        let t = self.tangent();
         let mut s = roll_length_at(r_b, ox.hypot(oy));
+        let mut last = f64::INFINITY;
         for _ in 0..20 {
-            let p = flank.point(s);
-            // dP/ds = (s/r_b) · unit radius where the base tangent leaves the base circle.
-            let angle = flank.origin_angle - flank.facing.sign() * s / r_b;
-            let t = self.tangent();
-            let slope = s / r_b * (angle.cos() * t[0] + angle.sin() * t[1]);
+            let (p, e) = flank.point_and_radial(s);
+            // dP/ds = (s/r_b) e
+            let slope = s / r_b * (e[0] * t[0] + e[1] * t[1]);
             let step = (self.across(p) - x) / slope;
             if !step.is_finite() {
                 break;
             }
             s = (s - step).max(0.1 * s);
-            if step.abs() < 1e-15 {
+            // Steps that small are of rounding once they no longer shrink: a step of Newton's method squares the error.
+            if step.abs() < 1e-15 || (step.abs() < ROUNDED && step.abs() > 0.25 * last) {
                 break;
             }
+            last = step.abs();
         }
         s
     }
@@ -267,18 +274,38 @@ impl PairFrame<'_> {
     /// slope of g changes its sign there. g is convex, so that its slope changes sign once between the ends
     /// of the flanks.
     pub fn least_gap_at(&self) -> f64 {
-        let [low, high] = self.extent();
-        let half = 0.5 * SLOPE_STEP;
-        let (low, high) = (low + half, high - half);
-        if !self.is_relieved() || high <= low {
-            return 0.0;
-        }
-        let rises = |x: f64| self.gap_at(x + half) > self.gap_at(x - half);
-        let start = 0.0f64.clamp(low, high);
-        match rises(start) {
-            true => outwards(start, low, |x| !rises(x)).unwrap_or(low),
-            false => outwards(start, high, rises).unwrap_or(high),
-        }
+        *self.least_gap_at.get_or_init(|| {
+            let [low, high] = self.extent();
+            if !self.is_relieved() || high <= low {
+                return 0.0;
+            }
+            let rises = |x: f64| self.gap_slope_at(x) > 0.0;
+            let start = 0.0f64.clamp(low, high);
+            match rises(start) {
+                true => outwards(start, low, |x| !rises(x)).unwrap_or(low),
+                false => outwards(start, high, rises).unwrap_or(high),
+            }
+        })
+    }
+
+    /// Derivative of the gap with respect to the tangential coordinate x, m/m. With the tangent t and, on either flank, the
+    /// radial direction e and the roll length s,
+    ///
+    /// ```text
+    /// g = (q − p)·n + Σ relief,   dp/ds = (s/r_b) e,   d(p·n)/dx = (e·n)/(e·t),   ds/dx = r_b/(s e·t)
+    /// ```
+    fn gap_slope_at(&self, x: f64) -> f64 {
+        let (n, t) = (self.normal, self.tangent());
+        let of = |member: MeshMember, sign: f64| {
+            let (flank, s) = (self.flank(member), self.roll_length_at(member, x));
+            let (_, e) = flank.point_and_radial(s);
+            let [on_n, on_t] = [n, t].map(|d| e[0] * d[0] + e[1] * d[1]);
+            let [_, relief] = flank.gear.relief_and_slope_at(s);
+            // Relief begins above the base circle, where s > 0.
+            let relief = if relief == 0.0 { 0.0 } else { relief * flank.gear.base_radius / s };
+            (sign * on_n + relief) / on_t
+        };
+        of(MeshMember::Driver, -1.0) + of(MeshMember::Driven, 1.0)
     }
 
     /// Least gap between the unloaded flanks along the normal, tip relief included, m.
@@ -325,9 +352,11 @@ impl PairFrame<'_> {
     }
 }
 
-/// Distance over which the slope of a gap is taken, m: a hundredth of the width of a contact cell,
-/// over which the rounding of two gaps (1e-17 m each) changes a slope by less than 1e-9.
-const SLOPE_STEP: f64 = 1e-7;
+/// Steps of a roll length that may be of rounding, m: a millionth of the width of a contact cell.
+const ROUNDED: f64 = 1e-11;
+
+/// Width of the interval at which a search along a flank ends, m: rounding of coordinates of the order of 0.1 m.
+const FOUND: f64 = 1e-16;
 
 /// First step of a search along a flank, m: a tenth of the width of a contact cell.
 const FIRST_STEP: f64 = 1e-6;
@@ -345,7 +374,7 @@ fn outwards(start: f64, end: f64, holds: impl Fn(f64) -> bool) -> Option<f64> {
         (near, far) = (far, (2.0 * far).min(length));
     }
     // Halved until nothing but rounding is left.
-    for _ in 0..50 {
+    while far - near > FOUND.max(f64::EPSILON * far) {
         let middle = 0.5 * (near + far);
         match holds(start + sense * middle) {
             true => far = middle,
