@@ -216,8 +216,7 @@ impl GearBody {
         if offset != 0 && self.mesh.sectors.len() > 1 {
             return None;
         }
-        let reach = (self.responses.near.len() as i64 - 1) / 2;
-        self.responses.near.get(usize::try_from(offset + reach).ok()?)
+        self.responses.near(offset)
     }
 
     /// Normal displacement at `depth` (m) below mid-flank of the tooth `offset` on, under a unit
@@ -275,10 +274,7 @@ impl GearBody {
         offset: i64,
         (point, measured): (&[(usize, f64)], [f64; 2]),
     ) -> f64 {
-        let teeth = self.mesh.nodes.len() as i64;
-        let Some(response) = self.responses.around.get(offset.rem_euclid(teeth) as usize) else {
-            return 0.0;
-        };
+        let Some(response) = self.responses.around(offset) else { return 0.0 };
         let mut sum = 0.0;
         for (column, w) in load {
             for (k, f) in force.iter().enumerate() {

@@ -1,7 +1,10 @@
 //! What a gear keeps of its elastic solution: displacements of its teeth under unit loads on one of them.
 
+use std::sync::OnceLock;
+
 use nalgebra::DMatrix;
 
+use super::sector_ring::RingOfSectors;
 use crate::fe_mesh::{FeGearMesh, Sector};
 
 /// Neighbouring teeth on either side whose response to a loaded tooth is kept.
@@ -50,14 +53,52 @@ impl LoadNodes {
 pub(super) struct Responses {
     /// Of all nodes of a sector (2 rows each, in the frame of the displaced tooth), one matrix for
     /// each of the teeth −reach…reach, m/N.
-    pub(super) near: Vec<DMatrix<f64>>,
+    near: Vec<OnceLock<DMatrix<f64>>>,
     /// Of the load nodes only (2 rows each), for every tooth, counted from the loaded one; for
     /// tooth 0 only where teeth are meshed differently, m/N.
-    pub(super) around: Vec<DMatrix<f64>>,
+    around: Vec<OnceLock<DMatrix<f64>>>,
+    /// Teeth of the gear.
+    teeth: i64,
+    /// What they are computed from when they are first asked for: most contact needs those of a tooth and its two
+    /// neighbours alone.
+    ring: Option<RingOfSectors>,
 }
 
 impl Responses {
-    /// Teeth to which the matrices of [`Responses::near`] belong.
+    /// Those of equal teeth, of which none is computed yet.
+    pub(super) fn of_ring(mesh: &FeGearMesh, ring: RingOfSectors) -> Self {
+        let none = |count: usize| (0..count).map(|_| OnceLock::new()).collect();
+        let (near, around) = (Self::near_teeth(mesh).count(), mesh.nodes.len());
+        Self { near: none(near), around: none(around), teeth: around as i64, ring: Some(ring) }
+    }
+
+    /// Those of a gear, all of which are known.
+    pub(super) fn known(mesh: &FeGearMesh, near: Vec<DMatrix<f64>>, around: Vec<DMatrix<f64>>) -> Self {
+        let kept = |list: Vec<DMatrix<f64>>| list.into_iter().map(OnceLock::from).collect();
+        let teeth = mesh.nodes.len() as i64;
+        Self { near: kept(near), around: kept(around), teeth, ring: None }
+    }
+
+    /// Response at all nodes of the tooth `offset` teeth on from the loaded one; `None` beyond the kept ones.
+    pub(super) fn near(&self, offset: i64) -> Option<&DMatrix<f64>> {
+        let reach = (self.near.len() as i64 - 1) / 2;
+        let slot = self.near.get(usize::try_from(offset + reach).ok()?)?;
+        match &self.ring {
+            Some(ring) => Some(slot.get_or_init(|| ring.of_all_nodes(offset))),
+            None => slot.get(),
+        }
+    }
+
+    /// Response at the load nodes of the tooth `offset` teeth on from the loaded one.
+    pub(super) fn around(&self, offset: i64) -> Option<&DMatrix<f64>> {
+        let slot = self.around.get(offset.rem_euclid(self.teeth) as usize)?;
+        match &self.ring {
+            Some(ring) => Some(slot.get_or_init(|| ring.of_load_nodes(offset))),
+            None => slot.get(),
+        }
+    }
+
+    /// Teeth to which the matrices of the near teeth belong.
     pub(super) fn near_teeth(mesh: &FeGearMesh) -> impl Iterator<Item = usize> + use<> {
         let teeth = mesh.nodes.len();
         let reach = reach(teeth);

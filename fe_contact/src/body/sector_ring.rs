@@ -84,30 +84,53 @@ pub(super) fn responses(
     }
     let sector = Condensed::new(mesh, material, face_width, &unit)?;
     let cuts = sector.ring(mesh.name)?;
-    let teeth = mesh.nodes.len();
-    // Sectors follow each other clockwise on external gears, where tooth numbers go down.
-    let place = |tooth: usize| match mesh.outline.radial_sign() > 0.0 {
-        true => (teeth - tooth) % teeth,
-        false => tooth,
-    };
-    let near = Responses::near_teeth(mesh).map(|tooth| {
-        let mut response = &sector.carried * cuts.of(place(tooth));
-        if tooth == 0 {
-            response += &sector.held;
-        }
-        response
-    });
+    let Condensed { carried, held, .. } = sector;
     // The same rows of the load nodes alone.
     let rows: Vec<usize> = loads.list.iter().flat_map(|node| [2 * node, 2 * node + 1]).collect();
-    let (carried, held) = (sector.carried.select_rows(&rows), sector.held.select_rows(&rows));
-    let around = (0..teeth).map(|tooth| {
-        let mut response = &carried * cuts.of(place(tooth));
-        if tooth == 0 {
-            response += &held;
+    let of_load_nodes = [carried.select_rows(&rows), held.select_rows(&rows)];
+    // Sectors follow each other clockwise on external gears, where tooth numbers go down.
+    let goes_down = mesh.outline.radial_sign() > 0.0;
+    let ring = RingOfSectors { of_all_nodes: [carried, held], of_load_nodes, cuts, goes_down };
+    Ok(Responses::of_ring(mesh, ring))
+}
+
+/// Displacements of the sectors of a ring under loads on one of them, as far as its cuts tell them.
+#[derive(Debug, Clone)]
+pub(super) struct RingOfSectors {
+    /// Displacements under those of the cuts, and under the loads with both cuts held: [`Condensed::carried`] and
+    /// [`Condensed::held`].
+    of_all_nodes: [DMatrix<f64>; 2],
+    of_load_nodes: [DMatrix<f64>; 2],
+    cuts: Cuts,
+    /// Whether the tooth of the next sector has the next lower number.
+    goes_down: bool,
+}
+
+impl RingOfSectors {
+    /// Response of all nodes of the tooth `offset` teeth on from the loaded one, 2 rows each, m/N.
+    pub(super) fn of_all_nodes(&self, offset: i64) -> DMatrix<f64> {
+        self.of(&self.of_all_nodes, offset)
+    }
+
+    /// The same of the load nodes alone.
+    pub(super) fn of_load_nodes(&self, offset: i64) -> DMatrix<f64> {
+        self.of(&self.of_load_nodes, offset)
+    }
+
+    fn of(&self, [carried, held]: &[DMatrix<f64>; 2], offset: i64) -> DMatrix<f64> {
+        let sectors = self.cuts.list.ncols() as i64;
+        let sector = (if self.goes_down { -offset } else { offset }).rem_euclid(sectors) as usize;
+        let moved = self.cuts.of(sector);
+        // u = E c, and u_held of the loaded sector
+        match sector {
+            0 => {
+                let mut response = held.clone();
+                response.gemm(1.0, carried, &moved, 1.0);
+                response
+            }
+            _ => carried * moved,
         }
-        response
-    });
-    Ok(Responses { near: near.collect(), around: around.collect() })
+    }
 }
 
 /// A sector condensed onto its cuts.
@@ -215,13 +238,22 @@ impl Condensed {
             }
         }
         factor.solve(&mut right);
-        let e = DMatrix::from_fn(inner, 2 * cut, |r, c| right[(r, count + c)]);
-        // S = K_cc + K_ci E
-        stiffness += border.tr_mul(&e);
+        // S = K_cc + K_ci E,  g = f_c + Eᵀ f: of border and loads only the entries that are not 0
+        for (p, column) in border.column_iter().enumerate() {
+            for (r, k) in column.iter().enumerate().filter(|(_, k)| **k != 0.0) {
+                (0..2 * cut).for_each(|q| stiffness[(p, q)] += k * right[(r, count + q)]);
+            }
+        }
         stiffness = 0.5 * (&stiffness + stiffness.transpose());
-        reduced += e.tr_mul(&pressed);
+        for (c, column) in pressed.column_iter().enumerate() {
+            for (r, f) in column.iter().enumerate().filter(|(_, f)| **f != 0.0) {
+                (0..2 * cut).for_each(|q| reduced[(q, c)] += f * right[(r, count + q)]);
+            }
+        }
         let (mut carried, mut held) =
             (DMatrix::zeros(2 * places.len(), 2 * cut), DMatrix::zeros(2 * places.len(), count));
+        // Row of the sector's nodes and of its inner unknowns.
+        let mut rows: Vec<(usize, usize)> = Vec::with_capacity(inner);
         for (node, place) in places.iter().enumerate() {
             for r in 0..2 {
                 let row = 2 * node + r;
@@ -231,12 +263,15 @@ impl Condensed {
                     Place::Last(at) => {
                         (0..2).for_each(|c| carried[(row, cut + at + c)] = turn[r][c]);
                     }
-                    Place::Inner(at) => {
-                        carried.row_mut(row).copy_from(&e.row(at + r));
-                        (0..count).for_each(|c| held[(row, c)] = right[(at + r, c)]);
-                    }
+                    Place::Inner(at) => rows.push((row, at + r)),
                 }
             }
+        }
+        for c in 0..2 * cut {
+            rows.iter().for_each(|(row, at)| carried[(*row, c)] = right[(*at, count + c)]);
+        }
+        for c in 0..count {
+            rows.iter().for_each(|(row, at)| held[(*row, c)] = right[(*at, c)]);
         }
         let sectors = mesh.nodes.len();
         Ok(Self { carried, held, stiffness, loads: reduced, cut, sectors })
@@ -371,6 +406,7 @@ impl Blocks {
 }
 
 /// Displacements of the first cuts of all sectors under the loads.
+#[derive(Debug, Clone)]
 struct Cuts {
     /// One column for each sector: m unknowns of each load in turn.
     list: DMatrix<f64>,

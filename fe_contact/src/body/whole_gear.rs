@@ -66,5 +66,5 @@ pub(super) fn responses(
     let kept = |list: Vec<(usize, Vec<usize>, DMatrix<f64>)>| {
         list.into_iter().map(|(_, _, response)| response).collect()
     };
-    Ok(Responses { near: kept(near), around: kept(around) })
+    Ok(Responses::known(mesh, kept(near), kept(around)))
 }
