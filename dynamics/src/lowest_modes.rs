@@ -1,6 +1,6 @@
 //! The lowest modes of a large K φ = ω² M φ by a block Lanczos method.
 
-use faer::Mat;
+use nalgebra::DVectorView;
 
 use crate::error::EigenError;
 use crate::symmetric::symmetric_eigen;
@@ -53,6 +53,8 @@ pub fn lowest_modes(
     let mut weighted: Vec<Vec<f64>> = Vec::new();
     // K⁻¹M of each basis vector.
     let mut images: Vec<Vec<f64>> = Vec::new();
+    // T = VᵀM K⁻¹M V, columns down to the diagonal.
+    let mut t: Vec<Vec<f64>> = Vec::new();
     let mut fresh: Vec<Vec<f64>> = (0..BLOCK.min(n)).map(|k| start_vector(n, k)).collect();
     let mut next_check = 2 * wanted + 4 * BLOCK;
     loop {
@@ -76,6 +78,7 @@ pub fn lowest_modes(
                 operator.solve(&mut image);
                 basis.push(v);
                 weighted.push(w);
+                t.push(weighted.iter().map(|w| dot(w, &image)).collect());
                 images.push(image);
             }
         }
@@ -83,7 +86,7 @@ pub fn lowest_modes(
         let first_new = m.saturating_sub(BLOCK);
         let exhausted = m >= n || m >= next_check.max(n / 2);
         if m >= next_check || exhausted {
-            if let Some(modes) = ritz(operator, &basis, &weighted, &images, wanted, count)? {
+            if let Some(modes) = ritz(operator, (&basis, &images), &t, wanted, count)? {
                 return Ok(modes);
             }
             if exhausted {
@@ -98,23 +101,13 @@ pub fn lowest_modes(
 /// The wanted modes from the subspace, `None` if they have not converged yet.
 fn ritz(
     operator: &dyn ModalOperator,
-    basis: &[Vec<f64>],
-    weighted: &[Vec<f64>],
-    images: &[Vec<f64>],
+    (basis, images): (&[Vec<f64>], &[Vec<f64>]),
+    t: &[Vec<f64>],
     wanted: usize,
     count: usize,
 ) -> Result<Option<Vec<LowMode>>, EigenError> {
     let (m, n) = (basis.len(), operator.size());
-    // T = VᵀM K⁻¹M V
-    let mut t = Mat::zeros(m, m);
-    for j in 0..m {
-        for i in 0..=j {
-            let value = dot(&weighted[i], &images[j]);
-            t[(i, j)] = value;
-            t[(j, i)] = value;
-        }
-    }
-    let (theta, vectors) = symmetric_eigen(m, |i, j| t[(i, j)])?;
+    let (theta, vectors) = symmetric_eigen(m, |i, j| t[i.max(j)][i.min(j)])?;
     let mut modes = Vec::with_capacity(wanted);
     for k in 0..wanted.min(m) {
         let column = m - 1 - k;
@@ -161,7 +154,8 @@ fn start_vector(n: usize, k: usize) -> Vec<f64> {
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
+    // Several sums side by side, which one after the other would wait for each addition.
+    DVectorView::from_slice(a, a.len()).dot(&DVectorView::from_slice(b, b.len()))
 }
 
 fn axpy(factor: f64, x: &[f64], y: &mut [f64]) {

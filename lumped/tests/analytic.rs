@@ -1,7 +1,7 @@
 //! Parameters in closed form: limit cases, and what must not matter.
 
 use gearset::{Displacements, Geometry, LoadCase, PlanetOverride, Scene, SceneKind, template};
-use lumped::{AnalyticSet, LumpedError};
+use lumped::{AnalyticCycle, AnalyticSet, LumpedError};
 
 fn oh58() -> Scene {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/oh58_4p.toml");
@@ -136,7 +136,10 @@ fn scenes_without_closed_forms_are_refused() {
     );
     refused(&|s| s.fe_contact.flexibility_factor.sun_planet = 0.5, "flexibility_factor");
     refused(&|s| s.geometry = None, "no teeth");
-    refused(&|s| s.geometry.as_mut().unwrap().planet.body_radius = None, "a rim is thinner");
+    refused(
+        &|s| s.geometry.as_mut().unwrap().planet.body_radius = None,
+        "a bore or rim is missing",
+    );
     refused(
         &|s| {
             let planet = &mut s.geometry.as_mut().unwrap().planet;
@@ -156,4 +159,68 @@ fn scenes_without_closed_forms_are_refused() {
     assert!(AnalyticSet::new(&scene, &case, 0.0).is_ok());
     let error = AnalyticSet::new(&scene, &case.with_sun_torque(0.0), 0.0).unwrap_err();
     assert!(error.to_string().contains("no torque"), "{error}");
+}
+
+/// Transmission errors at some positions, m.
+fn at_rest(scene: &Scene, positions: &[f64]) -> Vec<f64> {
+    let cycle = AnalyticCycle::new(scene, &LoadCase::of_scene(scene).unwrap()).unwrap();
+    cycle.at_rest(positions).unwrap().iter().map(|own| own.transmission_error).collect()
+}
+
+/// A mirrored set under the other torque has the same transmission error, and one that turns into itself repeats it.
+#[test]
+fn transmission_errors_know_no_mirror_and_no_first_planet() {
+    let positions: Vec<f64> = (0..12).map(|i| f64::from(i) / 12.0 + 0.003).collect();
+    let scene = oh58();
+    let mut mirrored = scene.clone();
+    let load = mirrored.operation.as_mut().unwrap();
+    load.torque_nm = -load.torque_nm;
+    mirrored.planets.psi_rad.iter_mut().for_each(|psi| *psi = -*psi);
+    mirrored.planets.steps.iter_mut().flatten().for_each(|step| *step = -*step);
+    let own = at_rest(&scene, &positions);
+    same(&own, &at_rest(&mirrored, &positions), 1e-9);
+    // Two pairs of planets opposite each other: half a cycle on, the set turned by half a turn.
+    same(&own[..6], &own[6..], 1e-9);
+    let five: Vec<f64> = positions.iter().map(|x| x + 0.2).collect();
+    same(&at_rest(&five_planets(), &positions), &at_rest(&five_planets(), &five), 1e-9);
+    // A quarter of a cycle on, and a fifth of one of the other set, is no symmetry.
+    let apart = own[0] - own[3];
+    assert!(apart.abs() > 1e-4 * own[0], "{own:?}");
+}
+
+/// Twice the width, the torque and the stiffness of every bearing is the same set twice beside itself.
+#[test]
+fn a_set_of_twice_the_width_yields_as_much_under_twice_the_torque() {
+    let scene = five_planets();
+    let mut twice = scene.clone();
+    let geometry = twice.geometry.as_mut().unwrap();
+    geometry.face_width *= 2.0;
+    twice.operation.as_mut().unwrap().torque_nm *= 2.0;
+    let supports = &mut twice.supports;
+    supports.planet_bearing *= 2.0;
+    for support in [&mut supports.carrier, &mut supports.ring, &mut supports.sun] {
+        support.bearing *= 2.0;
+        support.torsional = match support.torsional {
+            gearset::Torsional::PerLength(k) => gearset::Torsional::PerLength(2.0 * k),
+            gearset::Torsional::PerAngle(k) => gearset::Torsional::PerAngle(2.0 * k),
+        };
+    }
+    let positions = [0.0, 0.13, 0.4, 0.77];
+    same(&at_rest(&scene, &positions), &at_rest(&twice, &positions), 1e-7);
+}
+
+/// The torque's work on the sun is what springs store: meshes and seats have a share each, and the rest, that of the bearings, is
+/// positive; more than the torque alone is not there.
+#[test]
+fn shares_of_meshes_and_seats_are_parts_of_the_work() {
+    for scene in [oh58(), five_planets()] {
+        let cycle = AnalyticCycle::new(&scene, &LoadCase::of_scene(&scene).unwrap()).unwrap();
+        for own in cycle.at_rest(&[0.0, 0.3, 0.6]).unwrap() {
+            let work = cycle.load() * own.transmission_error;
+            let [suns, rings] = own.mesh_work.map(|work_of| work_of / work);
+            let seats = own.seat_work / work;
+            assert!(suns > 0.0 && rings > 0.0 && seats > 0.0, "{own:?}");
+            assert!(suns + rings + seats < 1.0, "{suns} {rings} {seats}");
+        }
+    }
 }

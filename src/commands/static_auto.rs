@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use experiments::auto::{CycleRequest, CycleValue, choose_transmission_error};
+use experiments::auto::{AutoModel, CycleRequest, CycleValue, choose_transmission_error};
 use gearset::{AutoQuantity, LoadCase, Scene};
 
 use crate::arguments::{ContactSolver, Static, TableFormat};
@@ -44,12 +44,27 @@ pub(super) fn run(
         let reason = "`dynamics.fidelity` = \"auto\" solves by active sets: leave it out";
         return Err(refused("--solver", reason));
     }
+    // The lumped model, which may be enough for a mean, has no tooth pairs to list or draw.
+    if request.value == CycleValue::Mean {
+        let reason = "`dynamics.quantity` = \"mean_transmission_error\" may be answered by the lumped model, which has no \
+                      positions: leave it out, or name the settings";
+        if arguments.format == TableFormat::Csv {
+            return Err(refused("--format csv", reason));
+        }
+        #[cfg(feature = "charts")]
+        if arguments.figures.is_some() {
+            return Err(refused("--figures", reason));
+        }
+    }
     let working = Working::new("choosing settings");
     let choice = choose_transmission_error(scene, &LoadCase::standing(*torque), request)
         .map_err(|e| unfit(path, format!("`dynamics.fidelity` = \"auto\": {e}")))?;
     drop(working);
     if arguments.format == TableFormat::Csv {
         auto_choice::write(&choice, err)?;
+    }
+    if choice.settings.model == AutoModel::Lumped {
+        return static_set::answered(arguments.format, scene, choice, out);
     }
     static_set::run(arguments, &choice.settings.applied_to(scene), torques, Some(choice), out)
 }

@@ -21,7 +21,7 @@ use super::{auto_choice, fe_refused, statics, unfit};
 /// `static --format json` of a whole set. Displacements in the carrier frame, counter-clockwise.
 #[derive(Debug, Serialize, JsonSchema)]
 pub(crate) struct SetOutput {
-    /// One entry for each torque.
+    /// One entry for each torque; none where `auto` chose the lumped model, which has no positions.
     torques: Vec<TorqueOutput>,
     /// With `fidelity = "auto"`: the settings chosen, why, and the transmission error with its estimated error.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -154,6 +154,21 @@ pub(super) fn run(
         }
     };
     saved.and(shown)
+}
+
+/// The answer of the lumped model, which has no positions to show.
+pub(super) fn answered(
+    format: TableFormat,
+    scene: &Scene,
+    choice: Choice,
+    out: &mut dyn Write,
+) -> Result<(), CommandError> {
+    if format == TableFormat::Json {
+        return output::json(out, &SetOutput { torques: Vec::new(), auto: Some(choice) });
+    }
+    writeln!(out, "{}", scene.title)?;
+    auto_choice::write(&choice, out)?;
+    Ok(())
 }
 
 fn describe(cycle: &SetCycle, radius: f64) -> TorqueOutput {

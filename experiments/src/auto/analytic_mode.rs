@@ -12,10 +12,10 @@ use crate::modal::majority;
 
 /// What the stiffness of the meshes of one kind may be off, where no pair hands over: 90 % of the meshes of drawn sets
 /// are within 6 % (95 % within 8.5 %; `validation/tests/closed_forms.rs`).
-const STIFFNESS_DOUBT: f64 = 0.06;
+pub(super) const STIFFNESS_DOUBT: f64 = 0.06;
 
 /// What the flexibility of pin seats may be off: 3 % radial and 0.7 % tangential on the drawn sets.
-const SEAT_DOUBT: f64 = 0.04;
+pub(super) const SEAT_DOUBT: f64 = 0.04;
 
 /// Part of what turning forces do at most that their closed form may leave: planets share the torque evenly in it.
 const TURNING_DOUBT: f64 = 0.1;

@@ -1,4 +1,5 @@
-//! The transmission error of a set over a mesh cycle at rest, at even positions and refined about its extremes.
+//! The transmission error of a set over its period at rest, at even positions and refined about its extremes: over a mesh cycle, or
+//! over the part of one in which it repeats itself.
 
 use std::collections::BTreeMap;
 
@@ -19,14 +20,17 @@ pub(super) struct Curve<'b> {
     torque_nm: f64,
     /// Base radius of the sun, m.
     radius: f64,
-    /// Positions into which a mesh cycle is divided at the finest.
+    /// Periods in a mesh cycle.
+    periods: u32,
+    /// Positions into which a period is divided at the finest.
     finest: u32,
     /// r_b θ of the sun by position, in parts of the finest division, m.
     known: BTreeMap<u32, f64>,
 }
 
 impl<'b> Curve<'b> {
-    /// A set about its mean configuration under the load, with no positions yet.
+    /// A set about its mean configuration under the load, with no positions yet: `periods` in a mesh cycle, each divided into
+    /// `finest` positions.
     ///
     /// # Errors
     /// If FE/contact refuses the scene.
@@ -34,20 +38,20 @@ impl<'b> Curve<'b> {
         scene: &Scene,
         bodies: &'b Bodies,
         case: &LoadCase,
-        finest: u32,
+        (periods, finest): (u32, u32),
     ) -> Result<Self, ExperimentError> {
         let sun = bodies.geometry.sun.as_ref().ok_or(ExperimentError::Incomplete("sun"))?;
         let torque_nm = case.sun_load_nm();
         let set = StaticSet::new(scene, bodies, case.sense(), Imperfections::default())?;
         let (set, known) = (set.under(torque_nm)?, BTreeMap::new());
-        Ok(Self { set, torque_nm, radius: sun.base_radius, finest, known })
+        Ok(Self { set, torque_nm, radius: sun.base_radius, periods, finest, known })
     }
 
     /// Another mesh about the mean configuration of this one, with no positions yet.
     pub(super) fn on_bodies<'t>(&self, bodies: &'t Bodies) -> Curve<'t> {
-        let Self { torque_nm, radius, finest, .. } = *self;
+        let Self { torque_nm, radius, periods, finest, .. } = *self;
         let (set, known) = (self.set.on_bodies(bodies), BTreeMap::new());
-        Curve { set, torque_nm, radius, finest, known }
+        Curve { set, torque_nm, radius, periods, finest, known }
     }
 
     /// Values at some positions, in parts of the finest division, m.
@@ -58,7 +62,8 @@ impl<'b> Curve<'b> {
         let list: Vec<u32> =
             positions.iter().copied().filter(|x| !self.known.contains_key(x)).collect();
         if !list.is_empty() {
-            let cycles = list.iter().map(|x| f64::from(*x) / f64::from(self.finest));
+            let in_cycle = f64::from(self.finest) * f64::from(self.periods);
+            let cycles = list.iter().map(|x| f64::from(*x) / in_cycle);
             let cycles: Vec<f64> = cycles.collect();
             let found = self.set.at_positions(self.torque_nm, &cycles, &ActiveSet)?;
             // A single position has no peak-to-peak motion to compare with.
@@ -92,7 +97,7 @@ impl<'b> Curve<'b> {
         }
     }
 
-    /// Position (cycles) and value (m) of all that were computed, ascending.
+    /// Position (periods) and value (m) of all that were computed, ascending.
     pub(super) fn points(&self) -> Vec<[f64; 2]> {
         let finest = f64::from(self.finest);
         self.known.iter().map(|(x, y)| [f64::from(*x) / finest, *y]).collect()
@@ -103,7 +108,7 @@ impl<'b> Curve<'b> {
         &self.known
     }
 
-    /// Positions into which a mesh cycle is divided at the finest.
+    /// Positions into which a period is divided at the finest.
     pub(super) fn finest(&self) -> u32 {
         self.finest
     }

@@ -84,7 +84,11 @@ impl CycleRequest {
     /// All candidates for a scene, from cheap to dear.
     pub fn candidates(&self, scene: &Scene) -> Vec<AutoSettings> {
         let base = divided(scene, POSITIONS);
-        self.order().iter().map(|(mesh, doubled)| self.settings(base, *mesh, *doubled)).collect()
+        let order = self.order();
+        let of_mesh = order.iter().map(|(mesh, doubled)| self.settings(base, *mesh, *doubled));
+        // The closed forms' peak to peak has no estimate of its error.
+        let lumped = (self.value == CycleValue::Mean).then_some(AutoSettings::LUMPED);
+        lumped.into_iter().chain(of_mesh).collect()
     }
 
     /// Number of the mesh and how often the positions are doubled, of each candidate.

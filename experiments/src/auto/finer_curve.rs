@@ -21,7 +21,7 @@ const BESIDE: usize = 2;
 /// What is read from a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Sought {
-    /// The extremes, with positions added about them to the spacing of so many in a mesh cycle; of the even ones, none.
+    /// The extremes, with positions added about them to the spacing of so many in a period; of the even ones, none.
     Extremes {
         about: u32,
     },
@@ -31,7 +31,7 @@ pub(super) enum Sought {
 /// The curve of a finer mesh at the even positions of a candidate and those added.
 #[derive(Debug, Clone)]
 pub(super) struct Corrected {
-    /// Position (cycles) and value (m).
+    /// Position (periods) and value (m).
     pub(super) points: Vec<[f64; 2]>,
     /// How far the value that is sought may be off by positions at which the finer mesh was not computed, m.
     pub(super) doubt: f64,
@@ -251,7 +251,7 @@ mod tests {
             AutoSettings::quasi_static(elements, cells).applied_to(&scene)
         });
         let bodies = scenes.each_ref().map(|own| Bodies::new(own).unwrap());
-        let mut coarse = Curve::new(&scenes[0], &bodies[0], &case, 240).unwrap();
+        let mut coarse = Curve::new(&scenes[0], &bodies[0], &case, (1, 240)).unwrap();
         coarse.at(&coarse.even(80)).unwrap();
         let mut whole = coarse.on_bodies(&bodies[1]);
         whole.at(&whole.even(80)).unwrap();

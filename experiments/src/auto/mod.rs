@@ -8,6 +8,7 @@
 mod amplitude;
 mod amplitude_indicators;
 mod amplitude_run;
+mod analytic_mean;
 mod analytic_mode;
 mod choice;
 mod cycle_curve;

@@ -1,5 +1,7 @@
 //! Settings among which `auto` chooses.
 
+use std::f64::consts::TAU;
+
 use gearset::{ElementFamily, Facing, Fidelity, Geometry, Phasing, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -165,6 +167,27 @@ pub(super) fn divided(scene: &Scene, least: u32) -> u32 {
     let parts = phase_parts(scene);
     least.div_ceil(parts) * parts
 }
+
+/// Number of times that the transmission error at rest repeats itself in a mesh cycle.
+///
+/// A set of equal planets that turns into itself by a part 1/m of a turn is there the same set at another position: further on by the
+/// phase Z_s/m by which the planets differ, of which m/gcd(m, Z_s) make whole cycles.
+pub(super) fn repeats(scene: &Scene) -> u32 {
+    let psi = &scene.planets.psi_rad;
+    let Ok(Geometry { sun: Some(sun), .. }) = Geometry::from_scene(scene) else { return 1 };
+    let is_planet_at = |angle: f64| {
+        let off = psi.iter().map(|own| (own - angle).rem_euclid(TAU));
+        off.map(|off| off.min(TAU - off)).any(|off| off < SPACED)
+    };
+    let turns = |m: &u32| psi.iter().all(|own| is_planet_at(own + TAU / f64::from(*m)));
+    let most = if scene.overrides.is_empty() { psi.len() as u32 } else { 1 };
+    let order = (1..=most).rev().find(turns).unwrap_or(1);
+    // m/gcd(m, Z_s)
+    (1..=order).find(|parts| (sun.teeth * parts).is_multiple_of(order)).unwrap_or(1)
+}
+
+/// Planets that are closer than this to where others were stand there, rad.
+const SPACED: f64 = 1e-9;
 
 /// Least number of parts of a mesh cycle of which the phases of all planets are multiples, 1 if there is none.
 pub(super) fn phase_parts(scene: &Scene) -> u32 {

@@ -6,11 +6,12 @@ use std::collections::BTreeMap;
 use fe_contact::statics::Bodies;
 use gearset::{LoadCase, Scene};
 
+use super::analytic_mean::AnalyticMean;
 use super::choice::{AutoError, Choice, ErrorPart, Together};
 use super::cycle_curve::{Curve, mean, overshoot, range, undershoot};
 use super::cycle_request::{CycleRequest, CycleValue, DOUBLINGS, POSITIONS};
 use super::finer_curve::{Corrected, Sought, corrected};
-use super::settings::{AutoSettings, MESHES, divided, phase_parts, size_ratio};
+use super::settings::{AutoSettings, MESHES, divided, phase_parts, repeats, size_ratio};
 use super::trial::Trial;
 use crate::error::ExperimentError;
 
@@ -41,11 +42,14 @@ pub fn transmission_error_with(
     settings: AutoSettings,
     request: &CycleRequest,
 ) -> Result<f64, ExperimentError> {
+    if settings == AutoSettings::LUMPED && request.value == CycleValue::Mean {
+        return Ok(1e6 * AnalyticMean::of(scene, case)?.transmission_error);
+    }
     let own = settings.applied_to(scene);
     let bodies = Bodies::new(&own)?;
     let even = settings.positions.ok_or(ExperimentError::Incomplete("number of positions"))?;
     let about = settings.positions_about_extremes.unwrap_or(even);
-    let mut curve = Curve::new(&own, &bodies, case, about)?;
+    let mut curve = Curve::new(&own, &bodies, case, (1, about))?;
     match about > even {
         true => curve.refine(even, about)?,
         false => drop(curve.at(&curve.even(even))?),
@@ -67,8 +71,12 @@ pub fn choose_transmission_error(
     request: &CycleRequest,
 ) -> Result<Choice, AutoError> {
     let trial = Trial::new(request.to_string(), "µm", request.tolerance_percent)?;
-    let base = divided(scene, POSITIONS);
+    let (base, repeats) = (divided(scene, POSITIONS), repeats(scene));
+    // The part of the positions of a mean takes every second one, all around the period.
+    let is_halved = request.value == CycleValue::PeakToPeak || (base / repeats).is_multiple_of(2);
+    let periods = if is_halved { repeats } else { 1 };
     let scenes = [0, 1, 2, 3].map(|mesh| request.settings(base, mesh, 0).applied_to(scene));
+    let in_period = base / periods;
     let bodies = [const { OnceCell::new() }; MESHES.len()];
     let mut search = Search {
         scenes: &scenes,
@@ -76,14 +84,21 @@ pub fn choose_transmission_error(
         request,
         trial,
         base,
-        every: compared_every(base, base / phase_parts(scene)),
+        periods,
+        in_period,
+        every: compared_every(in_period, base / phase_parts(scene)),
         bodies: &bodies,
         curves: [const { None }; MESHES.len()],
         finer: [const { None }; MESHES.len()],
         run: BTreeMap::default(),
         compared: None,
     };
-    let found = request.order().iter().find_map(|(mesh, doubled)| search.tried(*mesh, *doubled));
+    let in_closed_form = search.in_closed_form(scene);
+    let by_contact = || {
+        let mut order = request.order().into_iter();
+        order.find_map(|(mesh, doubled)| search.tried(mesh, doubled))
+    };
+    let found = in_closed_form.or_else(by_contact);
     search.trial.ended(found)
 }
 
@@ -98,7 +113,7 @@ fn compared_every(base: u32, distinct: u32) -> u32 {
 
 type Made = Result<Bodies, String>;
 
-/// Position (cycles) and value (m) of a candidate's curve, or why there is none.
+/// Position (periods) and value (m) of a candidate's curve, or why there is none.
 type Run = Result<Vec<[f64; 2]>, String>;
 
 struct Search<'s> {
@@ -107,8 +122,11 @@ struct Search<'s> {
     case: &'s LoadCase,
     request: &'s CycleRequest,
     trial: Trial,
-    /// Positions that are not doubled.
+    /// Positions in a mesh cycle that are not doubled.
     base: u32,
+    /// Periods of the curve in a mesh cycle, and those positions in each.
+    periods: u32,
+    in_period: u32,
     /// Meshes are compared at one in so many of them.
     every: u32,
     bodies: &'s [OnceCell<Made>; MESHES.len()],
@@ -123,6 +141,25 @@ struct Search<'s> {
 }
 
 impl<'s> Search<'s> {
+    /// The lumped model in closed form, of which the mean alone has an estimate.
+    fn in_closed_form(&mut self, scene: &Scene) -> Option<Choice> {
+        if !self.is_mean() {
+            return None;
+        }
+        let settings = AutoSettings::LUMPED;
+        match AnalyticMean::of(scene, self.case) {
+            Ok(found) => {
+                let (value, parts) = (1e6 * found.transmission_error, found.error_parts());
+                let no_bound = || "the transmission error is zero".into();
+                self.trial.judged(settings, value, parts, Together::Squares, no_bound)
+            }
+            Err(why) => {
+                self.trial.refused(settings, why);
+                None
+            }
+        }
+    }
+
     fn tried(&mut self, mesh: usize, doubled: u32) -> Option<Choice> {
         let settings = self.request.settings(self.base, mesh, doubled);
         let (coarsest, of_coarsest) = match self.compared() {
@@ -181,10 +218,10 @@ impl<'s> Search<'s> {
     /// The positions computed on a mesh.
     fn positions(&mut self, mesh: usize) -> Result<&mut Curve<'s>, String> {
         if self.curves[mesh].is_none() {
-            let finest = self.base << DOUBLINGS;
+            let division = (self.periods, self.in_period << DOUBLINGS);
             let (scenes, case) = (self.scenes, self.case);
             let made = self.bodies(mesh).and_then(|bodies| {
-                Curve::new(&scenes[mesh], bodies, case, finest).map_err(|e| e.to_string())
+                Curve::new(&scenes[mesh], bodies, case, division).map_err(|e| e.to_string())
             });
             self.curves[mesh] = Some(made);
         }
@@ -200,7 +237,7 @@ impl<'s> Search<'s> {
         if let Some(known) = self.run.get(&(mesh, doubled)) {
             return known.clone();
         }
-        let (base, value) = (self.base, self.request.value);
+        let (base, value) = (self.in_period, self.request.value);
         let found = self.positions(mesh).and_then(|curve| {
             let found = match value {
                 CycleValue::PeakToPeak if doubled > 0 => curve.refine(base, base << doubled),
@@ -224,10 +261,10 @@ impl<'s> Search<'s> {
             None => self.beside(coarsest, mesh)?,
         };
         let share = 0.01 * OF_TOLERANCE * self.request.tolerance_percent;
-        let about = self.base << doubled;
+        let about = self.in_period << doubled;
         let (even, sought) = match self.request.value {
             CycleValue::Mean => (about, Sought::Mean),
-            CycleValue::PeakToPeak => (self.base, Sought::Extremes { about }),
+            CycleValue::PeakToPeak => (self.in_period, Sought::Extremes { about }),
         };
         let coarse = &*self.positions(coarsest)?;
         let found = corrected((coarse, even), &mut finer, sought, share);
@@ -254,7 +291,7 @@ impl<'s> Search<'s> {
     /// Some even positions, and of peak to peak those of the extremes: p changes by as much as the curve there, to first
     /// order.
     fn compared_positions(&mut self, mesh: usize) -> Result<Vec<u32>, String> {
-        let (base, every, is_mean) = (self.base, self.every, self.is_mean());
+        let (base, every, is_mean) = (self.in_period, self.every, self.is_mean());
         let coarse = self.positions(mesh)?;
         let even = coarse.even(base);
         let values = coarse.at(&even).map_err(|e| e.to_string())?;
@@ -360,6 +397,38 @@ mod tests {
 
     fn request(value: CycleValue, tolerance_percent: f64) -> CycleRequest {
         CycleRequest { value, tolerance_percent }
+    }
+
+    /// A set that turns into itself has at the position of the turned set the same transmission error; a set that does not, has not.
+    #[test]
+    fn transmission_errors_repeat_where_sets_turn_into_themselves() {
+        let with = |steps: &[i64]| {
+            let mut scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
+            let total = 27 + 99;
+            scene.planets.steps = Some(steps.to_vec());
+            let psi = steps.iter().map(|s| std::f64::consts::TAU * *s as f64 / f64::from(total));
+            scene.planets.psi_rad = psi.collect();
+            AutoSettings::quasi_static(6, 20).applied_to(&scene)
+        };
+        // 27 teeth of the sun: two pairs opposite each other, three evenly spaced planets in phase, four with one moved.
+        for (steps, expected) in [
+            (&[0i64, -31, 63, 32][..], 2),
+            (&[0, 42, 84], 1),
+            (&[0, 31, 63, 95], 1),
+            (&[0, 32, 63, 95], 2),
+        ] {
+            let scene = with(steps);
+            assert_eq!(repeats(&scene), expected, "{steps:?}");
+            let case = LoadCase::of_scene(&scene).unwrap();
+            let bodies = Bodies::new(&scene).unwrap();
+            let mut curve = Curve::new(&scene, &bodies, &case, (1, 12)).unwrap();
+            let all = curve.at(&curve.even(12)).unwrap();
+            let apart: Vec<f64> = (0..6).map(|i| all[i + 6] - all[i]).collect();
+            let size = |list: &[f64]| list.iter().fold(0.0f64, |a, x| a.max(x.abs()));
+            let most = size(&apart) / range(&curve.points());
+            println!("{steps:?}: half a cycle on {most:.1e} of peak to peak");
+            assert_eq!(most < 1e-4, expected == 2, "{steps:?}: {most:e}");
+        }
     }
 
     /// The estimates hold beside a finer mesh at more positions; a smaller tolerance has no cheaper choice, and the

@@ -73,7 +73,11 @@ impl Responses {
     }
 
     /// Those of a gear, all of which are known.
-    pub(super) fn known(mesh: &FeGearMesh, near: Vec<DMatrix<f64>>, around: Vec<DMatrix<f64>>) -> Self {
+    pub(super) fn known(
+        mesh: &FeGearMesh,
+        near: Vec<DMatrix<f64>>,
+        around: Vec<DMatrix<f64>>,
+    ) -> Self {
         let kept = |list: Vec<DMatrix<f64>>| list.into_iter().map(OnceLock::from).collect();
         let teeth = mesh.nodes.len() as i64;
         Self { near: kept(near), around: kept(around), teeth, ring: None }

@@ -79,6 +79,11 @@ impl Line {
         }
     }
 
+    /// κ.
+    pub(super) fn into_roll(self) -> Vec<(usize, f64)> {
+        self.roll
+    }
+
     /// Adds what a force (N) that turns with its line of action does to a stiffness, and the stiffness c against rolling on, N/m.
     pub(super) fn turn(&self, stiffness: &mut DMatrix<f64>, force: f64, rolling: f64) {
         for (factor, row) in [(self.strut * force, &self.across), (rolling, &self.roll)] {

@@ -41,6 +41,9 @@ const STEP: f64 = 0.01;
 /// Least part of the force for which the half-width of contact of a pair is taken.
 const LEAST_SHARE: f64 = 0.02;
 
+/// Most times that half-widths of contact are taken from the forces found before.
+const SHARED: usize = 12;
+
 type Factored = Cholesky<f64, Const<4>>;
 
 /// Most pairs that are looked at.
@@ -75,6 +78,14 @@ struct Pair {
     curvature: f64,
 }
 
+/// Slopes of a pair's gap (m/m), of the flexibility of its teeth (1/N) and of `near` (1/m) over the driver's roll length.
+#[derive(Debug, Clone, Copy)]
+struct Rolled {
+    gap: f64,
+    teeth: f64,
+    near: f64,
+}
+
 impl Pair {
     /// The pair where the driver's roll length on the common line is `along` and the flanks approach by `approach`; `None` where a
     /// tooth is none that the closed forms hold for.
@@ -94,14 +105,18 @@ impl Pair {
         Some(Self { gap, teeth: a.flexibility + b.flexibility, near, along, approach, curvature })
     }
 
-    /// Slopes of gap (m/m) and of the flexibility of the teeth (1/N) over the driver's roll length.
-    fn rolled(&self, mesh: &Mesh, plane: &Plane) -> Option<(f64, f64)> {
+    /// Slopes over the driver's roll length.
+    fn rolled(&self, mesh: &Mesh, plane: &Plane) -> Option<Rolled> {
         let step = STEP * mesh.base_pitch;
         let ends = [self.along + step, self.along - step];
         let [after, before] = ends.map(|along| Self::at(mesh, along, self.approach, plane));
         let (after, before) = (after?, before?);
         let over = |x: f64| 0.5 * x / step;
-        Some((over(after.gap - before.gap), over(after.teeth - before.teeth)))
+        Some(Rolled {
+            gap: over(after.gap - before.gap),
+            teeth: over(after.teeth - before.teeth),
+            near: over(after.near - before.near),
+        })
     }
 }
 
@@ -136,8 +151,8 @@ pub(super) fn mesh_tangent(
     let mut slopes = Vector4::zeros();
     let mut corners = 0.0;
     for (i, pair) in near.pairs.iter().enumerate().filter(|(i, _)| shared.touching[*i]) {
-        let (of_gap, of_teeth) = pair.rolled(mesh, plane)?;
-        slopes[i] = of_gap + shared.forces[i] * of_teeth;
+        let rolled = pair.rolled(mesh, plane)?;
+        slopes[i] = rolled.gap + shared.forces[i] * rolled.teeth;
         corners += shared.forces[i] * pair.curvature;
     }
     let pressed = near.tangent(&shared.touching, &shared.forces)?.solve(&slopes);
@@ -239,6 +254,37 @@ impl Near {
         Some(Shared { touching, forces, approach })
     }
 
+    /// Forces (N) and tangent stiffness (N/m) under an approach (m): f = K (δ − g), as for a given force.
+    fn pressed(&self, approach: f64) -> Option<(Vector4<f64>, f64)> {
+        let count = self.pairs.len();
+        let mut forces = Vector4::repeat(self.force / count as f64);
+        let mut touching: Touching = [false; MOST];
+        for _ in 0..SHARED {
+            touching = std::array::from_fn(|i| i < count && self.pairs[i].gap < approach);
+            let next = loop {
+                if touching == [false; MOST] {
+                    return Some((Vector4::zeros(), 0.0));
+                }
+                let c = self.factored(&touching, &forces, 0.0)?;
+                let open = |i: usize| if touching[i] { approach - self.pairs[i].gap } else { 0.0 };
+                let next = c.solve(&Vector4::from_fn(|i, _| open(i)));
+                let pulled = (0..count).filter(|i| touching[*i]);
+                let least = pulled.min_by(|a, b| next[*a].total_cmp(&next[*b]))?;
+                match next[least] < 0.0 {
+                    true => touching[least] = false,
+                    false => break next,
+                }
+            };
+            let change = (next - forces).amax();
+            forces = next;
+            if change < 1e-9 * self.force {
+                break;
+            }
+        }
+        let stiffness = self.stiffness(&touching, &forces)?;
+        Some((forces, stiffness))
+    }
+
     /// The largest change of ln k by a pair that nearly touches, or hardly carries.
     fn hand_over(&self, shared: &Shared, stiffness: f64) -> Option<f64> {
         let Shared { touching, forces, approach } = shared;
@@ -267,6 +313,48 @@ impl Near {
     }
 }
 
+/// A mesh at one phase, which any approach may press.
+pub(super) struct PressedMesh {
+    near: Near,
+    rolled: Vec<Rolled>,
+}
+
+impl PressedMesh {
+    /// A mesh at a phase (cycles) whose corners are placed as under a mean force (N); `None` as [`mesh_tangent`].
+    pub(super) fn new(mesh: &Mesh, phase: f64, force: f64, plane: &Plane) -> Option<Self> {
+        let near = Near::new(pairs_near(mesh, phase, force, plane)?, force, plane);
+        let rolled =
+            near.pairs.iter().map(|pair| pair.rolled(mesh, plane)).collect::<Option<_>>()?;
+        Some(Self { near, rolled })
+    }
+
+    /// Where the gears approach by δ (m): the force F (N), its derivative k (N/m), and R (N) against rolling on at that approach,
+    ///
+    /// ```text
+    /// R = −∂Ψ/∂σ = Σ f_i g_i' + ½ Σ f_i C_ij' f_j + ½ Σ f_i² c_i',    c = 2/(π E' b) [ln(4 d₁ d₂/a²) − ν/(1 − ν)]
+    /// ```
+    pub(super) fn forces_at(&self, approach: f64) -> Option<[f64; 3]> {
+        let Near { pairs, teeth, line, .. } = &self.near;
+        let (forces, stiffness) = self.near.pressed(approach)?;
+        let own = self.rolled.iter().zip(pairs).map(|(r, p)| (r, r.teeth / p.teeth));
+        let own: Vec<(&Rolled, f64)> = own.collect();
+        let mut rolling = 0.0;
+        for (i, (rolled, growth)) in own.iter().enumerate() {
+            rolling += forces[i] * (rolled.gap + 0.5 * forces[i] * line * rolled.near);
+            // C_ij' = ½ C_ij (C_ii'/C_ii + C_jj'/C_jj)
+            for (j, (_, other)) in own.iter().enumerate() {
+                rolling += 0.25 * forces[i] * forces[j] * teeth[(i, j)] * (growth + other);
+            }
+        }
+        Some([forces.sum(), stiffness, rolling])
+    }
+
+    /// Approach under the mean force, m.
+    pub(super) fn mean_approach(&self) -> Option<f64> {
+        Some(self.near.shared()?.approach)
+    }
+}
+
 /// Pairs whose gap is less than twice what a single pair yields.
 fn pairs_near(mesh: &Mesh, phase: f64, force: f64, plane: &Plane) -> Option<Vec<Pair>> {
     // One pair yields by about 13 F/(E' b) (ISO 6336-1).
@@ -280,4 +368,46 @@ fn pairs_near(mesh: &Mesh, phase: f64, force: f64, plane: &Plane) -> Option<Vec<
         }
     }
     (1..=MOST).contains(&pairs.len()).then_some(pairs)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gearset::{Geometry, Scene, SceneKind, template};
+
+    /// R is what the energy ∫ F dδ loses as the mesh rolls on, and k the slope of F, on either mesh wherever it stands.
+    #[test]
+    fn forces_of_a_pressed_mesh_have_one_energy() {
+        let scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
+        let geometry = Geometry::from_scene(&scene).unwrap();
+        let plane = Plane::new(&scene, geometry.face_width);
+        let (force, step) = (8000.0, 1e-4);
+        let mut checked = 0;
+        for mesh in [geometry.sun_planet.unwrap(), geometry.ring_planet.unwrap()] {
+            for phase in [0.05, 0.2, 0.35, 0.5, 0.65, 0.8, 0.95] {
+                let at = |phase: f64| PressedMesh::new(&mesh, phase, force, &plane).unwrap();
+                let [before, own, after] = [-step, 0.0, step].map(|moved| at(phase + moved));
+                let approach = own.mean_approach().unwrap();
+                let energy = |mesh: &PressedMesh| {
+                    let part = approach / 2000.0;
+                    let middle = |i: u32| mesh.forces_at((f64::from(i) + 0.5) * part).unwrap()[0];
+                    (0..2000).map(middle).sum::<f64>() * part
+                };
+                let [total, stiffness, rolling] = own.forces_at(approach).unwrap();
+                assert!((total / force - 1.0).abs() < 1e-3, "{total}");
+                let of = |more: f64| own.forces_at(approach + more).unwrap()[0];
+                let slope = (of(1e-9) - of(-1e-9)) / 2e-9;
+                // The half-width of a pair that carries next to nothing is that of a larger force.
+                let (forces, _) = own.near.pressed(approach).unwrap();
+                let is_slight = |f: &&f64| **f > 0.0 && **f < LEAST_SHARE * force;
+                let part = if forces.iter().any(|f| is_slight(&f)) { 1e-2 } else { 1e-4 };
+                assert!((stiffness / slope - 1.0).abs() < part, "{stiffness:e} {slope:e}");
+                let lost = (energy(&before) - energy(&after)) / (2.0 * step * mesh.base_pitch);
+                assert!((rolling - lost).abs() < 2e-5 * force, "{phase}: {rolling} {lost}");
+                checked += usize::from(rolling.abs() > 2e-4 * force);
+                assert_eq!(own.forces_at(-1e-6).unwrap(), [0.0; 3]);
+            }
+        }
+        assert!(checked > 4, "{checked} with a slope to speak of");
+    }
 }

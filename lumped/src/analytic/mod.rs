@@ -11,6 +11,7 @@
 
 mod accelerated;
 mod carrier;
+mod cycle;
 mod inertia;
 mod line;
 mod mesh;
@@ -18,7 +19,8 @@ mod plane;
 mod tooth;
 
 use gearset::{
-    Freedom, Geometry, LoadCase, LumpedInput, Mesh, PerBody, PerMesh, Phasing, Scene, SceneKind,
+    Freedom, Geometry, LoadCase, LumpedInput, Mesh, MeshPhases, PerBody, PerMesh, Phasing, Scene,
+    SceneKind,
 };
 use nalgebra::DMatrix;
 
@@ -27,6 +29,7 @@ use crate::model::LumpedModel;
 use crate::modes::NaturalModes;
 use crate::springs::SpringId;
 use carrier::seat_flexibility;
+pub use cycle::{AnalyticCycle, AnalyticRest};
 use inertia::ElasticBodies;
 use line::Line;
 use mesh::{MeshTangent, mesh_tangent};
@@ -54,37 +57,10 @@ impl AnalyticSet {
     /// # Errors
     /// [`LumpedError::NotAnalytic`] for scenes and teeth that the closed forms do not hold for.
     pub fn new(scene: &Scene, case: &LoadCase, position: f64) -> Result<Self, LumpedError> {
-        let none = |why: &'static str| LumpedError::NotAnalytic(why);
-        if scene.kind != SceneKind::Planetary {
-            return Err(none("the scene is no planetary set"));
-        }
-        if !scene.overrides.is_empty() {
-            return Err(none("planets differ from each other"));
-        }
-        let PerMesh { sun_planet, ring_planet } = scene.fe_contact.flexibility_factor;
-        if sun_planet != 1.0 || ring_planet != 1.0 {
-            return Err(none("`fe_contact.flexibility_factor` is not 1"));
-        }
-        let geometry = Geometry::from_scene(scene).map_err(|_| none("there are no teeth"))?;
-        let (Some(sun_mesh), Some(ring_mesh)) = (&geometry.sun_planet, &geometry.ring_planet)
-        else {
-            return Err(none("a mesh is missing"));
-        };
-        let sun = geometry.sun.as_ref().ok_or(none("there is no sun"))?;
-        let plane = Plane::new(scene, geometry.face_width);
-        // Computed with counter-clockwise torque on the sun: the set is mirrored for the other.
-        let mut seen = scene.clone();
-        for psi in &mut seen.planets.psi_rad {
-            *psi *= case.sense().sign();
-        }
-        let count = seen.planets.psi_rad.len();
-        let force = case.sun_load_nm() / sun.base_radius / count as f64;
-        if force.is_nan() || force <= 0.0 {
-            return Err(none("there is no torque"));
-        }
-        let phases = Phasing::new(&geometry, &scene.planets)
-            .ok_or(none("a mesh is missing"))?
-            .phases(0.0, case.sense());
+        let SetParts { geometry, plane, mut model, seats, force, phases, .. } =
+            SetParts::new(scene, case)?;
+        let [sun_mesh, ring_mesh] = &geometry.meshes;
+        let count = phases.sun_planet.len();
         let shift = position - phases.sun_planet[0];
         let of = |mesh: &Mesh, phases: &[f64]| -> Option<Vec<MeshTangent>> {
             let mut known: Vec<(f64, MeshTangent)> = Vec::with_capacity(count);
@@ -100,26 +76,12 @@ impl AnalyticSet {
             };
             phases.iter().map(one).collect()
         };
-        let outside = "a rim is thinner or thicker, or more tooth pairs are near, than the closed forms hold for";
-        let suns = of(sun_mesh, &phases.sun_planet).ok_or(none(outside))?;
-        let rings = of(ring_mesh, &phases.ring_planet).ok_or(none(outside))?;
-        let input = scene.geometry.as_ref().and_then(|g| g.carrier).filter(|c| !c.is_rigid);
-        let psi = &seen.planets.psi_rad;
-        let seats = match input {
-            Some(carrier) => seat_flexibility(&carrier, geometry.center_distance, psi, &plane)
-                .ok_or(none("a pin seat of the carrier is too near an edge or another seat"))?,
-            None => DMatrix::zeros(0, 0),
-        };
-        let parameters = parameters(scene, &geometry);
-        seen.lumped = Some(parameters.ok_or(none("a bore or rim is missing"))?);
-        let mut model = LumpedModel::from_scene(&seen)?;
+        let suns = of(sun_mesh, &phases.sun_planet).ok_or(NOT_HELD)?;
+        let rings = of(ring_mesh, &phases.ring_planet).ok_or(NOT_HELD)?;
         for spring in &mut model.springs {
             match spring.id {
                 SpringId::SunMesh(n) => spring.stiffness = suns[n].stiffness,
                 SpringId::RingMesh(n) => spring.stiffness = rings[n].stiffness,
-                SpringId::PlanetBearing(n) if !seats.is_empty() => {
-                    spring.stiffness = 1.0 / (1.0 / spring.stiffness + mean_seat(&seats, n));
-                }
                 _ => (),
             }
         }
@@ -133,7 +95,7 @@ impl AnalyticSet {
             line.turn(&mut stiffness, force, mesh.rolling);
         }
         let hand_overs = suns.iter().chain(&rings).map(|mesh| mesh.hand_over).collect();
-        let bodies = ElasticBodies::new(scene, &geometry, &plane, &seats);
+        let bodies = ElasticBodies::new(scene, &geometry.of_scene, &plane, &seats);
         Ok(Self { model, stiffness, hand_overs, seats, bodies })
     }
 
@@ -152,6 +114,85 @@ impl AnalyticSet {
     /// If the eigenproblem cannot be solved.
     pub fn modes(&self) -> Result<NaturalModes, LumpedError> {
         NaturalModes::with_stiffness(&self.model, &self.stiffness)
+    }
+}
+
+/// Why teeth are none that the closed forms hold for.
+const NOT_HELD: LumpedError = LumpedError::NotAnalytic(
+    "a rim is thinner or thicker, or more tooth pairs are near, than the closed forms hold for",
+);
+
+/// Gears of a planetary set with both its meshes.
+struct SetGeometry {
+    of_scene: Geometry,
+    /// Sun mesh, ring mesh.
+    meshes: [Mesh; 2],
+}
+
+/// What closed forms of a set have in common, whatever its meshes do.
+struct SetParts {
+    geometry: SetGeometry,
+    plane: Plane,
+    /// Springs without the stiffness of the meshes; a planet bearing has that of itself and its own pin seat in series. The
+    /// set is mirrored if the torque on the sun is clockwise.
+    model: LumpedModel,
+    /// Flexibility of the pin seats, 2N×2N, m/N; empty if the carrier is rigid.
+    seats: DMatrix<f64>,
+    /// Torque on the sun over its base radius, N, and the part of one planet.
+    load: f64,
+    force: f64,
+    /// Phases of the meshes with the sun's tooth 0 at angle 0, cycles.
+    phases: MeshPhases,
+}
+
+impl SetParts {
+    fn new(scene: &Scene, case: &LoadCase) -> Result<Self, LumpedError> {
+        let none = |why: &'static str| LumpedError::NotAnalytic(why);
+        if scene.kind != SceneKind::Planetary {
+            return Err(none("the scene is no planetary set"));
+        }
+        if !scene.overrides.is_empty() {
+            return Err(none("planets differ from each other"));
+        }
+        let PerMesh { sun_planet, ring_planet } = scene.fe_contact.flexibility_factor;
+        if sun_planet != 1.0 || ring_planet != 1.0 {
+            return Err(none("`fe_contact.flexibility_factor` is not 1"));
+        }
+        let geometry = Geometry::from_scene(scene).map_err(|_| none("there are no teeth"))?;
+        let meshes = geometry.sun_planet.clone().zip(geometry.ring_planet.clone());
+        let meshes = meshes.map(|(sun, ring)| [sun, ring]).ok_or(none("a mesh is missing"))?;
+        let sun = geometry.sun.as_ref().ok_or(none("there is no sun"))?;
+        let plane = Plane::new(scene, geometry.face_width);
+        // Computed with counter-clockwise torque on the sun: the set is mirrored for the other.
+        let mut seen = scene.clone();
+        for psi in &mut seen.planets.psi_rad {
+            *psi *= case.sense().sign();
+        }
+        let load = case.sun_load_nm() / sun.base_radius;
+        let force = load / seen.planets.psi_rad.len() as f64;
+        if force.is_nan() || force <= 0.0 {
+            return Err(none("there is no torque"));
+        }
+        let phases = Phasing::new(&geometry, &scene.planets)
+            .ok_or(none("a mesh is missing"))?
+            .phases(0.0, case.sense());
+        let input = scene.geometry.as_ref().and_then(|g| g.carrier).filter(|c| !c.is_rigid);
+        let psi = &seen.planets.psi_rad;
+        let seats = match input {
+            Some(carrier) => seat_flexibility(&carrier, geometry.center_distance, psi, &plane)
+                .ok_or(none("a pin seat of the carrier is too near an edge or another seat"))?,
+            None => DMatrix::zeros(0, 0),
+        };
+        let parameters = parameters(scene, &geometry);
+        seen.lumped = Some(parameters.ok_or(none("a bore or rim is missing"))?);
+        let mut model = LumpedModel::from_scene(&seen)?;
+        for spring in &mut model.springs {
+            if let (SpringId::PlanetBearing(n), false) = (spring.id, seats.is_empty()) {
+                spring.stiffness = 1.0 / (1.0 / spring.stiffness + mean_seat(&seats, n));
+            }
+        }
+        let geometry = SetGeometry { of_scene: geometry, meshes };
+        Ok(Self { geometry, plane, model, seats, load, force, phases })
     }
 }
 
@@ -208,15 +249,17 @@ fn parameters(scene: &Scene, geometry: &Geometry) -> Option<LumpedInput> {
 }
 
 /// Replaces the springs of the planet bearings by those in series with the flexibility A of all pin seats:
-/// K ← K − Σ k̃ B BᵀB + Bᵀ(I/k + A)⁻¹B.
+/// K ← K − Σ k̃ B BᵀB + BᵀJB, J = (I/k + A)⁻¹. Returns what the seats have of it, Bᵀ J A J B, N/m: half of its quadratic form is their
+/// strain energy.
 fn stand_on_seats(
     stiffness: &mut DMatrix<f64>,
     model: &LumpedModel,
     seats: &DMatrix<f64>,
     bearing: f64,
-) -> Result<(), LumpedError> {
+) -> Result<DMatrix<f64>, LumpedError> {
+    let mut of_seats = DMatrix::zeros(stiffness.nrows(), stiffness.nrows());
     if seats.is_empty() || bearing == 0.0 {
-        return Ok(());
+        return Ok(of_seats);
     }
     let own = model.springs.iter().filter(|s| matches!(s.id, SpringId::PlanetBearing(_)));
     let own: Vec<_> = own.flat_map(|s| s.rows.iter().map(move |row| (s.stiffness, row))).collect();
@@ -225,15 +268,17 @@ fn stand_on_seats(
         .cholesky()
         .ok_or(LumpedError::NotAnalytic("pin seats are no stable support"))?
         .inverse();
+    let yielding = &joint * seats * &joint;
     for (p, (k, row)) in own.iter().enumerate() {
         for (q, (_, other)) in own.iter().enumerate() {
             let factor = joint[(p, q)] - if p == q { *k } else { 0.0 };
             for &(i, bi) in row.iter() {
                 for &(j, bj) in other.iter() {
                     stiffness[(i, j)] += factor * bi * bj;
+                    of_seats[(i, j)] += yielding[(p, q)] * bi * bj;
                 }
             }
         }
     }
-    Ok(())
+    Ok(of_seats)
 }
