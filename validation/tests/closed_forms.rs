@@ -1,5 +1,6 @@
 //! How far the parameters in closed form of the lumped model (`lumped::AnalyticSet`) are from what FE/contact computes on meshes of
-//! the same bodies: masses, pin seats and mesh stiffnesses. `auto` estimates its errors from these.
+//! the same bodies: masses, pin seats and mesh stiffnesses; and the transmission errors of `lumped::AnalyticCycle`. `auto` estimates its
+//! errors from these.
 
 use experiments::auto::{
     AutoModel, AutoSettings, CycleRequest, CycleValue, choose_transmission_error,
