@@ -1,6 +1,7 @@
 //! Memory that bodies need, estimated before they are made.
 
 use fe_contact::FeError;
+use fe_contact::fe_mesh::Side;
 use fe_contact::statics::{Bodies, MOST_BYTES, estimate};
 use gearset::{ElementFamily, Fidelity, Scene};
 
@@ -93,6 +94,18 @@ fn peak_memory_is_as_estimated() {
     let scene = scene(&of("SCENE").unwrap_or("oh58_4p".into()), elements);
     let before = peak();
     let bodies = Bodies::new(&scene).unwrap();
+    // All that can be asked for.
+    for body in [bodies.ring.as_ref(), bodies.sun.as_ref(), Some(&bodies.planet)] {
+        let Some(body) = body else { continue };
+        let teeth = i64::from(body.mesh.outline.gear().teeth);
+        let load = body.flank_load(Side::Ccw, 0.0, 1e-4);
+        let along = ([1.0, 0.0], [0.0, 1.0]);
+        for offset in -teeth / 2..=teeth / 2 {
+            let of_tooth = body.response(offset).map_or(0.0, |response| response.amax());
+            let between = body.surface_flexibility((&load, along.0), offset, (&load, along.1));
+            assert!(of_tooth.is_finite() && between.is_finite());
+        }
+    }
     let (taken, found) = (peak() - before, estimate(&scene).unwrap());
     for body in &found.bodies {
         println!("{body:?}");
