@@ -32,15 +32,21 @@ fn same(a: &[f64], b: &[f64], part: f64) {
     }
 }
 
-/// A set under clockwise torque is its mirror image, planets that are not equally spaced included, under the other.
-#[test]
-fn a_mirrored_set_has_the_same_frequencies() {
-    let scene = oh58();
+/// The mirror image of a set, under the other torque.
+fn mirrored(scene: &Scene) -> Scene {
     let mut mirrored = scene.clone();
     let load = mirrored.operation.as_mut().unwrap();
     load.torque_nm = -load.torque_nm;
     mirrored.planets.psi_rad.iter_mut().for_each(|psi| *psi = -*psi);
     mirrored.planets.steps.iter_mut().flatten().for_each(|step| *step = -*step);
+    mirrored
+}
+
+/// A set under clockwise torque is its mirror image, planets that are not equally spaced included, under the other.
+#[test]
+fn a_mirrored_set_has_the_same_frequencies() {
+    let scene = oh58();
+    let mirrored = mirrored(&scene);
     assert!(LoadCase::of_scene(&mirrored).unwrap().sun_torque_nm < 0.0);
     for position in [0.0, 0.3] {
         same(&frequencies(&scene, position), &frequencies(&mirrored, position), 1e-9);
@@ -172,11 +178,7 @@ fn at_rest(scene: &Scene, positions: &[f64]) -> Vec<f64> {
 fn transmission_errors_know_no_mirror_and_no_first_planet() {
     let positions: Vec<f64> = (0..12).map(|i| f64::from(i) / 12.0 + 0.003).collect();
     let scene = oh58();
-    let mut mirrored = scene.clone();
-    let load = mirrored.operation.as_mut().unwrap();
-    load.torque_nm = -load.torque_nm;
-    mirrored.planets.psi_rad.iter_mut().for_each(|psi| *psi = -*psi);
-    mirrored.planets.steps.iter_mut().flatten().for_each(|step| *step = -*step);
+    let mirrored = mirrored(&scene);
     let own = at_rest(&scene, &positions);
     same(&own, &at_rest(&mirrored, &positions), 1e-9);
     // Two pairs of planets opposite each other: half a cycle on, the set turned by half a turn.

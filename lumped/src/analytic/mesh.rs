@@ -165,6 +165,21 @@ pub(super) fn mesh_tangent(
 /// Which pairs touch.
 type Touching = [bool; MOST];
 
+/// Forces of pairs of which none is pulled: those that are, are left out one by one, the most pulled first. 0 where none is left.
+fn pressing(
+    touching: &mut Touching,
+    mut forces: impl FnMut(&Touching) -> Option<Vector4<f64>>,
+) -> Option<Vector4<f64>> {
+    loop {
+        let found = forces(touching)?;
+        let own = (0..MOST).filter(|i| touching[*i]);
+        match own.min_by(|a, b| found[*a].total_cmp(&found[*b])) {
+            Some(least) if found[least] < 0.0 => touching[least] = false,
+            _ => return Some(found),
+        }
+    }
+}
+
 /// The pairs near the path, and the force they share.
 struct Near {
     pairs: Vec<Pair>,
@@ -222,29 +237,23 @@ impl Near {
         Some(self.tangent(touching, forces)?.solve(&ones).sum())
     }
 
-    /// Pairs that are pulled are left out one by one; the half-widths of contact are those of the forces found before.
+    /// The half-widths of contact are those of the forces found before.
     fn shared(&self) -> Option<Shared> {
         let count = self.pairs.len();
         let mut forces = Vector4::repeat(self.force / count as f64);
         let (mut touching, mut approach): (Touching, f64) = ([false; MOST], 0.0);
         for _ in 0..6 {
             touching = std::array::from_fn(|i| i < count);
-            let next = loop {
-                let c = self.factored(&touching, &forces, 0.0)?;
+            let next = pressing(&mut touching, |touching| {
+                let c = self.factored(touching, &forces, 0.0)?;
                 let of = |i: usize, value: f64| if touching[i] { value } else { 0.0 };
                 let k = c.solve(&Vector4::from_fn(|i, _| of(i, 1.0)));
                 let gaps = |i: usize| self.pairs.get(i).map_or(0.0, |pair| of(i, pair.gap));
                 let own = c.solve(&Vector4::from_fn(|i, _| gaps(i)));
                 // Σ f = 1ᵀ K (δ − g) = F
                 approach = (self.force + own.sum()) / k.sum();
-                let next = k * approach - own;
-                let pulled = (0..count).filter(|i| touching[*i]);
-                let least = pulled.min_by(|a, b| next[*a].total_cmp(&next[*b]))?;
-                match next[least] < 0.0 {
-                    true => touching[least] = false,
-                    false => break next,
-                }
-            };
+                Some(k * approach - own)
+            })?;
             let change = (next - forces).amax();
             forces = next;
             if change < 1e-4 * self.force {
@@ -261,20 +270,11 @@ impl Near {
         let mut touching: Touching = [false; MOST];
         for _ in 0..SHARED {
             touching = std::array::from_fn(|i| i < count && self.pairs[i].gap < approach);
-            let next = loop {
-                if touching == [false; MOST] {
-                    return Some((Vector4::zeros(), 0.0));
-                }
-                let c = self.factored(&touching, &forces, 0.0)?;
+            let next = pressing(&mut touching, |touching| {
+                let c = self.factored(touching, &forces, 0.0)?;
                 let open = |i: usize| if touching[i] { approach - self.pairs[i].gap } else { 0.0 };
-                let next = c.solve(&Vector4::from_fn(|i, _| open(i)));
-                let pulled = (0..count).filter(|i| touching[*i]);
-                let least = pulled.min_by(|a, b| next[*a].total_cmp(&next[*b]))?;
-                match next[least] < 0.0 {
-                    true => touching[least] = false,
-                    false => break next,
-                }
-            };
+                Some(c.solve(&Vector4::from_fn(|i, _| open(i))))
+            })?;
             let change = (next - forces).amax();
             forces = next;
             if change < 1e-9 * self.force {
