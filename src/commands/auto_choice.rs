@@ -17,6 +17,9 @@ pub(super) fn write(choice: &Choice, out: &mut dyn Write) -> std::io::Result<()>
     if let Some(elements) = choice.settings.matching_depth_elements {
         writeln!(out, "  with fe_contact.matching_depth_elements = {elements}")?;
     }
+    for own in &choice.corrections {
+        writeln!(out, "  corrected by {:+.3} % for {}", own.percent, own.of)?;
+    }
     for part in &choice.error_parts {
         writeln!(out, "  {:.3} % from {}", part.percent, part.source)?;
     }

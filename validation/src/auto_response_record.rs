@@ -5,7 +5,7 @@
 use experiments::ExperimentError;
 use experiments::auto::{
     AmplitudeRequest, AutoError, AutoSettings, Choice, CycleRequest, CycleValue, amplitude_with,
-    choose_amplitude, choose_transmission_error, transmission_error_with,
+    choose_amplitude, choose_transmission_error, stepped_amplitude_with, transmission_error_with,
 };
 use experiments::study::{CpuTime, Stopwatch};
 use experiments::sweep::SteadySettings;
@@ -19,12 +19,13 @@ const TOLERANCES: [f64; 5] = [1.0, 2.0, 5.0, 10.0, 20.0];
 /// Elements, cells and positions of the truth at rest, finer than any candidate's.
 const AT_REST: AutoSettings = AutoSettings::quasi_static(32, 80).at_positions(960);
 
-/// Elements, cells and steps of the truth in motion, finer than any quasi-static candidate's; and what modes add to it,
-/// on a coarse mesh: with modes, without.
-const IN_MOTION: AutoSettings = AutoSettings::quasi_static(20, 60).with_steps(480);
+/// Elements and cells of the truth in motion, finer than any candidate's, and steps, from which line by line the limit of small steps is
+/// extrapolated (order 2); and what modes add to it, on a coarse mesh: with modes, without.
+const IN_MOTION: AutoSettings = AutoSettings::quasi_static(20, 60);
+const STEPS: [u32; 2] = [480, 240];
 const OF_MODES: [AutoSettings; 2] = [
-    AutoSettings::modal(30, 6, 20).with_steps(60),
-    AutoSettings::quasi_static(6, 20).with_steps(60),
+    AutoSettings::modal(30, 6, 20).with_steps(120),
+    AutoSettings::quasi_static(6, 20).with_steps(120),
 ];
 
 /// Harmonics of an amplitude.
@@ -84,25 +85,29 @@ impl Asked {
     ) -> Result<f64, ExperimentError> {
         match self {
             Self::Cycle(own) => transmission_error_with(scene, case, settings, own),
-            Self::Amplitude(own) => {
-                let found = amplitude_with(scene, case, settings, own)?;
-                Ok(found.iter().map(|lines| rms(lines)).fold(0.0, f64::max))
-            }
+            Self::Amplitude(own) => amplitude_with(scene, case, settings, own),
         }
     }
 
     /// The value by the truth, µm.
     fn truth(&self, scene: &Scene, case: &LoadCase) -> Result<f64, ExperimentError> {
         let Self::Amplitude(own) = self else { return self.with(scene, case, AT_REST) };
-        let fine = amplitude_with(scene, case, IN_MOTION, own)?;
-        let top = (0..fine.len()).max_by(|i, k| rms(&fine[*i]).total_cmp(&rms(&fine[*k])));
+        let [fine, coarse] =
+            STEPS.map(|n| stepped_amplitude_with(scene, case, IN_MOTION.with_steps(n), own));
+        let (fine, coarse) = (fine?, coarse?);
+        // δ = (X − X')/(2² − 1)
+        let limit = |(a, b): (&[f64; 2], &[f64; 2])| [0, 1].map(|k| a[k] + (a[k] - b[k]) / 3.0);
+        let all = fine.iter().zip(&coarse);
+        let all: Vec<Vec<_>> =
+            all.map(|(fine, coarse)| fine.iter().zip(coarse).map(limit).collect()).collect();
+        let top = (0..all.len()).max_by(|i, k| rms(&all[*i]).total_cmp(&rms(&all[*k])));
         let top = top.ok_or(ExperimentError::Incomplete("speed"))?;
         let there = AmplitudeRequest { speeds_rpm: vec![own.speeds_rpm[top]], ..own.clone() };
-        let of = |settings| amplitude_with(scene, case, settings, &there);
+        let of = |settings| stepped_amplitude_with(scene, case, settings, &there);
         let [modal, rigid] = OF_MODES;
         let (modal, rigid) = (of(modal)?, of(rigid)?);
         // What modes change at the speed of the largest amplitude, line by line.
-        let lines = fine[top].iter().zip(&modal[0]).zip(&rigid[0]);
+        let lines = all[top].iter().zip(&modal[0]).zip(&rigid[0]);
         let each = lines.map(|((a, b), c)| [a[0] + b[0] - c[0], a[1] + b[1] - c[1]]);
         Ok(rms(&each.collect::<Vec<_>>()))
     }

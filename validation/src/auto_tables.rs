@@ -70,6 +70,7 @@ fn short(settings: &str) -> String {
         (" flank elements", ""),
         (" contact cells", ""),
         (" steps per mesh cycle", " steps"),
+        (" inertia of elastic displacements to first order", ", inertia"),
         ("modal with ", ""),
         (" about the extremes as close as ", ", extremes "),
         ("quasi_static", "quasi-static"),

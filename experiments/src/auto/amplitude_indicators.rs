@@ -1,10 +1,12 @@
 //! What the coarsest candidate for an amplitude shows of the errors of all candidates. `docs/auto.md` derives the estimates.
 
+use std::f64::consts::TAU;
+
 use super::amplitude::AmplitudeRequest;
 use super::amplitude_run::{Motions, Turning};
-use super::elastic_response::{ElasticResponse, elastic_response};
-use super::energy::{ModeEnergy, of_linear};
-use super::error_parts::SetSize;
+use super::elastic_response::{MATTERS, elastic_response};
+use super::energy::ModeEnergy;
+use super::error_parts::{SetSize, of_elements};
 use super::response::{Harmonics, mode_type, name};
 use super::settings::{MESHES, size_ratio};
 use crate::error::ExperimentError;
@@ -19,10 +21,6 @@ const STEP_ORDER: f64 = 2.0;
 /// Factor on differences of two meshes and of two numbers of steps (grid convergence: Roache 1994).
 const SAFETY: f64 = 1.25;
 
-/// Harmonics with a smaller share of the mean square are left out of the part of inertia: one that is off by all of
-/// itself changes the root mean square by half of its share.
-const MATTERS: f64 = 1e-3;
-
 /// Largest shift of natural frequencies up to which a shift of the speed stands for it.
 const LARGEST_SHIFT: f64 = 0.05;
 
@@ -36,9 +34,13 @@ const MOST_AMPLIFIED: f64 = 20.0;
 /// the stiffness: seen on development sets (`docs/auto.md`).
 const UNEVEN: f64 = 5e-4;
 
-/// On what the first-order change of a response leaves open, and on the part of it that effects cancel of each other: seen on
-/// development sets (`docs/auto.md`).
-const OF_CHANGE: [f64; 2] = [1.5, 0.25];
+/// Share of what the correction for the frequency of the time steps moves a response by that it may still be off by: it is made by the modes at one
+/// position of the mesh cycle, whose frequencies are not those of all.
+const OF_CORRECTION: f64 = 0.5;
+
+/// Share of the first-order change of a response by the inertia of the bodies that an amplitude with this change may still be off by:
+/// seen on development sets (`docs/auto.md`).
+const OF_CHANGE: f64 = 0.75;
 
 /// What the coarsest candidate shows.
 pub(super) struct Indicators {
@@ -48,18 +50,20 @@ pub(super) struct Indicators {
     /// Speed of its largest amplitude, rpm.
     pub(super) top_rpm: f64,
     top: Harmonics,
-    /// Modes of the set at rest.
-    modes: Vec<ModeEnergy>,
-    /// Estimated relative error of the mesh stiffness by elements and cells, by mesh.
+    /// Estimated relative error of the mesh stiffness by elements, by mesh.
     stiffness: [f64; MESHES.len()],
     /// Relative change of the amplitude for a relative change of the mesh stiffness.
     by_stiffness: f64,
     /// Error of the transmission error on the coarsest candidate besides that of the stiffness, over the excitation.
     uneven: f64,
     of_steps: f64,
+    /// The same of motions with the change of frequency by the time steps.
+    of_stepped: f64,
     /// Part of the inertia that is left out: the bound, or what replaced it; infinite where nothing is known.
     pub(super) inertia: f64,
-    /// Whether that is the bound.
+    /// Amplitude with the first-order change by the inertia over that without it, where that leaves less than the bound.
+    pub(super) with_inertia: Option<f64>,
+    /// Whether the bound stands because nothing was asked yet.
     is_bound: bool,
     first_mode_hz: f64,
 }
@@ -88,9 +92,8 @@ impl Indicators {
         }
         let (top_rpm, top) =
             motions.top().cloned().ok_or(ExperimentError::Incomplete("steady state"))?;
-        let set = turning.standing()?;
-        let modes = of_linear(&set, &set.linearised()?)?;
-        let excited = Excited::new(turning, size, &modes, (top_rpm, &top))?;
+        let modes = &turning.modes()?.energies;
+        let excited = Excited::new(turning, size, modes, (top_rpm, &top))?;
         let changed = |by: f64| -> Result<f64, ExperimentError> {
             let off = |factor: f64| -> Result<f64, ExperimentError> {
                 let other = turning.motions(&[factor * top_rpm])?.largest();
@@ -98,35 +101,41 @@ impl Indicators {
             };
             Ok(off(1.0 + by)?.max(off(1.0 - by)?))
         };
-        let stiffness = MESHES.map(|(elements, cells)| size.of_stiffness(elements, cells));
+        let stiffness = MESHES.map(|(elements, _)| of_elements(elements));
         // δf/f = ½ e δk/k shifts a resonance as if the speed were shifted; the excitation changes as the flexibility.
         let shift = 0.5 * excited.meshes * stiffness[mesh];
         let by_shift = if shift > 0.0 { changed(shift)? / stiffness[mesh] } else { 0.0 };
         let inertia = match excited.shift <= LARGEST_SHIFT {
-            true => changed(excited.shift)? + 2.0 * excited.shift,
+            true => {
+                let passing = excited.passing / motions.largest();
+                changed(excited.shift)? + 2.0 * excited.shift + passing
+            }
             false => f64::INFINITY,
         };
         let fewer = turning.thinned(EVERY, |own| own.motions(&[top_rpm]))?;
-        let of_steps = SAFETY * motions.moved(&fewer) / (f64::from(EVERY).powf(STEP_ORDER) - 1.0);
+        let by_steps = |moved: f64| SAFETY * moved / (f64::from(EVERY).powf(STEP_ORDER) - 1.0);
         let uneven = UNEVEN * size.deflection() * size_ratio(0, mesh);
         let uneven = uneven / (excited.excitation * motions.largest());
         Ok(Self {
             mesh,
             top_rpm,
             top,
-            modes,
             stiffness,
             by_stiffness: 1.0 + by_shift,
             uneven,
-            of_steps,
+            of_steps: by_steps(motions.moved(&fewer))
+                .max(OF_CORRECTION * motions.apart_by_correction()),
+            of_stepped: by_steps(motions.moved_in_steps(&fewer)),
             inertia,
+            with_inertia: None,
             is_bound: true,
             first_mode_hz: size.first_mode_hz(),
             motions,
         })
     }
 
-    /// Elements and cells of a mesh.
+    /// Elements and cells of a mesh, the mean stiffness by elements alone: where the edge of a patch lies among its cells changes from step
+    /// to step and from mesh to mesh, and leaves no more than a part of the unevenness.
     pub(super) fn of_mesh(&self, mesh: usize) -> f64 {
         let uneven = self.uneven * size_ratio(self.mesh, mesh);
         (self.by_stiffness * self.stiffness[mesh]).hypot(uneven)
@@ -149,7 +158,12 @@ impl Indicators {
         self.of_steps * 2f64.powf(-STEP_ORDER * f64::from(doubled))
     }
 
-    /// The same of a candidate that was run: at least what its own change from the coarsest candidate says,
+    /// The same of motions with the change of frequency by the time steps.
+    pub(super) fn of_stepped(&self, doubled: u32) -> f64 {
+        self.of_stepped * 2f64.powf(-STEP_ORDER * f64::from(doubled))
+    }
+
+    /// [`of_steps`](Self::of_steps) of a candidate that was run: at least what its own change from the coarsest candidate says,
     /// less what the meshes explain of it.
     pub(super) fn of_steps_seen(&self, (mesh, doubled): (usize, u32), motions: &Motions) -> f64 {
         if doubled == 0 {
@@ -161,7 +175,8 @@ impl Indicators {
         self.of_steps(doubled).max(SAFETY * (moved - explained).max(0.0) / (ratio - 1.0))
     }
 
-    /// Replaces the bound of the inertia that is left out by what it changes to first order, once.
+    /// Takes what the inertia that is left out changes to first order into the amplitude, and replaces its bound by what this leaves if that is
+    /// less, once.
     ///
     /// # Errors
     /// If the motion does not become steady again.
@@ -169,10 +184,15 @@ impl Indicators {
         if !std::mem::replace(&mut self.is_bound, false) {
             return Ok(());
         }
-        let found = elastic_response(turning, &self.modes, (self.top_rpm, &self.top), MATTERS)?;
-        let [of_change, of_effects] = OF_CHANGE;
-        let of = |own: ElasticResponse| of_change * own.change + of_effects * own.effects;
-        self.inertia = found.map_or(f64::INFINITY, |own| of(own) / self.top.rms());
+        let size = self.top.rms();
+        if let Some(found) = elastic_response(turning, (self.top_rpm, &self.top))? {
+            let left = OF_CHANGE * found.rms() / size;
+            // A change of phase at a resonance is larger than that of the amplitude, and its second order no longer small.
+            if left < self.inertia {
+                self.inertia = left;
+                self.with_inertia = Some(found.added_to(&self.top).rms() / size);
+            }
+        }
         Ok(())
     }
 
@@ -195,6 +215,9 @@ struct Excited {
     meshes: f64,
     /// Excitation over the motion: √(Σ s_l min(1, |1 − (l f_m/f)²|)²) for shares s_l of the mean square.
     excitation: f64,
+    /// What teeth that pass through mesh change of the root mean square by their inertia, m, at most:
+    /// Σ √s_l x_l/min(1, |1 − (l f_m/f)²|).
+    passing: f64,
 }
 
 impl Excited {
@@ -208,8 +231,9 @@ impl Excited {
     ) -> Result<Self, ExperimentError> {
         let kind = mode_type(turning.response());
         let f_m = turning.mesh_hz(rpm);
-        let mut own = Self { shift: 0.0, meshes: 0.0, excitation: 0.0 };
-        for (share, l) in top.shares().into_iter().zip(1..).filter(|(share, _)| *share > MATTERS) {
+        let mut own = Self { shift: 0.0, meshes: 0.0, excitation: 0.0, passing: 0.0 };
+        for (share, l) in top.shares().into_iter().zip(1u32..).filter(|(share, _)| *share > MATTERS)
+        {
             let f = f64::from(l) * f_m;
             let distance = |mode: &&ModeEnergy| (mode.frequency_hz / f).ln().abs();
             let nearest = modes
@@ -219,7 +243,9 @@ impl Excited {
                 .ok_or(ExperimentError::Incomplete("mode that moves the response"))?;
             own.meshes += share * nearest.meshes;
             let apart = (1.0 - (f / nearest.frequency_hz).powi(2)).abs();
-            own.excitation += share * apart.clamp(1.0 / MOST_AMPLIFIED, 1.0).powi(2);
+            let apart = apart.clamp(1.0 / MOST_AMPLIFIED, 1.0);
+            own.excitation += share * apart.powi(2);
+            own.passing += share.sqrt() * size.of_passing_teeth(l, TAU * f) / apart;
             let mut raised = nearest.clone();
             raised.frequency_hz = raised.frequency_hz.max(f);
             own.shift += share * size.body_inertia(&raised);

@@ -22,6 +22,15 @@ impl ErrorPart {
     }
 }
 
+/// A correction of a value.
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+pub struct Correction {
+    /// The approximation whose effect it takes out.
+    pub of: String,
+    /// Change of the value, percent.
+    pub percent: f64,
+}
+
 /// A candidate that was not chosen.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PassedOver {
@@ -49,6 +58,10 @@ pub struct Choice {
     pub estimated_error_percent: f64,
     /// What the error consists of.
     pub error_parts: Vec<ErrorPart>,
+    /// What the value was corrected for, after the calculation with these settings: by so many percent of the value that they give by
+    /// themselves.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub corrections: Vec<Correction>,
     /// Settings chosen.
     pub settings: AutoSettings,
     /// Cheaper candidates, and why each was not chosen.

@@ -3,29 +3,40 @@
 use std::f64::consts::TAU;
 
 use fe_contact::vibration::{ElasticInertia, ElasticLoad, RaceMode};
-use gearset::AutoResponse;
 use nalgebra::Complex;
 
 use super::amplitude_run::Turning;
-use super::energy::ModeEnergy;
 use super::response::Harmonics;
 use crate::error::ExperimentError;
 
 /// Effects of one kind each in [`ElasticLoad`].
 const EFFECTS: usize = 4;
 
+/// Harmonics with a smaller share of the mean square are left out where they have no estimate: one that is off by all of
+/// itself changes the root mean square by half of its share.
+pub(super) const MATTERS: f64 = 1e-3;
+
 /// Change of a response by what quasi-static bodies lack.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct ElasticResponse {
-    /// Root mean square of the change in the harmonics that are kept, m.
-    pub(super) change: f64,
-    /// Root of the sum of squares of what each effect changes by itself, m: effects may cancel.
-    pub(super) effects: f64,
+    /// By harmonic from 1, then by coordinate, m.
+    lines: Vec<Vec<Complex<f64>>>,
+}
+
+impl ElasticResponse {
+    /// Root mean square in the harmonics that are kept, m.
+    pub(super) fn rms(&self) -> f64 {
+        self.lines.iter().flatten().map(|line| 0.5 * line.norm_sqr()).sum::<f64>().sqrt()
+    }
+
+    /// A response with this change.
+    pub(super) fn added_to(&self, response: &Harmonics) -> Harmonics {
+        response.changed(|l| self.lines[l - 1].clone())
+    }
 }
 
 /// The change at one speed, in rpm, of the response `top` there. `None` where nothing is known of it: the teeth of a gear are not
-/// meshed alike, or a harmonic with more than `matters` of the mean square is above the first mode of a body with its race
-/// held.
+/// meshed alike, or a harmonic that matters is above the first mode of a body with its race held.
 ///
 /// Each harmonic l of the loads on the modes ([`ElasticLoad`]) over a cycle of the steady state moves the response by
 ///
@@ -39,51 +50,42 @@ pub(super) struct ElasticResponse {
 /// If the set cannot be linearised or its motion does not become steady again.
 pub(super) fn elastic_response(
     turning: &Turning<'_>,
-    modes: &[ModeEnergy],
     (rpm, top): (f64, &Harmonics),
-    matters: f64,
 ) -> Result<Option<ElasticResponse>, ExperimentError> {
-    let set = turning.standing()?;
-    let linear = set.linearised()?;
-    let Some(inertia) = ElasticInertia::new(&set)? else { return Ok(None) };
-    let own = modes.iter().map(|m| ((TAU * m.frequency_hz).powi(2), m.shape.as_slice()));
-    let modes = ElasticInertia::race_modes(&set, &linear, own)?;
-    let loads = turning.over_cycle(rpm, |set| Ok(inertia.loads(set, &modes)?))?;
+    let Some(inertia) = ElasticInertia::new(&turning.standing()?)? else { return Ok(None) };
+    let modes = turning.modes()?;
+    let loads = turning.over_cycle(rpm, |set| Ok(inertia.loads(set, &modes.races)?))?;
     let omega_m = TAU * turning.mesh_hz(rpm);
-    let coordinates: &[usize] = match turning.response() {
-        AutoResponse::TransmissionError => &[2],
-        AutoResponse::SunTranslation => &[0, 1],
-    };
-    let (mut squares, mut of_effects) = (0.0, 0.0);
+    let mut lines = Vec::new();
     for (share, l) in top.shares().into_iter().zip(1u32..) {
         let omega = f64::from(l) * omega_m;
         let quotient = omega * omega / inertia.first();
-        if quotient >= 1.0 {
-            if share > matters {
-                return Ok(None);
+        let mut sum = vec![Complex::new(0.0, 0.0); top.coordinates()];
+        if quotient < 1.0 {
+            for effect in changes((&modes.races, &modes.responses), &loads, l, omega) {
+                sum.iter_mut().zip(effect).for_each(|(sum, own)| *sum += own / (1.0 - quotient));
             }
-            continue;
+        } else if share > MATTERS {
+            return Ok(None);
         }
-        let effects = changes((&modes, &loads), l, omega);
-        for k in coordinates {
-            let each = effects.map(|effect| effect[*k] / (1.0 - quotient));
-            squares += 0.5 * each.iter().sum::<Complex<f64>>().norm_sqr();
-            of_effects += 0.5 * each.iter().map(Complex::norm_sqr).sum::<f64>();
-        }
+        lines.push(sum);
     }
-    Ok(Some(ElasticResponse { change: squares.sqrt(), effects: of_effects.sqrt() }))
+    Ok(Some(ElasticResponse { lines }))
 }
 
-/// What each effect moves the sun by in harmonic l of its loads at the steps of a cycle, in circular frequency `omega`: along x
-/// and y, and rotation times base radius, m.
+/// What each effect moves the response by in harmonic l of its loads at the steps of a cycle, in circular frequency `omega`, m;
+/// `responses`: what each mode moves it by.
 fn changes(
-    (modes, loads): (&[RaceMode], &[Vec<ElasticLoad>]),
+    (modes, responses): (&[RaceMode], &[Vec<f64>]),
+    loads: &[Vec<ElasticLoad>],
     l: u32,
     omega: f64,
-) -> [[Complex<f64>; 3]; EFFECTS] {
+) -> [Vec<Complex<f64>>; EFFECTS] {
     let steps = loads.len() as f64;
-    let mut sum = [[Complex::new(0.0, 0.0); 3]; EFFECTS];
-    for (i, mode) in modes.iter().enumerate() {
+    let coordinates = responses.first().map_or(0, Vec::len);
+    let mut sum = [const { Vec::new() }; EFFECTS];
+    sum.iter_mut().for_each(|own| own.resize(coordinates, Complex::new(0.0, 0.0)));
+    for (i, (mode, response)) in modes.iter().zip(responses).enumerate() {
         let mut lines = [Complex::new(0.0, 0.0); EFFECTS];
         for (load, n) in loads.iter().zip(1u32..) {
             let turned = Complex::cis(-TAU * f64::from(l) * f64::from(n) / steps) * (2.0 / steps);
@@ -95,7 +97,7 @@ fn changes(
         }
         let stiffness = Complex::new(mode.lambda - omega * omega, mode.damping * omega);
         for (effect, line) in sum.iter_mut().zip(lines) {
-            effect.iter_mut().zip(mode.sun).for_each(|(x, phi)| *x += line / stiffness * phi);
+            effect.iter_mut().zip(response).for_each(|(x, phi)| *x += line / stiffness * *phi);
         }
     }
     sum
@@ -103,11 +105,10 @@ fn changes(
 
 #[cfg(test)]
 mod tests {
-    use gearset::{LoadCase, Scene};
+    use gearset::{AutoResponse, LoadCase, Scene};
 
-    use super::super::amplitude::{AmplitudeRequest, amplitude_with};
+    use super::super::amplitude::{AmplitudeRequest, stepped_amplitude_with};
     use super::super::amplitude_run::on;
-    use super::super::energy::of_linear;
     use super::super::settings::AutoSettings;
     use super::*;
     use crate::sweep::SteadySettings;
@@ -116,7 +117,8 @@ mod tests {
     /// its static deflection in harmonic l alone.
     #[test]
     fn a_load_moves_the_sun_in_its_own_harmonic() {
-        let mode = RaceMode::of_sun([0.0, 0.0, 2.0], 1e8, 0.0);
+        let mode = RaceMode::of(1e8, 0.0);
+        let response = [vec![2.0]];
         let of = |f: &dyn Fn(f64) -> f64| -> Vec<Vec<ElasticLoad>> {
             let at =
                 |n: usize| ElasticLoad { coupled: f(TAU * n as f64 / 24.0), ..Default::default() };
@@ -124,7 +126,7 @@ mod tests {
         };
         let loads = of(&|t| 7.0 + 3.0 * (2.0 * t).cos());
         for l in 1..=5 {
-            let moved = changes((std::slice::from_ref(&mode), &loads), l, 1.0)[3][2];
+            let moved = changes((std::slice::from_ref(&mode), &response), &loads, l, 1.0)[3][0];
             let expected = if l == 2 { 2.0 * 3.0 / 1e8 } else { 0.0 };
             assert!((moved.re - expected).abs() < 1e-7 * 6e-8 + 1e-20, "{l}: {moved}");
         }
@@ -144,18 +146,16 @@ mod tests {
                 tolerance_percent: 1.0,
             };
             let rigid = AutoSettings::quasi_static(6, 20).with_steps(steps);
-            let of = |settings| amplitude_with(&scene, &case, settings, &request).unwrap();
+            let of = |settings| stepped_amplitude_with(&scene, &case, settings, &request).unwrap();
             let (with, without) =
                 (of(AutoSettings::modal(modes, 6, 20).with_steps(steps)), of(rigid));
             let predicted = on((&scene, &case), rigid, &request, |turning| {
                 let motions = turning.motions(speeds_rpm)?;
-                let set = turning.standing()?;
-                let own = of_linear(&set, &set.linearised()?)?;
-                let one = |(rpm, top)| elastic_response(turning, &own, (rpm, top), 1e-3);
-                let list = speeds_rpm.iter().copied().zip(motions.responses());
+                let one = |(rpm, top)| elastic_response(turning, (rpm, top));
+                let list = speeds_rpm.iter().copied().zip(motions.stepped());
                 list.map(one).collect::<Result<Vec<_>, _>>()
             });
-            let predicted = predicted.unwrap().into_iter().map(|own| own.unwrap().change);
+            let predicted = predicted.unwrap().into_iter().map(|own| own.unwrap().rms());
             for (((rpm, predicted), with), without) in
                 speeds_rpm.iter().zip(predicted).zip(&with).zip(&without)
             {

@@ -166,6 +166,27 @@ impl SetSize {
         SAFETY * (teeth + carrier)
     }
 
+    /// What teeth move a response by that are bent and released as they pass through mesh, in harmonic l of circular frequency ω, at most (root mean
+    /// square, m, where no mode amplifies it). One tooth a cycle is deflected by half of the deflection d of its mesh where it is loaded, and on the mean by a
+    /// third of that, as a beam whose deflection grows with the square of the distance; harmonic l has no more than d/(πl) of it, and ω²
+    /// times that and the mass presses on the mesh of stiffness k:
+    ///
+    /// ```text
+    /// x_l ≤ ω²/3 Σ_b ε m_t d/(√2 π l k)
+    /// ```
+    ///
+    /// with the teeth of both meshes of a planet. Infinite above the first mode of a body with its race held.
+    pub(super) fn of_passing_teeth(&self, l: u32, omega: f64) -> f64 {
+        let [_, ring, sun, planet] = self.teeth;
+        let quotient = (omega / (TAU * self.first_mode_hz())).powi(2);
+        if quotient >= 1.0 {
+            return f64::INFINITY;
+        }
+        let mass = (ring + sun + 2.0 * planet) / 3.0;
+        let force = omega * omega * mass * self.deflection() / (1.0 - quotient);
+        force / (2f64.sqrt() * PI * f64::from(l) * self.mesh)
+    }
+
     /// The same of a mode of FE/contact from its static displacements: `change` is the relative change of the frequency that
     /// they give to first order, and what first order leaves is taken to be its square.
     pub(super) fn of_change(change: f64) -> f64 {
@@ -199,12 +220,6 @@ impl SetSize {
         ]
     }
 
-    /// Both together, δk/k: their causes are independent.
-    pub(super) fn of_stiffness(&self, flank_elements: u32, contact_cells: u32) -> f64 {
-        let [elements, cells] = stiffness_errors(self.cells, flank_elements, contact_cells);
-        elements.hypot(cells)
-    }
-
     /// Mean slope of the flanks of a loaded mesh: its deflection over a base pitch.
     pub(super) fn slope(&self) -> f64 {
         self.deflection() / self.base_pitch
@@ -228,17 +243,19 @@ impl SetSize {
 /// What finite elements along a flank, of eight nodes, and contact cells are estimated to change the stiffness of any mesh by, δk/k
 /// each (`docs/auto.md`).
 pub fn stiffness_errors(layout: CellLayout, flank_elements: u32, contact_cells: u32) -> [f64; 2] {
-    let (index, at, order) = STIFFNESS_INDEX;
     let cell = 2.0 * GRID_HALF_WIDTHS / f64::from(contact_cells);
     // Both edges of a patch pass from one graded cell to the next in turn.
     let steps = match layout {
         CellLayout::Even => 1.0,
         CellLayout::Graded => 0.5,
     };
-    [
-        index * (at / f64::from(flank_elements)).powf(order),
-        HALF_WIDTH_INFLUENCE * 0.5 * cell * steps,
-    ]
+    [of_elements(flank_elements), HALF_WIDTH_INFLUENCE * 0.5 * cell * steps]
+}
+
+/// The part of elements.
+pub(super) fn of_elements(flank_elements: u32) -> f64 {
+    let (index, at, order) = STIFFNESS_INDEX;
+    index * (at / f64::from(flank_elements)).powf(order)
 }
 
 /// First torsional mode of an annulus that is held at one edge and free at the other, Hz, by Rayleigh's quotient with a

@@ -20,12 +20,16 @@ mod error_parts;
 mod finer_curve;
 mod frequency;
 mod response;
+mod set_modes;
 mod settings;
+mod step_frequency;
 mod transmission_error;
 mod trial;
 
-pub use amplitude::{AmplitudeRequest, ChosenSweep, amplitude_with, choose_amplitude};
-pub use choice::{AutoError, Choice, ErrorPart, PassedOver};
+pub use amplitude::{
+    AmplitudeRequest, ChosenSweep, amplitude_with, choose_amplitude, stepped_amplitude_with,
+};
+pub use choice::{AutoError, Choice, Correction, ErrorPart, PassedOver};
 pub use cycle_request::{CycleRequest, CycleValue};
 pub use error_parts::stiffness_errors;
 pub use frequency::{FrequencyRequest, choose_frequency, frequency_with};

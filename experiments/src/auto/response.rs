@@ -2,6 +2,7 @@
 
 use gearset::AutoResponse;
 use lumped::ModeType;
+use nalgebra::Complex;
 
 use crate::sweep::{Coordinate, Part, SweepPoint};
 
@@ -52,6 +53,24 @@ impl Harmonics {
     /// Real and imaginary parts by coordinate, then by harmonic from 1, m.
     pub(super) fn lines(&self) -> &[[f64; 2]] {
         &self.lines
+    }
+
+    /// Number of its coordinates.
+    pub(super) fn coordinates(&self) -> usize {
+        self.lines.len() / self.highest.max(1)
+    }
+
+    /// The harmonics with what `change` gives for each coordinate of harmonic l added, m.
+    pub(super) fn changed(&self, change: impl Fn(usize) -> Vec<Complex<f64>>) -> Self {
+        let mut own = self.clone();
+        for l in 1..=self.highest {
+            let of_harmonic = own.lines.iter_mut().skip(l - 1).step_by(self.highest);
+            for ([re, im], change) in of_harmonic.zip(change(l)) {
+                *re += change.re;
+                *im += change.im;
+            }
+        }
+        own
     }
 
     /// Share of each harmonic in the mean square, from harmonic 1 on.

@@ -48,6 +48,10 @@ pub struct AutoSettings {
     /// Time steps in a mesh cycle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_per_cycle: Option<u32>,
+    /// Whether an amplitude has what the inertia of the bodies' elastic displacements, which quasi-static bodies lack, changes of it to
+    /// first order.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub elastic_inertia: bool,
 }
 
 impl AutoSettings {
@@ -61,6 +65,7 @@ impl AutoSettings {
         positions: None,
         positions_about_extremes: None,
         steps_per_cycle: None,
+        elastic_inertia: false,
     };
 
     /// FE/contact with quasi-static bodies.
@@ -87,6 +92,11 @@ impl AutoSettings {
     /// The same with so many time steps in a mesh cycle.
     pub const fn with_steps(self, steps_per_cycle: u32) -> Self {
         Self { steps_per_cycle: Some(steps_per_cycle), ..self }
+    }
+
+    /// The same with the inertia of the bodies' elastic displacements to first order.
+    pub const fn with_elastic_inertia(self) -> Self {
+        Self { elastic_inertia: true, ..self }
     }
 
     /// FE/contact with modes of each body.
@@ -142,9 +152,12 @@ impl std::fmt::Display for AutoSettings {
         if let Some(positions) = self.positions_about_extremes {
             write!(f, ", about the extremes as close as {positions}")?;
         }
-        match self.steps_per_cycle {
-            Some(steps) => write!(f, ", {steps} steps per mesh cycle"),
-            None => Ok(()),
+        if let Some(steps) = self.steps_per_cycle {
+            write!(f, ", {steps} steps per mesh cycle")?;
+        }
+        match self.elastic_inertia {
+            true => f.write_str(", inertia of elastic displacements to first order"),
+            false => Ok(()),
         }
     }
 }

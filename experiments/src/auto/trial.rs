@@ -84,6 +84,7 @@ impl Trial {
             tolerance_percent: self.tolerance_percent,
             estimated_error_percent: error,
             error_parts: parts,
+            corrections: Vec::new(),
             settings,
             passed_over: Vec::new(),
         })

@@ -37,6 +37,7 @@ pub use peaks::{Peak, Response, peaks, top_of_three};
 pub use plan::{Chain, Direction, Plan, PlanError, even_speeds};
 pub use point::{SweepPoint, TableRow};
 pub use record::Record;
+pub(crate) use record::radial;
 pub use run::{Kept, Memory, PointStore, StoreError, Sweep, run};
 pub use scheme_model::SchemeModel;
 pub use set_shape::SetShape;

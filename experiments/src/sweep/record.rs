@@ -26,7 +26,7 @@ pub struct Record {
 pub(super) const SUN: [usize; 3] = [6, 7, 8];
 
 /// Displacements of carrier, ring and sun with x and y turned to radial (towards planet 0, at ψ₀) and tangential.
-pub(super) fn radial(central: [[f64; 3]; 3], first_planet_rad: f64) -> [[f64; 3]; 3] {
+pub(crate) fn radial(central: [[f64; 3]; 3], first_planet_rad: f64) -> [[f64; 3]; 3] {
     let (sin, cos) = first_planet_rad.sin_cos();
     central.map(|[x, y, theta]| [cos * x + sin * y, cos * y - sin * x, theta])
 }

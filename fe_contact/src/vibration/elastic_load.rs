@@ -23,7 +23,7 @@ use super::linear::LinearSet;
 use super::set::VibratingSet;
 use crate::body::{Accelerated, CarrierBody};
 use crate::error::FeError;
-use crate::statics::{CARRIER, PLANETS, SUN};
+use crate::statics::{CARRIER, PLANETS};
 
 /// A mode of a set of quasi-static bodies.
 #[derive(Debug, Clone)]
@@ -36,14 +36,12 @@ pub struct RaceMode {
     pub lambda: f64,
     /// 2 ζ ω, 1/s.
     pub damping: f64,
-    /// Motion of the sun: along x and y, and rotation times its base radius.
-    pub sun: [f64; 3],
 }
 
 impl RaceMode {
-    /// A mode that presses on no mesh and moves the sun alone, for tests.
-    pub fn of_sun(sun: [f64; 3], lambda: f64, damping: f64) -> Self {
-        Self { shape: DVector::zeros(0), mesh_forces: Vec::new(), lambda, damping, sun }
+    /// A mode that moves and presses on nothing, for tests.
+    pub fn of(lambda: f64, damping: f64) -> Self {
+        Self { shape: DVector::zeros(0), mesh_forces: Vec::new(), lambda, damping }
     }
 }
 
@@ -82,8 +80,7 @@ impl ElasticInertia {
                 .map(|mesh| forces.rows(mesh.first, mesh.count).sum())
                 .collect();
             let damping = z.dot(&(&linear.damping * &z)) + beta * approaches.dot(&forces);
-            let sun = set.races().displaced(&z, SUN);
-            RaceMode { shape: z, mesh_forces, lambda, damping, sun }
+            RaceMode { shape: z, mesh_forces, lambda, damping }
         };
         Ok(modes.map(one).collect())
     }

@@ -16,9 +16,10 @@ use super::Outcome;
 const SEEDS: std::ops::Range<u64> = 17001..18001;
 const SETS: usize = 60;
 
-/// Seeds of the record of transmission errors at rest, and of amplitudes: each has what is asked of its kind. Lower ones were read
-/// while `auto` was made cheaper; these by nobody before the record was made.
-const SEEDS_OF_RESPONSES: std::ops::Range<u64> = 16001..16181;
+/// Seeds of the record of transmission errors at rest, and of that of amplitudes: each has what is asked of its kind. Lower ones were read
+/// while `auto` was made cheaper, those of amplitudes up to 20180; these by nobody before the record was made.
+const SEEDS_AT_REST: std::ops::Range<u64> = 16001..16181;
+const SEEDS_IN_MOTION: std::ops::Range<u64> = 21001..21141;
 
 /// Seeds that `AUTO_SEEDS` asks for, if it is set.
 fn asked_seeds() -> Result<Option<std::ops::Range<u64>>, Box<dyn std::error::Error + Send + Sync>> {
@@ -87,11 +88,9 @@ pub(super) fn remake_responses() -> Outcome {
         let has_truth = !row.truth_um.is_nan();
         Ok(if has_truth { Row::Line(response_line(&row)) } else { Row::NoTruth })
     };
-    if let Some(asked) = asked_seeds()? {
-        return print_rows(asked, usize::MAX, &row);
-    }
-    for is_at_rest in [true, false] {
-        print_rows(SEEDS_OF_RESPONSES, usize::MAX, &|seed| {
+    let asked = asked_seeds()?;
+    for (is_at_rest, seeds) in [(true, SEEDS_AT_REST), (false, SEEDS_IN_MOTION)] {
+        print_rows(asked.clone().unwrap_or(seeds), usize::MAX, &|seed| {
             let (_, asked) = drawn_response(seed)?;
             match matches!(asked, Asked::Cycle(_)) == is_at_rest {
                 true => row(seed),
