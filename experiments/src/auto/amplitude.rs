@@ -125,8 +125,7 @@ pub fn amplitude_with(
         let by_inertia = match (settings.elastic_inertia, motions.top()) {
             (true, Some((rpm, top))) => {
                 let unknown = ExperimentError::Incomplete("inertia of elastic displacements");
-                elastic_response(turning, (*rpm, top))?.ok_or(unknown)?.added_to(top).rms()
-                    / top.rms()
+                elastic_response(turning, (*rpm, top))?.ok_or(unknown)?.growth_of(top)
             }
             _ => 1.0,
         };
@@ -330,10 +329,23 @@ impl Search<'_, '_> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use gearset::{SceneKind, template};
 
     use super::*;
+
+    /// OH-58 with four planets, its load case, and the request for a response at some speeds.
+    pub(in super::super) fn oh58(
+        response: AutoResponse,
+        speeds_rpm: &[f64],
+    ) -> (Scene, LoadCase, AmplitudeRequest) {
+        let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
+        let scene = Scene::from_file(path.as_ref()).unwrap();
+        let case = LoadCase::of_scene(&scene).unwrap();
+        let request =
+            AmplitudeRequest { speeds_rpm: speeds_rpm.to_vec(), ..request(response, 5.0) };
+        (scene, case, request)
+    }
 
     fn request(response: AutoResponse, tolerance_percent: f64) -> AmplitudeRequest {
         AmplitudeRequest {
@@ -357,10 +369,7 @@ mod tests {
     /// difference.
     #[test]
     fn inertia_is_added_to_an_amplitude_as_modes_change_it() {
-        let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
-        let scene = Scene::from_file(path.as_ref()).unwrap();
-        let case = LoadCase::of_scene(&scene).unwrap();
-        let request = request(AutoResponse::TransmissionError, 5.0);
+        let (scene, case, request) = oh58(AutoResponse::TransmissionError, &[1500.0]);
         let plain = AutoSettings::quasi_static(6, 20).with_steps(120);
         let of = |case: &LoadCase, own| amplitude_with(&scene, case, own, &request).unwrap();
         let (without, with) = (of(&case, plain), of(&case, plain.with_elastic_inertia()));
@@ -375,7 +384,7 @@ mod tests {
     }
 
     /// With its torque reversed a set of evenly spaced planets presses on its other flanks, and displacements are those of its mirror image: both
-    /// corrections change an amplitude alike to a tenth (steps fall on other places of the cycle); a lost sign would turn the second round.
+    /// corrections change an amplitude alike to a tenth; a lost sign would turn the second round.
     #[test]
     fn a_mirrored_set_is_corrected_alike() {
         let scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
@@ -390,12 +399,8 @@ mod tests {
                     let motions = turning.motions(&request.speeds_rpm)?;
                     let (rpm, top) = motions.top().unwrap();
                     let inertia = elastic_response(turning, (*rpm, top))?.unwrap();
-                    let changed = inertia.added_to(top).rms() / top.rms();
-                    Ok((
-                        motions.corrected_by(),
-                        changed - 1.0,
-                        inertia.rms() / motions.of_sun(turning),
-                    ))
+                    let of_all = inertia.rms() / motions.of_sun(turning);
+                    Ok((motions.corrected_by(), inertia.growth_of(top) - 1.0, of_all))
                 });
                 found.unwrap()
             });

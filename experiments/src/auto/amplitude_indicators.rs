@@ -190,7 +190,7 @@ impl Indicators {
             // A change of phase at a resonance is larger than that of the amplitude, and its second order no longer small.
             if left < self.inertia {
                 self.inertia = left;
-                self.with_inertia = Some(found.added_to(&self.top).rms() / size);
+                self.with_inertia = Some(found.growth_of(&self.top));
             }
         }
         Ok(())

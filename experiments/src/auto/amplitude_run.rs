@@ -261,6 +261,7 @@ mod tests {
     use gearset::{SceneKind, template};
     use nalgebra::Complex;
 
+    use super::super::amplitude::tests::oh58;
     use super::*;
     use crate::sweep::SteadySettings;
 
@@ -290,16 +291,8 @@ mod tests {
     /// both responses are nearer to those of 480 steps at every speed, three times and more taken together.
     #[test]
     fn motions_in_few_steps_are_corrected_towards_those_in_many() {
-        let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
-        let scene = Scene::from_file(path.as_ref()).unwrap();
-        let case = LoadCase::of_scene(&scene).unwrap();
         for response in [AutoResponse::TransmissionError, AutoResponse::SunTranslation] {
-            let request = AmplitudeRequest {
-                response,
-                speeds_rpm: vec![1100.0, 1500.0, 2500.0],
-                steady: SteadySettings { between_cycles: 0, ..SteadySettings::default() },
-                tolerance_percent: 5.0,
-            };
+            let (scene, case, request) = oh58(response, &[1100.0, 1500.0, 2500.0]);
             let of = |case: &LoadCase, steps| {
                 let own = AutoSettings::quasi_static(6, 20).with_steps(steps);
                 let made = on((&scene, case), own, &request, |turning| {

@@ -29,9 +29,10 @@ impl ElasticResponse {
         self.lines.iter().flatten().map(|line| 0.5 * line.norm_sqr()).sum::<f64>().sqrt()
     }
 
-    /// A response with this change.
-    pub(super) fn added_to(&self, response: &Harmonics) -> Harmonics {
-        response.changed(|l| self.lines[l - 1].clone())
+    /// Root mean square of a response with this change over that without it.
+    pub(super) fn growth_of(&self, response: &Harmonics) -> f64 {
+        let with = response.changed(|l| self.lines.get(l - 1).cloned().unwrap_or_default());
+        with.rms() / response.rms()
     }
 }
 
@@ -105,13 +106,13 @@ fn changes(
 
 #[cfg(test)]
 mod tests {
-    use gearset::{AutoResponse, LoadCase, Scene};
+    use gearset::AutoResponse;
 
-    use super::super::amplitude::{AmplitudeRequest, stepped_amplitude_with};
+    use super::super::amplitude::stepped_amplitude_with;
+    use super::super::amplitude::tests::oh58;
     use super::super::amplitude_run::on;
     use super::super::settings::AutoSettings;
     use super::*;
-    use crate::sweep::SteadySettings;
 
     /// A load that is even over the cycle moves nothing, and one along cos(l τ) of a mode far above the speed moves the sun by
     /// its static deflection in harmonic l alone.
@@ -135,16 +136,8 @@ mod tests {
     /// Changes of both responses of OH-58 with four planets at some speeds, by so many modes of each body and to first order: each
     /// within a factor of two of the other.
     fn compared(modes: u32, steps: u32, speeds_rpm: &[f64]) {
-        let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
-        let scene = Scene::from_file(path.as_ref()).unwrap();
-        let case = LoadCase::of_scene(&scene).unwrap();
         for response in [AutoResponse::TransmissionError, AutoResponse::SunTranslation] {
-            let request = AmplitudeRequest {
-                response,
-                speeds_rpm: speeds_rpm.to_vec(),
-                steady: SteadySettings { between_cycles: 0, ..SteadySettings::default() },
-                tolerance_percent: 1.0,
-            };
+            let (scene, case, request) = oh58(response, speeds_rpm);
             let rigid = AutoSettings::quasi_static(6, 20).with_steps(steps);
             let of = |settings| stepped_amplitude_with(&scene, &case, settings, &request).unwrap();
             let (with, without) =
