@@ -1,5 +1,5 @@
 //! Numerical methods without gears: eigenproblems of vibrating systems and their subspaces, time integration,
-//! periodic solutions by shooting with their stability, periodic motions by harmonic balance, branches of
+//! periodic solutions by shooting with their stability, periodic motions by harmonic balance, harmonics of systems with periodic stiffness, branches of
 //! solutions, spectra of records, identification of modes from records, and discretisation errors from three grids.
 
 mod bundles;
@@ -11,6 +11,7 @@ mod factored;
 mod grid_convergence;
 mod gyroscopic;
 pub mod harmonic_balance;
+mod hill;
 pub mod identify;
 pub mod integrators;
 mod lowest_modes;
@@ -37,6 +38,7 @@ pub use factored::{FactoredModes, SpringRow, factored_modes};
 pub use faer::c64;
 pub use grid_convergence::{GridConvergence, grid_convergence_index};
 pub use gyroscopic::{GyroscopicMode, gyroscopic_modes};
+pub use hill::{HillEquations, HillError, PeriodicSystem, PeriodicTerm};
 pub use lowest_modes::{LowMode, ModalOperator, lowest_modes};
 pub use newmark::{AverageAcceleration, Motion, StepError};
 pub use number::Number;

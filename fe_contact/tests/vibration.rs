@@ -178,6 +178,29 @@ fn linear_damping_is_near_that_of_proportional_damping() {
     }
 }
 
+/// In a mode φ of unit modal mass slow damping gives 2ζω = φᵀ C φ, which the first eight modes of the damped set have with the state of its lag.
+#[test]
+fn slow_damping_is_that_of_the_lagging_set() {
+    let scene = scene("oh58_4p", Fidelity::QuasiStatic);
+    let bodies = Bodies::new(&scene).unwrap();
+    let mut set = set(&scene, &bodies, standing(5e-6));
+    set.rest(TORQUE).unwrap();
+    let linear = set.linearised().unwrap();
+    let damping = linear.slow_damping();
+    let (frequencies, shapes) = linear.undamped().unwrap();
+    let moving: Vec<usize> = (0..frequencies.len()).filter(|i| frequencies[*i] > 100.0).collect();
+    let damped: Vec<_> =
+        linear.damped().unwrap().into_iter().filter(|m| m.frequency_hz > 100.0).collect();
+    for (i, exact) in moving.iter().zip(&damped).take(8) {
+        let shape = shapes.column(*i);
+        let omega = std::f64::consts::TAU * frequencies[*i];
+        let ratio = shape.dot(&(&damping * shape)) / (2.0 * omega);
+        let off = (ratio / exact.damping_ratio - 1.0).abs();
+        println!("{:.1} Hz: {ratio:.5} and {:.5}", frequencies[*i], exact.damping_ratio);
+        assert!(off < 0.02, "{} Hz: {ratio} {}", frequencies[*i], exact.damping_ratio);
+    }
+}
+
 #[test]
 fn modes_and_full_bodies_answer_alike() {
     // All modes together would be the full body; twelve come closer to it than none.
@@ -289,7 +312,7 @@ fn what_cannot_run_is_refused_with_its_key() {
     }
 }
 
-/// Without torque no flanks touch, the set does not move, and it cannot be linearised.
+/// Without torque no flanks touch, the set does not move, and it cannot be linearised but on its supports alone.
 #[test]
 fn without_torque_nothing_touches() {
     let scene = scene("oh58_3p", Fidelity::QuasiStatic);
@@ -304,6 +327,9 @@ fn without_torque_nothing_touches() {
     }
     assert!(set.motion().x.iter().all(|x| x.abs() < 1e-15));
     assert!(set.linearised().unwrap_err().to_string().contains("no mesh touches"));
+    let free = set.tangent().unwrap();
+    let meshes = free.stiffness() - &free.supports;
+    assert!(meshes.amax() < 1e-12 * free.supports.amax(), "{:e}", meshes.amax());
 }
 
 /// A reversed torque drives the sun through the backlash onto the backside flanks, from which it

@@ -6,9 +6,9 @@ use super::amplitude::AmplitudeRequest;
 use super::amplitude_run::{Motions, Turning};
 use super::elastic_response::{MATTERS, elastic_response};
 use super::energy::ModeEnergy;
-use super::error_parts::{SetSize, of_elements};
+use super::error_parts::SetSize;
 use super::response::{Harmonics, mode_type, name};
-use super::settings::{MESHES, size_ratio};
+use super::settings::MESHES;
 use crate::error::ExperimentError;
 
 /// Numbers of steps are compared with one in so many of those of the coarsest candidate, which has the tables.
@@ -30,17 +30,36 @@ const FORBIDDEN: f64 = 1e-7;
 /// Largest amplification by a mode by which the motion is taken to be larger than the excitation, of [`Excited::excitation`].
 const MOST_AMPLIFIED: f64 = 20.0;
 
-/// What a transmission error of six elements along a flank is off by, over the deflection of a mesh, besides the error of
-/// the stiffness: seen on development sets (`docs/auto.md`).
-const UNEVEN: f64 = 5e-4;
+/// What finite elements along a flank change a motion by as a stiffness of the meshes: on six of them, and the order by which more do less; seen on
+/// development sets (`docs/auto.md`).
+const OF_SIX: (f64, f64) = (0.0145, 2.5);
 
-/// Share of what the correction for the frequency of the time steps moves a response by that it may still be off by: it is made by the modes at one
-/// position of the mesh cycle, whose frequencies are not those of all.
-const OF_CORRECTION: f64 = 0.5;
+/// What a transmission error of six elements along a flank is off by, over the deflection of a mesh, besides the error of
+/// the stiffness, and the order: seen on development sets (`docs/auto.md`).
+const UNEVEN: (f64, f64) = (5e-4, 1.4);
+
+/// Share of what the correction for the frequency of the time steps moves a response by that it may still be off by, where few steps and more of
+/// them agree by chance: it is of first order (`docs/auto.md`).
+const OF_CORRECTION: f64 = 0.05;
 
 /// Share of the first-order change of a response by the inertia of the bodies that an amplitude with this change may still be off by:
 /// seen on development sets (`docs/auto.md`).
-const OF_CHANGE: f64 = 0.75;
+const OF_CHANGE: f64 = 0.5;
+
+/// Elements of a mesh, sixths.
+fn fineness(mesh: usize) -> f64 {
+    f64::from(MESHES[mesh].0) / 6.0
+}
+
+/// δk/k by the elements of a mesh, as it changes a motion.
+pub(super) fn of_elements(mesh: usize) -> f64 {
+    OF_SIX.0 * fineness(mesh).powf(-OF_SIX.1)
+}
+
+/// Unevenness of a mesh over that of another one.
+fn uneven_ratio(from: usize, to: usize) -> f64 {
+    (fineness(to) / fineness(from)).powf(-UNEVEN.1)
+}
 
 /// What the coarsest candidate shows.
 pub(super) struct Indicators {
@@ -50,8 +69,6 @@ pub(super) struct Indicators {
     /// Speed of its largest amplitude, rpm.
     pub(super) top_rpm: f64,
     top: Harmonics,
-    /// Estimated relative error of the mesh stiffness by elements, by mesh.
-    stiffness: [f64; MESHES.len()],
     /// Relative change of the amplitude for a relative change of the mesh stiffness.
     by_stiffness: f64,
     /// Error of the transmission error on the coarsest candidate besides that of the stiffness, over the excitation.
@@ -92,19 +109,21 @@ impl Indicators {
         }
         let (top_rpm, top) =
             motions.top().cloned().ok_or(ExperimentError::Incomplete("steady state"))?;
-        let modes = &turning.modes()?.energies;
+        let modes = &turning.at_rest()?.energies;
         let excited = Excited::new(turning, size, modes, (top_rpm, &top))?;
+        // Motions at other speeds tell what a shift changes, which steps change little.
+        let in_steps =
+            motions.in_steps(top_rpm).ok_or(ExperimentError::Incomplete("steady state"))?;
         let changed = |by: f64| -> Result<f64, ExperimentError> {
             let off = |factor: f64| -> Result<f64, ExperimentError> {
-                let other = turning.motions(&[factor * top_rpm])?.largest();
-                Ok((other / motions.largest() - 1.0).abs())
+                let other = turning.motions_in_steps(&[factor * top_rpm])?.largest();
+                Ok((other / in_steps.rms() - 1.0).abs())
             };
             Ok(off(1.0 + by)?.max(off(1.0 - by)?))
         };
-        let stiffness = MESHES.map(|(elements, _)| of_elements(elements));
         // δf/f = ½ e δk/k shifts a resonance as if the speed were shifted; the excitation changes as the flexibility.
-        let shift = 0.5 * excited.meshes * stiffness[mesh];
-        let by_shift = if shift > 0.0 { changed(shift)? / stiffness[mesh] } else { 0.0 };
+        let shift = 0.5 * excited.meshes * of_elements(mesh);
+        let by_shift = if shift > 0.0 { changed(shift)? / of_elements(mesh) } else { 0.0 };
         let inertia = match excited.shift <= LARGEST_SHIFT {
             true => {
                 let passing = excited.passing / motions.largest();
@@ -114,13 +133,12 @@ impl Indicators {
         };
         let fewer = turning.thinned(EVERY, |own| own.motions(&[top_rpm]))?;
         let by_steps = |moved: f64| SAFETY * moved / (f64::from(EVERY).powf(STEP_ORDER) - 1.0);
-        let uneven = UNEVEN * size.deflection() * size_ratio(0, mesh);
+        let uneven = UNEVEN.0 * size.deflection() * uneven_ratio(0, mesh);
         let uneven = uneven / (excited.excitation * motions.largest());
         Ok(Self {
             mesh,
             top_rpm,
             top,
-            stiffness,
             by_stiffness: 1.0 + by_shift,
             uneven,
             of_steps: by_steps(motions.moved(&fewer))
@@ -137,8 +155,8 @@ impl Indicators {
     /// Elements and cells of a mesh, the mean stiffness by elements alone: where the edge of a patch lies among its cells changes from step
     /// to step and from mesh to mesh, and leaves no more than a part of the unevenness.
     pub(super) fn of_mesh(&self, mesh: usize) -> f64 {
-        let uneven = self.uneven * size_ratio(self.mesh, mesh);
-        (self.by_stiffness * self.stiffness[mesh]).hypot(uneven)
+        let uneven = self.uneven * uneven_ratio(self.mesh, mesh);
+        (self.by_stiffness * of_elements(mesh)).hypot(uneven)
     }
 
     /// The same of a candidate that was run: where it differs from the coarsest by more than both estimates and the steps
@@ -150,7 +168,7 @@ impl Indicators {
         }
         let seen = (motions.largest() / self.motions.largest() - 1.0).abs();
         let explained = self.of_mesh(self.mesh) + own + self.of_steps;
-        own + SAFETY * (seen - explained).max(0.0) * size_ratio(self.mesh, mesh)
+        own + SAFETY * (seen - explained).max(0.0) * uneven_ratio(self.mesh, mesh)
     }
 
     /// Steps: by the formal order with each doubling.
@@ -185,7 +203,7 @@ impl Indicators {
             return Ok(());
         }
         let size = self.top.rms();
-        if let Some(found) = elastic_response(turning, (self.top_rpm, &self.top))? {
+        if let Some(found) = elastic_response(turning, &self.motions)? {
             let left = OF_CHANGE * found.rms() / size;
             // A change of phase at a resonance is larger than that of the amplitude, and its second order no longer small.
             if left < self.inertia {

@@ -19,6 +19,7 @@ mod energy;
 mod error_parts;
 mod finer_curve;
 mod frequency;
+mod linear_motion;
 mod response;
 mod set_modes;
 mod settings;

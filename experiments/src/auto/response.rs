@@ -55,11 +55,6 @@ impl Harmonics {
         &self.lines
     }
 
-    /// Number of its coordinates.
-    pub(super) fn coordinates(&self) -> usize {
-        self.lines.len() / self.highest.max(1)
-    }
-
     /// The harmonics with what `change` gives for each coordinate of harmonic l added, m.
     pub(super) fn changed(&self, change: impl Fn(usize) -> Vec<Complex<f64>>) -> Self {
         let mut own = self.clone();

@@ -1,4 +1,4 @@
-//! What time steps of the average acceleration do to the harmonics of a steady state, taken out of them.
+//! What time steps of the average acceleration do to the frequency of the harmonics of a steady state.
 //!
 //! In a periodic motion of steps h the rule v₁ − v₀ = h (a₀ + a₁)/2, x₁ − x₀ = h (v₀ + v₁)/2 turns a harmonic of circular frequency ω into
 //! velocities i ω̃ x and accelerations −ω̃² x with
@@ -7,59 +7,40 @@
 //! ω̃ = (2/h) tan(ω h/2)
 //! ```
 //!
-//! exactly. A mode of eigenvalue λ and damping c = 2ζ√λ that is excited by f_l has y = f_l/(λ − ω̃² + i c ω̃) instead of f_l/(λ − ω² + i c ω), hence
+//! exactly. A harmonic X_l of such a motion leaves in the equations of continuous time the force
 //!
 //! ```text
-//! δX_l = Σ_i φ_i y_i ((λ_i − ω̃² + i c_i ω̃)/(λ_i − ω² + i c_i ω) − 1),   y_i = φ_iᵀ M q_l
+//! f_l = ((ω² − ω̃²) M − i (ω − ω̃) C) X_l
 //! ```
 //!
-//! with the modes of the set at rest. For a linear set of constant stiffness this is exact at any h; what the motion changes of the
-//! mesh forces is left out, to first order in the correction.
+//! and the motion of continuous time differs by the response to it: of a linear set exactly, of any other to first order of the set linearised about
+//! its motion.
 
-use std::f64::consts::TAU;
-
-use nalgebra::Complex;
-
-use super::response::Harmonics;
-use super::set_modes::SetModes;
+use nalgebra::{Complex, DMatrix, DVector};
 
 /// Circular frequency that steps of h seconds give a harmonic of circular frequency ω, rad/s.
 fn stepped(omega: f64, h: f64) -> f64 {
     2.0 / h * (0.5 * omega * h).tan()
 }
 
-/// Factor from the response of a mode of eigenvalue λ and damping c in steps h to that in continuous time.
-fn factor((lambda, damping): (f64, f64), omega: f64, h: f64) -> Complex<f64> {
-    let stiffness = |w: f64| Complex::new(lambda - w * w, damping * w);
-    stiffness(stepped(omega, h)) / stiffness(omega)
-}
-
-/// The harmonics of a response without the change of frequency by `steps` time steps a mesh cycle. `amplitudes`: of harmonic l, the
-/// modal coordinates of the motion; `mesh_hz`: mesh frequency.
-pub(super) fn corrected(
-    computed: &Harmonics,
-    modes: &SetModes,
-    (mesh_hz, steps): (f64, usize),
-    amplitudes: impl Fn(usize) -> Vec<Complex<f64>>,
-) -> Harmonics {
-    let h = 1.0 / (mesh_hz * steps as f64);
-    computed.changed(|l| {
-        let omega = TAU * mesh_hz * l as f64;
-        let of_modes = modes.races.iter().zip(&modes.responses).zip(amplitudes(l));
-        let mut sum = vec![Complex::new(0.0, 0.0); computed.coordinates()];
-        for ((mode, response), y) in of_modes {
-            let change = y * (factor((mode.lambda, mode.damping), omega, h) - 1.0);
-            sum.iter_mut().zip(response).for_each(|(x, phi)| *x += change * *phi);
-        }
-        sum
-    })
+/// The force, N, that a harmonic `line` (m) of circular frequency `omega` of a motion in steps of `h` seconds leaves.
+pub(super) fn force(
+    (mass, damping): (&DMatrix<f64>, &DMatrix<f64>),
+    line: &DVector<Complex<f64>>,
+    (omega, h): (f64, f64),
+) -> DVector<Complex<f64>> {
+    let of_steps = stepped(omega, h);
+    let (square, rate) = (omega * omega - of_steps * of_steps, omega - of_steps);
+    mass.zip_map(damping, |m, c| Complex::new(square * m, -rate * c)) * line
 }
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
 
-    /// An oscillator m ẍ + c ẋ + k x = cos ωt, marched in steps of the average acceleration to its steady state: the factor gives the
+    /// An oscillator m ẍ + c ẋ + k x = cos ωt, marched in steps of the average acceleration to its steady state: the response to the force gives the
     /// amplitude and the phase of continuous time, with twelve steps in a period, on both sides of resonance and near it.
     #[test]
     fn a_linear_oscillator_is_corrected_exactly() {
@@ -82,8 +63,12 @@ mod tests {
                     line += Complex::cis(-TAU * k as f64 / n as f64) * (2.0 / n as f64 * x);
                 }
             }
-            let exact = 1.0 / Complex::new(lambda - omega * omega, damping * omega);
-            let own = line * factor((lambda, damping), omega, h);
+            let stiffness = Complex::new(lambda - omega * omega, damping * omega);
+            let of = |value| DMatrix::from_element(1, 1, value);
+            let left =
+                super::force((&of(1.0), &of(damping)), &DVector::from_element(1, line), (omega, h));
+            let own = line + left[0] / stiffness;
+            let exact = 1.0 / stiffness;
             assert!((own - exact).norm() < 1e-9 * exact.norm(), "{share}: {own} {exact}");
             // Without it the frequency is 2.3 % off, and the response by at least a part of that.
             assert!((line - exact).norm() > 2e-3 * exact.norm(), "{share}");

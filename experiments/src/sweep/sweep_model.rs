@@ -8,7 +8,6 @@ use gearset::{Fidelity, LoadCase, Scene};
 
 use super::marching::{FeMarching, Marching};
 use super::set_shape::SetShape;
-use super::steady::{SteadySettings, steady};
 use super::varied_key::VariedKey;
 use crate::error::ExperimentError;
 use crate::table_growth::SIZES;
@@ -234,25 +233,24 @@ impl<'s> FeModel<'s> {
         Ok(FeMarching { set, torque_nm, rate })
     }
 
-    /// What `each` gives at every step of a cycle of the steady state at the speed of a load case, from step 1 on.
+    /// What `each` gives at every step of the mesh cycle that follows a state at the speed of a load case, from step 1 on. `size`: how often
+    /// tables were found too small on the way to the state.
     ///
     /// # Errors
-    /// If the motion does not become steady, and as `each`.
+    /// If the state is that of another set, a step fails, and as `each`.
     pub(crate) fn over_cycle<T>(
         &self,
         case: &LoadCase,
-        settings: &SteadySettings,
+        (state, size): (&[f64], usize),
         each: impl Fn(&VibratingSet<'s>) -> Result<T, ExperimentError>,
     ) -> Result<Vec<T>, ExperimentError> {
-        let steps = self.steps_per_cycle();
-        let mut marching = self.marching(&self.scene, case, 0)?;
-        marching.rest()?;
-        steady(&mut marching, self.shape(), self.first_planet_rad(), steps, settings)?;
+        let mut marching = self.marching(&self.scene, case, size)?;
+        marching.restore(state)?;
         let one = |_| {
             marching.step()?;
             each(&marching.set)
         };
-        (0..steps).map(one).collect()
+        (0..self.steps_per_cycle()).map(one).collect()
     }
 
     /// Mesh force that tables of a size are made for, N.

@@ -223,21 +223,6 @@ impl<'s> StaticSet<'s> {
         let planets = (0..self.races.planets()).map(|n| of(PLANETS + n, radii[3])).collect();
         ([0, 1, 2].map(|body| of(body, radii[body])), planets)
     }
-
-    /// Coordinates of the races (n, m) from [`displacements`](Self::displacements) of all bodies. Where two rotations are one
-    /// coordinate, that of the planet counts.
-    pub(crate) fn coordinates(&self, central: [[f64; 3]; 3], planets: &[[f64; 3]]) -> DVector<f64> {
-        let mut q = DVector::zeros(self.races.count);
-        for (body, own) in central.iter().chain(planets).enumerate() {
-            let factors = [1.0, self.sign, self.sign * self.races.radii[body.min(PLANETS)]];
-            for (axis, (value, factor)) in own.iter().zip(factors).enumerate() {
-                if let Some(i) = self.races.of(body, axis) {
-                    q[i] = factor * value;
-                }
-            }
-        }
-        q
-    }
 }
 
 /// Angle between the sun's teeth, rad.

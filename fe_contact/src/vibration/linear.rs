@@ -55,12 +55,24 @@ pub struct DampedMode {
 }
 
 impl VibratingSet<'_> {
-    /// Linearises about the present state.
+    /// Linearises about the present state of a set of which at least one mesh touches.
     ///
     /// # Errors
-    /// If no mesh touches, or a body has every degree of freedom (`full`): its linearisation is the
-    /// limit of `modal`.
+    /// If no mesh touches, and as [`tangent`](Self::tangent).
     pub fn linearised(&self) -> Result<LinearSet, FeError> {
+        let own = self.tangent()?;
+        match own.mesh_tangents.iter().all(|t| *t == 0.0) {
+            true => Err(unloaded()),
+            false => Ok(own),
+        }
+    }
+
+    /// Linearises about the present state, also of a moving set whose teeth have all parted.
+    ///
+    /// # Errors
+    /// If the set has not been stepped or put to rest yet, or a body has every degree of freedom (`full`): its linearisation is the
+    /// limit of `modal`.
+    pub fn tangent(&self) -> Result<LinearSet, FeError> {
         let frame = self.frames.current(self.clock.step_in_cycle).ok_or_else(unloaded)?;
         let n = self.races().count;
         let turned = self.clock.turned();
@@ -141,9 +153,6 @@ impl VibratingSet<'_> {
                 }
             }
         }
-        if mesh_tangents.iter().all(|t: &f64| *t == 0.0) {
-            return Err(unloaded());
-        }
         let mut rows = DMatrix::zeros(count, size);
         rows.view_mut((0, 0), (count, n)).copy_from(&rigid);
         let mut first = n + lists[0].2.len();
@@ -206,6 +215,17 @@ impl LinearSet {
     pub fn stiffness(&self) -> DMatrix<f64> {
         let sum = &self.supports + self.rows.transpose() * &self.contact * &self.rows;
         0.5 * (&sum + sum.transpose())
+    }
+
+    /// Damping of slow motion, N s/m: C, and to first order in β the lag of the FE flexibility, which makes of
+    /// P = S R z the force S R z + β S F S R ż.
+    ///
+    /// ```text
+    /// C + β Rᵀ S F S R
+    /// ```
+    pub fn slow_damping(&self) -> DMatrix<f64> {
+        let forces = &self.contact * &self.rows;
+        &self.damping + self.beta * (forces.transpose() * &self.lagging * &forces)
     }
 
     /// Undamped frequencies (Hz, ascending) and M-orthonormal shapes, one a column.

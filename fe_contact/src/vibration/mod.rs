@@ -52,7 +52,7 @@ pub use body::{Port, RaceMotion, VibratingBody};
 pub use damping::Proportional;
 pub use derivative::Along;
 pub use elastic_inertia::{ElasticInertia, ElasticShift};
-pub use elastic_load::{ElasticLoad, RaceMode};
+pub use elastic_load::ElasticLoad;
 pub use energy::{Energies, LoadedStep, StepStart, StepWork};
 pub use fixed_race_mode::{FixedRaceMode, fixed_race_modes};
 pub use full_body::{FullBody, SharedFactors};

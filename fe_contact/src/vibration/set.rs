@@ -165,11 +165,6 @@ impl<'s> VibratingSet<'s> {
         self.statics.displacements(&DVector::from_column_slice(&self.race_dynamics.motion.x))
     }
 
-    /// The races' free coordinates (n, m) from displacements of all bodies, as [`displacements`](Self::displacements) gives them.
-    pub fn coordinates_of(&self, central: [[f64; 3]; 3], planets: &[[f64; 3]]) -> DVector<f64> {
-        self.statics.coordinates(central, planets)
-    }
-
     /// Displacements, velocities and accelerations of the races' free coordinates, m and s.
     pub fn motion(&self) -> &Motion {
         &self.race_dynamics.motion
