@@ -390,7 +390,7 @@ pub(super) mod tests {
     }
 
     /// With its torque reversed a set of evenly spaced planets presses on its other flanks, and displacements are those of its mirror image at positions
-    /// that fall otherwise on the steps: with 120 of them both corrections change an amplitude alike to a fiftieth (a thousandth with 240).
+    /// that fall otherwise on the steps: with 120 of them both corrections change an amplitude alike to a fiftieth.
     #[test]
     fn a_mirrored_set_is_corrected_alike() {
         let scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();

@@ -38,7 +38,8 @@ impl ElasticResponse {
 /// The change of the motion `motions` at the speed of its largest response. `None` where nothing is known of it: the teeth of a gear are not
 /// meshed alike, or a harmonic that matters is above the first mode of a body with its race held.
 ///
-/// With the load f on the races over a cycle of the steady state and its change V δx by that of the motion ([`ElasticLoad`]) the change is the response of the set linearised about its motion,
+/// With the load f on the races over a cycle of the steady state and its change V δx by that of the motion ([`ElasticLoad`]) the change is the response of
+/// the set linearised about its motion,
 ///
 /// ```text
 /// M δẍ + C δẋ + (K(t) − V(t)) δx = f(t)

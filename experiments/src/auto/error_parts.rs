@@ -253,7 +253,7 @@ pub fn stiffness_errors(layout: CellLayout, flank_elements: u32, contact_cells: 
 }
 
 /// The part of elements.
-pub(super) fn of_elements(flank_elements: u32) -> f64 {
+fn of_elements(flank_elements: u32) -> f64 {
     let (index, at, order) = STIFFNESS_INDEX;
     index * (at / f64::from(flank_elements)).powf(order)
 }

@@ -9,8 +9,8 @@ use nalgebra::{Complex, DMatrix, DVector};
 use super::step_frequency::force;
 use crate::error::ExperimentError;
 
-/// Harmonics by which changes of a motion are computed, at most: those that are asked for are coupled to higher ones, and more than these
-/// move no response of the development sets.
+/// Harmonics by which changes of a motion are computed, at most: those that are asked for are coupled to higher ones, and twice as many
+/// bring some development sets nearer and others not (`docs/auto.md`).
 const HARMONICS: usize = 12;
 
 /// One step of a cycle.
