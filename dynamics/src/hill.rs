@@ -6,7 +6,7 @@
 //! κ_0 X_0 + Re Σ κ̄_m X_m = F_0
 //! ```
 //!
-//! Further terms B(θ) add r_l β_{l−m} c_m to what harmonic m contributes to the equation of harmonic l, and r_l β_{l+m} c_m to that of its conjugate:
+//! A dynamic stiffness D_l besides adds D_l X_l. Further terms B(θ) add r_l β_{l−m} c_m to what harmonic m contributes to the equation of harmonic l, and r_l β_{l+m} c_m to that of its conjugate:
 //! derivatives in time are factors of this kind, r before and c after the periodic matrix is applied.
 //!
 //! (Nayfeh & Mook, *Nonlinear Oscillations*, Wiley 1979, ch. 5). One real system of n (2H + 1) equations couples all harmonics: a
@@ -31,6 +31,8 @@ pub struct PeriodicSystem<'a> {
     pub stiffness: &'a [DMatrix<f64>],
     /// ω, rad/s.
     pub omega: f64,
+    /// D_l besides these, n×n, by harmonic from 0; zero for harmonics that are left out. Of the mean the real part counts.
+    pub dynamic: &'a [DMatrix<c64>],
     /// Terms besides these.
     pub terms: &'a [PeriodicTerm<'a>],
 }
@@ -86,6 +88,7 @@ impl HillEquations {
             ("the mass matrix", fits(system.mass)),
             ("the damping matrix", fits(system.damping)),
             ("the stiffness", !system.stiffness.is_empty() && system.stiffness.iter().all(fits)),
+            ("a dynamic stiffness", system.dynamic.iter().all(|own| own.shape() == (n, n))),
             ("a term", system.terms.iter().all(|own| own.samples.iter().all(fits))),
         ];
         for (what, is_right) in checks {
@@ -110,6 +113,9 @@ impl HillEquations {
             }
         }
         (0..=harmonics).for_each(|l| add_inertia(&mut matrix, system, l));
+        for (l, own) in system.dynamic.iter().enumerate().take(harmonics + 1) {
+            add_dynamic(&mut matrix, own, l);
+        }
         let factors = matrix.partial_piv_lu();
         Ok(Self { coordinates: n, harmonics, matrix, factors })
     }
@@ -231,6 +237,23 @@ fn add_inertia(matrix: &mut Mat<f64>, system: &PeriodicSystem<'_>, l: usize) {
     }
 }
 
+/// D_l
+fn add_dynamic(matrix: &mut Mat<f64>, own: &DMatrix<c64>, l: usize) {
+    let n = own.nrows();
+    let (re, im) = rows(n, l);
+    for j in 0..n {
+        for i in 0..n {
+            let d = own[(i, j)];
+            matrix[(re + i, re + j)] += d.re;
+            if let Some(im) = im {
+                matrix[(im + i, im + j)] += d.re;
+                matrix[(re + i, im + j)] -= d.im;
+                matrix[(im + i, re + j)] += d.im;
+            }
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use std::f64::consts::TAU;
@@ -241,7 +264,7 @@ mod tests {
         DMatrix::from_row_slice(n, n, entries)
     }
 
-    /// With constant stiffness every harmonic answers its own force alone, (K − (lω)² M + i lω C) X_l = F_l.
+    /// With constant stiffness every harmonic answers its own force alone, (K + D_l − (lω)² M + i lω C) X_l = F_l; of D_0 the real part counts.
     #[test]
     fn constant_stiffness_answers_by_its_dynamic_stiffness() {
         let (m, c, k) = (
@@ -250,20 +273,38 @@ mod tests {
             matrix(2, &[9.0, -2.0, -2.0, 4.0]),
         );
         let stiffness = vec![k.clone(); 12];
-        let system =
-            PeriodicSystem { mass: &m, damping: &c, stiffness: &stiffness, omega: 0.7, terms: &[] };
-        let force = |l: usize| {
-            DVector::from_fn(2, |i, _| {
-                c64::new(1.0 + l as f64, if l == 0 { 0.0 } else { i as f64 - 0.4 })
+        let further = |l: usize| {
+            DMatrix::from_fn(2, 2, |i, j| {
+                c64::new(0.4 * (l + i + 2 * j) as f64, 0.3 * (l + 1 + i * j) as f64)
             })
         };
-        let forces: Vec<_> = (0..=3).map(force).collect();
-        let found = HillEquations::new(&system, 3).unwrap().response(&forces).unwrap();
-        for (l, (x, f)) in found.iter().zip(&forces).enumerate() {
-            let omega = 0.7 * l as f64;
-            let z = m.zip_zip_map(&c, &k, |m, c, k| c64::new(k - omega * omega * m, omega * c));
-            let left = (z * x - f).norm();
-            assert!(left < 1e-13 * f.norm(), "{l}: {left:e}");
+        let all: Vec<_> = (0..=3).map(further).collect();
+        for dynamic in [&[], &all[..2], &all] {
+            let system = PeriodicSystem {
+                mass: &m,
+                damping: &c,
+                stiffness: &stiffness,
+                omega: 0.7,
+                dynamic,
+                terms: &[],
+            };
+            let force = |l: usize| {
+                DVector::from_fn(2, |i, _| {
+                    c64::new(1.0 + l as f64, if l == 0 { 0.0 } else { i as f64 - 0.4 })
+                })
+            };
+            let forces: Vec<_> = (0..=3).map(force).collect();
+            let found = HillEquations::new(&system, 3).unwrap().response(&forces).unwrap();
+            for (l, (x, f)) in found.iter().zip(&forces).enumerate() {
+                let omega = 0.7 * l as f64;
+                let mut z =
+                    m.zip_zip_map(&c, &k, |m, c, k| c64::new(k - omega * omega * m, omega * c));
+                if let Some(own) = dynamic.get(l) {
+                    z += own.map(|d| if l == 0 { c64::new(d.re, 0.0) } else { d });
+                }
+                let left = (z * x - f).norm();
+                assert!(left < 1e-13 * f.norm(), "{l}: {left:e}");
+            }
         }
     }
 
@@ -277,8 +318,14 @@ mod tests {
         let samples: Vec<_> =
             (1..=48).map(|k| matrix(1, &[stiffness(TAU * f64::from(k) / 48.0)])).collect();
         let (mass, c) = (matrix(1, &[1.0]), matrix(1, &[damping]));
-        let system =
-            PeriodicSystem { mass: &mass, damping: &c, stiffness: &samples, omega, terms: &[] };
+        let system = PeriodicSystem {
+            mass: &mass,
+            damping: &c,
+            stiffness: &samples,
+            omega,
+            dynamic: &[],
+            terms: &[],
+        };
         let of = |x: c64| DVector::from_element(1, x);
         let forces = [of(c64::new(0.7, 0.0)), of(c64::from_polar(1.3, 0.4))];
         let found = HillEquations::new(&system, 12).unwrap().response(&forces).unwrap();
@@ -331,6 +378,7 @@ mod tests {
                 damping: &damping,
                 stiffness: &stiffness,
                 omega: 1.1,
+                dynamic: &[],
                 terms: &[],
             };
             let turned = |l: usize| c64::from_polar(1.0, TAU * (l * first) as f64 / 24.0);
@@ -384,6 +432,7 @@ mod tests {
                 damping: &damping,
                 stiffness: &stiffness,
                 omega,
+                dynamic: &[],
                 terms: &terms,
             };
             let rest = |t: f64| x(t, 2) + 0.3 * x(t, 1) + 5.0 * x(t, 0);
@@ -413,6 +462,7 @@ mod tests {
             damping: &none,
             stiffness: &stiffness,
             omega: 1.0,
+            dynamic: &[],
             terms: &[],
         };
         let equations = HillEquations::new(&system, 3).unwrap();

@@ -24,8 +24,8 @@ const AT_REST: AutoSettings = AutoSettings::quasi_static(32, 80).at_positions(96
 const IN_MOTION: AutoSettings = AutoSettings::quasi_static(20, 60);
 const STEPS: [u32; 2] = [480, 240];
 const OF_MODES: [AutoSettings; 2] = [
-    AutoSettings::modal(30, 6, 20).with_steps(120),
-    AutoSettings::quasi_static(6, 20).with_steps(120),
+    AutoSettings::modal(60, 6, 20).with_steps(240),
+    AutoSettings::quasi_static(6, 20).with_steps(240),
 ];
 
 /// Harmonics of an amplitude.

@@ -44,7 +44,7 @@ const OF_CORRECTION: f64 = 0.05;
 
 /// Share of the first-order change of a response by the inertia of the bodies that an amplitude with this change may still be off by:
 /// seen on development sets (`docs/auto.md`).
-const OF_CHANGE: f64 = 0.5;
+const OF_CHANGE: f64 = 0.25;
 
 /// Elements of a mesh, sixths.
 fn fineness(mesh: usize) -> f64 {
@@ -208,7 +208,7 @@ impl Indicators {
             // A change of phase at a resonance is larger than that of the amplitude, and its second order no longer small.
             if left < self.inertia {
                 self.inertia = left;
-                self.with_inertia = Some(found.growth_of(&self.top));
+                self.with_inertia = Some(found.growth());
             }
         }
         Ok(())

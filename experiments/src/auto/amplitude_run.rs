@@ -159,8 +159,8 @@ impl Turning<'_> {
         if self.scene.dynamics.fidelity == Fidelity::QuasiStatic {
             let one = |(rpm, own): &(f64, Harmonics)| {
                 let cycle = self.over_cycle(&motions, *rpm, StepOfCycle::of)?;
-                let change =
-                    LinearMotion::new(&cycle, self.mesh_hz(*rpm))?.without_step_frequency()?;
+                let linear = LinearMotion::new(&cycle, self.mesh_hz(*rpm))?;
+                let change = linear.changed_by(&linear.step_forces())?;
                 let rest = self.at_rest()?;
                 let of = |l: usize| change.get(l).map_or_else(Vec::new, |x| rest.response(x));
                 Ok((*rpm, own.changed(of)))

@@ -11,7 +11,7 @@ use crate::error::ExperimentError;
 
 /// Harmonics by which changes of a motion are computed, at most: those that are asked for are coupled to higher ones, and twice as many
 /// bring some development sets nearer and others not (`docs/auto.md`).
-const HARMONICS: usize = 12;
+pub(super) const HARMONICS: usize = 12;
 
 /// One step of a cycle.
 #[derive(Debug)]
@@ -51,23 +51,32 @@ pub(super) struct LinearMotion {
     steps: usize,
 }
 
+/// What acts in a linearised motion besides inertia, damping and stiffness of its steps.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Further<'a> {
+    /// Dynamic stiffness by harmonic from 0.
+    pub(super) dynamic: &'a [DMatrix<Complex<f64>>],
+    /// Periodic terms.
+    pub(super) terms: &'a [PeriodicTerm<'a>],
+}
+
 impl LinearMotion {
     /// Of the steps 1 to s of a cycle of the mesh frequency `mesh_hz`.
     ///
     /// # Errors
     /// If there are no steps.
     pub(super) fn new(cycle: &[StepOfCycle], mesh_hz: f64) -> Result<Self, ExperimentError> {
-        Self::with_terms(cycle, mesh_hz, &[])
+        Self::with_terms(cycle, mesh_hz, &Further::default())
     }
 
-    /// The same with terms besides inertia, damping and stiffness.
+    /// The same with what acts besides inertia, damping and stiffness.
     ///
     /// # Errors
     /// If there are no steps.
     pub(super) fn with_terms(
         cycle: &[StepOfCycle],
         mesh_hz: f64,
-        terms: &[PeriodicTerm<'_>],
+        further: &Further<'_>,
     ) -> Result<Self, ExperimentError> {
         let first = cycle.first().ok_or(ExperimentError::Incomplete("steps of a cycle"))?;
         let (steps, omega) = (cycle.len(), TAU * mesh_hz);
@@ -78,8 +87,14 @@ impl LinearMotion {
         }
         let stiffness: Vec<_> = cycle.iter().map(|step| step.tangent.stiffness()).collect();
         let harmonics = HARMONICS.min((steps - 1) / 2);
-        let system =
-            PeriodicSystem { mass: &mass, damping: &damping, stiffness: &stiffness, omega, terms };
+        let system = PeriodicSystem {
+            mass: &mass,
+            damping: &damping,
+            stiffness: &stiffness,
+            omega,
+            dynamic: further.dynamic,
+            terms: further.terms,
+        };
         let equations = HillEquations::new(&system, harmonics).map_err(unsolved)?;
         let displacements: Vec<_> = cycle.iter().map(|step| step.displacements.clone()).collect();
         let lines = (0..=harmonics).map(|l| line(&displacements, l)).collect();
@@ -87,7 +102,6 @@ impl LinearMotion {
     }
 
     /// X_0 … X_H of the races' coordinates in the motion, m.
-    #[cfg(test)]
     pub(super) fn lines(&self) -> &[DVector<Complex<f64>>] {
         &self.lines
     }
@@ -103,19 +117,13 @@ impl LinearMotion {
         self.equations.response(forces).map_err(unsolved)
     }
 
-    /// Change of the lines of the races' coordinates if the time steps kept the frequency of every harmonic.
-    ///
-    /// # Errors
-    /// If the linearised motion is at a resonance without damping.
-    pub(super) fn without_step_frequency(
-        &self,
-    ) -> Result<Vec<DVector<Complex<f64>>>, ExperimentError> {
+    /// Forces that the frequency of the time steps leaves in the equations of continuous time, lines from 0, N.
+    pub(super) fn step_forces(&self) -> Vec<DVector<Complex<f64>>> {
         let h = TAU / (self.omega * self.steps as f64);
         let of = |(l, own): (usize, &DVector<Complex<f64>>)| {
             force((&self.mass, &self.damping), own, (l as f64 * self.omega, h))
         };
-        let forces: Vec<_> = self.lines.iter().enumerate().map(of).collect();
-        self.equations.response(&forces).map_err(unsolved)
+        self.lines.iter().enumerate().map(of).collect()
     }
 }
 

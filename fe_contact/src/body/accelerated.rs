@@ -83,14 +83,16 @@ impl Accelerated {
     }
 
     /// M u of one sector; 2 rows for each node, any number of columns.
-    fn times_mass(&self, u: &DMatrix<f64>) -> DMatrix<f64> {
+    pub(super) fn times_mass(&self, u: &DMatrix<f64>) -> DMatrix<f64> {
         let mut product = DMatrix::zeros(u.nrows(), u.ncols());
-        for (nodes, mass) in &self.masses {
-            for (a, p) in nodes.iter().enumerate() {
-                for (b, q) in nodes.iter().enumerate() {
-                    for c in 0..u.ncols() {
-                        product[(2 * p, c)] += mass[(a, b)] * u[(2 * q, c)];
-                        product[(2 * p + 1, c)] += mass[(a, b)] * u[(2 * q + 1, c)];
+        for (u, mut own) in u.column_iter().zip(product.column_iter_mut()) {
+            let (u, own) = (u.as_slice(), own.as_mut_slice());
+            for (nodes, mass) in &self.masses {
+                for (q, column) in nodes.iter().zip(mass.column_iter()) {
+                    let [x, y] = [u[2 * q], u[2 * q + 1]];
+                    for (p, m) in nodes.iter().zip(column.iter()) {
+                        own[2 * p] += m * x;
+                        own[2 * p + 1] += m * y;
                     }
                 }
             }

@@ -22,19 +22,20 @@
 use nalgebra::DVector;
 
 use super::body::into_frame;
+use super::elastic_gears::ElasticGears;
 use super::frame::Frame;
 use super::linear::LinearSet;
 use super::set::VibratingSet;
-use crate::body::{Accelerated, CarrierBody, Factor, ToothForce};
+use super::teeth::ToothPoint;
+use crate::body::{CarrierBody, Factor, GearBody, ToothForce};
 use crate::error::FeError;
 use crate::statics::{CARRIER, PLANETS};
 
 /// Static displacements of the bodies of a set under accelerations of their races.
 #[derive(Debug)]
 pub struct ElasticInertia {
-    /// Ring, sun, planet.
-    pub(super) gears: Vec<Accelerated>,
-    pub(super) carrier: Option<AcceleratedCarrier>,
+    gears: ElasticGears,
+    carrier: Option<AcceleratedCarrier>,
 }
 
 /// What quasi-static bodies lack in a mode, as relative changes of λ = ω².
@@ -49,12 +50,12 @@ pub struct ElasticShift {
 }
 
 #[derive(Debug)]
-pub(super) struct AcceleratedCarrier {
+struct AcceleratedCarrier {
     factor: Factor,
     /// w of accelerations along x and y (s²) and about the centre (m s²).
     displacement: [Vec<f64>; 3],
     /// Least Rayleigh quotient of these, (rad/s)².
-    pub(super) first: f64,
+    first: f64,
 }
 
 impl AcceleratedCarrier {
@@ -74,7 +75,7 @@ impl AcceleratedCarrier {
     }
 
     /// w of an acceleration of the race (x, y, θ).
-    pub(super) fn displaced(&self, race: [f64; 3]) -> Vec<f64> {
+    fn displaced(&self, race: [f64; 3]) -> Vec<f64> {
         let mut w = vec![0.0; self.displacement[0].len()];
         for (part, q) in self.displacement.iter().zip(race) {
             w.iter_mut().zip(part).for_each(|(w, part)| *w += q * part);
@@ -83,7 +84,7 @@ impl AcceleratedCarrier {
     }
 }
 
-pub(super) fn product(a: &[f64], b: &[f64]) -> f64 {
+fn product(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
@@ -100,9 +101,7 @@ impl ElasticInertia {
     /// # Errors
     /// If a body cannot be solved.
     pub fn new(set: &VibratingSet<'_>) -> Result<Option<Self>, FeError> {
-        let kinds = set.bodies.gears.iter().take(PLANETS);
-        let gears = kinds.map(|gear| Accelerated::new(gear.body)).collect::<Result<Vec<_>, _>>()?;
-        let Some(gears) = gears.into_iter().collect() else { return Ok(None) };
+        let Some(gears) = ElasticGears::new(set)? else { return Ok(None) };
         let carrier = set.races().carrier.as_ref().filter(|body| !body.is_rigid);
         let carrier = carrier.map(|body| AcceleratedCarrier::new(body)).transpose()?;
         Ok(Some(Self { gears, carrier }))
@@ -148,36 +147,26 @@ impl ElasticInertia {
         lambda: f64,
         sum: &mut ElasticShift,
     ) {
-        let (gear, own) = (set.bodies.gears[k].body, &self.gears[k.min(2)]);
+        let (gear, own) = (set.bodies.gears[k].body, self.gears.of(k));
         let mut q = set.races().displaced(z, k + 1);
         q[2] /= set.races().radii[(k + 1).min(PLANETS)];
         let [translated, turned] = [q[0] * q[0] + q[1] * q[1], q[2] * q[2]];
         // λ qᵀM_rf K⁻¹ M_fr q
         let [c, r] = own.coupled;
         sum.inertia -= lambda * (c * translated + r * turned);
-        // Tooth 0 of the gear's mesh is taken to be the one of the first port.
-        let points: Vec<_> = frame.pattern.own[k]
-            .iter()
-            .filter_map(|(pair, e)| Some((forces[*pair], &frame.pattern.ends[*pair].as_ref()?[*e])))
-            .filter(|(force, _)| *force != 0.0)
-            .collect();
-        let first = points.first().map_or(0.0, |(_, point)| point.axis);
-        let pitch = gear.mesh.outline.gear().pitch_angle();
-        let mut pressing = Vec::with_capacity(points.len());
-        for (force, point) in &points {
-            let (load, direction) = (point.end.load.as_slice(), point.end.direction);
+        let (pressing, axes) = pressing(frame, k, gear, forces);
+        for (force, axis) in pressing.iter().zip(&axes) {
             // − 2 qᵀM_rf u_s = 2 P ℓ w
-            let q = into_frame(q, point.axis);
-            sum.inertia += 2.0 * force * own.at(gear, (load, direction), q);
-            let tooth = ((point.axis - first) / pitch).round() as i64;
-            pressing.push(ToothForce { force: *force, tooth, load, direction });
+            let q = into_frame(q, *axis);
+            sum.inertia += 2.0 * force.force * own.at(gear, (force.load, force.direction), q);
         }
+        let first = axes.first().copied().unwrap_or(0.0);
         let race = into_frame(q, first).map(|x| lambda * x);
         let energy = own.energy(gear, &pressing, race);
         sum.remainder += bounded(energy, lambda, own.first());
     }
 
-    fn add_carrier(
+    pub(super) fn add_carrier(
         &self,
         set: &VibratingSet<'_>,
         z: &DVector<f64>,
@@ -202,6 +191,29 @@ impl ElasticInertia {
         u.iter_mut().zip(&w).for_each(|(u, w)| *u += lambda * w);
         sum.remainder += bounded(energy(body, &u), lambda, own.first);
     }
+}
+
+/// The forces of a frame's pairs on the teeth of gear k, with the angles of the teeth's axes in the frame of its race, rad. Tooth 0 of the gear is taken to be the one of the
+/// first force.
+pub(super) fn pressing<'f>(
+    frame: &'f Frame,
+    k: usize,
+    gear: &GearBody,
+    forces: &DVector<f64>,
+) -> (Vec<ToothForce<'f>>, Vec<f64>) {
+    let ports = frame.pattern.own[k].iter().filter(|(pair, _)| forces[*pair] != 0.0);
+    let points = ports
+        .filter_map(|(pair, e)| Some((forces[*pair], &frame.pattern.ends[*pair].as_ref()?[*e])));
+    let points: Vec<_> = points.collect();
+    let axes: Vec<f64> = points.iter().map(|(_, point)| point.axis).collect();
+    let pitch = gear.mesh.outline.gear().pitch_angle();
+    let one = |(force, point): &(f64, &'f ToothPoint)| ToothForce {
+        force: *force,
+        tooth: ((point.axis - axes[0]) / pitch).round() as i64,
+        load: point.end.load.as_slice(),
+        direction: point.end.direction,
+    };
+    (points.iter().map(one).collect(), axes)
 }
 
 /// u_1ᵀM_ff u_1/(1 − λ/λ_1).

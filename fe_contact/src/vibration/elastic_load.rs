@@ -1,7 +1,7 @@
-//! What quasi-static bodies lack in a moving set, at one step, to first order: the inertia of their elastic displacements and the static
-//! flexibility between different meshes of a body.
+//! What quasi-static gears lack in a moving set, at one step, to first order: the inertia of their elastic displacements and the static
+//! flexibility between different meshes of a gear.
 //!
-//! With the equations of [`ElasticInertia`] (q: motion of the races, u_s: elastic displacements under the
+//! With the equations of [`ElasticInertia`](super::ElasticInertia) (q: motion of the races, u_s: elastic displacements under the
 //! forces P of tooth pairs and bearings, w: under accelerations of the races) the races' equation of motion gains to first order the load
 //!
 //! ```text
@@ -15,20 +15,20 @@
 //! V δ = d²/dt² (Tᵀ δ + A δ̈) + T δ̈ + Y δ,   Y = Gᵀ X G
 //! ```
 //!
-//! For motion in a mode φ of the set at rest, φᵀ V φ is the change of its eigenvalue by
-//! [`ElasticInertia::of_mode`] with the other sign, less the kinetic energy R of the elastic displacements,
-//! which is left out.
+//! For motion in a mode φ of the set at rest, φᵀ V φ is the change of its eigenvalue by gears in
+//! [`ElasticInertia::of_mode`](super::ElasticInertia::of_mode) with the other sign, less the kinetic energy of the displacements under the forces
+//! ([`ElasticMass`](super::ElasticMass)). The carrier has equations of its own ([`ElasticCarrier`](super::ElasticCarrier)).
 
 use nalgebra::{DMatrix, DVector, Matrix3, Matrix3xX, Vector3};
 
 use super::body::into_frame;
-use super::elastic_inertia::{AcceleratedCarrier, ElasticInertia, product};
+use super::elastic_gears::ElasticGears;
+use super::elastic_mass::PressedTooth;
 use super::frame::Frame;
 use super::linear::LinearSet;
 use super::set::VibratingSet;
-use crate::body::{Accelerated, CarrierBody};
 use crate::error::FeError;
-use crate::statics::{CARRIER, PLANETS};
+use crate::statics::PLANETS;
 
 /// Load and its change by the motion at one step, on the n coordinates of the races.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,9 +43,13 @@ pub struct ElasticLoad {
     pub accelerated: DMatrix<f64>,
     /// Y, n×n, N/m.
     pub coupling: DMatrix<f64>,
+    /// Forces on the teeth of each gear.
+    pub(super) pressing: Vec<Vec<PressedTooth>>,
+    /// What the number of a tooth at a given place changes by from one mesh cycle to the next, for each gear.
+    pub(super) teeth_per_cycle: Vec<i64>,
 }
 
-impl ElasticInertia {
+impl ElasticGears {
     /// At the present step of a turning set, which is linearised there as `linear`.
     ///
     /// # Errors
@@ -60,22 +64,15 @@ impl ElasticInertia {
             opened: matrix.clone(),
             accelerated: matrix.clone(),
             coupling: matrix,
+            pressing: vec![Vec::new(); set.bodies.gears.len()],
+            teeth_per_cycle: set.bodies.gears.iter().map(|gear| gear.teeth_per_cycle()).collect(),
         };
         // G
         let made = &linear.contact * &linear.rows;
         for k in 0..set.bodies.gears.len() {
             self.add_gear_load(set, frame, (k, &made), &mut load);
         }
-        if let (Some(own), Some(body)) = (&self.carrier, &set.races().carrier) {
-            add_carrier_load(set, (own, body), &mut load);
-        }
         Ok(load)
-    }
-
-    /// Least Rayleigh quotient of the displacements w, close to the first eigenvalue of a body with its race held, (rad/s)².
-    pub fn first(&self) -> f64 {
-        let carrier = self.carrier.as_ref().map_or(f64::INFINITY, |own| own.first);
-        self.gears.iter().map(Accelerated::first).fold(carrier, f64::min)
     }
 
     fn add_gear_load(
@@ -85,7 +82,7 @@ impl ElasticInertia {
         (k, made): (usize, &DMatrix<f64>),
         load: &mut ElasticLoad,
     ) {
-        let (gear, own) = (set.bodies.gears[k].body, &self.gears[k.min(2)]);
+        let (gear, own) = (set.bodies.gears[k].body, self.of(k));
         let forces = &set.pairs.forces;
         let race = race(set, k + 1, load.pressed.len());
         let [c, r] = own.coupled;
@@ -102,6 +99,18 @@ impl ElasticInertia {
             let row = race.tr_mul(&Vector3::from(unit));
             load.opened.ger(1.0, &made.row(*pair).transpose(), &row, 1.0);
             load.pressed.axpy(-forces[*pair], &row, 1.0);
+            if let Some(teeth) = &frame.pattern.teeth[*pair] {
+                let (columns, d) = (point.load.as_slice(), point.direction);
+                let both = |(column, weight): &(usize, f64)| {
+                    [(*column, weight * d[0]), (*column + 1, weight * d[1])]
+                };
+                load.pressing[k].push(PressedTooth {
+                    tooth: teeth[*e] + load.teeth_per_cycle[k] * set.clock.cycles,
+                    force: forces[*pair],
+                    load: columns.iter().flat_map(both).collect(),
+                    given: made.row(*pair).transpose(),
+                });
+            }
         }
         let across = &frame.pattern.across(&set.bodies.gears)[k];
         for (i, (a, _)) in ports.iter().enumerate() {
@@ -117,7 +126,7 @@ impl ElasticInertia {
 const UNITS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// x, y and θ of a body's race by the n coordinates of all races, 3×n.
-fn race(set: &VibratingSet<'_>, body: usize, n: usize) -> Matrix3xX<f64> {
+pub(super) fn race(set: &VibratingSet<'_>, body: usize, n: usize) -> Matrix3xX<f64> {
     let radius = set.races().radii[body.min(PLANETS)];
     let mut all = Matrix3xX::zeros(n);
     for i in 0..n {
@@ -128,82 +137,54 @@ fn race(set: &VibratingSet<'_>, body: usize, n: usize) -> Matrix3xX<f64> {
     all
 }
 
-/// That of the carrier, on whose seats the planet bearings press with F = (I/k + A)⁻¹ B q: they give way against the forces.
-fn add_carrier_load(
-    set: &VibratingSet<'_>,
-    (own, body): (&AcceleratedCarrier, &CarrierBody),
-    load: &mut ElasticLoad,
-) {
-    let race = race(set, CARRIER, load.pressed.len());
-    let bearings = &set.race_dynamics.bearings;
-    let made = &set.race_dynamics.seat_stiffness * &bearings.rigid;
-    let displaced = UNITS.map(|unit| own.displaced(unit));
-    let forces = &made * DVector::from_column_slice(&set.motion().x);
-    for (i, port) in bearings.ports.iter().enumerate() {
-        let unit = Vector3::from_fn(|axis, _| port.read(&displaced[axis]));
-        // Row of W
-        let row = -race.tr_mul(&unit);
-        load.opened.ger(1.0, &made.row(i).transpose(), &row, 1.0);
-        load.pressed.axpy(-forces[i], &row, 1.0);
-    }
-    let inertia = Matrix3::from_fn(|i, j| product(&body.matrices.coupling[i], &displaced[j]));
-    load.accelerated += race.transpose() * inertia * &race;
-}
-
 fn lost() -> FeError {
     FeError::NoEquilibrium("the set has not been stepped or put to rest yet".into())
 }
 
 #[cfg(test)]
 mod tests {
-    use gearset::{Facing, Scene};
-
-    use super::super::prepared::Loading;
-    use super::super::rotation::NominalRotation;
+    use super::super::elastic_gears::tests::oh58_at_rest;
+    use super::super::elastic_inertia::{ElasticInertia, ElasticShift};
     use super::*;
-    use crate::statics::{Bodies, Imperfections};
 
     /// A set that moves in one of its modes, q = φ, q̈ = −λφ and P = P_i, loads this mode by −δλ of the same effects, because
     /// ÿ + (λ + δλ) y = 0; a load that lost a sign, a frame or a body would not.
     #[test]
     fn motion_in_a_mode_loads_it_by_the_change_of_its_eigenvalue() {
-        let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
-        let mut scene = Scene::from_file(path.as_ref()).unwrap();
-        scene.fe_contact.flank_elements = 8;
-        let bodies = Bodies::new(&scene).unwrap();
-        let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
-        let rotation = NominalRotation::Standing { position: 0.0, step: 5e-6 };
-        let loading = Loading { torque_nm: 1130.0, mesh_force: 8000.0 };
-        let mut set = VibratingSet::new(&scene, &bodies, sense, none, rotation, loading).unwrap();
-        set.rest(1130.0).unwrap();
-        let linear = set.linearised().unwrap();
-        let inertia = ElasticInertia::new(&set).unwrap().unwrap();
-        let (frequencies, shapes) = linear.undamped().unwrap();
-        let lambda = |i: usize| (std::f64::consts::TAU * frequencies[i]).powi(2);
-        let columns: Vec<Vec<f64>> =
-            shapes.column_iter().map(|c| c.iter().copied().collect()).collect();
-        let mut compared = 0;
-        for (i, shape) in columns.iter().enumerate().filter(|(i, _)| frequencies[*i] > 100.0) {
-            let z = DVector::from_column_slice(shape);
-            set.pairs.forces = &linear.contact * (&linear.rows * &z);
-            set.race_dynamics.motion.x.copy_from_slice(shape);
-            let a = shape.iter().map(|x| -lambda(i) * x).collect::<Vec<_>>();
-            set.race_dynamics.motion.a.copy_from_slice(&a);
-            let load = inertia.load(&set, &linear).unwrap();
-            let acceleration = DVector::from_column_slice(&a);
-            let second = lambda(i) * (&load.pressed - &load.accelerated * &acceleration);
-            let sum = z.dot(&(second + &load.opened * &acceleration + &load.coupled));
-            // V φ at the frequency of the mode is the load itself.
-            let changed = &load.accelerated * (lambda(i) * &z) - load.opened.transpose() * &z;
-            let own = lambda(i) * (changed - &load.opened * &z) + &load.coupling * &z;
-            let shift = inertia.of_mode(&set, &linear, shape, lambda(i)).unwrap();
-            let expected = -lambda(i) * (shift.inertia + shift.coupling);
-            let size = lambda(i) * (shift.inertia.abs() + shift.coupling.abs());
-            for got in [sum, z.dot(&own)] {
-                assert!((got - expected).abs() < 1e-9 * size, "{i}: {got:e} {expected:e}");
+        oh58_at_rest(8, |set| {
+            let linear = set.linearised().unwrap();
+            let inertia = ElasticInertia::new(set).unwrap().unwrap();
+            let gears = ElasticGears::new(set).unwrap().unwrap();
+            let (frequencies, shapes) = linear.undamped().unwrap();
+            let lambda = |i: usize| (std::f64::consts::TAU * frequencies[i]).powi(2);
+            let columns: Vec<Vec<f64>> =
+                shapes.column_iter().map(|c| c.iter().copied().collect()).collect();
+            let mut compared = 0;
+            for (i, shape) in columns.iter().enumerate().filter(|(i, _)| frequencies[*i] > 100.0) {
+                let z = DVector::from_column_slice(shape);
+                set.pairs.forces = &linear.contact * (&linear.rows * &z);
+                set.race_dynamics.motion.x.copy_from_slice(shape);
+                let a = shape.iter().map(|x| -lambda(i) * x).collect::<Vec<_>>();
+                set.race_dynamics.motion.a.copy_from_slice(&a);
+                let load = gears.load(set, &linear).unwrap();
+                let acceleration = DVector::from_column_slice(&a);
+                let second = lambda(i) * (&load.pressed - &load.accelerated * &acceleration);
+                let sum = z.dot(&(second + &load.opened * &acceleration + &load.coupled));
+                // V φ at the frequency of the mode is the load itself.
+                let changed = &load.accelerated * (lambda(i) * &z) - load.opened.transpose() * &z;
+                let own = lambda(i) * (changed - &load.opened * &z) + &load.coupling * &z;
+                let shift = inertia.of_mode(set, &linear, shape, lambda(i)).unwrap();
+                let mut carrier = ElasticShift { inertia: 0.0, remainder: 0.0, coupling: 0.0 };
+                inertia.add_carrier(set, &z, lambda(i), &mut carrier);
+                let of_gears = shift.inertia - carrier.inertia;
+                let expected = -lambda(i) * (of_gears + shift.coupling);
+                let size = lambda(i) * (of_gears.abs() + shift.coupling.abs());
+                for got in [sum, z.dot(&own)] {
+                    assert!((got - expected).abs() < 1e-9 * size, "{i}: {got:e} {expected:e}");
+                }
+                compared += 1;
             }
-            compared += 1;
-        }
-        assert!(compared > 14, "{compared}");
+            assert!(compared > 14, "{compared}");
+        });
     }
 }
