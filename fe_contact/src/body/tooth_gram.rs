@@ -15,7 +15,8 @@ pub struct ToothGram {
     apart: Vec<DMatrix<f64>>,
 }
 
-/// Teeth apart up to which products are kept: no more than two pairs of a mesh touch, and planets are further apart.
+/// Teeth apart up to which products are kept. Where three pairs of a mesh touch, the outer two are taken not to move each other's teeth, and
+/// so are pairs with other planets.
 const MOST_APART: i64 = 1;
 
 impl Accelerated {

@@ -2,14 +2,14 @@
 //! flexibility between different meshes of a gear.
 //!
 //! With the equations of [`ElasticInertia`](super::ElasticInertia) (q: motion of the races, u_s: elastic displacements under the
-//! forces P of tooth pairs and bearings, w: under accelerations of the races) the races' equation of motion gains to first order the load
+//! forces P of tooth pairs, w: under accelerations of the races) the races' equation of motion gains to first order the load
 //!
 //! ```text
 //! f = − d²/dt² (p − A q̈) + T q̈ + Gᵀ X P,   G = S R,   T = Gᵀ W,   p = −Wᵀ P
 //! ```
 //!
-//! W: approach of pairs and yielding of bearings, a row each, under unit accelerations of the races (ℓ w); A: M_rf w of unit accelerations; X: static
-//! flexibility between pairs of different meshes of a body. A small change δ of the motion changes the forces by P = G δ, hence the load by
+//! W: approach of pairs, a row each, under unit accelerations of the races (ℓ w); A: M_rf w of unit accelerations; X: static
+//! flexibility between pairs of different meshes of a gear. A small change δ of the motion changes the forces by P = G δ, hence the load by
 //!
 //! ```text
 //! V δ = d²/dt² (Tᵀ δ + A δ̈) + T δ̈ + Y δ,   Y = Gᵀ X G
@@ -33,11 +33,11 @@ use crate::statics::PLANETS;
 /// Load and its change by the motion at one step, on the n coordinates of the races.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ElasticLoad {
-    /// p, kg m: M_rf u_s of the displacement by pair and bearing forces.
+    /// p, kg m: M_rf u_s of the displacement by pair forces.
     pub pressed: DVector<f64>,
     /// Gᵀ X P, N.
     pub coupled: DVector<f64>,
-    /// T, n×n, kg: load by accelerations under which pairs and bearings give way.
+    /// T, n×n, kg: load by accelerations under which pairs give way.
     pub opened: DMatrix<f64>,
     /// A, n×n, kg s².
     pub accelerated: DMatrix<f64>,

@@ -114,11 +114,14 @@ impl<'c> Turned<'c> {
     /// The forces by which the races yield at step t, each with its share: where a pair begins or ends to touch, velocities jump while the rows of G do, and
     /// the mean of both sides acts.
     fn yielding(&self, t: i64) -> Vec<(f64, (i64, &'c PressedTooth))> {
-        let others: Vec<i64> = [(t - 1, t - 1), (t, t + 1)]
-            .into_iter()
-            .filter(|(k, _)| self.changes_after(*k))
-            .map(|(_, o)| o)
-            .collect();
+        // The steps beside this one on the other side of a change.
+        let mut others = Vec::new();
+        if self.changes_after(t - 1) {
+            others.push(t - 1);
+        }
+        if self.changes_after(t) {
+            others.push(t + 1);
+        }
         let share = 0.5 / others.len().max(1) as f64;
         let own_share = if others.is_empty() { 1.0 } else { 0.5 };
         let own = self.at(t).map(|a| (own_share, a));
