@@ -93,7 +93,10 @@ pub(super) fn elastic_response(
             + by(&opened, factors.raised[l])
             + by(&coupled, factors.kept[l])
             + by(&mass.forces, factors.raised[l]);
-        carrier.get(l).map_or_else(|| of_gears.clone(), |lacking| &of_gears + lacking * x)
+        match carrier.get(l) {
+            Some(lacking) => of_gears + lacking * x,
+            None => of_gears,
+        }
     };
     let of_bodies = linear.lines().iter().enumerate().map(force);
     let forces: Vec<_> = of_bodies.zip(linear.step_forces()).map(|(a, b)| a + b).collect();

@@ -17,7 +17,8 @@
 //! ```
 //!
 //! D is computed on Ritz vectors: the static displacements under these loads and under the inertia of those, Y = [K⁻¹E, K⁻¹M_ff K⁻¹E], so that
-//! it has the first four terms of the series in μ exactly, and the lowest modes from above (Craig, *Structural Dynamics*, Wiley 1981, ch. 14),
+//! it has the first four terms of the series in μ exactly, and the lowest modes from above (load-dependent Ritz vectors: Wilson, Yuan & Dickens,
+//! Earthquake Eng. Struct. Dyn. 10 (1982) 813–821),
 //!
 //! ```text
 //! D = (YᵀE)ᵀ (YᵀK Y (1 + iωβ) − μ YᵀM_ff Y)⁻¹ YᵀE
