@@ -7,17 +7,18 @@ use experiments::auto::{
     AmplitudeRequest, AutoError, AutoSettings, Choice, CycleRequest, CycleValue, amplitude_with,
     choose_amplitude, choose_transmission_error, stepped_amplitude_with, transmission_error_with,
 };
-use experiments::study::{CpuTime, Stopwatch};
+use experiments::study::CpuTime;
 use experiments::sweep::SteadySettings;
 use gearset::{AutoResponse, LoadCase, Scene, excitation_of_scene};
 
-use crate::auto_record::{DrawnScene, drawn_scene};
+use crate::auto_record::{DrawnScene, drawn_scene, timed};
 
 /// Tolerances that are drawn, percent.
 const TOLERANCES: [f64; 5] = [1.0, 2.0, 5.0, 10.0, 20.0];
 
-/// Elements, cells and positions of the truth at rest, finer than any candidate's.
+/// Elements, cells and positions of the truth at rest, finer than any candidate's; and those about the extremes of a peak to peak.
 const AT_REST: AutoSettings = AutoSettings::quasi_static(32, 80).at_positions(960);
+const ABOUT_EXTREMES: u32 = 3840;
 
 /// Elements and cells of the truth in motion, finer than any candidate's, and steps, from which line by line the limit of small steps is
 /// extrapolated (order 2); and what modes add to it, on a coarse mesh: with modes, without.
@@ -91,7 +92,13 @@ impl Asked {
 
     /// The value by the truth, µm.
     fn truth(&self, scene: &Scene, case: &LoadCase) -> Result<f64, ExperimentError> {
-        let Self::Amplitude(own) = self else { return self.with(scene, case, AT_REST) };
+        let own = match self {
+            Self::Cycle(own) if own.value == CycleValue::PeakToPeak => {
+                return self.with(scene, case, AT_REST.about_extremes(ABOUT_EXTREMES));
+            }
+            Self::Cycle(_) => return self.with(scene, case, AT_REST),
+            Self::Amplitude(own) => own,
+        };
         let [fine, coarse] =
             STEPS.map(|n| stepped_amplitude_with(scene, case, IN_MOTION.with_steps(n), own));
         let (fine, coarse) = (fine?, coarse?);
@@ -211,16 +218,17 @@ pub fn response_row(seed: u64) -> Result<ResponseRow, ExperimentError> {
     let scene = &drawn.scene;
     let truth_um = asked.truth(scene, &case).unwrap_or(f64::NAN);
     let mut clock = CpuTime::default();
-    let start = clock.seconds();
-    let found = asked.chosen(scene, &case);
-    let auto_s = clock.seconds() - start;
+    let mut found = None;
+    let auto_s = timed(&mut clock, &mut || found = Some(asked.chosen(scene, &case)));
+    let found = found.ok_or(ExperimentError::Incomplete("answer"))?;
     let (mut cheapest, mut cost_ratio) = (None, None);
     // Sets without a truth have no cheapest candidate: NaN is within nothing.
     let candidates = if truth_um.is_nan() { Vec::new() } else { asked.candidates(scene) };
     for settings in candidates {
-        let start = clock.seconds();
-        let value = asked.with(scene, &case, settings).unwrap_or(f64::NAN);
-        let own_s = clock.seconds() - start;
+        let mut value = f64::NAN;
+        let own_s = timed(&mut clock, &mut || {
+            value = asked.with(scene, &case, settings).unwrap_or(f64::NAN);
+        });
         if 100.0 * (value / truth_um - 1.0).abs() <= asked.tolerance_percent() {
             (cheapest, cost_ratio) = (Some(settings), Some(auto_s / own_s));
             break;

@@ -3,13 +3,13 @@
 //! errors from these.
 
 use experiments::auto::{
-    AutoModel, AutoSettings, CycleRequest, CycleValue, choose_transmission_error,
-    transmission_error_with,
+    AutoModel, AutoSettings, CycleRequest, CycleValue, FrequencyRequest, choose_transmission_error,
+    frequency_with, transmission_error_with,
 };
 use experiments::modal::{Preload, preloaded};
 use fe_contact::body::CarrierBody;
 use fe_contact::statics::Bodies;
-use gearset::{LoadCase, Scene};
+use gearset::{AutoModeType, LoadCase, Scene};
 use lumped::{AnalyticCycle, AnalyticSet, SpringId};
 use validation::drawn_scene;
 
@@ -22,8 +22,8 @@ struct Ratios {
     seats: [f64; 2],
     /// What the flexibility between seats is off, largest entry, over the largest entry.
     between: f64,
-    /// Of mesh stiffnesses where no pair may or may not touch.
-    meshes: Vec<f64>,
+    /// Of the stiffness of sun and of ring meshes where no pair may or may not touch.
+    meshes: [Vec<f64>; 2],
     /// Meshes where one may.
     handing_over: usize,
 }
@@ -42,13 +42,13 @@ fn ratios(scene: &Scene, positions: &[f64]) -> Option<Ratios> {
         all.mass = masses.map(|(own, fe)| own / fe).fold(all.mass, farther);
         let planets = closed.model.psi.len();
         for spring in &closed.model.springs {
-            let mesh = match spring.id {
-                SpringId::SunMesh(n) => n,
-                SpringId::RingMesh(n) => planets + n,
+            let (kind, mesh) = match spring.id {
+                SpringId::SunMesh(n) => (0, n),
+                SpringId::RingMesh(n) => (1, planets + n),
                 _ => continue,
             };
             match closed.hand_overs[mesh] == 0.0 {
-                true => all.meshes.push(spring.stiffness / linear.mesh_tangents[mesh]),
+                true => all.meshes[kind].push(spring.stiffness / linear.mesh_tangents[mesh]),
                 false => all.handing_over += 1,
             }
         }
@@ -72,9 +72,11 @@ fn holds(name: &str, all: &Ratios) {
     let [radial, tangential] = all.seats;
     assert!((radial - 1.0).abs() < 0.05 && (tangential - 1.0).abs() < 0.02, "{name}: {all:?}");
     assert!(all.between < 0.03, "{name}: {all:?}");
-    assert!(all.meshes.iter().all(|k| (k - 1.0).abs() < 0.12), "{name}: {all:?}");
-    let mean = all.meshes.iter().sum::<f64>() / all.meshes.len() as f64;
-    assert!((mean - 1.0).abs() < 0.06, "{name}: {all:?}");
+    for own in &all.meshes {
+        assert!(own.iter().all(|k| (k - 1.0).abs() < 0.12), "{name}: {all:?}");
+        let mean = own.iter().sum::<f64>() / own.len() as f64;
+        assert!((mean - 1.0).abs() < 0.06, "{name}: {all:?}");
+    }
 }
 
 /// Shipped sets, whose teeth are none of those to which the foundation of the teeth was fitted.
@@ -84,6 +86,28 @@ fn closed_forms_hold_on_shipped_sets() {
         let all = ratios(&scene(name), &[0.0, 0.4]).unwrap();
         println!("{name} {all:?}");
         holds(name, &all);
+    }
+}
+
+/// Modes in which planets hardly press their meshes change with the torque by how flanks lean as they roll on and as their centres move
+/// apart, and by forces that turn: alike in the closed form and in FE/contact. Without the slope over the centre distance they were
+/// apart by 0.09 and 0.12 %.
+#[test]
+fn modes_hardly_pressed_follow_the_load() {
+    for (name, scene) in [("OH-58", scene("oh58_4p")), ("18037", drawn_scene(18037).unwrap().scene)]
+    {
+        let request = FrequencyRequest::new(AutoModeType::Planet, 1, 1.0);
+        let over_contact = |part: f64| {
+            let mut scene = scene.clone();
+            scene.operation.as_mut().unwrap().torque_nm *= part;
+            let case = LoadCase::of_scene(&scene).unwrap();
+            let of = |settings| frequency_with(&scene, &case, settings, &request).unwrap();
+            of(AutoSettings::LUMPED) / of(AutoSettings::quasi_static(10, 30))
+        };
+        let [loaded, light] = [1.0, 0.03].map(over_contact);
+        let apart = 100.0 * (loaded / light - 1.0);
+        println!("{name}: under load {apart:+.3} %");
+        assert!(apart.abs() < 0.04, "{name}: {apart}");
     }
 }
 
@@ -144,31 +168,40 @@ fn mean_transmission_errors_hold_on_drawn_sets() {
     assert!(beyond * 20 <= count, "{beyond} of {count}");
 }
 
-/// The figures of `docs/closed_forms.md`, on drawn sets, about every fourth of which the foundation of the teeth was fitted to.
+/// The figures of `docs/closed_forms.md`: on the drawn sets to which the foundation of the teeth was fitted, and on others.
 #[test]
-#[ignore = "three minutes"]
+#[ignore = "seven minutes"]
 fn closed_forms_hold_on_drawn_sets() {
-    let mut meshes = [Vec::new(), Vec::new()];
-    let (mut handing_over, mut sets) = (0, 0);
-    for seed in 1..120 {
-        let Ok(drawn) = drawn_scene(seed) else { continue };
-        let Some(all) = ratios(&drawn.scene, &[0.0, 0.2, 0.4, 0.6, 0.8]) else { continue };
-        let fitted = usize::from(sets % 4 != 0);
-        holds(&format!("set {seed}"), &Ratios { meshes: vec![1.0], ..all });
-        sets += 1;
-        handing_over += all.handing_over;
-        meshes[fitted].extend(all.meshes);
-    }
-    println!("{sets} sets, {handing_over} meshes with pairs that may or may not touch");
     let mut all = Vec::new();
-    for (name, mut own) in ["fitted", "other"].into_iter().zip(meshes) {
-        own.sort_by(f64::total_cmp);
-        let at = |share: f64| own[(share * (own.len() - 1) as f64).round() as usize];
-        let quantiles = [0.0, 0.025, 0.05, 0.25, 0.5, 0.75, 0.95, 0.975, 1.0].map(at);
-        println!("{name}: {} meshes, {quantiles:.3?}", own.len());
-        all.push((name, quantiles));
+    for (name, seeds) in [("fitted", 1..120), ("other", 120..250)] {
+        let (mut suns, mut rings) = (Vec::new(), Vec::new());
+        let (mut handing_over, mut sets) = (0, 0);
+        for seed in seeds {
+            let Ok(drawn) = drawn_scene(seed) else { continue };
+            let Some(own) = ratios(&drawn.scene, &[0.0, 0.2, 0.4, 0.6, 0.8]) else { continue };
+            holds(&format!("set {seed}"), &Ratios { meshes: [vec![1.0], vec![1.0]], ..own });
+            sets += 1;
+            handing_over += own.handing_over;
+            let [sun, ring] = own.meshes;
+            suns.extend(sun);
+            rings.extend(ring);
+        }
+        println!("{name}: {sets} sets, {handing_over} meshes with pairs that may or may not touch");
+        for (kind, mut own) in [("sun", suns), ("ring", rings)] {
+            own.sort_by(f64::total_cmp);
+            let at = |share: f64| own[(share * (own.len() - 1) as f64).round() as usize];
+            let quantiles = [0.0, 0.025, 0.05, 0.25, 0.5, 0.75, 0.95, 0.975, 1.0].map(at);
+            // A pair that touches in one and not in the other changes the stiffness by a third.
+            let misjudged = own.iter().filter(|k| (*k - 1.0).abs() > 0.2).count();
+            println!(
+                "  {kind} meshes: {}, {misjudged} of them misjudged, {quantiles:.3?}",
+                own.len()
+            );
+            all.push((format!("{name} {kind}"), misjudged, own.len(), quantiles));
+        }
     }
-    for (name, [_, _, low, _, _, _, high, _, _]) in all {
-        assert!(low > 0.94 && high < 1.06, "{name}: {low} {high}");
+    for (name, misjudged, count, [_, _, low, _, _, _, high, _, _]) in all {
+        assert!(low > 0.96 && high < 1.06, "{name}: {low} {high}");
+        assert!(misjudged * 200 <= count, "{name}: {misjudged} of {count}");
     }
 }

@@ -4,9 +4,8 @@
 use gearset::{LoadCase, Scene};
 use lumped::{AnalyticCycle, AnalyticRest, LumpedError};
 
-use super::analytic_mode::{SEAT_DOUBT, STIFFNESS_DOUBT};
+use super::analytic_mode::{SEAT_DOUBT, of_stiffness};
 use super::choice::ErrorPart;
-use super::error_parts::EXPANDED;
 use super::settings::divided;
 
 /// Positions over which the mean is taken.
@@ -57,8 +56,7 @@ impl AnalyticMean {
     /// Estimated errors beside FE/contact on fine meshes.
     pub(super) fn error_parts(&self) -> Vec<ErrorPart> {
         let [suns, rings, seats] = self.shares;
-        // Meshes of one kind are off alike, both kinds independently.
-        let stiffness = EXPANDED * STIFFNESS_DOUBT * suns.hypot(rings);
+        let stiffness = of_stiffness([suns, rings]);
         let positions = SAFETY * (self.of_half / self.transmission_error - 1.0).abs();
         vec![
             ErrorPart::new("mesh stiffness in closed form", stiffness),

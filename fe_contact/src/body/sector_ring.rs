@@ -167,8 +167,8 @@ impl Condensed {
         let turn = [[cos, -sin], [sin, cos]];
         let incompatible = mesh.family == gearset::ElementFamily::Incompatible;
         let mut triplets = Triplets::default();
-        // K_ic and K_cc, with T.
-        let mut border = DMatrix::<f64>::zeros(inner, 2 * cut);
+        // K_ic by its entries (row, column, value), of which some repeat, and K_cc, with T.
+        let mut border: Vec<(usize, usize, f64)> = Vec::new();
         let mut stiffness = DMatrix::<f64>::zeros(2 * cut, 2 * cut);
         for (i, e) in sector.elements.iter().enumerate() {
             let nodes = &e.nodes[..e.shape.count()];
@@ -197,7 +197,7 @@ impl Condensed {
                                     triplets.add(p + r, q + c, *value);
                                 }
                                 (Place::Inner(p), _, _, Some(q)) => {
-                                    border[(p + r, q + c)] += value;
+                                    border.push((p + r, q + c, *value));
                                 }
                                 (_, _, Some(p), Some(q)) => stiffness[(p + r, q + c)] += value,
                                 _ => {}
@@ -207,21 +207,23 @@ impl Condensed {
                 }
             }
         }
-        let factor = triplets.matrix(inner, mesh.name)?.factorise(mesh.name)?;
+        let factor = triplets.matrix(inner, mesh.name)?.factorise_for_many(mesh.name)?;
         // K_ii⁻¹ (f, −K_ic)
         let count = loads.ncols();
         let mut right = Mat::zeros(inner, count + 2 * cut);
-        let mut pressed = DMatrix::<f64>::zeros(inner, count);
+        let mut pressed: Vec<(usize, usize, f64)> = Vec::new();
         let mut reduced = DMatrix::<f64>::zeros(2 * cut, count);
-        for (node, place) in places.iter().enumerate() {
-            for c in 0..count {
+        for c in 0..count {
+            for (node, place) in places.iter().enumerate() {
                 let own = [loads[(2 * node, c)], loads[(2 * node + 1, c)]];
                 for r in 0..2 {
                     match *place {
                         Place::Race => {}
                         Place::Inner(at) => {
                             right[(at + r, c)] = own[r];
-                            pressed[(at + r, c)] = own[r];
+                            if own[r] != 0.0 {
+                                pressed.push((at + r, c, own[r]));
+                            }
                         }
                         Place::First(at) => reduced[(at + r, c)] += own[r],
                         // Tᵀ f
@@ -232,24 +234,15 @@ impl Condensed {
                 }
             }
         }
-        for c in 0..2 * cut {
-            for (r, value) in border.column(c).iter().enumerate() {
-                right[(r, count + c)] = -value;
-            }
-        }
+        border.iter().for_each(|(r, c, k)| right[(*r, count + c)] -= k);
         factor.solve(&mut right);
         // S = K_cc + K_ci E,  g = f_c + Eᵀ f: of border and loads only the entries that are not 0
-        for (p, column) in border.column_iter().enumerate() {
-            for (r, k) in column.iter().enumerate().filter(|(_, k)| **k != 0.0) {
-                (0..2 * cut).for_each(|q| stiffness[(p, q)] += k * right[(r, count + q)]);
-            }
+        for q in 0..2 * cut {
+            let elastic = right.col(count + q);
+            border.iter().for_each(|(r, p, k)| stiffness[(*p, q)] += k * elastic[*r]);
+            pressed.iter().for_each(|(r, c, f)| reduced[(q, *c)] += f * elastic[*r]);
         }
         stiffness = 0.5 * (&stiffness + stiffness.transpose());
-        for (c, column) in pressed.column_iter().enumerate() {
-            for (r, f) in column.iter().enumerate().filter(|(_, f)| **f != 0.0) {
-                (0..2 * cut).for_each(|q| reduced[(q, c)] += f * right[(r, count + q)]);
-            }
-        }
         let (mut carried, mut held) =
             (DMatrix::zeros(2 * places.len(), 2 * cut), DMatrix::zeros(2 * places.len(), count));
         // Row of the sector's nodes and of its inner unknowns.

@@ -12,6 +12,9 @@
 //! ```text
 //! ∂F/∂q = k (b − s κ),  K = k (b − sκ)(b − sκ)ᵀ + c κκᵀ,      σ = ±u − r_b m·d/L  (+ sun, which drives; a planet drives the ring the other way round)
 //! ```
+//!
+//! It also changes with the centre distance a' = ζᵀq, by s_a = ∂δ/∂a': the row is b − sκ − s_a ζ. In modes that hardly press a mesh, this
+//! is a good part of what does.
 
 use gearset::{Mesh, MeshMember};
 use nalgebra::DMatrix;
@@ -28,6 +31,8 @@ pub(super) struct Line {
     across: Vec<(usize, f64)>,
     /// κ, m/m.
     roll: Vec<(usize, f64)>,
+    /// ζ, m/m.
+    apart: Vec<(usize, f64)>,
     /// −1/L of a sun mesh, 1/L of a ring mesh, 1/m.
     strut: f64,
 }
@@ -63,18 +68,28 @@ impl Line {
                 let turned = -mesh.gear(MeshMember::Driver).base_radius / length;
                 let mut roll: Vec<_> = across.iter().map(|(i, t)| (*i, turned * t)).collect();
                 roll.extend(of(driver, Axis::Rotation).map(|(i, _)| (i, sign)));
-                Some(Self { id: spring.id, across, roll, strut: -sign / length })
+                let (sin, cos) = model.psi[n].sin_cos();
+                let places = [
+                    (Body::Planet(n), Axis::First, 1.0),
+                    (central, Axis::First, -cos),
+                    (central, Axis::Second, -sin),
+                ];
+                let place = |(body, axis, value)| Some((model.coordinates.of(body, axis)?, value));
+                let apart = places.into_iter().filter_map(place).collect();
+                Some(Self { id: spring.id, across, roll, apart, strut: -sign / length })
             })
             .collect()
     }
 
-    /// Leans the row of the mesh by a slope s.
-    pub(super) fn lean(&self, model: &mut LumpedModel, slope: f64) {
+    /// Leans the row of the mesh by slopes s and s_a.
+    pub(super) fn lean(&self, model: &mut LumpedModel, slopes: [f64; 2]) {
         let Some(spring) = model.springs.iter_mut().find(|s| s.id == self.id) else { return };
-        for (i, along) in &self.roll {
-            match spring.rows[0].iter_mut().find(|(j, _)| j == i) {
-                Some((_, b)) => *b -= slope * along,
-                None => spring.rows[0].push((*i, -slope * along)),
+        for (row, slope) in [&self.roll, &self.apart].into_iter().zip(slopes) {
+            for (i, along) in row {
+                match spring.rows[0].iter_mut().find(|(j, _)| j == i) {
+                    Some((_, b)) => *b -= slope * along,
+                    None => spring.rows[0].push((*i, -slope * along)),
+                }
             }
         }
     }

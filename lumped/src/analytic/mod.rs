@@ -87,7 +87,7 @@ impl AnalyticSet {
         }
         let lines: Vec<Line> = Line::of_set(&model, [sun_mesh, ring_mesh]);
         for (line, mesh) in lines.iter().zip(suns.iter().chain(&rings)) {
-            line.lean(&mut model, mesh.slope);
+            line.lean(&mut model, mesh.slopes);
         }
         let mut stiffness = model.stiffness();
         stand_on_seats(&mut stiffness, &model, &seats, scene.supports.planet_bearing)?;

@@ -3,14 +3,16 @@
 //! ```text
 //! c = c_b + c_f,      E' = E/(1 − ν²),   β: angle of the force to the normal of the tooth's axis
 //! b c_b = ∫ [m²/(E' I) + 1.2 cos²β/(G A) + sin²β/(E' A)] dx,   m = (x_P − x) cos β − y_P sin β,  I = ⅔ y³,  A = 2 y
-//! b c_f = cos²β/E' [50/(3π) (u/S)² + 2 (1 − 2ν)/(1 − ν) u/S + T + R ln(t/S)]
+//! b c_f = cos²β/E' [50/(3π) (u/S)² + X 2 (1 − 2ν)/(1 − ν) u/S + T + R ln(t/S) + Z S/r]
 //! ```
 //!
 //! y(x): half the thickness of the tooth, from the base section, at 0.3 of the fillet's radius above the root circle, to the
 //! point P of the force; S: twice y there; u: distance along the axis from the base section to where the force meets the axis;
-//! t: depth of the rim from root circle to race. Beam, and the first two terms of the foundation, are those of Weber & Banaschek
-//! (Formänderung und Profilrücknahme bei gerad- und schrägverzahnten Rädern, 1953). The rest of the foundation is a rim on a
-//! rigid race instead of their half-plane: T and R are fitted to FE/contact (`docs/closed_forms.md`).
+//! r: radius of the base section; t: depth of the rim from root circle to race. Beam, and the first two terms of the foundation with
+//! X = 1, are those of Weber & Banaschek (Formänderung und Profilrücknahme bei gerad- und schrägverzahnten Rädern, 1953). The rest of
+//! the foundation is a rim on a rigid race instead of their half-plane, which on external gears falls away from the tooth on either
+//! side the more, the fewer teeth there are (S/r): T, R and Z of external, X, T and R of internal teeth are fitted to FE/contact
+//! (`docs/closed_forms.md`).
 
 use gearset::involute::{pressure_angle_at, radius_at};
 use gearset::{Gear, ToothSide, gauss_points};
@@ -23,8 +25,25 @@ const BASE: f64 = 0.3;
 /// 50/(3π): rotation of the base section under its moment.
 const ROTATION: f64 = 5.305_164_769_729_845;
 
-/// T and R, from 25 drawn sets (`docs/closed_forms.md`).
-const FITTED: [f64; 2] = [0.08, 1.96];
+/// The terms of the foundation that are fitted, on the drawn sets 1 to 119 (`docs/closed_forms.md`).
+struct Foundation {
+    /// X.
+    cross: f64,
+    /// T.
+    constant: f64,
+    /// R.
+    of_rim: f64,
+    /// Z.
+    of_curvature: f64,
+}
+
+/// Those of external teeth.
+const EXTERNAL: Foundation =
+    Foundation { cross: 1.0, constant: -1.02, of_rim: 2.11, of_curvature: 7.05 };
+
+/// Those of internal teeth, of which a curvature says nothing more.
+const INTERNAL: Foundation =
+    Foundation { cross: 3.39, constant: -0.76, of_rim: 1.03, of_curvature: 0.0 };
 
 /// Ratios t/S of the rim to which they were fitted.
 const RIMS: std::ops::RangeInclusive<f64> = 0.7..=3.0;
@@ -46,9 +65,9 @@ impl Tooth {
         let half = gear.tooth_half_angle(radius);
         let normal = pressure_angle_at(gear.base_radius, radius);
         // The axis points from root to tip, towards the centre in an internal gear.
-        let (outwards, beta) = match gear.side {
-            ToothSide::External => (1.0, normal - half),
-            ToothSide::Internal => (-1.0, normal + half),
+        let (outwards, beta, fitted) = match gear.side {
+            ToothSide::External => (1.0, normal - half, EXTERNAL),
+            ToothSide::Internal => (-1.0, normal + half, INTERNAL),
         };
         let (sin, cos) = beta.sin_cos();
         let (end, y_end) = (radius * half.cos(), radius * half.sin());
@@ -76,10 +95,10 @@ impl Tooth {
         if !RIMS.contains(&rim) {
             return None;
         }
-        let cross = 2.0 * (1.0 - 2.0 * poisson) / (1.0 - poisson);
-        let [constant, of_rim] = FITTED;
-        let foundation = cos * cos / modulus
-            * (ROTATION * arm * arm + cross * arm + constant + of_rim * rim.ln());
+        let cross = fitted.cross * 2.0 * (1.0 - 2.0 * poisson) / (1.0 - poisson);
+        let of_rim =
+            fitted.constant + fitted.of_rim * rim.ln() + fitted.of_curvature * chord / base;
+        let foundation = cos * cos / modulus * (ROTATION * arm * arm + cross * arm + of_rim);
         Some(Self { flexibility: (beam + foundation) / b, depth: y_end / cos })
     }
 }
