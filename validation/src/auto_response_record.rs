@@ -16,9 +16,8 @@ use crate::auto_record::{DrawnScene, drawn_scene, timed};
 /// Tolerances that are drawn, percent.
 const TOLERANCES: [f64; 5] = [1.0, 2.0, 5.0, 10.0, 20.0];
 
-/// Elements, cells and positions of the truth at rest, finer than any candidate's; and those about the extremes of a peak to peak.
+/// Elements, cells and positions of the truth at rest, finer than any candidate's.
 const AT_REST: AutoSettings = AutoSettings::quasi_static(32, 80).at_positions(960);
-const ABOUT_EXTREMES: u32 = 3840;
 
 /// Elements and cells of the truth in motion, finer than any candidate's, and steps, from which line by line the limit of small steps is
 /// extrapolated (order 2); and what modes add to it, on a coarse mesh: with modes, without.
@@ -92,13 +91,7 @@ impl Asked {
 
     /// The value by the truth, µm.
     fn truth(&self, scene: &Scene, case: &LoadCase) -> Result<f64, ExperimentError> {
-        let own = match self {
-            Self::Cycle(own) if own.value == CycleValue::PeakToPeak => {
-                return self.with(scene, case, AT_REST.about_extremes(ABOUT_EXTREMES));
-            }
-            Self::Cycle(_) => return self.with(scene, case, AT_REST),
-            Self::Amplitude(own) => own,
-        };
+        let Self::Amplitude(own) = self else { return self.with(scene, case, AT_REST) };
         let [fine, coarse] =
             STEPS.map(|n| stepped_amplitude_with(scene, case, IN_MOTION.with_steps(n), own));
         let (fine, coarse) = (fine?, coarse?);

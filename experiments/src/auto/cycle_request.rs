@@ -36,8 +36,8 @@ impl std::fmt::Display for CycleRequest {
 /// many, so that those of fewer are among those of more.
 pub(super) const POSITIONS: u32 = 60;
 
-/// Most doublings of the positions about the extremes, which none everywhere exceed.
-pub(super) const DOUBLINGS: u32 = 4;
+/// Most doublings of the positions, everywhere or about the extremes.
+pub(super) const DOUBLINGS: u32 = 3;
 
 /// Candidates for a mean from cheap to dear: number of the mesh, and how often the positions are doubled. A finer mesh costs
 /// as much as 5, 15, 60 or 200 positions: gears are meshed and factored, cells of a pair are more.
@@ -61,7 +61,7 @@ const ORDER_OF_MEANS: [(usize, u32); 16] = [
 ];
 
 /// The same for peak to peak, where each doubling about the extremes costs as much as some twenty positions.
-const ORDER_OF_PEAKS: [(usize, u32); 20] = [
+const ORDER_OF_PEAKS: [(usize, u32); 16] = [
     (0, 0),
     (1, 0),
     (0, 1),
@@ -71,17 +71,13 @@ const ORDER_OF_PEAKS: [(usize, u32); 20] = [
     (2, 0),
     (0, 3),
     (1, 3),
-    (0, 4),
-    (1, 4),
     (2, 1),
     (2, 2),
     (2, 3),
-    (2, 4),
     (3, 0),
     (3, 1),
     (3, 2),
     (3, 3),
-    (3, 4),
 ];
 
 impl CycleRequest {
@@ -96,10 +92,10 @@ impl CycleRequest {
     }
 
     /// Number of the mesh and how often the positions are doubled, of each candidate.
-    pub(super) fn order(&self) -> &'static [(usize, u32)] {
+    pub(super) fn order(&self) -> [(usize, u32); 16] {
         match self.value {
-            CycleValue::PeakToPeak => &ORDER_OF_PEAKS,
-            CycleValue::Mean => &ORDER_OF_MEANS,
+            CycleValue::PeakToPeak => ORDER_OF_PEAKS,
+            CycleValue::Mean => ORDER_OF_MEANS,
         }
     }
 

@@ -95,8 +95,8 @@ pub fn choose_transmission_error(
     };
     let in_closed_form = search.in_closed_form(scene);
     let by_contact = || {
-        let mut order = request.order().iter();
-        order.find_map(|(mesh, doubled)| search.tried(*mesh, *doubled))
+        let mut order = request.order().into_iter();
+        order.find_map(|(mesh, doubled)| search.tried(mesh, doubled))
     };
     let found = in_closed_form.or_else(by_contact);
     search.trial.ended(found)
@@ -428,26 +428,6 @@ mod tests {
             let most = size(&apart) / range(&curve.points());
             println!("{steps:?}: half a cycle on {most:.1e} of peak to peak");
             assert_eq!(most < 1e-4, expected == 2, "{steps:?}: {most:e}");
-        }
-    }
-
-    /// Graded cells, as in time: twenty give the peak to peak of three times as many, about the extremes as well.
-    #[test]
-    fn few_cells_suffice_at_rest() {
-        for name in ["oh58_4p", "oh58_3p", "five_planets"] {
-            let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-            let scene = Scene::from_file(path.as_ref()).unwrap();
-            let case = LoadCase::of_scene(&scene).unwrap();
-            let asked = request(CycleValue::PeakToPeak, 5.0);
-            let base = divided(&scene, POSITIONS);
-            let of = |cells: u32| {
-                let settings = AutoSettings::quasi_static(6, cells).at_positions(base);
-                transmission_error_with(&scene, &case, settings.about_extremes(2 * base), &asked)
-            };
-            let [few, many] = [20, 60].map(|cells| of(cells).unwrap());
-            let off = 100.0 * (few / many - 1.0);
-            println!("{name}: {many:.3} µm, with 20 cells {off:+.3} %");
-            assert!(off.abs() < 0.2, "{name}: {off}");
         }
     }
 

@@ -8,7 +8,7 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMat, Triplet};
-use faer::{Conj, Mat, MatMut, Side, get_global_parallelism};
+use faer::{Conj, Mat, MatMut, Par, Side, get_global_parallelism};
 
 use crate::error::FeError;
 
@@ -95,22 +95,23 @@ impl Sparse {
     /// # Errors
     /// If it is not positive definite.
     pub fn factorise(&self, body: &'static str) -> Result<Factor, FeError> {
-        self.factorised(body, SupernodalThreshold::AUTO)
+        self.factorised(body, SupernodalThreshold::AUTO, get_global_parallelism())
     }
 
-    /// Factorises it by dense blocks of columns (supernodes): several times faster where many right-hand sides are solved at
-    /// once.
+    /// Factorises it by dense blocks of columns (supernodes), whatever its fill: many right-hand sides at once are then solved by
+    /// products of dense matrices, on one thread.
     ///
     /// # Errors
     /// If it is not positive definite.
     pub(crate) fn factorise_for_many(&self, body: &'static str) -> Result<Factor, FeError> {
-        self.factorised(body, SupernodalThreshold::FORCE_SUPERNODAL)
+        self.factorised(body, SupernodalThreshold::FORCE_SUPERNODAL, Par::Seq)
     }
 
     fn factorised(
         &self,
         body: &'static str,
         supernodal_flop_ratio_threshold: SupernodalThreshold,
+        parallel: Par,
     ) -> Result<Factor, FeError> {
         let failed = |cause: String| FeError::Factorisation { body, cause };
         let params =
@@ -119,8 +120,8 @@ impl Sparse {
         let symbolic = factorize_symbolic_cholesky(pattern, side, Default::default(), params)
             .map_err(|e| failed(format!("{e:?}")))?;
         let mut values = vec![0.0; symbolic.len_val()];
-        let parallel = get_global_parallelism();
         let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(parallel, Default::default());
+        let mut buffer = MemBuffer::try_new(scratch).map_err(|e| failed(format!("{e:?}")))?;
         symbolic
             .factorize_numeric_llt(
                 &mut values,
@@ -128,11 +129,11 @@ impl Sparse {
                 side,
                 Default::default(),
                 parallel,
-                MemStack::new(&mut MemBuffer::new(scratch)),
+                MemStack::new(&mut buffer),
                 Default::default(),
             )
             .map_err(|e| failed(format!("{e:?}")))?;
-        Ok(Factor { symbolic: Arc::new(symbolic), values, size: self.size() })
+        Ok(Factor { symbolic: Arc::new(symbolic), values, parallel, size: self.size() })
     }
 }
 
@@ -141,6 +142,7 @@ impl Sparse {
 pub struct Factor {
     symbolic: Arc<SymbolicCholesky<usize>>,
     values: Vec<f64>,
+    parallel: Par,
     /// Order of the matrix.
     pub size: usize,
 }
@@ -158,7 +160,7 @@ impl Factor {
     }
 
     fn solve_in_place(&self, right: MatMut<'_, f64>) {
-        let parallel = get_global_parallelism();
+        let parallel = self.parallel;
         let scratch = self.symbolic.solve_in_place_scratch::<f64>(right.ncols(), parallel);
         let factor = LltRef::new(&self.symbolic, &self.values);
         let mut buffer = MemBuffer::new(scratch);

@@ -226,8 +226,7 @@ impl<'s> StaticSet<'s> {
         self.states_on(torque_nm, further, &list, cells, solver)
     }
 
-    /// Equilibrium at given positions (cycles), linearised about the present reference, on cells as in time: those of
-    /// [`StaticSet::cycle`] have one width, which pressures are read from.
+    /// Equilibrium at given positions (cycles), linearised about the present reference.
     ///
     /// # Errors
     /// As [`StaticSet::cycle`], except the check of linear kinematics.
@@ -239,8 +238,7 @@ impl<'s> StaticSet<'s> {
     ) -> Result<SetCycle, FeError> {
         let none = DVector::zeros(0);
         resized(self.share(torque_nm).max(1.0), |sized_for| {
-            let cells = self.bodies.cells_in_time(sized_for);
-            self.states_on(torque_nm, &none, positions, cells, solver)
+            self.states_on(torque_nm, &none, positions, self.bodies.cells(sized_for), solver)
         })
     }
 

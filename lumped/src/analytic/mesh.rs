@@ -193,10 +193,10 @@ pub(super) fn mesh_tangent(
     let tangent = near.tangent(&shared.touching, &shared.forces)?;
     let pressed = tangent.solve(&slopes);
     let slope = pressed.sum() / stiffness;
-    let slopes_of_both = [slope, tangent.solve(&apart).sum() / stiffness];
+    let over_distance = tangent.solve(&apart).sum() / stiffness;
     let rolling = slopes.dot(&pressed) - corners - stiffness * slope * slope;
     let hand_over = near.hand_over(&shared, stiffness)?;
-    Some(MeshTangent { stiffness, hand_over, slopes: slopes_of_both, rolling })
+    Some(MeshTangent { stiffness, hand_over, slopes: [slope, over_distance], rolling })
 }
 
 /// Which pairs touch.
