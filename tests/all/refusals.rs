@@ -266,7 +266,7 @@ fn settings_that_meet_no_tolerance_are_refused_with_their_estimates() {
         std::fs::write(&path, text + &keys).unwrap();
         path.to_str().unwrap().to_owned()
     };
-    let (code, out, err) = run(&["modes", &with("0.01")]);
+    let (code, out, err) = run(&["modes", &with("0.001")]);
     assert_eq!((code, out.as_str()), (2, ""), "{err}");
     for words in [
         "`dynamics.fidelity`",

@@ -34,8 +34,8 @@ impl ElasticResponse {
     }
 }
 
-/// Largest ω²/ω_1² of a harmonic that is known to first order: there the next term of the series is half as large.
-const SLOW: f64 = 0.5;
+/// Largest ω²/ω_1² of a harmonic or a mode that is known to first order: there the next term of the series is half as large.
+pub(super) const SLOW: f64 = 0.5;
 
 /// The motion `motions` with this change at the speed of its largest response. `None` where nothing is known of it: the teeth of a gear are not
 /// meshed alike, or a harmonic that matters is near or above the first mode of a gear with its race held.

@@ -188,14 +188,19 @@ impl SetSize {
     }
 
     /// The same of a mode of FE/contact from its static displacements: `change` is the relative change of the frequency that
-    /// they give to first order, and what first order leaves is taken to be its square.
+    /// they give to first order.
     pub(super) fn of_change(change: f64) -> f64 {
-        (1.0 + CHANGE_DOUBT) * change.abs() + change * change
+        change.abs() + Self::left_by_first_order(change)
+    }
+
+    /// What is left of a frequency that this change was added to: what first order leaves is taken to be its square.
+    pub(super) fn left_by_first_order(change: f64) -> f64 {
+        CHANGE_DOUBT * change.abs() + change * change
     }
 
     /// What modes of the bodies leave if they change the frequency by `seen` and all of the inertia by `change` (relative).
     pub(super) fn left_by_modes(change: f64, seen: f64) -> f64 {
-        (change - seen).abs() + CHANGE_DOUBT * change.abs() + change * change
+        (change - seen).abs() + Self::left_by_first_order(change)
     }
 
     /// Lowest of the first modes of the bodies with their races held, by estimate, Hz.

@@ -9,7 +9,7 @@
 //!
 //! Teeth are meshed alike, so that w is the same in the frame of every tooth, and one sector has it all.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::gear_body::GearBody;
 use super::sector_ring::Condensed;
@@ -26,6 +26,8 @@ pub struct Accelerated {
     pub coupled: [f64; 2],
     /// wᵀ M_ff w, the same (kg s⁴, kg m² s⁴).
     pub moved: [f64; 2],
+    /// wᵀ M_ff w of one sector, in the frame of its tooth.
+    of_sector: Matrix3<f64>,
     /// Consistent mass of each element of a sector, one value for each pair of its functions, kg.
     masses: Vec<(Vec<usize>, DMatrix<f64>)>,
 }
@@ -52,8 +54,13 @@ impl Accelerated {
             Ok((nodes, mass))
         };
         let masses = sector.elements.iter().enumerate().map(one).collect::<Result<_, FeError>>()?;
-        let mut own =
-            Self { displacement: DMatrix::zeros(0, 0), coupled: [0.0; 2], moved: [0.0; 2], masses };
+        let mut own = Self {
+            displacement: DMatrix::zeros(0, 0),
+            coupled: [0.0; 2],
+            moved: [0.0; 2],
+            of_sector: Matrix3::zeros(),
+            masses,
+        };
         // Rigid motion of the sector: a translation does not change derivative nodes.
         let mut rigid = DMatrix::zeros(2 * sector.points.len(), 3);
         for (n, [x, y]) in sector.points.iter().enumerate() {
@@ -73,6 +80,7 @@ impl Accelerated {
         let whole =
             |of: &DMatrix<f64>| [0.5 * teeth * (along(of, 0) + along(of, 1)), teeth * along(of, 2)];
         (own.coupled, own.moved) = (whole(&forces), whole(&inertia));
+        own.of_sector = Matrix3::from_fn(|i, j| own.displacement.column(i).dot(&inertia.column(j)));
         Ok(Some(own))
     }
 
@@ -84,20 +92,19 @@ impl Accelerated {
 
     /// M u of one sector; 2 rows for each node, any number of columns.
     pub(super) fn times_mass(&self, u: &DMatrix<f64>) -> DMatrix<f64> {
+        // Side by side in memory are the columns, of which there may be many.
+        let u = u.transpose();
         let mut product = DMatrix::zeros(u.nrows(), u.ncols());
-        for (u, mut own) in u.column_iter().zip(product.column_iter_mut()) {
-            let (u, own) = (u.as_slice(), own.as_mut_slice());
-            for (nodes, mass) in &self.masses {
-                for (q, column) in nodes.iter().zip(mass.column_iter()) {
-                    let [x, y] = [u[2 * q], u[2 * q + 1]];
-                    for (p, m) in nodes.iter().zip(column.iter()) {
-                        own[2 * p] += m * x;
-                        own[2 * p + 1] += m * y;
+        for (nodes, mass) in &self.masses {
+            for (q, column) in nodes.iter().zip(mass.column_iter()) {
+                for (p, m) in nodes.iter().zip(column.iter()) {
+                    for axis in 0..2 {
+                        product.column_mut(2 * p + axis).axpy(*m, &u.column(2 * q + axis), 1.0);
                     }
                 }
             }
         }
-        product
+        product.transpose()
     }
 
     /// ℓ w for a distributed load on a tooth: displacement along `direction` in the tooth's frame, mean with the weights of the
@@ -127,11 +134,17 @@ impl Accelerated {
         let one = |tooth: i64| -> f64 {
             let (sin, cos) = gear.mesh.tooth_angle(tooth as usize).sin_cos();
             let turned = [cos * race[0] + sin * race[1], cos * race[1] - sin * race[0], race[2]];
+            // The nearer way round.
+            let offset =
+                |at: &ToothForce<'_>| (tooth - at.tooth + teeth / 2).rem_euclid(teeth) - teeth / 2;
+            let mut near =
+                forces.iter().filter_map(|at| Some((at, gear.response(offset(at))?))).peekable();
+            if near.peek().is_none() {
+                let turned = Vector3::from(turned);
+                return turned.dot(&(self.of_sector * turned));
+            }
             let mut u = &self.displacement * DVector::from_column_slice(&turned);
-            for at in forces {
-                // The nearer way round.
-                let offset = (tooth - at.tooth + teeth / 2).rem_euclid(teeth) - teeth / 2;
-                let Some(response) = gear.response(offset) else { continue };
+            for (at, response) in near {
                 for (column, weight) in at.load {
                     for (axis, d) in at.direction.iter().enumerate() {
                         let factor = -at.force * weight * d;

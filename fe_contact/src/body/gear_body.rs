@@ -219,6 +219,14 @@ impl GearBody {
         self.responses.near(offset)
     }
 
+    /// The same under loads on one flank, with the column of the whole response that is its first.
+    pub(crate) fn response_under(&self, offset: i64, side: Side) -> Option<(&DMatrix<f64>, usize)> {
+        if offset != 0 && self.mesh.sectors.len() > 1 {
+            return None;
+        }
+        self.responses.near_under(offset, side)
+    }
+
     /// Normal displacement at `depth` (m) below mid-flank of the tooth `offset` on, under a unit
     /// normal force at mid-flank of tooth 0, m/N. Zero if that point lies outside the tooth.
     pub fn mid_flank_flexibility(&self, side: Side, depth: f64, offset: i64) -> f64 {

@@ -1,11 +1,12 @@
 //! What a gear keeps of its elastic solution: displacements of its teeth under unit loads on one of them.
 
+use std::ops::Range;
 use std::sync::OnceLock;
 
 use nalgebra::DMatrix;
 
 use super::sector_ring::RingOfSectors;
-use crate::fe_mesh::{FeGearMesh, Sector};
+use crate::fe_mesh::{FeGearMesh, Sector, Side};
 
 /// Neighbouring teeth on either side whose response to a loaded tooth is kept.
 const REACH: i64 = 4;
@@ -27,18 +28,24 @@ pub(super) struct LoadNodes {
     pub(super) list: Vec<usize>,
     /// First of the two columns of each node of the sector, `usize::MAX` if it takes no load.
     pub(super) column_of: Vec<usize>,
+    /// Columns of the nodes of each flank, by [`Side::index`].
+    pub(super) of_sides: [Range<usize>; 2],
 }
 
 impl LoadNodes {
     pub(super) fn of(sector: &Sector) -> Self {
         let (mut list, mut column_of) = (Vec::new(), vec![usize::MAX; sector.points.len()]);
-        for node in sector.flanks.iter().flatten().flat_map(|stretch| stretch.nodes) {
-            if column_of[node] == usize::MAX {
-                column_of[node] = 2 * list.len();
-                list.push(node);
+        let of_sides = [0, 1].map(|side| {
+            let first = 2 * list.len();
+            for node in sector.flanks[side].iter().flat_map(|stretch| stretch.nodes) {
+                if column_of[node] == usize::MAX {
+                    column_of[node] = 2 * list.len();
+                    list.push(node);
+                }
             }
-        }
-        Self { list, column_of }
+            first..2 * list.len()
+        });
+        Self { list, column_of, of_sides }
     }
 
     /// Number of unit loads: along x and along y at each node.
@@ -54,6 +61,10 @@ pub(super) struct Responses {
     /// Of all nodes of a sector (2 rows each, in the frame of the displaced tooth), one matrix for
     /// each of the teeth −reach…reach, m/N.
     near: Vec<OnceLock<DMatrix<f64>>>,
+    /// The same under loads on one flank, by [`Side::index`], as far as it is computed by itself.
+    near_sides: Vec<[OnceLock<DMatrix<f64>>; 2]>,
+    /// Columns of the loads on either flank; not needed where all responses are known.
+    of_sides: [Range<usize>; 2],
     /// Of the load nodes only (2 rows each), for every tooth, counted from the loaded one; for
     /// tooth 0 only where teeth are meshed differently, m/N.
     around: Vec<OnceLock<DMatrix<f64>>>,
@@ -66,10 +77,17 @@ pub(super) struct Responses {
 
 impl Responses {
     /// Those of equal teeth, of which none is computed yet.
-    pub(super) fn of_ring(mesh: &FeGearMesh, ring: RingOfSectors) -> Self {
+    pub(super) fn of_ring(mesh: &FeGearMesh, loads: &LoadNodes, ring: RingOfSectors) -> Self {
         let none = |count: usize| (0..count).map(|_| OnceLock::new()).collect();
         let (near, around) = (Self::near_teeth(mesh).count(), mesh.nodes.len());
-        Self { near: none(near), around: none(around), teeth: around as i64, ring: Some(ring) }
+        Self {
+            near: none(near),
+            near_sides: (0..near).map(|_| Default::default()).collect(),
+            of_sides: loads.of_sides.clone(),
+            around: none(around),
+            teeth: around as i64,
+            ring: Some(ring),
+        }
     }
 
     /// Those of a gear, all of which are known.
@@ -79,18 +97,42 @@ impl Responses {
         around: Vec<DMatrix<f64>>,
     ) -> Self {
         let kept = |list: Vec<DMatrix<f64>>| list.into_iter().map(OnceLock::from).collect();
-        let teeth = mesh.nodes.len() as i64;
-        Self { near: kept(near), around: kept(around), teeth, ring: None }
+        Self {
+            near: kept(near),
+            near_sides: Vec::new(),
+            of_sides: Default::default(),
+            around: kept(around),
+            teeth: mesh.nodes.len() as i64,
+            ring: None,
+        }
     }
 
     /// Response at all nodes of the tooth `offset` teeth on from the loaded one; `None` beyond the kept ones.
     pub(super) fn near(&self, offset: i64) -> Option<&DMatrix<f64>> {
-        let reach = (self.near.len() as i64 - 1) / 2;
-        let slot = self.near.get(usize::try_from(offset + reach).ok()?)?;
+        let slot = &self.near[self.place(offset)?];
         match &self.ring {
-            Some(ring) => Some(slot.get_or_init(|| ring.of_all_nodes(offset))),
+            Some(ring) => Some(slot.get_or_init(|| ring.of_all_nodes(offset, None))),
             None => slot.get(),
         }
+    }
+
+    /// The same under loads on one flank, with the column of the whole response that is its first: contact needs one flank alone, half of the work.
+    pub(super) fn near_under(&self, offset: i64, side: Side) -> Option<(&DMatrix<f64>, usize)> {
+        let (place, columns) = (self.place(offset)?, &self.of_sides[side.index()]);
+        match &self.ring {
+            Some(ring) => {
+                let slot = &self.near_sides[place][side.index()];
+                let own = slot.get_or_init(|| ring.of_all_nodes(offset, Some(columns)));
+                Some((own, columns.start))
+            }
+            None => Some((self.near[place].get()?, 0)),
+        }
+    }
+
+    /// Place of the tooth `offset` teeth on among the near ones.
+    fn place(&self, offset: i64) -> Option<usize> {
+        let reach = (self.near.len() as i64 - 1) / 2;
+        usize::try_from(offset + reach).ok().filter(|place| *place < self.near.len())
     }
 
     /// Response at the load nodes of the tooth `offset` teeth on from the loaded one.

@@ -36,6 +36,7 @@
 //! Harmonics n and Z−n are conjugate, so that n ≤ Z/2 suffice. Nothing has the size of the whole gear.
 
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
@@ -91,7 +92,7 @@ pub(super) fn responses(
     // Sectors follow each other clockwise on external gears, where tooth numbers go down.
     let goes_down = mesh.outline.radial_sign() > 0.0;
     let ring = RingOfSectors { of_all_nodes: [carried, held], of_load_nodes, cuts, goes_down };
-    Ok(Responses::of_ring(mesh, ring))
+    Ok(Responses::of_ring(mesh, loads, ring))
 }
 
 /// Displacements of the sectors of a ring under loads on one of them, as far as its cuts tell them.
@@ -107,24 +108,31 @@ pub(super) struct RingOfSectors {
 }
 
 impl RingOfSectors {
-    /// Response of all nodes of the tooth `offset` teeth on from the loaded one, 2 rows each, m/N.
-    pub(super) fn of_all_nodes(&self, offset: i64) -> DMatrix<f64> {
-        self.of(&self.of_all_nodes, offset)
+    /// Response of all nodes of the tooth `offset` teeth on from the loaded one, 2 rows each, to all loads or those of some
+    /// columns, m/N.
+    pub(super) fn of_all_nodes(&self, offset: i64, loads: Option<&Range<usize>>) -> DMatrix<f64> {
+        self.of(&self.of_all_nodes, offset, loads)
     }
 
     /// The same of the load nodes alone.
     pub(super) fn of_load_nodes(&self, offset: i64) -> DMatrix<f64> {
-        self.of(&self.of_load_nodes, offset)
+        self.of(&self.of_load_nodes, offset, None)
     }
 
-    fn of(&self, [carried, held]: &[DMatrix<f64>; 2], offset: i64) -> DMatrix<f64> {
+    fn of(
+        &self,
+        [carried, held]: &[DMatrix<f64>; 2],
+        offset: i64,
+        loads: Option<&Range<usize>>,
+    ) -> DMatrix<f64> {
         let sectors = self.cuts.list.ncols() as i64;
         let sector = (if self.goes_down { -offset } else { offset }).rem_euclid(sectors) as usize;
-        let moved = self.cuts.of(sector);
+        let loads = loads.cloned().unwrap_or(0..self.cuts.loads);
+        let moved = self.cuts.of(sector, &loads);
         // u = E c, and u_held of the loaded sector
         match sector {
             0 => {
-                let mut response = held.clone();
+                let mut response = held.columns_range(loads).into_owned();
                 response.gemm(1.0, carried, &moved, 1.0);
                 response
             }
@@ -408,11 +416,11 @@ struct Cuts {
 }
 
 impl Cuts {
-    /// c of a sector under every load, 2m×loads.
-    fn of(&self, sector: usize) -> DMatrix<f64> {
+    /// c of a sector under the loads of some columns, 2m×loads.
+    fn of(&self, sector: usize, loads: &Range<usize>) -> DMatrix<f64> {
         let (m, z) = (self.cut, self.list.ncols());
         let both = [sector, (sector + 1) % z].map(|j| self.list.column(j));
-        DMatrix::from_fn(2 * m, self.loads, |r, c| both[r / m][c * m + r % m])
+        DMatrix::from_fn(2 * m, loads.len(), |r, c| both[r / m][(loads.start + c) * m + r % m])
     }
 }
 

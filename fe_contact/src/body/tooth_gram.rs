@@ -38,7 +38,7 @@ impl Accelerated {
             for (i, u) in near.iter().enumerate() {
                 let other = usize::try_from(i as i64 - apart).ok().and_then(|j| inertia.get(j));
                 if let (Some(u), Some(Some(m))) = (u, other) {
-                    sum += u.tr_mul(m);
+                    sum.gemm(1.0, &u.transpose(), m, 1.0);
                 }
             }
             sum

@@ -6,9 +6,12 @@ use nalgebra::DMatrix;
 use super::pair::PairFrame;
 use super::table::Matching;
 use crate::body::{Deep, FlankPoint, GearBody};
+use crate::fe_mesh::Side;
 
 /// The cells of one pair on one body.
 pub(super) struct Seen {
+    /// Flank on which the pair presses.
+    side: Side,
     /// Normal in the tooth's frame.
     normal: [f64; 2],
     /// Where the force of each cell acts.
@@ -89,7 +92,8 @@ impl Seen {
             places
         });
         let (load_places, deep_places) = (load_places.collect(), deep_places.collect());
-        Some(Self { normal, loads, columns, load_places, deep, nodes, deep_places })
+        let side = tooth.side;
+        Some(Self { side, normal, loads, columns, load_places, deep, nodes, deep_places })
     }
 
     /// FE part of eq. (1): adds the displacement of the matching points of these cells along their
@@ -111,13 +115,14 @@ impl Seen {
         compliance: &mut DMatrix<f64>,
         first: (usize, usize),
     ) {
-        let Some(response) = body.response(offset) else { return };
+        let Some((response, start)) = body.response_under(offset, on.side) else { return };
         let (n, m) = (self.normal, on.normal);
         let width = on.columns.len();
         // H; side by side in memory are the functions of one node.
         let mut middle = vec![0.0; self.nodes.len() * width];
         for (c, column) in on.columns.iter().enumerate() {
-            let (x, y) = (response.column(*column), response.column(column + 1));
+            let at = column - start;
+            let (x, y) = (response.column(at), response.column(at + 1));
             let (x, y) = (x.as_slice(), y.as_slice());
             for (r, node) in self.nodes.iter().enumerate() {
                 let moved = |k: usize| m[0] * x[2 * node + k] + m[1] * y[2 * node + k];

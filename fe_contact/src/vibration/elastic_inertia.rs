@@ -107,6 +107,11 @@ impl ElasticInertia {
         Ok(Some(Self { gears, carrier }))
     }
 
+    /// Least Rayleigh quotient of the displacements, close to the first eigenvalue λ_1 of a body with its race held, (rad/s)².
+    pub fn first(&self) -> f64 {
+        self.carrier.as_ref().map_or(f64::INFINITY, |own| own.first).min(self.gears.first())
+    }
+
     /// The change of a mode of unit modal mass (`shape`, on the races' coordinates) at `lambda` (rad/s)² of the set of
     /// quasi-static bodies `set`, linearised as `linear`.
     ///
