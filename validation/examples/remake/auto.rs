@@ -1,10 +1,10 @@
-//! Choices of `auto` on drawn scenes, their true errors and costs: `kept/auto.csv`. Half an hour on one core.
+//! Choices of `auto` on drawn scenes, their true errors and costs: `kept/auto.csv`. An hour on one core.
 //!
 //! `cargo run --release -p validation --example remake -- auto > auto.csv && mv auto.csv kept/`
 //!
 //! `AUTO_SEEDS=1..9` runs other seeds: those of the record served no other purpose. 1 to 249 were used when the estimates were
-//! programmed, and 1001 to 1073, 5001 to 5066, 17001 to 17068 and some of 18001 to 18050 are those of earlier records, whose misses were
-//! read before the closed forms got their present slopes over the centre distance.
+//! programmed, and 1001 to 1073, 5001 to 5066, 17001 to 17068 and 18001 to 18166 are those of earlier records, whose misses were
+//! read before inertia was added to frequencies.
 
 use validation::{
     Asked, AutoRow, ResponseRow, auto_row, auto_tables, drawn_response, response_row,
