@@ -238,7 +238,7 @@ impl Search<'_> {
                 return found;
             }
         }
-        // The change on this mesh costs as much as the mode: it is computed where the mode alone is not enough.
+        // The change on this mesh is computed where the mode alone is not enough.
         let with = settings.with_elastic_inertia();
         let Some(change) = self.added() else {
             return self.refused(with, &no_first_order(probe.frequency_hz));
