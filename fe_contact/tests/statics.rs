@@ -7,7 +7,7 @@ use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, InteriorPoin
 use fe_contact::contact::{MeshTable, PairFrame};
 use fe_contact::statics::{Bodies, Imperfections, StaticSet, at_phase, pair_cycle};
 use fe_contact::{Elastic, FeError};
-use gearset::{ElementFamily, Facing, Mesh, MeshKind, Scene};
+use gearset::{CellLayout, ElementFamily, Facing, Mesh, MeshKind, Scene};
 
 fn scene(name: &str) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
@@ -401,4 +401,26 @@ fn mean_mesh_forces_exceed_those_along_the_line_of_action_by_less_than_a_thousan
         println!("{:.4} % above T/r_b", 100.0 * above);
         assert!(above > least && above < 1e-3, "{above:e}");
     }
+}
+
+/// Graded contact cells at rest (`fe_contact.cell_layout_at_rest`): twenty are nearer to many even ones than twenty even ones are, position by
+/// position over the mesh cycle, on the same bodies.
+#[test]
+fn twenty_graded_cells_at_rest_are_nearer_than_twenty_even_ones() {
+    let with = |cells: u32, layout: CellLayout| {
+        let mut own = bodies().clone();
+        own.settings.input.contact_cells = cells;
+        own.settings.input.cell_layout_at_rest = layout;
+        let cycle = pair_cycle(&own, MeshKind::SunPlanet, FORCE, 60, &ActiveSet).unwrap();
+        cycle.positions.iter().map(|at| at.deflection).collect::<Vec<_>>()
+    };
+    let fine = with(120, CellLayout::Even);
+    let [even, graded] = [CellLayout::Even, CellLayout::Graded].map(|layout| {
+        let off = with(20, layout).into_iter().zip(&fine).map(|(own, fine)| own - fine);
+        let off: Vec<f64> = off.collect();
+        let mean = off.iter().sum::<f64>() / off.len() as f64;
+        off.iter().map(|x| (x - mean).abs()).fold(0.0, f64::max)
+    });
+    println!("off by {even:e} m on even cells, by {graded:e} m on graded ones");
+    assert!(graded < 0.7 * even, "{graded:e} {even:e}");
 }

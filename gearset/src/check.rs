@@ -49,6 +49,18 @@ pub(crate) fn auto_chooses(
             "number of elements",
         ),
         (
+            "flank_layer",
+            own.flank_layer != default.flank_layer,
+            "\"whole\"".to_owned(),
+            "layer of elements next to the flanks",
+        ),
+        (
+            "cell_layout_at_rest",
+            own.cell_layout_at_rest != default.cell_layout_at_rest,
+            "\"even\"".to_owned(),
+            "layout of contact cells at rest",
+        ),
+        (
             "contact_cells",
             own.contact_cells != default.contact_cells,
             default.contact_cells.to_string(),

@@ -144,8 +144,8 @@ pub enum ElementFamily {
     Quadratic,
 }
 
-/// Contact cells of a tooth pair in tables of which forces and their slopes are asked: in time, and
-/// beside a position for the slopes of the flanks.
+/// Contact cells of a tooth pair: in tables of which forces and their slopes are asked, in time and beside a position for the
+/// slopes of the flanks, and in those of a set at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CellLayout {
@@ -154,6 +154,16 @@ pub enum CellLayout {
     Graded,
     /// All of one width about the contact point; slopes from cells laid out for the largest load.
     Even,
+}
+
+/// Elements next to the flanks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FlankLayer {
+    /// As large as the others.
+    Whole,
+    /// Divided in three along and across the flanks, with a transition to those behind.
+    Divided,
 }
 
 /// Choices of the FE/contact model; a value of `None` is derived from the geometry.
@@ -165,10 +175,14 @@ pub struct FeContactInput {
     pub element: ElementFamily,
     /// Elements along one flank; the rest of the mesh follows their size.
     pub flank_elements: u32,
+    /// What becomes of those next to the flank.
+    pub flank_layer: FlankLayer,
     /// Contact cells of one tooth pair.
     pub contact_cells: u32,
     /// Where these cells are, in tables of which forces and their slopes are asked.
     pub cell_layout: CellLayout,
+    /// The same in tables of a set at rest, of which pressures are asked as well.
+    pub cell_layout_at_rest: CellLayout,
     /// Depth below the flank at which half-plane and FE are matched, m.
     pub matching_depth: Option<f64>,
     /// Least depth of the default, elements along a flank.
@@ -180,14 +194,26 @@ pub struct FeContactInput {
     pub flexibility_factor: PerMesh,
 }
 
+impl FeContactInput {
+    /// Number of elements that touch the surface of a flank.
+    pub fn elements_on_flank(&self) -> u32 {
+        match self.flank_layer {
+            FlankLayer::Whole => self.flank_elements,
+            FlankLayer::Divided => 3 * self.flank_elements,
+        }
+    }
+}
+
 impl Default for FeContactInput {
     fn default() -> Self {
         Self {
             plane: PlaneState::Strain,
             element: ElementFamily::Quadratic,
             flank_elements: 14,
+            flank_layer: FlankLayer::Whole,
             contact_cells: 40,
             cell_layout: CellLayout::Graded,
+            cell_layout_at_rest: CellLayout::Even,
             matching_depth: None,
             matching_depth_elements: None,
             matching_points: 2,

@@ -1,7 +1,7 @@
 //! The `[fe_contact]` table.
 
 use crate::bound::Bound;
-use crate::choices::{CellLayout, ElementFamily, FeContactInput, PlaneState};
+use crate::choices::{CellLayout, ElementFamily, FeContactInput, FlankLayer, PlaneState};
 use crate::reader::Section;
 use crate::scene::PerMesh;
 
@@ -16,9 +16,12 @@ pub(crate) fn fe_contact(s: Section<'_, '_>) -> FeContactInput {
     ];
     let element = s.choice("element", &elements, "quadrilateral behind the flanks");
     let flank = s.integer("flank_elements", (3, 64), "elements along one flank");
+    let of_layer = [("whole", FlankLayer::Whole), ("divided", FlankLayer::Divided)];
+    let layer = s.choice("flank_layer", &of_layer, "elements next to the flanks");
     let cells = s.integer("contact_cells", (8, 400), "contact cells of one tooth pair");
     let layouts = [("graded", CellLayout::Graded), ("even", CellLayout::Even)];
     let cell_layout = s.choice("cell_layout", &layouts, "contact cells in time");
+    let at_rest = s.choice("cell_layout_at_rest", &layouts, "contact cells at rest");
     let why = "depth below the flank at which half-plane and FE are matched";
     let matching_depth = s.number("matching_depth_mm", Bound::Positive, why).map(|d| d * 1e-3);
     let why = "elements along a flank, below which the default depth never is";
@@ -40,8 +43,10 @@ pub(crate) fn fe_contact(s: Section<'_, '_>) -> FeContactInput {
         plane: plane.unwrap_or(default.plane),
         element: element.unwrap_or(default.element),
         flank_elements: flank.map_or(default.flank_elements, |n| n as u32),
+        flank_layer: layer.unwrap_or(default.flank_layer),
         contact_cells: cells.map_or(default.contact_cells, |n| n as u32),
         cell_layout: cell_layout.unwrap_or(default.cell_layout),
+        cell_layout_at_rest: at_rest.unwrap_or(default.cell_layout_at_rest),
         matching_depth,
         matching_depth_elements: in_elements,
         matching_points: points.map_or(default.matching_points, |n| n as u32),

@@ -1,6 +1,6 @@
 //! Mesh of a whole gear, from the sectors of its teeth.
 
-use gearset::{ElementFamily, Gear};
+use gearset::{ElementFamily, FeContactInput, FlankLayer, Gear};
 
 use super::outline::{Outline, Side};
 use super::quality::Quality;
@@ -36,6 +36,24 @@ pub struct FlankEdge {
 /// A tooth, and the function that changes the even refinement into that of the tooth.
 pub type RefinedTooth<'r> = (usize, &'r dyn Fn(&Outline, &mut Refinement));
 
+/// Elements of a gear whose teeth are meshed alike.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Elements {
+    /// Family.
+    pub family: ElementFamily,
+    /// Number along a flank, which gives the size of all.
+    pub along_flank: usize,
+    /// Those next to the flanks.
+    pub layer: FlankLayer,
+}
+
+impl Elements {
+    /// Those of a scene, with another number along a flank.
+    pub fn of(input: &FeContactInput, along_flank: usize) -> Self {
+        Self { family: input.element, along_flank, layer: input.flank_layer }
+    }
+}
+
 /// Mesh of a gear. The tooth of sector k has its axis at angle 2πk/Z.
 #[derive(Debug, Clone)]
 pub struct FeGearMesh {
@@ -66,14 +84,10 @@ impl FeGearMesh {
     ///
     /// # Errors
     /// If the scene gives no bore or rim, or no fillet radius.
-    pub fn new(
-        name: &'static str,
-        gear: &Gear,
-        family: ElementFamily,
-        flank_elements: usize,
-    ) -> Result<Self, FeError> {
-        let (outline, sector) = Self::one_tooth(name, gear, family, flank_elements)?;
-        Ok(Self::assemble(name, outline, family, vec![sector], vec![0; gear.teeth as usize]))
+    pub fn new(name: &'static str, gear: &Gear, elements: Elements) -> Result<Self, FeError> {
+        let (outline, sector) = Self::one_tooth(name, gear, elements)?;
+        let sector_of = vec![0; gear.teeth as usize];
+        Ok(Self::assemble(name, outline, elements.family, vec![sector], sector_of))
     }
 
     /// The mesh of one tooth with its share of the rim, and its outline.
@@ -83,12 +97,12 @@ impl FeGearMesh {
     pub fn one_tooth(
         name: &'static str,
         gear: &Gear,
-        family: ElementFamily,
-        flank_elements: usize,
+        elements: Elements,
     ) -> Result<(Outline, Sector), FeError> {
         let (outline, body_radius) = prepare(name, gear)?;
-        let even = Refinement::even(&outline, body_radius, flank_elements);
-        let sector = Sector::new(&outline, body_radius, &even, family);
+        let mut even = Refinement::even(&outline, body_radius, elements.along_flank);
+        even.is_divided = elements.layer == FlankLayer::Divided;
+        let sector = Sector::new(&outline, body_radius, &even, elements.family);
         Ok((outline, sector))
     }
 

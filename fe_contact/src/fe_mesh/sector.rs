@@ -13,6 +13,7 @@ use std::collections::HashMap;
 
 use gearset::ElementFamily;
 
+use super::flank_layer::{Layer, PARTS, between, divided};
 use super::outline::{Outline, Side, polar};
 use crate::element::{Edge, MOST, Shape};
 
@@ -31,6 +32,8 @@ pub struct Refinement {
     pub line: usize,
     /// Elements on half the root land; zero if there is none.
     pub half_land: usize,
+    /// Whether the elements behind the flanks are divided in three along and across them.
+    pub is_divided: bool,
 }
 
 impl Refinement {
@@ -54,6 +57,7 @@ impl Refinement {
             half_fillet: count(fillet, 1),
             line: if line > 1e-3 * size { count(line, 1) } else { 0 },
             half_land: if land > 1e-3 * size { count(land, 1) } else { 0 },
+            is_divided: false,
         }
     }
 }
@@ -166,19 +170,21 @@ pub struct Sector {
 
 /// Lattice node of one of the two blocks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-enum Place {
+pub(super) enum Place {
     Rim(usize, usize),
     Tooth(usize, usize),
+    /// Of the divided elements behind a flank: whether it is that of the last column, and half edges of theirs.
+    Layer(bool, usize, usize),
 }
 
-struct Builder<'o> {
+pub(super) struct Builder<'o> {
     outline: &'o Outline,
-    family: ElementFamily,
-    sector: Sector,
-    nodes: HashMap<Place, usize>,
+    pub(super) family: ElementFamily,
+    pub(super) sector: Sector,
+    pub(super) nodes: HashMap<Place, usize>,
     /// First and last column of the tooth block in the rim's lattice; `top` is the rim's last row.
-    base: (usize, usize),
-    top: usize,
+    pub(super) base: (usize, usize),
+    pub(super) top: usize,
 }
 
 impl Sector {
@@ -228,7 +234,7 @@ impl Sector {
         b.sector.last = edge(&b, columns);
         for j in (0..rows).step_by(2) {
             for i in (0..columns).step_by(2) {
-                b.element(Place::Rim, i, j, [Edge::Quadratic; 4], [0.0; 4]);
+                b.element(&Place::Rim, (i, j), [Edge::Quadratic; 4], [0.0; 4]);
             }
         }
         b.sector.tooth_block = b.sector.elements.len();
@@ -297,7 +303,7 @@ fn halves(list: &[f64]) -> Vec<f64> {
 }
 
 impl Builder<'_> {
-    fn is_node(&self, i: usize, j: usize) -> bool {
+    pub(super) fn is_node(&self, i: usize, j: usize) -> bool {
         match (i % 2, j % 2) {
             (0, 0) => true,
             (1, 1) => false,
@@ -312,29 +318,50 @@ impl Builder<'_> {
         [x, -self.outline.radial_sign() * y]
     }
 
-    fn add(&mut self, place: Place, at: [f64; 2]) -> usize {
-        let id = self.sector.points.len();
-        self.sector.points.push(at);
-        self.sector.is_derivative.push(false);
+    pub(super) fn add(&mut self, place: Place, at: [f64; 2]) -> usize {
+        let id = self.added(at);
         self.nodes.insert(place, id);
         id
     }
 
-    fn node(&self, block: fn(usize, usize) -> Place, i: usize, j: usize) -> usize {
-        let place = match block(i, j) {
+    /// A node that has no place in a lattice.
+    pub(super) fn added(&mut self, at: [f64; 2]) -> usize {
+        self.sector.points.push(at);
+        self.sector.is_derivative.push(false);
+        self.sector.points.len() - 1
+    }
+
+    pub(super) fn node(&self, place: Place) -> usize {
+        let place = match place {
             Place::Tooth(i, 0) => Place::Rim(self.base.0 + i, self.top),
             place => place,
         };
         self.nodes[&place]
     }
 
-    /// Adds the element whose first corner is at lattice (i, j) and returns its index. The
-    /// derivative nodes of Hermite edges are filled in by `Builder::flank`.
-    fn element(
+    /// Adds the element whose corners and mid-side nodes are at the lattice points (i, j) to (i + 2, j + 2) of `place`, and returns its
+    /// index. The derivative nodes of Hermite edges are filled in by `Builder::flank`.
+    pub(super) fn element(
         &mut self,
-        block: fn(usize, usize) -> Place,
-        i: usize,
-        j: usize,
+        place: &dyn Fn(usize, usize) -> Place,
+        (i, j): (usize, usize),
+        edges: [Edge; 4],
+        half_lengths: [f64; 4],
+    ) -> usize {
+        let at = |b: &Self, (di, dj): (usize, usize)| b.node(place(i + di, j + dj));
+        let corners = [(0, 0), (2, 0), (2, 2), (0, 2)].map(|to| at(self, to));
+        let ends = [(1, 0), (2, 1), (1, 2), (0, 1)];
+        let middles = std::array::from_fn(|e| match edges[e] {
+            Edge::Quadratic if self.family == ElementFamily::Quadratic => at(self, ends[e]),
+            _ => usize::MAX,
+        });
+        self.with_nodes((corners, middles), edges, half_lengths)
+    }
+
+    /// Adds an element with given corners and mid-side nodes, of which those that its edges have are used.
+    pub(super) fn with_nodes(
+        &mut self,
+        (corners, middles): ([usize; 4], [usize; 4]),
         mut edges: [Edge; 4],
         half_lengths: [f64; 4],
     ) -> usize {
@@ -343,16 +370,13 @@ impl Builder<'_> {
             *e = Edge::Linear;
         }
         let mut nodes = [0; MOST];
-        for (k, (di, dj)) in [(0, 0), (2, 0), (2, 2), (0, 2)].into_iter().enumerate() {
-            nodes[k] = self.node(block, i + di, j + dj);
-        }
-        let middles = [(1, 0), (2, 1), (1, 2), (0, 1)];
+        nodes[..4].copy_from_slice(&corners);
         let mut next = 4;
-        for (edge, (di, dj)) in edges.into_iter().zip(middles) {
+        for (edge, middle) in edges.into_iter().zip(middles) {
             match edge {
                 Edge::Linear => {}
                 Edge::Quadratic => {
-                    nodes[next] = self.node(block, i + di, j + dj);
+                    nodes[next] = middle;
                     next += 1;
                 }
                 // Filled in by `Builder::flank`.
@@ -391,6 +415,18 @@ impl Builder<'_> {
             |t: f64| polar(outline.gear().tip_radius, (2.0 * t - 1.0) * outline.tip_half_angle());
         let mirrored = |[x, y]: [f64; 2]| [x, -y];
         let (foot, head) = (side[0], side[rows]);
+        // Point at the fraction ξ across the tooth and η of its height, where the last column's side is at `last`.
+        let placed = |xi: f64, (last, eta): ([f64; 2], f64)| {
+            let (below, above) = (base_line(outline, xi), tip(xi));
+            let first = mirrored(last);
+            let at = [0, 1].map(|k| {
+                let corners = (1.0 - eta) * ((1.0 - xi) * mirrored(foot)[k] + xi * foot[k])
+                    + eta * ((1.0 - xi) * mirrored(head)[k] + xi * head[k]);
+                (1.0 - xi) * first[k] + xi * last[k] + (1.0 - eta) * below[k] + eta * above[k]
+                    - corners
+            });
+            [at[0], -outline.radial_sign() * at[1]]
+        };
         for j in 1..=rows {
             let eta = heights[j] / heights[rows];
             for (i, &xi) in across.iter().enumerate() {
@@ -398,17 +434,26 @@ impl Builder<'_> {
                 if !self.is_node(i, j) || on_flank {
                     continue;
                 }
-                let (last, first) = (side[j], mirrored(side[j]));
-                let (below, above) = (base_line(outline, xi), tip(xi));
-                let at = [0, 1].map(|k| {
-                    let corners = (1.0 - eta) * ((1.0 - xi) * mirrored(foot)[k] + xi * foot[k])
-                        + eta * ((1.0 - xi) * mirrored(head)[k] + xi * head[k]);
-                    (1.0 - xi) * first[k] + xi * last[k] + (1.0 - eta) * below[k] + eta * above[k]
-                        - corners
-                });
-                let at = [at[0], -outline.radial_sign() * at[1]];
-                self.add(Place::Tooth(i, j), at);
+                self.add(Place::Tooth(i, j), placed(xi, (side[j], eta)));
             }
+        }
+        let layers = [false, true].map(|is_last| Layer {
+            column: if is_last { columns - 2 } else { 0 },
+            row: flank_start,
+            is_last,
+        });
+        let divided_flank = divided(&refinement.flank);
+        if refinement.is_divided {
+            let list = halves(&divided_flank);
+            let on_side = |j: usize| {
+                let below = flank_start + j / PARTS;
+                let height = between(&heights, below, j % PARTS) / heights[rows];
+                (outline.flank_point(list[j] * length), height)
+            };
+            let at = |i: usize, j: usize, column: usize| {
+                placed(between(&across, column + i / PARTS, i % PARTS), on_side(j))
+            };
+            layers.iter().for_each(|layer| self.layer_nodes(layer, list.len(), &at));
         }
         let mut edge_elements = [Vec::new(), Vec::new()];
         for j in (0..rows).step_by(2) {
@@ -420,21 +465,26 @@ impl Builder<'_> {
                 0.0
             };
             for i in (0..columns).step_by(2) {
+                let at_side = [i == 0, i + 2 == columns];
+                if refinement.is_divided && self.divided((i, j), &layers, half, &mut edge_elements)
+                {
+                    continue;
+                }
                 let (mut edges, mut lengths) = ([Edge::Quadratic; 4], [0.0; 4]);
-                for (edge, is_side) in [(3, i == 0), (1, i + 2 == columns)] {
+                for (edge, is_side) in [3, 1].into_iter().zip(at_side) {
                     if is_side && on_flank {
                         (edges[edge], lengths[edge]) = (Edge::Hermite, half);
                     }
                 }
-                let element = self.element(Place::Tooth, i, j, edges, lengths);
-                if on_flank && i == 0 {
-                    edge_elements[0].push(element);
-                }
-                if on_flank && i + 2 == columns {
-                    edge_elements[1].push(element);
+                let element = self.element(&Place::Tooth, (i, j), edges, lengths);
+                for (list, is_side) in edge_elements.iter_mut().zip(at_side) {
+                    if is_side && on_flank {
+                        list.push(element);
+                    }
                 }
             }
         }
+        let flank = if refinement.is_divided { &divided_flank } else { &refinement.flank };
         // The last column lies on the counter-clockwise flank of internal and on the clockwise
         // flank of external gears.
         let sides = match outline.radial_sign() > 0.0 {
@@ -442,12 +492,12 @@ impl Builder<'_> {
             false => [Side::Cw, Side::Ccw],
         };
         for (which, side) in sides.into_iter().enumerate() {
-            self.flank(refinement, which, side, &edge_elements[which]);
+            self.flank(flank, which, side, &edge_elements[which]);
         }
     }
 
     /// Derivative nodes of one flank. Neighbouring elements share them, which makes the flank C¹.
-    fn flank(&mut self, refinement: &Refinement, which: usize, side: Side, elements: &[usize]) {
+    fn flank(&mut self, fractions: &[f64], which: usize, side: Side, elements: &[usize]) {
         let length = self.outline.flank_length();
         let derivative = |b: &mut Self, t: f64| {
             let [x, y] = b.outline.flank_tangent(t * length);
@@ -455,9 +505,9 @@ impl Builder<'_> {
             b.sector.is_derivative.push(true);
             b.sector.points.len() - 1
         };
-        let mut below = derivative(self, refinement.flank[0]);
+        let mut below = derivative(self, fractions[0]);
         for (k, &element) in elements.iter().enumerate() {
-            let above = derivative(self, refinement.flank[k + 1]);
+            let above = derivative(self, fractions[k + 1]);
             let edge = if which == 0 { 3 } else { 1 };
             let e = &mut self.sector.elements[element];
             // The Hermite edge's functions follow those of the edges before it.
@@ -470,7 +520,7 @@ impl Builder<'_> {
             (e.nodes[at], e.nodes[at + 1]) = (below, above);
             let (low, high) = if which == 0 { (0, 3) } else { (1, 2) };
             let nodes = [e.nodes[low], e.nodes[high], below, above];
-            let (from, to) = (refinement.flank[k] * length, refinement.flank[k + 1] * length);
+            let (from, to) = (fractions[k] * length, fractions[k + 1] * length);
             self.sector.flanks[side.index()].push(FlankStretch { element, from, to, nodes });
             below = above;
         }

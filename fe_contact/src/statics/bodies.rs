@@ -1,11 +1,11 @@
 //! The flexible gears of a scene.
 
-use gearset::{CellLayout, FeContactInput, Gear, Geometry, Mesh, MeshKind, MeshMember, Scene};
+use gearset::{FeContactInput, Gear, Geometry, Mesh, MeshKind, MeshMember, Scene};
 
 use crate::body::GearBody;
 use crate::contact::{CellSettings, Matching};
 use crate::error::FeError;
-use crate::fe_mesh::{FeGearMesh, Outline};
+use crate::fe_mesh::{Elements, FeGearMesh, Outline};
 use crate::material::Elastic;
 
 /// Settings of a run, derived from the scene.
@@ -43,7 +43,7 @@ pub(super) fn matching<'o>(
     let (mut element, mut thickness, mut at_tip) = (0.0f64, f64::INFINITY, f64::INFINITY);
     for outline in outlines {
         let length = outline.flank_length();
-        element = element.max(length / f64::from(input.flank_elements));
+        element = element.max(length / f64::from(input.elements_on_flank()));
         thickness = thickness.min(2.0 * outline.flank_point(0.5 * length)[1]);
         at_tip = at_tip.min(outline.depth_at_tip());
     }
@@ -117,7 +117,8 @@ impl Bodies {
         let input = scene.fe_contact;
         let material = Elastic::new(&scene.material, input.plane);
         let make = |name: &'static str, gear: &Gear| -> Result<GearBody, FeError> {
-            let mesh = FeGearMesh::new(name, gear, input.element, input.flank_elements as usize)?;
+            let elements = Elements::of(&input, input.flank_elements as usize);
+            let mesh = FeGearMesh::new(name, gear, elements)?;
             GearBody::new(mesh, material, geometry.face_width)
         };
         let [ring_gear, sun_gear] = wanted(scene, &geometry);
@@ -130,6 +131,13 @@ impl Bodies {
         let matching = matching(&input, geometry.base_pitch, outlines)?;
         let settings = FeSettings { input, matching };
         Ok(Self { geometry, settings, material, sun, planet, ring })
+    }
+
+    /// The same bodies with so many contact cells of a tooth pair.
+    pub fn with_cells(&self, contact_cells: u32) -> Self {
+        let mut own = self.clone();
+        own.settings.input.contact_cells = contact_cells;
+        own
     }
 
     /// The body of one member of a mesh.
@@ -160,7 +168,7 @@ impl Bodies {
         self.settings.input.flexibility_factor.of(kind)
     }
 
-    /// Cells of one width for meshes that carry up to `force` (N).
+    /// Cells at rest for meshes that carry up to `force` (N), in the layout of the scene (`fe_contact.cell_layout_at_rest`).
     ///
     /// The window for corner contact is the deflection of a mesh (E b/80) six times softer than one
     /// pair of steel teeth usually is (E b/13), so that no corner that could touch is left out. The
@@ -169,7 +177,7 @@ impl Bodies {
         let stiffness = self.material.young * self.geometry.face_width / 80.0;
         CellSettings {
             cells: self.settings.input.contact_cells as usize,
-            layout: CellLayout::Even,
+            layout: self.settings.input.cell_layout_at_rest,
             matching: self.settings.matching,
             force,
             window: force / stiffness,
@@ -177,8 +185,7 @@ impl Bodies {
         }
     }
 
-    /// The same in time, where forces and their slopes are asked and no pressures: in the layout of the scene
-    /// (`fe_contact.cell_layout`).
+    /// The same in time, where forces and their slopes are asked and no pressures (`fe_contact.cell_layout`).
     pub fn cells_in_time(&self, force: f64) -> CellSettings {
         CellSettings { layout: self.settings.input.cell_layout, ..self.cells(force) }
     }

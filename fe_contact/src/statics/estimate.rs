@@ -6,7 +6,7 @@ use super::bodies::{fit, geometry, matching, wanted};
 use crate::body::kept_teeth;
 use crate::element::matrices;
 use crate::error::FeError;
-use crate::fe_mesh::{Element, FeGearMesh, Sector};
+use crate::fe_mesh::{Element, Elements, FeGearMesh, Sector};
 use crate::material::Elastic;
 
 /// Most memory that the bodies of a scene may need while they are made, bytes: 2 GiB.
@@ -70,7 +70,8 @@ pub fn estimate(scene: &Scene) -> Result<FeEstimate, FeError> {
     let mut outlines = Vec::new();
     let mut bodies = Vec::new();
     for (name, gear) in gears.into_iter().filter_map(|(name, gear)| Some((name, gear?))) {
-        let (outline, sector) = FeGearMesh::one_tooth(name, gear, input.element, meshed as usize)?;
+        let elements = Elements::of(&input, meshed as usize);
+        let (outline, sector) = FeGearMesh::one_tooth(name, gear, elements)?;
         whole(name, &sector, &material, geometry.face_width)?;
         let is_whole = matches!(scene.dynamics.fidelity, Fidelity::Modal(_) | Fidelity::Full);
         bodies.push(sized(name, gear, &sector, &input, is_whole));

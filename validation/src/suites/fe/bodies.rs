@@ -2,7 +2,7 @@
 
 use fe_contact::Elastic;
 use fe_contact::body::CarrierBody;
-use fe_contact::fe_mesh::FeGearMesh;
+use fe_contact::fe_mesh::{Elements, FeGearMesh};
 use gearset::{Gear, Geometry, Scene, ThicknessInput};
 
 use crate::catalogue::{PublishedScene, scene};
@@ -19,7 +19,7 @@ fn gears(scene: &Scene) -> Result<[(f64, f64); 4], ValidationError> {
     let material = Elastic::new(&scene.material, scene.fe_contact.plane);
     let lumped = scene.lumped.as_ref().ok_or_else(missing)?;
     let of = |name, gear: &Gear| -> Result<(f64, f64), ValidationError> {
-        let mesh = FeGearMesh::new(name, gear, scene.fe_contact.element, FLANK_ELEMENTS)?;
+        let mesh = FeGearMesh::new(name, gear, Elements::of(&scene.fe_contact, FLANK_ELEMENTS))?;
         Ok(mesh.mass_properties(&material, geometry.face_width)?)
     };
     let sun_gear = geometry.sun.as_ref().ok_or_else(missing)?;
