@@ -17,6 +17,12 @@ pub(super) fn write(choice: &Choice, out: &mut dyn Write) -> std::io::Result<()>
     if let Some(elements) = choice.settings.matching_depth_elements {
         writeln!(out, "  with fe_contact.matching_depth_elements = {elements}")?;
     }
+    if choice.settings.divided_flank_layer {
+        writeln!(out, "  with fe_contact.flank_layer = \"divided\"")?;
+    }
+    if choice.settings.graded_at_rest {
+        writeln!(out, "  with fe_contact.cell_layout_at_rest = \"graded\"")?;
+    }
     for own in &choice.corrections {
         writeln!(out, "  corrected by {:+.3} % for {}", own.percent, own.of)?;
     }

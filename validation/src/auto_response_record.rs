@@ -16,8 +16,10 @@ use crate::auto_record::{DrawnScene, drawn_scene, timed};
 /// Tolerances that are drawn, percent.
 const TOLERANCES: [f64; 5] = [1.0, 2.0, 5.0, 10.0, 20.0];
 
-/// Elements, cells and positions of the truth at rest, finer than any candidate's.
-const AT_REST: AutoSettings = AutoSettings::quasi_static(32, 80).at_positions(960);
+/// Elements, cells and positions of the truth at rest: elements that are not divided and even cells, which no candidate has, and positions closer than any
+/// candidate's.
+const AT_REST: AutoSettings =
+    AutoSettings::quasi_static(32, 80).at_positions(480).about_extremes(3840);
 
 /// Elements and cells of the truth in motion, finer than any candidate's, and steps, from which line by line the limit of small steps is
 /// extrapolated (order 2); and what modes add to it, on a coarse mesh: with modes, without.

@@ -67,7 +67,9 @@ fn median(mut list: Vec<f64>) -> f64 {
 /// Settings in few words.
 fn short(settings: &str) -> String {
     let words = [
+        (" flank elements divided in three", " divided"),
         (" flank elements", ""),
+        (" graded contact cells", " graded"),
         (" contact cells", ""),
         (" steps per mesh cycle", " steps"),
         (" inertia of elastic displacements to first order", ", inertia"),

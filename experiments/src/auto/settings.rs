@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use gearset::{ElementFamily, Facing, Fidelity, Geometry, Phasing, Scene};
+use gearset::{CellLayout, ElementFamily, Facing, Fidelity, FlankLayer, Geometry, Phasing, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -33,9 +33,15 @@ pub struct AutoSettings {
     /// Elements along one flank, of eight nodes.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flank_elements: Option<u32>,
+    /// Whether those next to the flanks are divided in three along and across them (`fe_contact.flank_layer`).
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub divided_flank_layer: bool,
     /// Contact cells of one tooth pair.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_cells: Option<u32>,
+    /// Whether they are graded at rest (`fe_contact.cell_layout_at_rest`).
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub graded_at_rest: bool,
     /// Least depth, elements of a flank, at which half-planes and finite elements are matched.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub matching_depth_elements: Option<f64>,
@@ -60,7 +66,9 @@ impl AutoSettings {
         model: AutoModel::Lumped,
         modes: None,
         flank_elements: None,
+        divided_flank_layer: false,
         contact_cells: None,
+        graded_at_rest: false,
         matching_depth_elements: None,
         positions: None,
         positions_about_extremes: None,
@@ -77,6 +85,16 @@ impl AutoSettings {
             matching_depth_elements: Some(MATCHING_DEPTH_ELEMENTS),
             ..Self::LUMPED
         }
+    }
+
+    /// The same with the layer of elements next to the flanks divided.
+    pub const fn with_divided_layer(self) -> Self {
+        Self { divided_flank_layer: true, ..self }
+    }
+
+    /// The same with graded contact cells at rest.
+    pub const fn with_graded_cells_at_rest(self) -> Self {
+        Self { graded_at_rest: true, ..self }
     }
 
     /// The same at so many positions of a mesh cycle at rest.
@@ -119,7 +137,15 @@ impl AutoSettings {
         if let (Some(elements), Some(cells)) = (self.flank_elements, self.contact_cells) {
             own.fe_contact.element = ElementFamily::Quadratic;
             own.fe_contact.flank_elements = elements;
+            own.fe_contact.flank_layer = match self.divided_flank_layer {
+                true => FlankLayer::Divided,
+                false => FlankLayer::Whole,
+            };
             own.fe_contact.contact_cells = cells;
+            own.fe_contact.cell_layout_at_rest = match self.graded_at_rest {
+                true => CellLayout::Graded,
+                false => CellLayout::Even,
+            };
             own.fe_contact.matching_depth = None;
             own.fe_contact.matching_depth_elements = self.matching_depth_elements;
         }
@@ -137,12 +163,15 @@ impl AutoSettings {
 
 impl std::fmt::Display for AutoSettings {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match (self.modes, self.flank_elements, self.contact_cells) {
-            (None, Some(n), Some(cells)) => {
-                write!(f, "quasi_static, {n} flank elements, {cells} contact cells")?;
-            }
-            (Some(modes), Some(n), Some(cells)) => {
-                write!(f, "modal with {modes} modes, {n} flank elements, {cells} contact cells")?;
+        match (self.flank_elements, self.contact_cells) {
+            (Some(n), Some(cells)) => {
+                match self.modes {
+                    None => f.write_str("quasi_static")?,
+                    Some(modes) => write!(f, "modal with {modes} modes")?,
+                }
+                let layer = if self.divided_flank_layer { " divided in three" } else { "" };
+                let layout = if self.graded_at_rest { "graded " } else { "" };
+                write!(f, ", {n} flank elements{layer}, {cells} {layout}contact cells")?;
             }
             _ => f.write_str("lumped with parameters in closed form")?,
         }
@@ -162,14 +191,8 @@ impl std::fmt::Display for AutoSettings {
     }
 }
 
-/// Elements along a flank and contact cells of a tooth pair, from coarse to fine: those of the candidates for motion at
-/// rest and in time.
+/// Elements along a flank and contact cells of a tooth pair, from coarse to fine: those of the candidates for motion in time.
 pub(super) const MESHES: [(u32, u32); 4] = [(6, 20), (10, 30), (16, 40), (24, 60)];
-
-/// Size of the elements of the mesh of a number over that of a coarser one.
-pub(super) fn size_ratio(coarse: usize, fine: usize) -> f64 {
-    f64::from(MESHES[coarse].0) / f64::from(MESHES[fine].0)
-}
 
 /// Most positions or steps into which a mesh cycle is divided evenly so that phases of all planets fall on them.
 const MOST_PARTS: usize = 60;

@@ -4,26 +4,29 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 use fe_contact::statics::Bodies;
-use gearset::{LoadCase, Scene};
+use gearset::{Geometry, LoadCase, MeshKind, Scene};
 
 use super::analytic_mean::AnalyticMean;
 use super::choice::{AutoError, Choice, ErrorPart, Together};
 use super::cycle_curve::{Curve, mean, overshoot, range, undershoot};
-use super::cycle_request::{CycleRequest, CycleValue, DOUBLINGS, POSITIONS};
+use super::cycle_request::{CycleRequest, CycleValue, DOUBLINGS, MESHES, POSITIONS};
 use super::finer_curve::{Corrected, Sought, corrected};
-use super::settings::{AutoSettings, MESHES, divided, phase_parts, repeats, size_ratio};
+use super::settings::{AutoSettings, divided, phase_parts, repeats};
 use super::trial::Trial;
 use crate::error::ExperimentError;
 
 /// Factor on estimates by extrapolation (grid convergence: Roache 1994).
 const SAFETY: f64 = 1.25;
 
-/// Factor on a difference of two means, whose order of convergence is not observed (Roache 1994).
-const NO_ORDER: f64 = 3.0;
+/// Flexibility of a mesh of steel teeth in units of 1/(E b).
+const TEETH: f64 = 13.0;
 
 /// Meshes are compared at the extremes of the coarser one and at one in so many of its even positions, but at least at so many
 /// in the period of the curve.
 const COMPARED: [u32; 2] = [5, 4];
+
+/// Why a mesh was not run that is coarser than the first.
+const FINER_FIRST: &str = "not run: below a tolerance of 3 % finer elements are the first";
 
 /// Share of the tolerance to which a finer mesh's value is known beside all positions of the coarser one.
 const OF_TOLERANCE: f64 = 0.05;
@@ -59,7 +62,7 @@ pub fn transmission_error_with(
 
 /// The cheapest candidate whose estimated error is within the tolerance, with its answer.
 ///
-/// Two parts: elements and cells by the curves on two meshes, positions by the straight lines that the curve follows
+/// Two parts: elements and cells by what development sets showed, positions by the straight lines that the curve follows
 /// on either side of its extremes. Meshes finer than the first that gives an answer are computed at some of its positions, where the curve
 /// may have its extremes among them; what may lie between these is a third part.
 ///
@@ -75,7 +78,7 @@ pub fn choose_transmission_error(
     // The part of the positions of a mean takes every second one, all around the period.
     let is_halved = request.value == CycleValue::PeakToPeak || (base / repeats).is_multiple_of(2);
     let periods = if is_halved { repeats } else { 1 };
-    let scenes = [0, 1, 2, 3].map(|mesh| request.settings(base, mesh, 0).applied_to(scene));
+    let scenes = [0, 1, 2, 3, 4].map(|mesh| request.settings(base, mesh, 0).applied_to(scene));
     let in_period = base / periods;
     let bodies = [const { OnceCell::new() }; MESHES.len()];
     let mut search = Search {
@@ -91,12 +94,13 @@ pub fn choose_transmission_error(
         curves: [const { None }; MESHES.len()],
         finer: [const { None }; MESHES.len()],
         run: BTreeMap::default(),
-        compared: None,
+        started: None,
+        deflection: deflection(scene, case),
     };
     let in_closed_form = search.in_closed_form(scene);
     let by_contact = || {
-        let mut order = request.order().into_iter();
-        order.find_map(|(mesh, doubled)| search.tried(mesh, doubled))
+        let mut order = request.order().iter();
+        order.find_map(|(mesh, doubled)| search.tried(*mesh, *doubled))
     };
     let found = in_closed_form.or_else(by_contact);
     search.trial.ended(found)
@@ -109,6 +113,17 @@ fn compared_every(base: u32, distinct: u32) -> u32 {
     let wanted = (distinct / share).max(least);
     let divides = |n: &u32| distinct.is_multiple_of(*n) && base.is_multiple_of(*n);
     (1..=distinct).filter(divides).filter(|n| distinct / n >= wanted).max().unwrap_or(1)
+}
+
+/// By how much a mesh of teeth yields under its share of the load, m; 0 for a scene without the geometry that FE/contact needs.
+fn deflection(scene: &Scene, case: &LoadCase) -> f64 {
+    let Ok(Geometry { sun: Some(sun), face_width, .. }) = Geometry::from_scene(scene) else {
+        return 0.0;
+    };
+    let factor = |kind| scene.fe_contact.flexibility_factor.of(kind);
+    let softer = factor(MeshKind::SunPlanet).max(factor(MeshKind::RingPlanet)).max(1.0);
+    let force = case.sun_load_nm() / (sun.base_radius * scene.planets.psi_rad.len() as f64);
+    TEETH * softer * force / (scene.material.young_modulus_pa * face_width)
 }
 
 type Made = Result<Bodies, String>;
@@ -136,8 +151,10 @@ struct Search<'s> {
     finer: [Option<Curve<'s>>; MESHES.len()],
     /// Curves by mesh and doublings, or why there is none.
     run: BTreeMap<(usize, u32), Run>,
-    /// The coarsest mesh that has an answer, and the part of its elements and cells.
-    compared: Option<Result<(usize, f64), String>>,
+    /// The first mesh that has an answer, with the value on it, m.
+    started: Option<Result<(usize, f64), String>>,
+    /// By how much a mesh of teeth yields, m.
+    deflection: f64,
 }
 
 impl<'s> Search<'s> {
@@ -162,20 +179,21 @@ impl<'s> Search<'s> {
 
     fn tried(&mut self, mesh: usize, doubled: u32) -> Option<Choice> {
         let settings = self.request.settings(self.base, mesh, doubled);
-        let (coarsest, of_coarsest) = match self.compared() {
+        let (coarsest, value) = match self.started() {
             Ok(found) => found,
             Err(why) => {
                 self.trial.refused(settings, why);
                 return None;
             }
         };
+        let of_mesh = self.request.error_of_mesh(mesh, self.deflection, value);
+        let expected = 100.0 * (of_mesh + self.expected_of_positions(doubled));
         if mesh < coarsest {
-            let why = self.curve(mesh, 0).err().unwrap_or_default();
+            let refused = self.run.get(&(mesh, 0)).and_then(|run| run.as_ref().err());
+            let why = refused.cloned().unwrap_or_else(|| FINER_FIRST.into());
             self.trial.refused(settings, why);
             return None;
         }
-        let of_mesh = of_coarsest * size_ratio(coarsest, mesh);
-        let expected = 100.0 * (of_mesh + self.expected_of_positions(doubled));
         if !self.trial.is_expected(settings, expected) {
             return None;
         }
@@ -190,13 +208,13 @@ impl<'s> Search<'s> {
                 return None;
             }
         };
-        // Beside a finer mesh the coarsest may prove to be worse than thought.
-        let seen = match mesh > coarsest {
-            true => self.beside_coarsest(coarsest, mesh),
-            false => 0.0,
-        };
-        let of_mesh = of_mesh.max(seen * size_ratio(coarsest, mesh));
         let value = self.request.of(&points);
+        let mut of_mesh = self.request.error_of_mesh(mesh, self.deflection, value);
+        if mesh > coarsest {
+            // Beside a finer mesh the first may prove to be worse than thought, and then this one as well.
+            let thought = self.request.error_of_mesh(coarsest, self.deflection, value);
+            of_mesh *= (self.beside_first(coarsest, mesh) / thought).max(1.0);
+        }
         let mut parts = vec![
             ErrorPart::new("finite elements and contact cells", of_mesh),
             ErrorPart::new("positions of the mesh cycle", between_positions(self.request, &points)),
@@ -211,7 +229,14 @@ impl<'s> Search<'s> {
 
     fn bodies(&self, mesh: usize) -> Result<&'s Bodies, String> {
         let (all, scenes) = (self.bodies, self.scenes);
-        let made = all[mesh].get_or_init(|| Bodies::new(&scenes[mesh]).map_err(|e| e.to_string()));
+        let made = all[mesh].get_or_init(|| {
+            // The same elements with other cells are the same bodies.
+            let same = (0..mesh).filter(|own| MESHES[*own].0 == MESHES[mesh].0);
+            match same.filter_map(|own| all[own].get()?.as_ref().ok()).next() {
+                Some(known) => Ok(known.with_cells(MESHES[mesh].1)),
+                None => Bodies::new(&scenes[mesh]).map_err(|e| e.to_string()),
+            }
+        });
         made.as_ref().map_err(Clone::clone)
     }
 
@@ -282,7 +307,7 @@ impl<'s> Search<'s> {
     /// A finer mesh about the mean configuration of a coarser one, at the positions at which they are compared.
     fn beside(&mut self, coarse: usize, finer: usize) -> Result<Curve<'s>, String> {
         let bodies = self.bodies(finer)?;
-        let list = self.compared_positions(coarse)?;
+        let list = self.positions_beside(coarse)?;
         let mut own = self.positions(coarse)?.on_bodies(bodies);
         own.at(&list).map_err(|e| e.to_string())?;
         Ok(own)
@@ -290,7 +315,7 @@ impl<'s> Search<'s> {
 
     /// Some even positions, and of peak to peak those of the extremes: p changes by as much as the curve there, to first
     /// order.
-    fn compared_positions(&mut self, mesh: usize) -> Result<Vec<u32>, String> {
+    fn positions_beside(&mut self, mesh: usize) -> Result<Vec<u32>, String> {
         let (base, every, is_mean) = (self.in_period, self.every, self.is_mean());
         let coarse = self.positions(mesh)?;
         let even = coarse.even(base);
@@ -308,35 +333,28 @@ impl<'s> Search<'s> {
         Ok(list)
     }
 
-    /// Part of elements and cells of the coarsest mesh beside a finer one, at the positions of that.
-    fn beside_coarsest(&mut self, coarsest: usize, mesh: usize) -> f64 {
+    /// By what part the value on the first mesh is another than that on a finer one, at the positions of that.
+    fn beside_first(&mut self, coarsest: usize, mesh: usize) -> f64 {
         let fine = self.finer[mesh].as_ref().map(Curve::known);
         let list: Vec<(u32, f64)> = fine.into_iter().flatten().map(|(x, y)| (*x, *y)).collect();
         let (positions, fine): (Vec<u32>, Vec<f64>) = list.into_iter().unzip();
         let coarse = self.positions(coarsest).ok().map(|curve| curve.at(&positions));
         let coarse = coarse.and_then(Result::ok).unwrap_or_default();
-        between_meshes(self.request, &coarse, &fine)
+        between_meshes(self.request, &coarse, &fine).abs()
     }
 
-    /// The coarsest mesh that has an answer, and the part of its elements and cells by the next finer one, at some of its
-    /// positions and its extremes.
-    fn compared(&mut self) -> Result<(usize, f64), String> {
-        if self.compared.is_none() {
-            self.compared = Some(self.compare());
+    /// The first mesh that has an answer, with the value on it at even positions.
+    fn started(&mut self) -> Result<(usize, f64), String> {
+        if self.started.is_none() {
+            let mut why = String::new();
+            let first = self.request.first_mesh();
+            let found = (first..MESHES.len()).find_map(|mesh| {
+                let found = self.curve(mesh, 0);
+                Some((mesh, self.request.of(&found.map_err(|e| why = e).ok()?)))
+            });
+            self.started = Some(found.ok_or(why));
         }
-        self.compared.clone().unwrap_or_else(|| Err(String::new()))
-    }
-
-    fn compare(&mut self) -> Result<(usize, f64), String> {
-        let mut why = String::new();
-        let answered = (0..MESHES.len() - 1).find(|mesh| {
-            let found = self.curve(*mesh, 0);
-            found.map_err(|e| why = e).is_ok()
-        });
-        let Some(mesh) = answered else { return Err(why) };
-        let finer = self.beside(mesh, mesh + 1)?;
-        self.finer[mesh + 1] = Some(finer);
-        Ok((mesh, self.beside_coarsest(mesh, mesh + 1)))
+        self.started.clone().unwrap_or_else(|| Err(String::new()))
     }
 
     /// The least part of the positions that is expected with so many; 0 if nothing is known.
@@ -352,28 +370,10 @@ impl<'s> Search<'s> {
     }
 }
 
-/// Part of elements and cells of the coarser of two meshes, from both curves at the same positions. Of peak to peak p the
-/// difference, but at least half of what it can be,
-///
-/// ```text
-/// |p(a) − p(b)| ≤ p(a − b),   p(x) = max x − min x
-/// ```
-///
-/// so that no cancellation makes it small; of means three times their difference.
+/// By what part the value of a curve on a coarser mesh is another than that on a finer one, from both at the same positions.
 fn between_meshes(request: &CycleRequest, coarse: &[f64], fine: &[f64]) -> f64 {
-    let range = |list: &[f64]| {
-        let high = list.iter().fold(f64::NEG_INFINITY, |a, x| a.max(*x));
-        high - list.iter().fold(f64::INFINITY, |a, x| a.min(*x))
-    };
-    let mean = |list: &[f64]| list.iter().sum::<f64>() / list.len() as f64;
-    let difference: Vec<f64> = coarse.iter().zip(fine).map(|(a, b)| a - b).collect();
-    match request.value {
-        CycleValue::PeakToPeak => {
-            let apart = (range(coarse) - range(fine)).abs();
-            SAFETY * apart.max(0.5 * range(&difference)) / range(fine)
-        }
-        CycleValue::Mean => (NO_ORDER * mean(&difference) / mean(fine)).abs(),
-    }
+    let of = |list: &[f64]| request.of(&list.iter().map(|y| [0.0, *y]).collect::<Vec<_>>());
+    of(coarse) / of(fine) - 1.0
 }
 
 /// Part of the positions. For peak to peak: between two positions the curve is taken to stay below the straight lines
