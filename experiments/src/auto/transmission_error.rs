@@ -21,8 +21,8 @@ const SAFETY: f64 = 1.25;
 /// Flexibility of a mesh of steel teeth in units of 1/(E b).
 const TEETH: f64 = 13.0;
 
-/// Meshes are compared at the extremes of the coarser one and at one in so many of its even positions, but at least at so many
-/// in the period of the curve.
+/// A finer mesh is first computed at the extremes of the coarser one and at one in so many of its even positions, but at least at so
+/// many in the period of the curve.
 const COMPARED: [u32; 2] = [5, 4];
 
 /// Why a mesh was not run that is coarser than the first.
@@ -106,7 +106,7 @@ pub fn choose_transmission_error(
     search.trial.ended(found)
 }
 
-/// Meshes are compared at one in so many of `base` even positions, of which `distinct` are in the period of the curve: a
+/// A finer mesh is first computed at one in so many of `base` even positions, of which `distinct` are in the period of the curve: a
 /// divisor of these, so that all planets pass through the same phases.
 fn compared_every(base: u32, distinct: u32) -> u32 {
     let [share, least] = COMPARED;
@@ -142,7 +142,7 @@ struct Search<'s> {
     /// Periods of the curve in a mesh cycle, and those positions in each.
     periods: u32,
     in_period: u32,
-    /// Meshes are compared at one in so many of them.
+    /// A finer mesh is first computed at one in so many of them.
     every: u32,
     bodies: &'s [OnceCell<Made>; MESHES.len()],
     /// The positions computed on each mesh up to the coarsest that has an answer.
