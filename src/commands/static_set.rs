@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use experiments::auto::Choice;
+use experiments::auto::{Choice, cycle_with};
 use fe_contact::statics::{Bodies, Imperfections, MeshState, SetCycle, SetState, StaticSet};
 use gearset::{LoadCase, Scene};
 use schemars::JsonSchema;
@@ -126,12 +126,14 @@ pub(super) fn run(
     let mut cycles = Vec::new();
     for torque in torques {
         let load = LoadCase::standing(*torque);
+        if let Some(Choice { settings, .. }) = auto {
+            let found = cycle_with(scene, &bodies, &load, settings);
+            cycles.push(found.map_err(|e| unfit(path, e.to_string()))?);
+            continue;
+        }
         let set = StaticSet::new(scene, &bodies, load.sense(), Imperfections::default())
             .map_err(fe_refused(path))?;
-        // Even positions that hold all of those that were refined about the extremes.
-        let chosen = auto.as_ref().map(|choice| &choice.settings);
-        let chosen = chosen.and_then(|own| own.positions_about_extremes.or(own.positions));
-        let positions = chosen.map_or(arguments.position_count(), |positions| positions as usize);
+        let positions = arguments.position_count();
         cycles.push(set.cycle(load.sun_load_nm(), positions, solver).map_err(fe_refused(path))?);
     }
     drop(working);

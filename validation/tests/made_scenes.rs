@@ -98,7 +98,7 @@ fn the_record_of_auto_holds_and_comes_out_again() {
     }
 }
 
-/// `kept/auto_responses.csv`: 73 sets at rest and 30 in motion; the answers of `auto` for transmission errors and amplitudes are within their
+/// `kept/auto_responses.csv`: 75 sets at rest and 30 in motion; the answers of `auto` for transmission errors and amplitudes are within their
 /// tolerances in at least 95 %, and a few cheap ones come out again.
 #[test]
 fn the_record_of_auto_for_responses_holds_and_comes_out_again() {
@@ -107,7 +107,7 @@ fn the_record_of_auto_for_responses_holds_and_comes_out_again() {
     let lines = text.lines().filter(|line| !line.starts_with('#'));
     let rows: Vec<Vec<&str>> = lines.skip(1).map(|line| line.split(',').collect()).collect();
     let at_rest = rows.iter().filter(|row| row[2].ends_with("at rest")).count();
-    assert_eq!((at_rest, rows.len() - at_rest), (73, 30));
+    assert_eq!((at_rest, rows.len() - at_rest), (75, 30));
     let number = |row: &[&str], k: usize| row[k].parse::<f64>().unwrap();
     let answered: Vec<&Vec<&str>> = rows.iter().filter(|row| row[4] != "refused").collect();
     assert!(answered.len() >= 30, "{}", answered.len());
@@ -128,7 +128,7 @@ fn the_record_of_auto_for_responses_holds_and_comes_out_again() {
         |row: &&&Vec<&str>| row[2].ends_with("at rest") && row[4].starts_with("quasi_static 8 ");
     let finer = answered.iter().filter(finer).step_by(4);
     let in_closed_form = answered.iter().filter(|row| row[4].starts_with("lumped"));
-    assert_eq!(in_closed_form.clone().count(), 15);
+    assert_eq!(in_closed_form.clone().count(), 12);
     for row in answered.iter().filter(cheap).step_by(9).chain(finer).chain(in_closed_form) {
         let (drawn, asked) = drawn_response(row[0].parse().unwrap()).unwrap();
         assert_eq!(asked.to_string().replace(',', ""), row[2]);
@@ -169,7 +169,7 @@ fn finer_meshes_at_rest_keep_their_own_extremes() {
     let (drawn, asked) = drawn_response(14071).unwrap();
     let Asked::Cycle(mut request) = asked else { panic!("{asked}") };
     // Less than the first mesh is estimated to be within.
-    request.tolerance_percent = 0.52;
+    request.tolerance_percent = 0.42;
     let case = LoadCase::of_scene(&drawn.scene).unwrap();
     let choice = choose_transmission_error(&drawn.scene, &case, &request).unwrap();
     assert_eq!(choice.settings.flank_elements, Some(12), "{}", choice.settings);

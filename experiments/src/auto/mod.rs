@@ -13,6 +13,7 @@ mod analytic_mode;
 mod choice;
 mod cycle_curve;
 mod cycle_request;
+mod cycle_with_settings;
 mod elastic_change;
 mod elastic_response;
 mod energy;
@@ -32,7 +33,8 @@ pub use amplitude::{
 };
 pub use choice::{AutoError, Choice, Correction, ErrorPart, PassedOver};
 pub use cycle_request::{CycleRequest, CycleValue};
+pub use cycle_with_settings::{cycle_with, transmission_error_with};
 pub use error_parts::stiffness_errors;
 pub use frequency::{FrequencyRequest, choose_frequency, frequency_with};
 pub use settings::{AutoModel, AutoSettings};
-pub use transmission_error::{choose_transmission_error, transmission_error_with};
+pub use transmission_error::choose_transmission_error;

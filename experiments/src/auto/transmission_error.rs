@@ -3,13 +3,14 @@
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
+use fe_contact::FeError;
 use fe_contact::statics::Bodies;
 use gearset::{Geometry, LoadCase, MeshKind, Scene};
 
 use super::analytic_mean::AnalyticMean;
 use super::choice::{AutoError, Choice, ErrorPart, Together};
 use super::cycle_curve::{Curve, mean, overshoot, range, undershoot};
-use super::cycle_request::{CycleRequest, CycleValue, DOUBLINGS, MESHES, POSITIONS};
+use super::cycle_request::{CycleRequest, CycleValue, DOUBLINGS, FINER_BELOW, MESHES, POSITIONS};
 use super::finer_curve::{Corrected, Sought, corrected};
 use super::settings::{AutoSettings, divided, phase_parts, repeats};
 use super::trial::Trial;
@@ -25,40 +26,12 @@ const TEETH: f64 = 13.0;
 /// many in the period of the curve.
 const COMPARED: [u32; 2] = [5, 4];
 
-/// Why a mesh was not run that is coarser than the first.
-const FINER_FIRST: &str = "not run: below a tolerance of 3 % finer elements are the first";
-
 /// Share of the tolerance to which a finer mesh's value is known beside all positions of the coarser one.
 const OF_TOLERANCE: f64 = 0.05;
 
 /// Doubling the positions divides the part of the positions by this at most, where they are not yet run: the error is of
 /// second order where the curve is smooth, of first order at a corner.
 const QUARTERED: f64 = 0.25;
-
-/// The transmission error with given settings, µm.
-///
-/// # Errors
-/// If FE/contact refuses the scene, or the settings have no positions.
-pub fn transmission_error_with(
-    scene: &Scene,
-    case: &LoadCase,
-    settings: AutoSettings,
-    request: &CycleRequest,
-) -> Result<f64, ExperimentError> {
-    if settings == AutoSettings::LUMPED && request.value == CycleValue::Mean {
-        return Ok(1e6 * AnalyticMean::of(scene, case)?.transmission_error);
-    }
-    let own = settings.applied_to(scene);
-    let bodies = Bodies::new(&own)?;
-    let even = settings.positions.ok_or(ExperimentError::Incomplete("number of positions"))?;
-    let about = settings.positions_about_extremes.unwrap_or(even);
-    let mut curve = Curve::new(&own, &bodies, case, (1, about))?;
-    match about > even {
-        true => curve.refine(even, about)?,
-        false => drop(curve.at(&curve.even(even))?),
-    }
-    Ok(1e6 * request.of(&curve.points()))
-}
 
 /// The cheapest candidate whose estimated error is within the tolerance, with its answer.
 ///
@@ -78,7 +51,7 @@ pub fn choose_transmission_error(
     // The part of the positions of a mean takes every second one, all around the period.
     let is_halved = request.value == CycleValue::PeakToPeak || (base / repeats).is_multiple_of(2);
     let periods = if is_halved { repeats } else { 1 };
-    let scenes = [0, 1, 2, 3, 4].map(|mesh| request.settings(base, mesh, 0).applied_to(scene));
+    let scenes = std::array::from_fn(|mesh| request.settings(base, mesh, 0).applied_to(scene));
     let in_period = base / periods;
     let bodies = [const { OnceCell::new() }; MESHES.len()];
     let mut search = Search {
@@ -94,14 +67,13 @@ pub fn choose_transmission_error(
         curves: [const { None }; MESHES.len()],
         finer: [const { None }; MESHES.len()],
         run: BTreeMap::default(),
+        too_few_cells: 0,
         started: None,
         deflection: deflection(scene, case),
     };
     let in_closed_form = search.in_closed_form(scene);
-    let by_contact = || {
-        let mut order = request.order().iter();
-        order.find_map(|(mesh, doubled)| search.tried(*mesh, *doubled))
-    };
+    let by_contact =
+        || request.order().into_iter().find_map(|(mesh, doubled)| search.tried(mesh, doubled));
     let found = in_closed_form.or_else(by_contact);
     search.trial.ended(found)
 }
@@ -124,6 +96,17 @@ fn deflection(scene: &Scene, case: &LoadCase) -> f64 {
     let softer = factor(MeshKind::SunPlanet).max(factor(MeshKind::RingPlanet)).max(1.0);
     let force = case.sun_load_nm() / (sun.base_radius * scene.planets.psi_rad.len() as f64);
     TEETH * softer * force / (scene.material.young_modulus_pa * face_width)
+}
+
+/// Why FE/contact refuses a mesh; `too_few` is set if it has too few contact cells.
+fn reason(error: &ExperimentError, too_few: &mut bool) -> String {
+    let is_too_coarse = |e: &FeError| matches!(e, FeError::GridTooCoarse { .. });
+    *too_few = match error {
+        ExperimentError::Fe(FeError::AtPosition { cause, .. }) => is_too_coarse(cause),
+        ExperimentError::Fe(own) => is_too_coarse(own),
+        _ => false,
+    };
+    error.to_string()
 }
 
 type Made = Result<Bodies, String>;
@@ -151,8 +134,10 @@ struct Search<'s> {
     finer: [Option<Curve<'s>>; MESHES.len()],
     /// Curves by mesh and doublings, or why there is none.
     run: BTreeMap<(usize, u32), Run>,
-    /// The first mesh that has an answer, with the value on it, m.
-    started: Option<Result<(usize, f64), String>>,
+    /// Contact cells of which a mesh had too few under the load.
+    too_few_cells: u32,
+    /// The first mesh that has an answer.
+    started: Option<Result<usize, String>>,
     /// By how much a mesh of teeth yields, m.
     deflection: f64,
 }
@@ -179,18 +164,24 @@ impl<'s> Search<'s> {
 
     fn tried(&mut self, mesh: usize, doubled: u32) -> Option<Choice> {
         let settings = self.request.settings(self.base, mesh, doubled);
-        let (coarsest, value) = match self.started() {
+        let coarsest = match self.started() {
             Ok(found) => found,
             Err(why) => {
                 self.trial.refused(settings, why);
                 return None;
             }
         };
+        let value = self.largest_expected(coarsest);
         let of_mesh = self.request.error_of_mesh(mesh, self.deflection, value);
         let expected = 100.0 * (of_mesh + self.expected_of_positions(doubled));
         if mesh < coarsest {
             let refused = self.run.get(&(mesh, 0)).and_then(|run| run.as_ref().err());
-            let why = refused.cloned().unwrap_or_else(|| FINER_FIRST.into());
+            let finer_first = || {
+                format!(
+                    "not run: below a tolerance of {FINER_BELOW} % finer elements are the first"
+                )
+            };
+            let why = refused.cloned().unwrap_or_else(finer_first);
             self.trial.refused(settings, why);
             return None;
         }
@@ -245,10 +236,13 @@ impl<'s> Search<'s> {
         if self.curves[mesh].is_none() {
             let division = (self.periods, self.in_period << DOUBLINGS);
             let (scenes, case) = (self.scenes, self.case);
+            let mut too_few = false;
             let made = self.bodies(mesh).and_then(|bodies| {
-                Curve::new(&scenes[mesh], bodies, case, division).map_err(|e| e.to_string())
+                let made = Curve::new(&scenes[mesh], bodies, case, division);
+                made.map_err(|e| reason(&e, &mut too_few))
             });
             self.curves[mesh] = Some(made);
+            self.note_cells(mesh, too_few);
         }
         match &mut self.curves[mesh] {
             Some(Ok(curve)) => Ok(curve),
@@ -263,15 +257,23 @@ impl<'s> Search<'s> {
             return known.clone();
         }
         let (base, value) = (self.in_period, self.request.value);
+        let mut too_few = false;
         let found = self.positions(mesh).and_then(|curve| {
             let found = match value {
                 CycleValue::PeakToPeak if doubled > 0 => curve.refine(base, base << doubled),
                 _ => curve.at(&curve.even(base << doubled)).map(drop),
             };
-            found.map(|()| curve.points()).map_err(|e| e.to_string())
+            found.map(|()| curve.points()).map_err(|e| reason(&e, &mut too_few))
         });
+        self.note_cells(mesh, too_few);
         self.run.insert((mesh, doubled), found.clone());
         found
+    }
+
+    fn note_cells(&mut self, mesh: usize, too_few: bool) {
+        if too_few {
+            self.too_few_cells = self.too_few_cells.max(MESHES[mesh].1);
+        }
     }
 
     /// The curve of a candidate on a mesh finer than the coarsest, at its even positions and those about its extremes.
@@ -343,18 +345,34 @@ impl<'s> Search<'s> {
         between_meshes(self.request, &coarse, &fine).abs()
     }
 
-    /// The first mesh that has an answer, with the value on it at even positions.
-    fn started(&mut self) -> Result<(usize, f64), String> {
+    /// The first mesh that has an answer.
+    fn started(&mut self) -> Result<usize, String> {
         if self.started.is_none() {
             let mut why = String::new();
             let first = self.request.first_mesh();
             let found = (first..MESHES.len()).find_map(|mesh| {
-                let found = self.curve(mesh, 0);
-                Some((mesh, self.request.of(&found.map_err(|e| why = e).ok()?)))
+                let cells = MESHES[mesh].1;
+                if cells <= self.too_few_cells {
+                    let why = format!("not run: {cells} contact cells are too few, as above");
+                    self.run.insert((mesh, 0), Err(why));
+                    return None;
+                }
+                self.curve(mesh, 0).map_err(|e| why = e).ok().map(|_| mesh)
             });
             self.started = Some(found.ok_or(why));
         }
         self.started.clone().unwrap_or_else(|| Err(String::new()))
+    }
+
+    /// The value on the first mesh at the most positions that are known, and of a peak to peak what corners between them may add, m;
+    /// infinite if none are.
+    fn largest_expected(&self, coarsest: usize) -> f64 {
+        let own = self.run.iter().rev().filter(|((mesh, _), _)| *mesh == coarsest);
+        let Some(points) = own.flat_map(|(_, points)| points.as_ref().ok()).next() else {
+            return f64::INFINITY;
+        };
+        let added = if self.is_mean() { 0.0 } else { between_positions(self.request, points) };
+        self.request.of(points) * (1.0 + added)
     }
 
     /// The least part of the positions that is expected with so many; 0 if nothing is known.
@@ -392,6 +410,7 @@ fn between_positions(request: &CycleRequest, points: &[[f64; 2]]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::cycle_with_settings::transmission_error_with;
     use super::*;
     use gearset::{SceneKind, template};
 

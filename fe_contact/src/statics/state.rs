@@ -99,26 +99,55 @@ pub struct SetCycle {
     /// Change of the phase of planet 0's sun mesh by the windup under the torque, cycles. Positions
     /// count from where that mesh starts its path.
     pub lead: f64,
-    /// States at evenly spaced positions from 0.
+    /// States at ascending positions of one mesh cycle, from 0; evenly spaced but where they were asked for at others.
     pub states: Vec<SetState>,
 }
 
+/// Largest difference of positions from evenly spaced ones, cycles.
+const EVEN: f64 = 1e-9;
+
 impl SetCycle {
-    /// Mean over positions and planets of a mesh's force over its rigid approach, F/δ, N/m.
+    /// Mean over the cycle and the planets of a mesh's force over its rigid approach, F/δ, N/m.
     pub fn mean_secant_stiffness(&self, kind: MeshKind) -> f64 {
-        let meshes = self.states.iter().flat_map(|s| &s.meshes).filter(|m| m.kind == kind);
-        let (sum, count) =
-            meshes.fold((0.0, 0u32), |(sum, n), m| (sum + m.secant_stiffness(), n + 1));
-        sum / f64::from(count.max(1))
+        let of_kind = |s: &&MeshState| s.kind == kind;
+        let (mut sum, mut total) = (0.0, 0.0);
+        for (weight, state) in self.weights().into_iter().zip(&self.states) {
+            for mesh in state.meshes.iter().filter(of_kind) {
+                sum += weight * mesh.secant_stiffness();
+                total += weight;
+            }
+        }
+        if total > 0.0 { sum / total } else { 0.0 }
     }
 
-    /// Mean, smallest and largest value of a quantity over the positions.
+    /// Mean over the cycle, smallest and largest value of a quantity at the positions.
     pub fn range(&self, of: impl Fn(&SetState) -> f64) -> CycleRange {
         let values: Vec<f64> = self.states.iter().map(of).collect();
         CycleRange {
-            mean: values.iter().sum::<f64>() / values.len() as f64,
+            mean: self.mean(&values),
             least: values.iter().fold(f64::INFINITY, |a, v| a.min(*v)),
             largest: values.iter().fold(f64::NEG_INFINITY, |a, v| a.max(*v)),
+        }
+    }
+
+    /// Mean over the cycle of a value at each position.
+    fn mean(&self, values: &[f64]) -> f64 {
+        let weights = self.weights();
+        let sum: f64 = weights.iter().zip(values).map(|(weight, value)| weight * value).sum();
+        sum / weights.iter().sum::<f64>()
+    }
+
+    /// Parts of the cycle that the positions stand for: alike if they are evenly spaced, otherwise half of the way to either neighbour
+    /// (trapezoidal rule).
+    fn weights(&self) -> Vec<f64> {
+        let x: Vec<f64> = self.states.iter().map(|s| s.position).collect();
+        let n = x.len();
+        let is_even = |k: usize| (x[k] - x[0] - k as f64 / n as f64).abs() < EVEN;
+        match (0..n).all(is_even) {
+            true => vec![1.0; n],
+            false => (0..n)
+                .map(|k| 0.5 * (x[(k + 1) % n] - x[(k + n - 1) % n]).rem_euclid(1.0))
+                .collect(),
         }
     }
 
@@ -162,10 +191,10 @@ impl SetCycle {
     /// Root mean square about the mean of the sun's rotation (rad) and of its translation (m): the
     /// square root of the mean of |(x, y) − mean|².
     pub fn sun_rms(&self) -> (f64, f64) {
-        let n = self.states.len() as f64;
-        let mean = [0, 1, 2].map(|i| self.states.iter().map(|s| s.central[2][i]).sum::<f64>() / n);
+        let of = |i: usize| self.states.iter().map(|s| s.central[2][i]).collect::<Vec<_>>();
         let square = |i: usize| {
-            self.states.iter().map(|s| (s.central[2][i] - mean[i]).powi(2)).sum::<f64>() / n
+            let (values, mean) = (of(i), self.mean(&of(i)));
+            self.mean(&values.iter().map(|v| (v - mean).powi(2)).collect::<Vec<_>>())
         };
         (square(2).sqrt(), (square(0) + square(1)).sqrt())
     }
