@@ -43,8 +43,8 @@ const PEAK_DOUBLINGS: [u32; 3] = [0, 2, DOUBLINGS];
 /// Doublings of all positions of a mean.
 const MEAN_DOUBLINGS: [u32; 4] = [0, 1, 2, 3];
 
-/// Elements along a flank, those next to it divided, and graded contact cells of a tooth pair, from coarse to fine. More cells bring no
-/// mesh nearer to the truth, but FE/contact refuses 20 for some sets, because too few of them carry a load.
+/// Elements along a flank, those next to it divided, and graded contact cells of a tooth pair, from coarse to fine. More cells bring
+/// six to twelve elements no nearer to the truth, but FE/contact refuses 20 for some sets, because too few of them carry a load.
 pub(super) const MESHES: [(u32, u32); 5] = [(6, 20), (8, 20), (8, 30), (12, 30), (16, 30)];
 
 /// What each doubling of the positions about the extremes of a peak to peak costs, and what each mesh costs more than the coarsest, in positions:
