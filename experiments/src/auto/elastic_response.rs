@@ -112,7 +112,7 @@ fn of_carrier(
     standing: &VibratingSet<'_>,
     omega: f64,
 ) -> Result<Vec<DMatrix<Complex<f64>>>, ExperimentError> {
-    let Some(carrier) = ElasticCarrier::new(standing)? else { return Ok(Vec::new()) };
+    let Some(carrier) = ElasticCarrier::new(standing) else { return Ok(Vec::new()) };
     let why = "a harmonic is at a resonance of the carrier, which has no damping";
     let undamped = || ExperimentError::Model(why.into());
     (0..=HARMONICS).map(|l| carrier.lacking(l as f64 * omega).ok_or_else(undamped)).collect()

@@ -9,10 +9,12 @@
 //!
 //! Teeth are meshed alike, so that w is the same in the frame of every tooth, and one sector has it all.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::gear_body::GearBody;
-use super::sector_ring::Condensed;
+use super::sector_ring::RingOfSectors;
 use crate::element::matrices;
 use crate::error::FeError;
 
@@ -30,18 +32,18 @@ pub struct Accelerated {
     of_sector: Matrix3<f64>,
     /// Consistent mass of each element of a sector, one value for each pair of its functions, kg.
     masses: Vec<(Vec<usize>, DMatrix<f64>)>,
+    /// The gear's sectors.
+    pub(super) ring: Arc<RingOfSectors>,
 }
 
 impl Accelerated {
-    /// Of a gear; `None` where its teeth are not meshed alike.
+    /// Of a gear; `None` where its teeth are not meshed alike, or it was solved as a whole.
     ///
     /// # Errors
-    /// If an element is distorted or the stiffness is not positive definite.
+    /// If an element is distorted or a harmonic of the ring of sectors is not positive definite.
     pub fn new(gear: &GearBody) -> Result<Option<Self>, FeError> {
         let mesh = &gear.mesh;
-        if mesh.sectors.len() > 1 {
-            return Ok(None);
-        }
+        let Some(ring) = gear.ring() else { return Ok(None) };
         let sector = mesh.sector(0);
         let incompatible = mesh.family == gearset::ElementFamily::Incompatible;
         let one = |(i, e): (usize, &crate::fe_mesh::SectorElement)| {
@@ -60,6 +62,7 @@ impl Accelerated {
             moved: [0.0; 2],
             of_sector: Matrix3::zeros(),
             masses,
+            ring: ring.clone(),
         };
         // Rigid motion of the sector: a translation does not change derivative nodes.
         let mut rigid = DMatrix::zeros(2 * sector.points.len(), 3);
@@ -71,8 +74,7 @@ impl Accelerated {
             rigid[(2 * n + 1, 2)] = *x;
         }
         let forces = own.times_mass(&rigid);
-        let condensed = Condensed::new(mesh, &gear.material, gear.face_width, &forces)?;
-        own.displacement = condensed.everywhere(mesh)?;
+        own.displacement = ring.sector.everywhere(&ring.sector.under(&forces), mesh.name)?;
         let teeth = mesh.nodes.len() as f64;
         let inertia = own.times_mass(&own.displacement);
         let along = |of: &DMatrix<f64>, k: usize| of.column(k).dot(&own.displacement.column(k));

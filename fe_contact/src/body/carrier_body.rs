@@ -1,11 +1,13 @@
 //! The carrier on its rigid bore: flexibility between the pin seats.
 
+use std::sync::Arc;
+
 use faer::Mat;
 use nalgebra::DMatrix;
 
 use gearset::CarrierInput;
 
-use super::assembly::Triplets;
+use super::assembly::{Factor, Triplets};
 use super::matrices::BodyMatrices;
 use crate::element::matrices;
 use crate::error::FeError;
@@ -28,6 +30,8 @@ pub struct CarrierBody {
     pub flexibility: DMatrix<f64>,
     /// Matrices between bore and the rest.
     pub matrices: BodyMatrices,
+    /// Their stiffness, factorised.
+    pub(crate) factor: Arc<Factor>,
     /// First of each seat's three degrees of freedom (x, y, θ about its centre).
     pub seat_unknown: Vec<usize>,
     /// Whether it is taken as rigid.
@@ -132,7 +136,7 @@ impl CarrierBody {
             coupling[2][first + 2] += 0.5 * filling * r * r;
         }
         let stiffness = stiffness.matrix(next, "carrier")?;
-        let factor = stiffness.factorise("carrier")?;
+        let factor = Arc::new(stiffness.factorise("carrier")?);
         let matrices =
             BodyMatrices { stiffness, mass: masses.matrix(next, "carrier")?, coupling, size: next };
         let count = psi.len();
@@ -167,6 +171,7 @@ impl CarrierBody {
             unknowns: next,
             flexibility,
             matrices,
+            factor,
             seat_unknown,
             is_rigid: input.is_rigid,
             psi: psi.to_vec(),

@@ -1,8 +1,11 @@
 //! One gear on a rigid race: its static flexibility between flank points.
 
+use std::sync::Arc;
+
 use nalgebra::DMatrix;
 
 use super::responses::{LoadNodes, Responses};
+use super::sector_ring::RingOfSectors;
 use super::{sector_ring, whole_gear};
 use crate::error::FeError;
 use crate::fe_mesh::{FeGearMesh, Side};
@@ -225,6 +228,12 @@ impl GearBody {
             return None;
         }
         self.responses.near_under(offset, side)
+    }
+
+    /// The ring of sectors from which responses are computed; `None` where teeth are meshed differently or the whole gear was
+    /// solved.
+    pub(super) fn ring(&self) -> Option<&Arc<RingOfSectors>> {
+        self.responses.ring()
     }
 
     /// Normal displacement at `depth` (m) below mid-flank of the tooth `offset` on, under a unit

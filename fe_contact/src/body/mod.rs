@@ -3,6 +3,7 @@
 mod accelerated;
 mod assembly;
 mod carrier_body;
+mod condensed_sector;
 mod gear_body;
 mod matrices;
 mod responses;
@@ -17,4 +18,4 @@ pub use gear_body::{Deep, FlankPoint, GearBody};
 pub use matrices::BodyMatrices;
 pub(crate) use matrices::number_unknowns;
 pub(crate) use responses::kept_teeth;
-pub use tooth_gram::ToothGram;
+pub use tooth_gram::{LoadProducts, ToothGram};

@@ -1,7 +1,7 @@
 //! What a gear keeps of its elastic solution: displacements of its teeth under unit loads on one of them.
 
 use std::ops::Range;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::DMatrix;
 
@@ -72,7 +72,7 @@ pub(super) struct Responses {
     teeth: i64,
     /// What they are computed from when they are first asked for: most contact needs those of a tooth and its two
     /// neighbours alone.
-    ring: Option<RingOfSectors>,
+    ring: Option<Arc<RingOfSectors>>,
 }
 
 impl Responses {
@@ -86,7 +86,7 @@ impl Responses {
             of_sides: loads.of_sides.clone(),
             around: none(around),
             teeth: around as i64,
-            ring: Some(ring),
+            ring: Some(Arc::new(ring)),
         }
     }
 
@@ -105,6 +105,11 @@ impl Responses {
             teeth: mesh.nodes.len() as i64,
             ring: None,
         }
+    }
+
+    /// What they are computed from; `None` where teeth are meshed differently or the whole gear was solved.
+    pub(super) fn ring(&self) -> Option<&Arc<RingOfSectors>> {
+        self.ring.as_ref()
     }
 
     /// Response at all nodes of the tooth `offset` teeth on from the loaded one; `None` beyond the kept ones.

@@ -19,6 +19,8 @@
 //!
 //! Flexibility X_ab = ℓ_a K⁻¹ ℓ_bᵀ between pairs of different meshes of a body takes −PᵀX P from the stiffness of the mode.
 
+use std::sync::Arc;
+
 use nalgebra::DVector;
 
 use super::body::into_frame;
@@ -51,7 +53,7 @@ pub struct ElasticShift {
 
 #[derive(Debug)]
 struct AcceleratedCarrier {
-    factor: Factor,
+    factor: Arc<Factor>,
     /// w of accelerations along x and y (s²) and about the centre (m s²).
     displacement: [Vec<f64>; 3],
     /// Least Rayleigh quotient of these, (rad/s)².
@@ -59,9 +61,8 @@ struct AcceleratedCarrier {
 }
 
 impl AcceleratedCarrier {
-    fn new(body: &CarrierBody) -> Result<Self, FeError> {
-        let matrices = &body.matrices;
-        let factor = matrices.stiffness.factorise("carrier")?;
+    fn new(body: &CarrierBody) -> Self {
+        let (matrices, factor) = (&body.matrices, body.factor.clone());
         let displacement = matrices.coupling.clone().map(|mut column| {
             factor.solve_one(&mut column);
             column
@@ -71,7 +72,7 @@ impl AcceleratedCarrier {
             product(&matrices.coupling[k], w) / energy(body, w)
         };
         let first = (0..3).map(quotient).fold(f64::INFINITY, f64::min);
-        Ok(Self { factor, displacement, first })
+        Self { factor, displacement, first }
     }
 
     /// w of an acceleration of the race (x, y, θ).
@@ -103,7 +104,7 @@ impl ElasticInertia {
     pub fn new(set: &VibratingSet<'_>) -> Result<Option<Self>, FeError> {
         let Some(gears) = ElasticGears::new(set)? else { return Ok(None) };
         let carrier = set.races().carrier.as_ref().filter(|body| !body.is_rigid);
-        let carrier = carrier.map(|body| AcceleratedCarrier::new(body)).transpose()?;
+        let carrier = carrier.map(|body| AcceleratedCarrier::new(body));
         Ok(Some(Self { gears, carrier }))
     }
 

@@ -10,8 +10,7 @@
 //! where the derivative follows every tooth with the load that moves along its flank: z_ab is taken between loads at the present and the neighbouring steps. Where a pair
 //! begins or ends to touch the velocity u̇_s jumps, and so do the rows of G: the impulse acts by their mean, for which the kinetic energy as a function of the motion,
 //! with the place of the jump in it, has its derivative. Rows of one side alone would leave anything from nothing to twice the impulse, by where the steps fall. A small
-//! change δ of the motion adds −Gᵀ z G δ̈, as a mass would. Teeth without a response at all of their nodes are left out, as in
-//! [`Accelerated::energy`](crate::body::Accelerated::energy).
+//! change δ of the motion adds −Gᵀ z G δ̈, as a mass would.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,7 +19,7 @@ use nalgebra::{DMatrix, DVector};
 use super::elastic_gears::ElasticGears;
 use super::elastic_load::ElasticLoad;
 use super::set::VibratingSet;
-use crate::body::ToothGram;
+use crate::body::{LoadProducts, ToothGram};
 
 /// A force on a tooth at one step.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,22 +62,26 @@ impl ElasticGears {
                     alike.flat_map(|own| own.load.iter().map(|(column, _)| *column)).collect();
                 self.of(k).gram(gear.body, &columns.into_iter().collect::<Vec<_>>())
             });
-            let of_gear = Turned { cycle, gear: k };
+            let products = |own: &ElasticLoad| {
+                own.pressing[k].iter().map(|tooth| gram.of(&tooth.load)).collect::<Vec<_>>()
+            };
+            let products = cycle.iter().map(products).collect();
+            let of_gear = Turned { cycle, products, gear: k };
             for t in 0..cycle.len() as i64 {
                 let (mut force, mut mass) = (DVector::zeros(n), DMatrix::zeros(n, n));
                 for (share, a) in of_gear.yielding(t) {
                     let mut second = 0.0;
                     for (ahead, factor) in [(-1, 1.0), (0, -2.0), (1, 1.0)] {
-                        for (tooth, b) in of_gear.at(t + ahead) {
-                            let z = gram.between(&a.1.load, &b.load, tooth - a.0);
+                        for ((tooth, b), products) in of_gear.with_products(t + ahead) {
+                            let z = gram.between(&a.1.load, products, tooth - a.0);
                             second += factor * z * b.force;
                         }
                     }
                     force.axpy(-share * second / (step_s * step_s), &a.1.given, 1.0);
                 }
                 for (tooth, a) in of_gear.at(t) {
-                    for (other, b) in of_gear.at(t) {
-                        let z = gram.between(&a.load, &b.load, other - tooth);
+                    for ((other, b), products) in of_gear.with_products(t) {
+                        let z = gram.between(&a.load, products, other - tooth);
                         mass.ger(z, &a.given, &b.given, 1.0);
                     }
                 }
@@ -93,6 +96,8 @@ impl ElasticGears {
 /// Forces on the teeth of one gear in a motion that repeats itself.
 struct Turned<'c> {
     cycle: &'c [ElasticLoad],
+    /// Products of the loads of each step.
+    products: Vec<Vec<LoadProducts>>,
     gear: usize,
 }
 
@@ -103,6 +108,15 @@ impl<'c> Turned<'c> {
         let own = &self.cycle[t.rem_euclid(steps) as usize];
         let passed = t.div_euclid(steps) * own.teeth_per_cycle[self.gear];
         own.pressing[self.gear].iter().map(move |tooth| (tooth.tooth + passed, tooth))
+    }
+
+    /// The same with the products of their loads.
+    fn with_products(
+        &self,
+        t: i64,
+    ) -> impl Iterator<Item = ((i64, &'c PressedTooth), &LoadProducts)> {
+        let products = &self.products[t.rem_euclid(self.cycle.len() as i64) as usize];
+        self.at(t).zip(products)
     }
 
     /// Whether other teeth are pressed at step t + 1 than at step t.

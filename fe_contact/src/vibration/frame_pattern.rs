@@ -187,7 +187,7 @@ impl FramePattern {
                 Some((&ends[*e].end, teeth[*e], self.mesh_of(*pair)))
             };
             let ports: Vec<_> = own.iter().map(port).collect();
-            DMatrix::from_fn(own.len(), own.len(), |i, j| {
+            let whole = |i: usize, j: usize| {
                 let (Some((of, tooth_of, mesh)), Some((on, tooth_on, other))) =
                     (ports[i], ports[j])
                 else {
@@ -196,13 +196,23 @@ impl FramePattern {
                 if (mesh == other) != same {
                     return 0.0;
                 }
-                let whole = gear.body.surface_flexibility(
+                gear.body.surface_flexibility(
                     (&on.load, on.direction),
                     tooth_of - tooth_on,
                     (&of.load, of.direction),
-                );
-                whole * self.meshes[mesh].flexibility_factor
-            })
+                )
+            };
+            let mut all = DMatrix::zeros(own.len(), own.len());
+            for j in 0..own.len() {
+                for i in 0..own.len() {
+                    // Between different meshes the one half is the other, by reciprocity.
+                    all[(i, j)] = if same || i >= j { whole(i, j) } else { all[(j, i)] };
+                }
+            }
+            for (port, mut row) in ports.iter().zip(all.row_iter_mut()) {
+                row *= port.map_or(0.0, |(.., mesh)| self.meshes[mesh].flexibility_factor);
+            }
+            all
         };
         gears.iter().zip(&self.own).map(of).collect()
     }
