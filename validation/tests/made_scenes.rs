@@ -98,7 +98,7 @@ fn the_record_of_auto_holds_and_comes_out_again() {
     }
 }
 
-/// `kept/auto_responses.csv`: 75 sets at rest and 30 in motion; the answers of `auto` for transmission errors and amplitudes are within their
+/// `kept/auto_responses.csv`: 75 sets at rest and 28 in motion; the answers of `auto` for transmission errors and amplitudes are within their
 /// tolerances in at least 95 %, and a few cheap ones come out again.
 #[test]
 fn the_record_of_auto_for_responses_holds_and_comes_out_again() {
@@ -107,7 +107,7 @@ fn the_record_of_auto_for_responses_holds_and_comes_out_again() {
     let lines = text.lines().filter(|line| !line.starts_with('#'));
     let rows: Vec<Vec<&str>> = lines.skip(1).map(|line| line.split(',').collect()).collect();
     let at_rest = rows.iter().filter(|row| row[2].ends_with("at rest")).count();
-    assert_eq!((at_rest, rows.len() - at_rest), (75, 30));
+    assert_eq!((at_rest, rows.len() - at_rest), (75, 28));
     let number = |row: &[&str], k: usize| row[k].parse::<f64>().unwrap();
     let answered: Vec<&Vec<&str>> = rows.iter().filter(|row| row[4] != "refused").collect();
     assert!(answered.len() >= 30, "{}", answered.len());

@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use super::amplitude::AmplitudeRequest;
+use super::amplitude_meshes::{of_elements, unevenness};
 use super::amplitude_run::{Motions, Turning};
 use super::elastic_response::{MATTERS, elastic_response};
 use super::energy::ModeEnergy;
 use super::error_parts::SetSize;
 use super::response::{Harmonics, mode_type, name};
-use super::settings::MESHES;
 use crate::error::ExperimentError;
 
 /// Numbers of steps are compared with one in so many of those of the coarsest candidate, which has the tables.
@@ -30,14 +30,6 @@ const FORBIDDEN: f64 = 1e-7;
 /// Largest amplification by a mode by which the motion is taken to be larger than the excitation, of [`Excited::excitation`].
 const MOST_AMPLIFIED: f64 = 20.0;
 
-/// What finite elements along a flank change a motion by as a stiffness of the meshes: on six of them, and the order by which more do less; seen on
-/// development sets (`docs/auto.md`).
-const OF_SIX: (f64, f64) = (0.0145, 2.5);
-
-/// What a transmission error of six elements along a flank is off by, over the deflection of a mesh, besides the error of
-/// the stiffness, and the order: seen on development sets (`docs/auto.md`).
-const UNEVEN: (f64, f64) = (5e-4, 1.4);
-
 /// Share of what the correction for the frequency of the time steps moves a response by that it may still be off by, where few steps and more of
 /// them agree by chance: it is of first order (`docs/auto.md`).
 const OF_CORRECTION: f64 = 0.05;
@@ -46,36 +38,17 @@ const OF_CORRECTION: f64 = 0.05;
 /// seen on development sets (`docs/auto.md`).
 const OF_CHANGE: f64 = 0.25;
 
-/// Elements of a mesh, sixths.
-fn fineness(mesh: usize) -> f64 {
-    f64::from(MESHES[mesh].0) / 6.0
-}
-
-/// δk/k by the elements of a mesh, as it changes a motion.
-pub(super) fn of_elements(mesh: usize) -> f64 {
-    OF_SIX.0 * fineness(mesh).powf(-OF_SIX.1)
-}
-
-/// Unevenness of a mesh over that of another one.
-fn uneven_ratio(from: usize, to: usize) -> f64 {
-    (fineness(to) / fineness(from)).powf(-UNEVEN.1)
-}
-
 /// What the coarsest candidate shows.
 pub(super) struct Indicators {
     pub(super) motions: Motions,
     /// Number of its mesh.
     pub(super) mesh: usize,
-    /// Speed of its largest amplitude, rpm.
-    pub(super) top_rpm: f64,
     top: Harmonics,
     /// Relative change of the amplitude for a relative change of the mesh stiffness.
     by_stiffness: f64,
-    /// Error of the transmission error on the coarsest candidate besides that of the stiffness, over the excitation.
-    uneven: f64,
+    /// Deflection of a mesh of teeth over the excitation.
+    deflection: f64,
     of_steps: f64,
-    /// The same of motions with the change of frequency by the time steps.
-    of_stepped: f64,
     /// Part of the inertia that is left out: the bound, or what replaced it; infinite where nothing is known.
     pub(super) inertia: f64,
     /// Amplitude with the first-order change by the inertia over that without it, where that leaves less than the bound.
@@ -132,18 +105,14 @@ impl Indicators {
             false => f64::INFINITY,
         };
         let fewer = turning.thinned(EVERY, |own| own.motions(&[top_rpm]))?;
-        let by_steps = |moved: f64| SAFETY * moved / (f64::from(EVERY).powf(STEP_ORDER) - 1.0);
-        let uneven = UNEVEN.0 * size.deflection() * uneven_ratio(0, mesh);
-        let uneven = uneven / (excited.excitation * motions.largest());
+        let by_steps = SAFETY * motions.moved(&fewer) / (f64::from(EVERY).powf(STEP_ORDER) - 1.0);
+        let deflection = size.deflection() / (excited.excitation * motions.largest());
         Ok(Self {
             mesh,
-            top_rpm,
             top,
             by_stiffness: 1.0 + by_shift,
-            uneven,
-            of_steps: by_steps(motions.moved(&fewer))
-                .max(OF_CORRECTION * motions.apart_by_correction()),
-            of_stepped: by_steps(motions.moved_in_steps(&fewer)),
+            deflection,
+            of_steps: by_steps.max(OF_CORRECTION * motions.apart_by_correction()),
             inertia,
             with_inertia: None,
             is_bound: true,
@@ -155,12 +124,11 @@ impl Indicators {
     /// Elements and cells of a mesh, the mean stiffness by elements alone: where the edge of a patch lies among its cells changes from step
     /// to step and from mesh to mesh, and leaves no more than a part of the unevenness.
     pub(super) fn of_mesh(&self, mesh: usize) -> f64 {
-        let uneven = self.uneven * uneven_ratio(self.mesh, mesh);
-        (self.by_stiffness * of_elements(mesh)).hypot(uneven)
+        (self.by_stiffness * of_elements(mesh)).hypot(unevenness(mesh) * self.deflection)
     }
 
     /// The same of a candidate that was run: where it differs from the coarsest by more than both estimates and the steps
-    /// explain, what is left over counts, smaller with the size of the elements.
+    /// explain, what is left over counts, as the unevenness does on both.
     pub(super) fn of_mesh_seen(&self, mesh: usize, motions: &Motions) -> f64 {
         let own = self.of_mesh(mesh);
         if mesh == self.mesh {
@@ -168,17 +136,13 @@ impl Indicators {
         }
         let seen = (motions.largest() / self.motions.largest() - 1.0).abs();
         let explained = self.of_mesh(self.mesh) + own + self.of_steps;
-        own + SAFETY * (seen - explained).max(0.0) * uneven_ratio(self.mesh, mesh)
+        let ratio = unevenness(mesh) / unevenness(self.mesh);
+        own + SAFETY * (seen - explained).max(0.0) * ratio
     }
 
     /// Steps: by the formal order with each doubling.
     pub(super) fn of_steps(&self, doubled: u32) -> f64 {
         self.of_steps * 2f64.powf(-STEP_ORDER * f64::from(doubled))
-    }
-
-    /// The same of motions with the change of frequency by the time steps.
-    pub(super) fn of_stepped(&self, doubled: u32) -> f64 {
-        self.of_stepped * 2f64.powf(-STEP_ORDER * f64::from(doubled))
     }
 
     /// [`of_steps`](Self::of_steps) of a candidate that was run: at least what its own change from the coarsest candidate says,

@@ -224,22 +224,11 @@ impl Motions {
         self.stepped.iter().map(|(_, own)| own)
     }
 
-    /// Largest distance between this motion and another one over the speeds that both have, over the largest amplitude
-    /// of this one; both with the change of frequency by the time steps, as motions with modes of the bodies have it.
-    pub(super) fn apart_in_steps(&self, other: &Self) -> f64 {
-        apart(&self.stepped, &other.stepped)
-    }
-
     /// Change of the amplitude from this motion to another one over the speeds that both have, and at least half of their
     /// distance, over the largest amplitude of this one: a change of phase alone leaves the amplitude as it is, but
     /// may come out otherwise on other settings.
     pub(super) fn moved(&self, other: &Self) -> f64 {
         moved(&self.at, &other.at)
-    }
-
-    /// The same with the change of frequency by the time steps.
-    pub(super) fn moved_in_steps(&self, other: &Self) -> f64 {
-        moved(&self.stepped, &other.stepped)
     }
 
     /// Largest distance between the motion with and without the change of frequency by the time steps, over the largest amplitude.
@@ -316,7 +305,7 @@ mod tests {
             own.motions(&request.speeds_rpm)?;
             own.with_steps(more, |own| own.motions(&request.speeds_rpm))
         });
-        let off = alone.unwrap().apart_in_steps(&shared.unwrap());
+        let off = apart(&alone.unwrap().stepped, &shared.unwrap().stepped);
         assert!(off < 1e-7, "{off:e}");
     }
 

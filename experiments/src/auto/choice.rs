@@ -53,8 +53,8 @@ pub struct Choice {
     pub unit: String,
     /// Wanted accuracy, percent of the value.
     pub tolerance_percent: f64,
-    /// Estimated error of the value, percent: the sum of `error_parts`, of an amplitude and of the lumped model 2/√3 of the root of the sum of
-    /// their squares if that is less.
+    /// Estimated error of the value, percent: the sum of `error_parts`, of an amplitude the root of the sum of their squares, of the lumped model
+    /// 2/√3 of that if it is less.
     pub estimated_error_percent: f64,
     /// What the error consists of.
     pub error_parts: Vec<ErrorPart>,
@@ -80,6 +80,8 @@ pub(super) enum Together {
     Sum,
     /// As errors of independent causes that are anywhere within their bounds, at most the sum.
     Squares,
+    /// As errors of independent causes whose parts are what most of them are within, not bounds (expanded uncertainties: JCGM 100:2008, 5.1.2).
+    Expanded,
 }
 
 impl Together {
@@ -89,6 +91,7 @@ impl Together {
         match self {
             Self::Sum => total(parts),
             Self::Squares => total(parts).min(EXPANDED * squares().sqrt()),
+            Self::Expanded => squares().sqrt(),
         }
     }
 }
@@ -150,15 +153,16 @@ mod tests {
     fn parts_together_are_at_most_their_sum() {
         let of = |list: &[f64]| {
             let parts: Vec<_> = list.iter().map(|e| ErrorPart::new("", *e)).collect();
-            [Together::Sum.of(&parts), Together::Squares.of(&parts)]
+            [Together::Sum, Together::Squares, Together::Expanded].map(|own| own.of(&parts))
         };
-        let [sum, squares] = of(&[0.01, 0.01]);
+        let [sum, squares, expanded] = of(&[0.01, 0.01]);
         assert!((sum - 2.0).abs() < 1e-12 && (squares - (8.0f64 / 3.0).sqrt()).abs() < 1e-12);
+        assert!((expanded - 2f64.sqrt()).abs() < 1e-12);
         for list in [&[0.02][..], &[0.02, 0.001], &[]] {
-            let [sum, squares] = of(list);
-            assert_eq!(sum, squares, "{list:?}");
+            let [sum, squares, expanded] = of(list);
+            assert!(sum == squares && expanded <= sum, "{list:?}");
         }
-        assert!(of(&[0.01, f64::INFINITY])[1].is_infinite());
+        assert!(of(&[0.01, f64::INFINITY])[1..].iter().all(|e| e.is_infinite()));
     }
 
     #[test]

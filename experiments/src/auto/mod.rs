@@ -7,6 +7,7 @@
 
 mod amplitude;
 mod amplitude_indicators;
+mod amplitude_meshes;
 mod amplitude_run;
 mod analytic_mean;
 mod analytic_mode;

@@ -191,9 +191,6 @@ impl std::fmt::Display for AutoSettings {
     }
 }
 
-/// Elements along a flank and contact cells of a tooth pair, from coarse to fine: those of the candidates for motion in time.
-pub(super) const MESHES: [(u32, u32); 4] = [(6, 20), (10, 30), (16, 40), (24, 60)];
-
 /// Most positions or steps into which a mesh cycle is divided evenly so that phases of all planets fall on them.
 const MOST_PARTS: usize = 60;
 
