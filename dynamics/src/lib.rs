@@ -6,7 +6,6 @@ mod bundles;
 pub mod continuation;
 mod coupled;
 mod error;
-mod extrapolate;
 mod factored;
 mod grid_convergence;
 mod gyroscopic;
@@ -33,7 +32,6 @@ pub use coupled::{
     LinearPart, PassedSteps, Renumbering,
 };
 pub use error::{EigenError, SpectrumError};
-pub use extrapolate::extrapolation_weights;
 pub use factored::{FactoredModes, SpringRow, factored_modes};
 pub use faer::c64;
 pub use grid_convergence::{GridConvergence, grid_convergence_index};

@@ -44,6 +44,16 @@ pub enum ExperimentError {
     /// A speed of a sweep at which no steady state could be computed.
     #[error(transparent)]
     Failed(Box<crate::sweep::FailedPoint>),
+    /// A speed of a sweep at which no motion was found that repeats with the mesh cycle and attracts.
+    #[error(
+        "at {rpm} rpm no motion was found that repeats with the mesh cycle and attracts: {found}"
+    )]
+    NoSteadyState {
+        /// Speed of the input member, rpm.
+        rpm: f64,
+        /// What was found.
+        found: String,
+    },
     /// A torque whose sense is not that of the torque a model was made for.
     #[error(
         "{torque_nm} N·m on the sun: the model was made under {own_nm} N·m, and a torque in the other sense presses the other flanks"

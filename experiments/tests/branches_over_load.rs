@@ -195,20 +195,25 @@ fn motions_that_repeat_after_two_cycles_are_followed_off_a_period_doubling() {
         between_cycles: 0,
         ..SteadySettings::default()
     };
-    // From rest marching arrives at one of several stable motions: at some speed at this one.
+    // Where one motion after another is stable, marching from speed to speed stays on it: down from before the doubling.
+    let mut state: Option<Vec<f64>> = None;
+    let above = std::iter::once((at + 2.0, None));
     let mut met = 0;
-    for p in sound {
-        let case = model.case().at_speed(p.parameter);
+    for (rpm, own) in above.chain(sound.iter().rev().map(|p| (p.parameter, Some(*p)))) {
+        let case = model.case().at_speed(rpm);
         let mut set = model.turning(&case, 0).unwrap();
-        set.rest().unwrap();
+        match &state {
+            Some(state) => set.restore(state).unwrap(),
+            None => set.rest().unwrap(),
+        }
         let swept = steady(set.as_mut(), 3, 0.0, STEPS, &march).unwrap();
+        state = Some(set.state());
         let repeats_after = swept.repeats_after;
+        let Some(p) = own else { continue };
         let swept = SweepPoint::new(case, &swept, &march, 0).unwrap();
-        // Of a motion that repeats after two cycles the branch has the harmonics of their mean, a march those of its last cycle: what
-        // is compared is watched over both.
         let [own, other] = [&p.contact_loss, &swept.contact_loss];
         let force = (swept.lowest_force_n - p.lowest_force_n).abs();
-        println!("{} rpm: {repeats_after:?} cycles, loss {other}, {own}; {force} N", p.parameter);
+        println!("{rpm} rpm: {repeats_after:?} cycles, loss {other}, {own}; {force} N");
         let is_met = (own - other).abs() < 2.0 / STEPS as f64 && force < 0.01;
         met += i32::from(repeats_after == Some(2) && is_met && *own > 0.0);
     }

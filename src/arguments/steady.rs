@@ -20,7 +20,7 @@ pub(crate) enum Model {
 pub(crate) enum SteadyMethod {
     /// Newton's method for the periodic motion, with its stability; marched where none is found or it is unstable.
     Shooting,
-    /// Time integration until mesh cycles repeat.
+    /// Time integration until mesh cycles repeat, with the multipliers of the motion at its end.
     Marching,
 }
 
@@ -58,8 +58,7 @@ pub(crate) struct Sweep {
     /// Largest change of a steady state from cycle to cycle, over its peak-to-peak vibration.
     #[arg(long, default_value_t = 1e-9, value_parser = small, allow_negative_numbers = true)]
     pub tolerance: f64,
-    /// Cycles after which a set that has not settled is recorded as it is, flagged as subharmonic or not
-    /// periodic.
+    /// Cycles after which a march is given up; the motion is then recorded as it is, flagged as not shown to attract.
     #[arg(long, default_value_t = 2000, value_parser = whole::<2, 1_000_000>, allow_negative_numbers = true)]
     pub most_cycles: u32,
     /// Cycles over which the energy between harmonics of a marched motion is measured, 0 for none; of a motion
@@ -70,7 +69,7 @@ pub(crate) struct Sweep {
     /// the points in it. A folder with anything else that would be overwritten is refused.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Also draw figures into this folder (SVG, PNG): waterfalls, frequencies and harmonics_* of each quantity.
+    /// Also draw figures into this folder (SVG, PNG): waterfalls, frequencies, harmonics_* of each quantity and, of a model with derivative, multipliers.
     #[cfg(feature = "charts")]
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,

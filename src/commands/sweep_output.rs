@@ -4,7 +4,8 @@ use std::io::Write;
 
 use experiments::auto::Choice;
 use experiments::sweep::{
-    CriticalMotion, FailedPoint, MOST_REPEATS, SteadyMethod, SteadySettings, Sweep, SweepPoint,
+    Attraction, CriticalMotion, FailedPoint, LargestMultiplier, MOST_REPEATS, SearchStart,
+    SteadyMethod, SteadySettings, Sweep, SweepPoint,
 };
 use gearset::Scene;
 use schemars::JsonSchema;
@@ -42,7 +43,7 @@ pub(super) struct SweepOutput {
     /// Points by speed, at one speed in the order of their chains. The translation that tables and figures show
     /// is √(R² + T²) of the amplitudes R and T of `radial` and `tangential` in one harmonic.
     points: Vec<ChainPoint>,
-    /// Speeds (rpm) at which chains arrived at different steady motions.
+    /// Speeds (rpm) at which chains arrived at different motions that attract.
     coexisting_rpm: Vec<f64>,
     /// Speeds at which nothing could be computed, by speed.
     failed: Vec<FailedPoint>,
@@ -67,7 +68,7 @@ pub(super) struct Sidecar<'a> {
     head: serde_json::Map<String, serde_json::Value>,
     /// The scene file.
     scene_file: &'a str,
-    columns: [(&'static str, &'static str); 14],
+    columns: [(&'static str, &'static str); 20],
     points: Vec<PointHead<'a>>,
     /// Speeds that have no rows in the table, with the reason.
     failed: &'a [FailedPoint],
@@ -84,7 +85,11 @@ struct PointHead<'a> {
     why_marched: Option<&'a str>,
     cycles: usize,
     derivatives: usize,
+    start: SearchStart,
+    attracts: Attraction,
     multipliers: &'a [[f64; 2]],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    largest_multiplier: Option<&'a LargestMultiplier>,
     #[serde(skip_serializing_if = "Option::is_none")]
     critical: Option<&'a CriticalMotion>,
     residual: f64,
@@ -102,7 +107,7 @@ struct PointHead<'a> {
     kinematic_rest_share: Option<f64>,
 }
 
-const COLUMNS: [(&str, &str); 14] = [
+const COLUMNS: [(&str, &str); 20] = [
     ("scene", "title of the scene"),
     ("fidelity", "fidelity of the fidelity ladder"),
     ("sun_torque_nm", "torque on the sun, N m"),
@@ -127,8 +132,26 @@ const COLUMNS: [(&str, &str); 14] = [
     ("cycles", "mesh cycles marched"),
     (
         "residual",
-        "change of the last two cycles, with shooting from the last to the next one, over the largest peak-to-peak vibration",
+        "change of the last two periods, with shooting from the last to the next one, over the largest peak-to-peak vibration",
     ),
+    ("repeats_after", "mesh cycles after which the motion repeats; empty if it does not"),
+    (
+        "attracts",
+        "by_multipliers, by_decay (shown to attract), repels, neutral (a multiplier of size 1), not_shown",
+    ),
+    (
+        "multiplier",
+        "size of the largest Floquet multiplier of one period; empty without multipliers",
+    ),
+    (
+        "multiplier_kind",
+        "fold, period_doubling, neimark_sacker: how stability is lost where it becomes 1 in size",
+    ),
+    (
+        "mode_type",
+        "type of the motion that it multiplies: rotational, translational, planet, mixed",
+    ),
+    ("start", "where the search began: rest, the speed before, or an unstable motion, pushed"),
 ];
 
 impl SweepOutput {
@@ -187,7 +210,10 @@ impl SweepOutput {
             why_marched: p.why_marched.as_deref(),
             cycles: p.cycles,
             derivatives: p.derivatives,
+            start: p.start,
+            attracts: p.attracts,
             multipliers: &p.multipliers,
+            largest_multiplier: p.largest_multiplier.as_ref(),
             critical: p.critical.as_ref(),
             residual: p.residual,
             is_steady: p.is_steady,
@@ -242,8 +268,10 @@ no contact: largest part of the time in which a mesh carries nothing; – for ne
 backside: part of the time in which backside flanks of any mesh press; n/a for a model without backside flanks
 grazing: least of lowest over mean force of the meshes that never part, near 0 of which μ loses its meaning; – where all part
 repeats: mesh cycles after which the motion repeats; – for none up to 8: not periodic, or not settled yet
-μ: size of the largest Floquet multiplier, below 1 if the motion is stable; – where it was marched
-cycles: mesh cycles integrated; residual: change between the last two of them, with shooting from the last to the next one, over the peak-to-peak vibration";
+attracts: yes by its multipliers, decay as changes were seen to fall, no, neutral (a multiplier of size 1); – for not shown
+μ: size of the largest Floquet multiplier of one period, below 1 if the motion attracts; loses it: as fold (+1), doubling (−1) or pair
+(complex), and the type of the motion that it multiplies
+cycles: mesh cycles integrated; residual: change between the last two periods, with shooting from the last to the next one, over the peak-to-peak vibration";
 
 /// One line per speed: strongest harmonics of the sun's motion, contact, cycles and residual; then a legend,
 /// warnings, and the speeds that could not be computed.
@@ -267,11 +295,13 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
         "backside",
         "grazing",
         "repeats",
+        "attracts",
         "μ",
+        "loses it",
         "cycles",
         "residual",
     ];
-    let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14]);
+    let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 15, 16]);
     for ChainPoint { chain, point: p } in &result.points {
         let [rotation, l, translation, of_translation] = of_sun(&p.state, result.harmonics);
         table.add_row([
@@ -287,7 +317,9 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
             p.backside_contact.map_or("n/a".into(), output::share),
             p.grazing_margin.map_or("–".into(), |margin| format!("{margin:.3}")),
             p.repeats_after.map_or("–".into(), |cycles| cycles.to_string()),
+            attracts(p.attracts).into(),
             p.largest_multiplier().map_or("–".into(), |size| format!("{size:.3}")),
+            p.largest_multiplier.as_ref().map_or("–".into(), loses),
             p.cycles.to_string(),
             format!("{:.0e}", p.residual),
         ]);
@@ -315,30 +347,44 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
     if subharmonic > 0 {
         writeln!(
             out,
-            "At {subharmonic} of these speeds the motion is subharmonic: it repeats only after 2 to {MOST_REPEATS} mesh cycles, and the harmonics are those of a single one."
+            "At {subharmonic} of these speeds the motion is subharmonic: it repeats only after 2 to {MOST_REPEATS} mesh cycles, and the harmonics are those of the mean one."
         )?;
     }
     let marched = count(|p| p.why_marched.is_some());
     if marched > 0 {
         writeln!(
             out,
-            "At {marched} of these speeds shooting found no stable periodic motion, or the model has no derivative of its steps: the motion was marched; JSON has the reasons."
+            "At {marched} of these speeds shooting found no motion that attracts from the state before, or the model has no derivative of its steps: the set was marched; JSON has the reasons."
+        )?;
+    }
+    let pushed = count(|p| p.start == SearchStart::Unstable);
+    if pushed > 0 {
+        writeln!(
+            out,
+            "At {pushed} of these speeds the march began at an unstable motion, pushed: none that attracts was found from the state before."
         )?;
     }
     if !result.coexisting_rpm.is_empty() {
         let list: Vec<String> = result.coexisting_rpm.iter().map(|s| format!("{s:.1}")).collect();
         writeln!(
             out,
-            "More than one stable motion exists at {} rpm: those reached from lower and from higher speeds differ.",
+            "More than one motion attracts at {} rpm: those reached from lower and from higher speeds differ.",
             list.join(", ")
         )?;
     }
-    let unsteady = count(|p| p.repeats_after.is_none());
-    if unsteady > 0 {
+    let none = count(|p| !p.attracts.is_shown() && p.attracts != Attraction::Neutral);
+    if none > 0 {
         writeln!(
             out,
-            "{unsteady} of these do not repeat after 1 to {MOST_REPEATS} mesh cycles, {} cycles after their start: they are not periodic or have not settled; see their residuals.",
+            "At {none} of these speeds no motion that repeats after 1 to {MOST_REPEATS} mesh cycles and attracts was found within {} cycles from any start: the motion is not periodic or has not settled; see its residual.",
             result.most_cycles
+        )?;
+    }
+    let neutral = count(|p| p.attracts == Attraction::Neutral);
+    if neutral > 0 {
+        writeln!(
+            out,
+            "At {neutral} of these speeds motions near the one found neither come to it nor leave it, as without damping."
         )?;
     }
     let mut cautions = result.points.iter().filter_map(|p| p.point.caution());
@@ -350,6 +396,30 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
         writeln!(out, "Warning: {first}{others}.")?;
     }
     write_failed(result, out)
+}
+
+/// Whether a motion attracts, in a word.
+fn attracts(attraction: Attraction) -> &'static str {
+    match attraction {
+        Attraction::ByMultipliers => "yes",
+        Attraction::ByDecay => "decay",
+        Attraction::Repels => "no",
+        Attraction::Neutral => "neutral",
+        Attraction::NotShown => "–",
+    }
+}
+
+/// How stability is lost where the largest multiplier becomes 1 in size, and in which type of motion.
+fn loses(largest: &LargestMultiplier) -> String {
+    let kind = match largest.kind.as_str() {
+        "period_doubling" => "doubling",
+        "neimark_sacker" => "pair",
+        other => other,
+    };
+    match &largest.mode_type {
+        Some(mode_type) => format!("{kind}, {mode_type}"),
+        None => kind.into(),
+    }
 }
 
 #[cfg(test)]
@@ -380,7 +450,13 @@ mod tests {
                 why_marched: None,
                 cycles: 40,
                 derivatives: 0,
+                start: SearchStart::Rest,
+                attracts: match repeats_after {
+                    Some(_) => Attraction::ByDecay,
+                    None => Attraction::NotShown,
+                },
                 multipliers: Vec::new(),
+                largest_multiplier: None,
                 critical: None,
                 residual: 1e-10,
                 is_steady: repeats_after == Some(1),
@@ -449,7 +525,7 @@ mod tests {
         for words in [
             "At 2 of these speeds teeth part",
             "At 1 of these speeds the motion is subharmonic",
-            "1 of these do not repeat after 1 to 8 mesh cycles",
+            "At 1 of these speeds no motion that repeats after 1 to 8 mesh cycles and attracts was found",
             "n/a",
         ] {
             assert!(text.contains(words), "{words}: {text}");

@@ -16,12 +16,14 @@ enum Column {
     Text(fn(&TableRow) -> &str),
     Number(fn(&TableRow) -> f64),
     Count(fn(&TableRow) -> usize),
+    OptionalNumber(fn(&TableRow) -> Option<f64>),
+    OptionalCount(fn(&TableRow) -> Option<usize>),
 }
 
-use Column::{Count, Number, Text};
+use Column::{Count, Number, OptionalCount, OptionalNumber, Text};
 
 /// Named and ordered as in the CSV.
-const COLUMNS: [(&str, Column); 14] = [
+const COLUMNS: [(&str, Column); 20] = [
     ("scene", Text(|row| &row.scene)),
     ("fidelity", Text(|row| &row.fidelity)),
     ("sun_torque_nm", Number(|row| row.sun_torque_nm)),
@@ -36,6 +38,12 @@ const COLUMNS: [(&str, Column); 14] = [
     ("phase_rad", Number(|row| row.phase_rad)),
     ("cycles", Count(|row| row.cycles)),
     ("residual", Number(|row| row.residual)),
+    ("repeats_after", OptionalCount(|row| row.repeats_after)),
+    ("attracts", Text(|row| &row.attracts)),
+    ("multiplier", OptionalNumber(|row| row.multiplier)),
+    ("multiplier_kind", Text(|row| &row.multiplier_kind)),
+    ("mode_type", Text(|row| &row.mode_type)),
+    ("start", Text(|row| &row.start)),
 ];
 
 /// The table as one row group.
@@ -49,6 +57,8 @@ fn bytes(rows: &[TableRow]) -> Result<Vec<u8>, ParquetError> {
         Text(_) => format!("REQUIRED BYTE_ARRAY {name} (UTF8);"),
         Number(_) => format!("REQUIRED DOUBLE {name};"),
         Count(_) => format!("REQUIRED INT64 {name};"),
+        OptionalNumber(_) => format!("OPTIONAL DOUBLE {name};"),
+        OptionalCount(_) => format!("OPTIONAL INT64 {name};"),
     };
     let fields: String = COLUMNS.iter().map(field).collect();
     let schema = Arc::new(parse_message_type(&format!("message sweep {{{fields}}}"))?);
@@ -68,6 +78,16 @@ fn bytes(rows: &[TableRow]) -> Result<Vec<u8>, ParquetError> {
             (ColumnWriter::Int64ColumnWriter(own), Count(of)) => {
                 let values: Vec<i64> = rows.iter().map(|r| of(r) as i64).collect();
                 own.write_batch(&values, None, None)?;
+            }
+            (ColumnWriter::DoubleColumnWriter(own), OptionalNumber(of)) => {
+                let values: Vec<f64> = rows.iter().filter_map(of).collect();
+                let present: Vec<i16> = rows.iter().map(|r| of(r).is_some().into()).collect();
+                own.write_batch(&values, Some(&present), None)?;
+            }
+            (ColumnWriter::Int64ColumnWriter(own), OptionalCount(of)) => {
+                let values: Vec<i64> = rows.iter().filter_map(|r| Some(of(r)? as i64)).collect();
+                let present: Vec<i16> = rows.iter().map(|r| of(r).is_some().into()).collect();
+                own.write_batch(&values, Some(&present), None)?;
             }
             _ => return Err(ParquetError::General("a column of another type".into())),
         }
@@ -100,6 +120,12 @@ mod tests {
             phase_rad: -0.25,
             cycles: 40,
             residual: 1e-9,
+            repeats_after: (harmonic != 2).then_some(1),
+            attracts: "by_multipliers".into(),
+            multiplier: (harmonic != 2).then_some(0.9),
+            multiplier_kind: "fold".into(),
+            mode_type: "rotational".into(),
+            start: "rest".into(),
         };
         let rows = [row(800.0, 1), row(900.0, 2), row(1000.0, 3)];
         let folder = tempfile::tempdir().unwrap();
@@ -114,6 +140,9 @@ mod tests {
             assert_eq!(found.get_long(8).unwrap() as usize, row.harmonic);
             assert_eq!(found.get_double(9).unwrap(), row.amplitude);
             assert_eq!(found.get_string(10).unwrap(), &row.unit);
+            assert_eq!(found.get_long(14).ok().map(|n| n as usize), row.repeats_after);
+            assert_eq!(found.get_double(16).ok(), row.multiplier);
+            assert_eq!(found.get_string(19).unwrap(), &row.start);
         }
     }
 }

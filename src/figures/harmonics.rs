@@ -47,7 +47,11 @@ pub(super) fn picture(subject: &Subject, quantity: &Quantity) -> Picture {
         if i + 1 == quantity.harmonics.len() {
             axes.x_label(&mut canvas, "mesh frequency, Hz");
             let double = if is_double { "; solid: speeds growing, dashed: falling" } else { "" };
-            let rings = if subject.is_settled { "" } else { "; ringed: not settled" };
+            let rings = if subject.is_settled {
+                ""
+            } else {
+                "; ringed: repeats after several mesh cycles, or not shown to attract"
+            };
             let note = format!("own scale each{double}{rings}");
             let kind = Type::new(11, Anchor::End).colour("#444444");
             canvas.text([axes.right(), axes.bottom() + 54.0], kind, note);

@@ -11,6 +11,7 @@ mod harmonics;
 mod impulse;
 mod meshes;
 mod mode_shapes;
+mod multipliers;
 mod pair_cycle;
 mod pressure;
 mod set_cycle;

@@ -6,7 +6,7 @@ use gearset::Scene;
 use lumped::ModeType;
 
 use super::drawing::{Anchor, Canvas, Pen, Type, colour_of};
-use super::{Figure, harmonics, waterfall};
+use super::{Figure, harmonics, multipliers, waterfall};
 
 /// A quantity whose largest amplitude is below this share of the largest in its unit is not drawn.
 const NOTHING: f64 = 1e-9;
@@ -62,7 +62,7 @@ pub(super) struct Subject {
     pub(super) title: String,
     /// Fidelity, torque, speeds.
     pub(super) caption: String,
-    /// Whether every point came to its steady state.
+    /// Whether every motion repeats with the mesh cycle and was shown to attract.
     pub(super) is_settled: bool,
     /// Highest mesh frequency, Hz.
     pub(super) top_mesh_hz: f64,
@@ -90,8 +90,8 @@ pub(super) fn key_of_types(canvas: &mut Canvas, subject: &Subject, at: [f64; 2])
     }
 }
 
-/// Figures of a sweep: `waterfalls`, `frequencies` and one `harmonics_*` per quantity; none for a sweep
-/// without points.
+/// Figures of a sweep: `waterfalls`, `frequencies`, one `harmonics_*` per quantity and, of a model with derivative,
+/// `multipliers`; none for a sweep without points.
 pub fn of_sweep(sweep: &Sweep, context: &SweepContext<'_>) -> Vec<Figure> {
     let Some(subject) = subject(sweep, context) else { return Vec::new() };
     let list = quantities(sweep, context.scene.planets.psi_rad.len());
@@ -106,6 +106,8 @@ pub fn of_sweep(sweep: &Sweep, context: &SweepContext<'_>) -> Vec<Figure> {
         let name = format!("harmonics_{}", quantity.name);
         Figure::new(name, harmonics::picture(&subject, quantity))
     }));
+    let of_multipliers = multipliers::picture(sweep, &subject.title);
+    figures.extend(of_multipliers.map(|picture| Figure::new("multipliers", picture)));
     figures
 }
 
@@ -120,7 +122,10 @@ fn subject(sweep: &Sweep, context: &SweepContext<'_>) -> Option<Subject> {
     let moved = points.iter().filter(|p| !p.is_steady).count();
     let unsettled = match moved {
         0 => String::new(),
-        n => format!("; {n} of {} points not settled", points.len()),
+        n => format!(
+            "; {n} of {} repeat after several mesh cycles or were not shown to attract",
+            points.len()
+        ),
     };
     let failed = match sweep.failed.len() {
         0 => String::new(),

@@ -150,7 +150,7 @@ pub(super) fn march(
         SteadySettings { tolerance, harmonics, between_cycles: 0, ..SteadySettings::default() };
     gather(next, |speeds| {
         let plan = Plan::new(speeds, &[Direction::Up], settings.clone())?;
-        let sweep = run(model, &plan, &Memory, &|_| ())?.complete()?;
+        let sweep = run(model, &plan, &Memory, &|_| ())?.complete()?.steady()?;
         Ok(sweep.states().into_iter().cloned().collect())
     })
 }

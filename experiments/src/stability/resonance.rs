@@ -45,7 +45,7 @@ pub(super) fn slowest(model: &dyn SweepModel) -> Result<f64, MapError> {
     Ok(0.5 * (low + high))
 }
 
-/// Speed (rpm) of the steady state with the least of something.
+/// Speed (rpm) of the motion that attracts with the least of something.
 fn first_by(model: &dyn SweepModel, of: fn(&SweepPoint) -> f64) -> Result<f64, MapError> {
     let per_rpm = model.case().mesh_frequency_per_rpm_hz();
     let count = ((SOUGHT_HZ[1] / SOUGHT_HZ[0]).ln() / STEP).ceil() as i32;
@@ -54,6 +54,7 @@ fn first_by(model: &dyn SweepModel, of: fn(&SweepPoint) -> f64) -> Result<f64, M
     let settings = SteadySettings { between_cycles: 0, ..SteadySettings::default() };
     let plan = Plan::new(&speeds, &[Direction::Up], settings).map_err(ExperimentError::from)?;
     let swept = run(model, &plan, &Memory, &|_| ())?;
-    let found = swept.points().into_iter().min_by(|a, b| of(a).total_cmp(&of(b)));
+    let attract = swept.points().into_iter().filter(|p| p.attracts.is_shown());
+    let found = attract.min_by(|a, b| of(a).total_cmp(&of(b)));
     found.map(|p| p.state.case.speed_rpm).ok_or(MapError::NoOperation)
 }

@@ -1,4 +1,4 @@
-//! Speeds at which more than one steady motion was found.
+//! Speeds at which more than one motion that attracts was found.
 
 use super::point::SweepPoint;
 use super::run::Sweep;
@@ -12,8 +12,7 @@ const DIFFERENT: f64 = 1e-3;
 const SAME: f64 = 1e-12;
 
 impl Sweep {
-    /// Speeds (rpm, ascending) at which chains arrived at different steady motions: more than one stable motion
-    /// exists there.
+    /// Speeds (rpm, ascending) at which chains arrived at different motions that attract.
     pub fn coexisting_rpm(&self) -> Vec<f64> {
         let points = self.points();
         let mut speeds: Vec<f64> = Vec::new();
@@ -21,7 +20,8 @@ impl Sweep {
             let [a, b] = [pair[0], pair[1]];
             let [low, high] = [a, b].map(|p| p.state.case.speed_rpm);
             let is_new = speeds.last().is_none_or(|last| low - last > SAME * low);
-            if high - low <= SAME * high && a.is_steady && b.is_steady && is_new && differ(a, b) {
+            let attract = [a, b].iter().all(|p| p.repeats_after.is_some() && p.attracts.is_shown());
+            if high - low <= SAME * high && attract && is_new && differ(a, b) {
                 speeds.push(low);
             }
         }
@@ -29,7 +29,12 @@ impl Sweep {
     }
 }
 
+/// Whether two motions are different. (One that repeats after several mesh cycles and the same one a cycle later have the
+/// same harmonics.)
 fn differ(a: &SweepPoint, b: &SweepPoint) -> bool {
+    if a.repeats_after != b.repeats_after {
+        return true;
+    }
     // Translations, rotations: (largest difference, largest amplitude) of any harmonic from 1.
     let mut kinds = [(0.0f64, 0.0f64); 2];
     for line in &a.state.lines {

@@ -1,13 +1,14 @@
-//! Speed sweeps: steady states of a turning set by marching, their harmonics, as fixed plans.
+//! Speed sweeps: motions of a turning set that repeat and attract, their harmonics, as fixed plans.
 
+mod attraction;
 mod coexisting;
 mod critical_motion;
 mod damped_model;
-mod extrapolation;
 mod failed_point;
 mod fixed_basis;
 mod judge;
 mod keyed_model;
+mod march;
 mod marching;
 mod mesh_law_model;
 mod naturals;
@@ -18,32 +19,37 @@ mod record;
 mod rest_samples;
 mod run;
 mod scheme_model;
+mod search;
 mod set_shape;
+mod several_cycles;
 mod shooting;
 mod state;
 mod steady;
 mod sweep_model;
 mod varied_key;
 
+pub use attraction::Attraction;
 pub use critical_motion::CriticalMotion;
 pub use damped_model::DampedModel;
 pub use failed_point::FailedPoint;
 pub use judge::{Assigned, Content, assigned, contents, peak_speeds};
 pub use keyed_model::KeyedModel;
+pub use march::MOST_REPEATS;
 pub use marching::{Effort, Marching};
 pub use mesh_law_model::{LUMPED, MeshLawModel};
 pub use naturals::naturals;
 pub use peaks::{Peak, Response, peaks, top_of_three};
 pub use plan::{Chain, Direction, Plan, PlanError, even_speeds};
-pub use point::{SweepPoint, TableRow};
+pub use point::{LargestMultiplier, SearchStart, SweepPoint, TableRow};
 pub use record::Record;
 pub(crate) use record::radial;
 pub use run::{Kept, Memory, PointStore, StoreError, Sweep, run};
 pub use scheme_model::SchemeModel;
+pub use search::steady;
 pub use set_shape::SetShape;
 pub use shooting::CycleDerivative;
 pub(crate) use shooting::{RecordedCycles, SMALL, shot};
 pub use state::{Coordinate, Line, Part, SteadyState};
-pub use steady::{MOST_REPEATS, Steady, SteadyMethod, SteadySettings, left_of_transient, steady};
+pub use steady::{CameFrom, Steady, SteadyMethod, SteadySettings, left_of_transient};
 pub use sweep_model::{FeModel, HEADROOM, SweepModel, fidelity_name};
 pub use varied_key::{KeyError, VariedKey};

@@ -4,13 +4,51 @@ use gearset::LoadCase;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::attraction::{Attraction, multiplier_kind};
 use super::critical_motion::CriticalMotion;
 use super::state::{Coordinate, Line, Part, SteadyState};
-use super::steady::{Steady, SteadyMethod};
+use super::steady::{CameFrom, Steady, SteadyMethod};
 use crate::error::ExperimentError;
 
 /// A motion of which more than this part may be transient is not steady.
 const MOST_TRANSIENT: f64 = 0.01;
+
+/// Where the search for a motion began.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SearchStart {
+    /// The static equilibrium at position 0 of the mesh cycle.
+    #[default]
+    Rest,
+    /// The state after the motion at another speed of the chain, rpm.
+    Speed(f64),
+    /// An unstable periodic motion at this speed, pushed along the perturbation that grows.
+    Unstable,
+}
+
+impl std::fmt::Display for SearchStart {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Rest => f.write_str("rest"),
+            Self::Speed(rpm) => write!(f, "{rpm} rpm"),
+            Self::Unstable => f.write_str("unstable motion, pushed"),
+        }
+    }
+}
+
+/// The Floquet multiplier of largest size.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LargestMultiplier {
+    /// |μ| of one period.
+    pub size: f64,
+    /// How stability is lost where it leaves the unit circle: `fold` (μ > 0), `period_doubling` (μ < 0) or `neimark_sacker`
+    /// (complex).
+    pub kind: String,
+    /// Type of the motion that it multiplies: rotational, translational, planet or mixed; absent for sets of fewer than three
+    /// planets.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub mode_type: Option<String>,
+}
 
 /// A steady state, and how it was found.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -27,17 +65,27 @@ pub struct SweepPoint {
     pub cycles: usize,
     /// Derivatives of the cycle that shooting computed.
     pub derivatives: usize,
-    /// Floquet multipliers of size 1e-3 and above (real and imaginary part) by descending size; empty for a
-    /// motion that was marched. The motion is stable if all are smaller than 1.
+    /// Where the search began.
+    #[serde(default)]
+    pub start: SearchStart,
+    /// Whether motions near this one come to it, and what showed it.
+    #[serde(default)]
+    pub attracts: Attraction,
+    /// Floquet multipliers of one period of size 1e-3 and above (real and imaginary part) by descending size; empty for a
+    /// model without derivative and for a motion that does not repeat. The motion attracts if all are smaller than 1.
     pub multipliers: Vec<[f64; 2]>,
-    /// How the perturbation moves whose multiplier is nearest in size to 1; absent for a motion that was marched and for
-    /// sets of fewer than three planets.
+    /// The largest of them; absent if there are none.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub largest_multiplier: Option<LargestMultiplier>,
+    /// How the perturbation moves whose multiplier is nearest in size to 1; absent without multipliers and for sets of
+    /// fewer than three planets.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub critical: Option<CriticalMotion>,
-    /// Change of the last two cycles over the largest peak-to-peak vibration; of a motion found by shooting, that from the last
-    /// cycle to the next one, carried by the derivative.
+    /// Change of the last two periods, or mesh cycles of a motion that does not repeat, over the largest peak-to-peak vibration;
+    /// of a motion found by shooting, that from the last period to the next one, carried by the derivative.
     pub residual: f64,
-    /// Whether that is within the tolerance and the transient, where that is a question, within 1 %.
+    /// Whether the motion repeats with every mesh cycle within the tolerance and was shown to attract; what may be left of a
+    /// transient, where that is a question, is within 1 %.
     pub is_steady: bool,
     /// What may be left of the transient in the recorded cycle, of the vibration, by the multipliers of a marched motion
     /// whose cycles still change by more than 1e-6; absent otherwise.
@@ -46,9 +94,9 @@ pub struct SweepPoint {
     /// Energy between mesh harmonics over all vibration.
     pub between: Option<f64>,
     /// Number of mesh cycles after which the motion repeats within the tolerance: 1 for a steady state, 2 to 8
-    /// for a subharmonic response; absent if it repeats after none of these, because it is not periodic or has
-    /// not settled yet. Harmonics are those of one mesh cycle in any case; contact is counted over one period,
-    /// or over 8 mesh cycles if there is none.
+    /// for a subharmonic response; absent if none that repeats and attracts was found, because the motion is not periodic or has
+    /// not settled yet. Harmonics are those of the mean mesh cycle of one period, without one of the last mesh cycle;
+    /// contact is counted over one period, or over 8 mesh cycles if there is none.
     pub repeats_after: Option<usize>,
     /// Lowest force of any mesh, N; 0 where flanks part.
     pub lowest_force_n: f64,
@@ -100,16 +148,30 @@ pub struct TableRow {
     pub phase_rad: f64,
     /// Cycles marched.
     pub cycles: usize,
-    /// Change of the last two cycles, or from the last to the next one.
+    /// Change of the last two periods, or from the last to the next one.
     pub residual: f64,
+    /// Mesh cycles after which the motion repeats; empty if it does not.
+    pub repeats_after: Option<usize>,
+    /// Whether the motion attracts, and what showed it.
+    pub attracts: String,
+    /// Size of the largest Floquet multiplier; empty without multipliers.
+    pub multiplier: Option<f64>,
+    /// Its kind: `fold`, `period_doubling` or `neimark_sacker`.
+    pub multiplier_kind: String,
+    /// Type of the motion that it multiplies.
+    pub mode_type: String,
+    /// Where the search began.
+    pub start: String,
 }
 
 impl SweepPoint {
-    /// Size of the largest Floquet multiplier: below 1 if the motion is stable, 0 if all perturbations are gone after
-    /// one cycle; `None` for a motion that was marched.
+    /// Size of the largest Floquet multiplier: below 1 if the motion attracts, 0 if all perturbations are gone after one
+    /// period; `None` where there are no multipliers.
     pub fn largest_multiplier(&self) -> Option<f64> {
-        let largest = self.multipliers.first().map_or(0.0, |[re, im]| re.hypot(*im));
-        (self.method == SteadyMethod::Shooting).then_some(largest)
+        match self.attracts {
+            Attraction::ByDecay | Attraction::NotShown => None,
+            _ => Some(self.largest_multiplier.as_ref().map_or(0.0, |m| m.size)),
+        }
     }
 
     /// What must be said of a motion that ended within the tolerance and may be a transient all the same.
@@ -124,7 +186,7 @@ impl SweepPoint {
         ))
     }
 
-    /// From a march under a load case.
+    /// A motion under a load case; where the search was given a state, it was that at rest.
     ///
     /// # Errors
     /// If the record is not finite.
@@ -134,6 +196,10 @@ impl SweepPoint {
         settings: &super::SteadySettings,
         size: usize,
     ) -> Result<Self, ExperimentError> {
+        let start = match found.came_from {
+            CameFrom::Given | CameFrom::Rest => SearchStart::Rest,
+            CameFrom::Unstable => SearchStart::Unstable,
+        };
         let record = &found.record;
         let mut lines = Vec::new();
         let mut add = |part: Part, coordinate, channel| -> Result<(), ExperimentError> {
@@ -201,10 +267,19 @@ impl SweepPoint {
             why_marched: found.why_marched.clone(),
             cycles: found.cycles,
             derivatives: found.derivatives,
+            start,
+            attracts: found.attraction,
             multipliers: found.multipliers.iter().map(|m| [m.re, m.im]).collect(),
+            largest_multiplier: found.multipliers.first().map(|m| LargestMultiplier {
+                size: m.size(),
+                kind: multiplier_kind(*m).into(),
+                mode_type: found.critical.as_ref().map(|own| own.mode_type.clone()),
+            }),
             critical: found.critical.clone(),
             residual: found.residual,
             is_steady: found.residual <= settings.tolerance
+                && found.repeats_after == Some(1)
+                && found.attraction.is_shown()
                 && found.transient.is_none_or(|left| left <= MOST_TRANSIENT),
             transient: found.transient,
             between: found.between,

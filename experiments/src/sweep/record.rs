@@ -231,6 +231,14 @@ impl Record {
         ratio(kinds[0]).max(ratio(kinds[1]))
     }
 
+    /// Largest change over `later` of the `cycles` mesh cycles of a record, relative as in [`change_from`](Self::change_from).
+    pub(super) fn change_after(&self, later: usize, cycles: usize) -> f64 {
+        let ahead = later * self.samples.len() / cycles.max(1);
+        let [from, to] = [&self.samples[..self.samples.len() - ahead], &self.samples[ahead..]];
+        let part = |samples: &[f64]| Self { samples: samples.to_vec(), ..self.clone() };
+        part(to).change_from(&part(from))
+    }
+
     /// Largest peak-to-peak value of all translations (m) and of all rotations (rad).
     pub(super) fn sizes(&self) -> [f64; 2] {
         let count = self.displacements();
@@ -246,22 +254,6 @@ impl Record {
             *own = own.max(high - low);
         }
         sizes
-    }
-
-    /// Displacements less those of an earlier record of the same length, translations and rotations each
-    /// relative to their largest peak-to-peak value; empty if the lengths differ.
-    pub fn scaled_difference(&self, before: &Record) -> Vec<f64> {
-        if before.len() != self.len() {
-            return Vec::new();
-        }
-        let size = self.sizes();
-        let (width, displacements) = (self.width(), self.displacements());
-        let own = self.samples.iter().zip(&before.samples).enumerate();
-        own.filter(|(i, _)| i % width < displacements)
-            .map(|(i, (a, b))| {
-                (a - b) / size[usize::from(i % width % 3 == 2)].max(f64::MIN_POSITIVE)
-            })
-            .collect()
     }
 
     /// Distance to grazing: the least of lowest over mean force of the meshes that never part, 0 where one is about to;

@@ -10,9 +10,10 @@ use serde::{Deserialize, Serialize};
 use super::failed_point::FailedPoint;
 use super::judge::peak_centres;
 use super::plan::{Chain, Plan};
-use super::point::{SweepPoint, TableRow};
+use super::point::{SearchStart, SweepPoint, TableRow};
+use super::search::steady;
 use super::state::SteadyState;
-use super::steady::{SteadySettings, steady};
+use super::steady::{CameFrom, SteadySettings};
 use super::sweep_model::SweepModel;
 use crate::error::ExperimentError;
 use crate::table_growth::large_enough;
@@ -114,6 +115,21 @@ impl Sweep {
         }
     }
 
+    /// The sweep, if every motion of it repeats with the mesh cycle and attracts.
+    ///
+    /// # Errors
+    /// [`ExperimentError::NoSteadyState`] with the lowest speed of which that is not so.
+    pub fn steady(self) -> Result<Self, ExperimentError> {
+        let Some(point) = self.points().into_iter().find(|p| !p.is_steady) else { return Ok(self) };
+        let repeats = match point.repeats_after {
+            Some(1) => format!("the motion repeats, attraction: {}", point.attracts.name()),
+            Some(cycles) => format!("the motion repeats after {cycles} cycles"),
+            None => "the motion does not repeat".into(),
+        };
+        let found = format!("{repeats}, {} cycles after its start", point.cycles);
+        Err(ExperimentError::NoSteadyState { rpm: point.state.case.speed_rpm, found })
+    }
+
     /// Adds the points of another sweep of the same model, such as one about the peaks of this one.
     pub fn extend(&mut self, more: Self) {
         self.chains.extend(more.chains);
@@ -134,7 +150,9 @@ impl Sweep {
         count: usize,
         steady: SteadySettings,
     ) -> Plan {
-        let centres = peak_centres(&self.states(), steady.harmonics, least, span);
+        let attract = self.points().into_iter().filter(|p| p.attracts.is_shown());
+        let states: Vec<&SteadyState> = attract.map(|p| &p.state).collect();
+        let centres = peak_centres(&states, steady.harmonics, least, span);
         Plan::around(&centres, span, count, steady)
     }
 
@@ -142,6 +160,9 @@ impl Sweep {
     /// tangential and rotational harmonics are followed by those of its translation.
     pub fn rows(&self, scene: &str) -> impl Iterator<Item = TableRow> {
         self.by_speed().into_iter().flat_map(move |(chain, p)| {
+            let largest = p.largest_multiplier.as_ref();
+            let kind = largest.map_or("", |m| &m.kind);
+            let mode_type = largest.and_then(|m| m.mode_type.as_deref()).unwrap_or_default();
             p.state.with_translations().into_iter().map(move |line| TableRow {
                 scene: scene.to_owned(),
                 fidelity: self.fidelity.clone(),
@@ -157,6 +178,12 @@ impl Sweep {
                 phase_rad: line.phase_rad,
                 cycles: p.cycles,
                 residual: p.residual,
+                repeats_after: p.repeats_after,
+                attracts: p.attracts.name().to_owned(),
+                multiplier: p.largest_multiplier(),
+                multiplier_kind: kind.to_owned(),
+                mode_type: mode_type.to_owned(),
+                start: p.start.to_string(),
             })
         })
     }
@@ -191,21 +218,22 @@ pub fn run(
     let found: Mutex<BTreeMap<usize, Chained>> = Mutex::default();
     plan.chains.par_iter().enumerate().try_for_each(|(k, chain)| {
         let (mut points, mut failed) = Chained::default();
-        let mut state: Option<Vec<f64>> = None;
+        let mut start: (SearchStart, Option<Vec<f64>>) = Default::default();
         for (index, speed) in chain.speeds_rpm.iter().enumerate() {
             let kept = match store.load(chain, index)? {
                 Some(kept) => kept,
                 None => {
-                    let kept = one(model, chain, *speed, state.as_deref(), &plan.steady)?;
+                    let from = (start.0, start.1.as_deref());
+                    let kept = one(model, chain, *speed, from, &plan.steady)?;
                     store.save(chain, index, &kept)?;
                     kept
                 }
             };
             done(&kept);
             match kept {
-                Kept::Found { point, state: after } => {
+                Kept::Found { point, state } => {
+                    start = (SearchStart::Speed(point.state.case.speed_rpm), Some(state));
                     points.push(*point);
-                    state = Some(after);
                 }
                 Kept::Failed(point) => failed.push(point),
             }
@@ -230,7 +258,7 @@ fn one(
     model: &dyn SweepModel,
     chain: &Chain,
     speed_rpm: f64,
-    state: Option<&[f64]>,
+    (start, state): (SearchStart, Option<&[f64]>),
     settings: &SteadySettings,
 ) -> Result<Kept, ExperimentError> {
     let case = model.case().at_speed(speed_rpm);
@@ -249,7 +277,10 @@ fn one(
         if let Some(rest) = found.rest {
             rest.check()?;
         }
-        let point = SweepPoint::new(case, &found, settings, size)?;
+        let mut point = SweepPoint::new(case, &found, settings, size)?;
+        if found.came_from == CameFrom::Given {
+            point.start = start;
+        }
         Ok(Kept::Found { point: Box::new(point), state: set.state() })
     };
     let found = large_enough(|size| {

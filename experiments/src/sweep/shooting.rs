@@ -2,18 +2,20 @@
 
 use dynamics::{
     CarriedChange, MapDerivative, Multiplier, PeriodMap, ShootingError, ShootingSettings,
-    multipliers, shoot,
+    floquet_vector, multipliers, shoot,
 };
 
 use fe_contact::statics::KinematicRest;
 use fe_contact::vibration::Along;
 use gearset::Symmetry;
 
+use super::attraction::Attraction;
 use super::critical_motion::CriticalMotion;
 use super::marching::Marching;
 use super::record::{Record, radial};
 use super::rest_samples::RestSamples;
 use super::set_shape::SetShape;
+use super::several_cycles::SeveralCycles;
 use super::steady::SteadySettings;
 use crate::error::ExperimentError;
 
@@ -86,7 +88,7 @@ pub(crate) struct RecordedCycles<'m> {
     /// computed.
     ahead: Vec<f64>,
     /// Peak-to-peak vibration of the last cycle, by which deviations are judged.
-    sizes: [f64; 2],
+    pub(super) sizes: [f64; 2],
     /// States of the last cycle for its kinematic rest, if that is sampled.
     rest: Option<RestSamples>,
 }
@@ -115,10 +117,15 @@ impl<'m> RecordedCycles<'m> {
     pub(crate) fn last(&self) -> &Record {
         &self.now
     }
+
+    /// The set.
+    pub(super) fn into_set(self) -> &'m mut dyn Marching {
+        self.set
+    }
 }
 
 /// A model that has lost its derivative.
-const LOST: ExperimentError = ExperimentError::Incomplete("derivative of the cycles");
+pub(super) const LOST: ExperimentError = ExperimentError::Incomplete("derivative of the cycles");
 
 impl PeriodMap for RecordedCycles<'_> {
     type Error = ExperimentError;
@@ -204,8 +211,12 @@ impl RecordedCycles<'_> {
 
 /// A periodic solution found by shooting.
 pub(crate) struct Shot {
-    /// The last cycle.
+    /// The last cycle; of a motion that repeats after several, their mean.
     pub(super) record: Record,
+    /// Those several cycles.
+    pub(super) whole: Option<Record>,
+    /// Mesh cycles after which the motion repeats.
+    pub(super) repeats_after: usize,
     /// Energy between harmonics over the last cycle and the one that follows it, if requested.
     pub(super) between: Option<f64>,
     /// Whole cycles that the periods marched amount to.
@@ -214,9 +225,17 @@ pub(crate) struct Shot {
     pub(super) rest: Option<KinematicRest>,
     pub(super) derivatives: usize,
     pub(super) residual: f64,
+    pub(super) attraction: Attraction,
     pub(super) multipliers: Vec<Multiplier>,
     pub(super) critical: Option<CriticalMotion>,
+    /// Of a motion that repels: the change of the coordinates that grows fastest, in size the peak-to-peak vibration.
+    pub(super) growing: Option<Vec<f64>>,
+    /// Largest change of the displacements from where shooting began, relative to the peak-to-peak vibration.
+    pub(super) distance: f64,
 }
+
+/// Why there is no periodic solution near a state, where nothing else is wrong.
+pub(crate) type NotFound = ShootingError<ExperimentError>;
 
 /// Shoots from the present state; the inner error is the reason why there is no periodic solution near it.
 ///
@@ -228,24 +247,26 @@ pub(crate) fn shot(
     first_planet_rad: f64,
     steps: usize,
     settings: &SteadySettings,
-) -> Result<Result<Shot, ShootingError<ExperimentError>>, ExperimentError> {
+) -> Result<Result<Shot, NotFound>, ExperimentError> {
     let symmetry = match set.derivative() {
         Some(own) if !settings.whole_cycles => own.symmetry()?,
         _ => None,
     };
     let parts = symmetry.map_or(1, |own| own.parts);
     let mut cycles = RecordedCycles::new(set, shape, first_planet_rad, steps / parts);
-    let most_periods = parts * settings.most_cycles.clamp(2, MOST_CYCLES);
-    let own = ShootingSettings { tolerance: settings.tolerance, settling: SETTLING, most_periods };
     cycles.rest = Some(RestSamples::new(steps));
-    let found = match shoot(&mut cycles, &own) {
+    let start = cycles.coordinates();
+    let found = match shoot(&mut cycles, &settings.shooting(parts)) {
         Ok(found) => found,
         Err(why) => return Ok(Err(why)),
     };
     let of_part = multipliers(&found.derivative)?;
+    let distance = distance(&mut cycles, &start);
+    let growing = growing(&cycles, &found.derivative, &of_part)?;
     let RecordedCycles { now, ahead, set, rest, .. } = cycles;
     let critical = CriticalMotion::of(&*set, &found.derivative, &of_part, parts)?;
     let mut multipliers = of_whole_cycle(of_part, parts);
+    let attraction = Attraction::by(&multipliers);
     multipliers.retain(|m| m.size() >= SMALL);
     let whole = |part: Record| match &symmetry {
         Some(own) => part.of_whole_cycle(own),
@@ -265,12 +286,89 @@ pub(crate) fn shot(
         between,
         rest: rest.and_then(|rest| rest.rest(&*set, &record)),
         record,
+        whole: None,
+        repeats_after: 1,
         cycles: found.periods.div_ceil(parts),
         derivatives: found.derivatives,
         residual: found.residual,
+        attraction,
         multipliers,
         critical,
+        growing,
+        distance,
     }))
+}
+
+/// The same for a motion that repeats after some mesh cycles, 2 or more.
+///
+/// # Errors
+/// As [`shot`].
+pub(super) fn shot_over(
+    set: &mut dyn Marching,
+    shape: SetShape,
+    first_planet_rad: f64,
+    steps: usize,
+    (settings, count): (&SteadySettings, usize),
+) -> Result<Result<Shot, NotFound>, ExperimentError> {
+    let cycle = RecordedCycles::new(set, shape, first_planet_rad, steps);
+    let mut cycles = SeveralCycles::new(cycle, count);
+    let start = cycles.coordinates();
+    let found = match shoot(&mut cycles, &settings.shooting(1)) {
+        Ok(found) => found,
+        Err(why) => return Ok(Err(why)),
+    };
+    let mut multipliers = multipliers(&found.derivative)?;
+    let distance = distance(&mut cycles, &start);
+    let growing = growing(&cycles, &found.derivative, &multipliers)?;
+    let (set, whole) = cycles.parts();
+    let critical = CriticalMotion::of(&*set, &found.derivative, &multipliers, 1)?;
+    let attraction = Attraction::by(&multipliers);
+    multipliers.retain(|m| m.size() >= SMALL);
+    Ok(Ok(Shot {
+        between: Some(whole.between_harmonics(count)?),
+        rest: None,
+        record: whole.mean_cycle(count),
+        whole: Some(whole),
+        repeats_after: count,
+        cycles: found.periods * count,
+        derivatives: found.derivatives * count,
+        residual: found.residual,
+        attraction,
+        multipliers,
+        critical,
+        growing,
+        distance,
+    }))
+}
+
+impl SteadySettings {
+    /// Settings of shooting over periods of which `parts` make a mesh cycle.
+    fn shooting(&self, parts: usize) -> ShootingSettings {
+        let most_periods = parts * self.most_cycles.clamp(2, MOST_CYCLES);
+        ShootingSettings { tolerance: self.tolerance, settling: SETTLING, most_periods }
+    }
+}
+
+/// Largest change of the displacements from a start, relative to the peak-to-peak vibration.
+fn distance<M: PeriodMap>(cycles: &mut M, start: &[f64]) -> f64 {
+    let change: Vec<f64> = cycles.coordinates().iter().zip(start).map(|(y, s)| y - s).collect();
+    cycles.relative(&change)
+}
+
+/// The change of the coordinates that grows fastest about a motion, in size the peak-to-peak vibration; `None` if none grows.
+///
+/// # Errors
+/// If the eigenvector is not found.
+fn growing<M: PeriodMap>(
+    cycles: &M,
+    derivative: &MapDerivative,
+    multipliers: &[Multiplier],
+) -> Result<Option<Vec<f64>>, ExperimentError> {
+    let largest = multipliers.first().filter(|_| Attraction::by(multipliers) == Attraction::Repels);
+    let Some(largest) = largest else { return Ok(None) };
+    let [vector, _] = floquet_vector(derivative, *largest)?;
+    let size = cycles.relative(&vector);
+    Ok(Some(vector.into_iter().map(|v| v / size).collect()))
 }
 
 /// Multipliers of a whole cycle from those of one of its equal parts: the map of a cycle is the p-th power of that of a
@@ -280,19 +378,34 @@ fn of_whole_cycle(of_part: Vec<Multiplier>, parts: usize) -> Vec<Multiplier> {
     of_part.into_iter().map(of_cycle).collect()
 }
 
-/// Multipliers of the cycle that begins at the present state; `None` for a model without derivative.
+/// Multipliers of the `count` cycles that begin at the present state, all of them, and the change of the coordinates that
+/// grows fastest if one does, in size the peak-to-peak vibration; `None` for a model without derivative.
 ///
 /// # Errors
 /// If a step fails or the multipliers cannot be computed.
-pub(super) fn multipliers_of_next_cycle(
+pub(super) fn multipliers_ahead(
     set: &mut dyn Marching,
     shape: SetShape,
     first_planet_rad: f64,
-    steps: usize,
-) -> Result<Option<Vec<Multiplier>>, ExperimentError> {
-    let Some(own) = set.derivative() else { return Ok(None) };
-    let parts = own.symmetry()?.map_or(1, |own| own.parts);
-    let mut cycle = RecordedCycles::new(set, shape, first_planet_rad, steps / parts);
-    cycle.advance()?;
-    Ok(Some(of_whole_cycle(multipliers(&cycle.derivative()?)?, parts)))
+    (steps, count): (usize, usize),
+) -> Result<Option<Ahead>, ExperimentError> {
+    if set.derivative().is_none() {
+        return Ok(None);
+    }
+    let cycle = RecordedCycles::new(set, shape, first_planet_rad, steps);
+    let mut cycles = SeveralCycles::new(cycle, count);
+    cycles.advance()?;
+    let derivative = cycles.derivative()?;
+    let multipliers = multipliers(&derivative)?;
+    let growing = growing(&cycles, &derivative, &multipliers)?;
+    let (set, _) = cycles.parts();
+    let critical = CriticalMotion::of(&*set, &derivative, &multipliers, 1)?;
+    Ok(Some(Ahead { multipliers, critical, growing }))
+}
+
+/// What the derivative of the cycles ahead says.
+pub(super) struct Ahead {
+    pub(super) multipliers: Vec<Multiplier>,
+    pub(super) critical: Option<CriticalMotion>,
+    pub(super) growing: Option<Vec<f64>>,
 }

@@ -2,6 +2,7 @@
 //! `cargo run --release -p validation --example remake -- NAME`; without a name it lists them.
 
 mod assumptions;
+mod attraction;
 mod auto;
 mod effects;
 mod exact_peaks;
@@ -24,11 +25,16 @@ type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
 type Remake = fn() -> Outcome;
 
 /// Name, what it makes, how.
-const ALL: [(&str, &str, Remake); 15] = [
+const ALL: [(&str, &str, Remake); 16] = [
     (
         "assumptions",
         "docs/assumptions.md from the ledger and the kept verdict",
         assumptions::remake,
+    ),
+    (
+        "attraction",
+        "kept/attraction.csv: motions at drawn operating points, pushed",
+        attraction::remake,
     ),
     ("auto", "kept/auto.csv: choices of auto on drawn sets, their errors and costs", auto::remake),
     (

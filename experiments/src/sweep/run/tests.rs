@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use fe_contact::FeError;
 use gearset::LoadCase;
 
+use super::super::attraction::Attraction;
 use super::super::marching::{Effort, Marching};
 use super::super::plan::{Direction, Plan};
 use super::super::set_shape::SetShape;
@@ -50,6 +51,8 @@ struct Motion<'m> {
     fate: Fate,
     size: usize,
     step: usize,
+    /// Steps since the set was brought to a state, from which it deviates by a transient.
+    since: usize,
 }
 
 fn diverged() -> ExperimentError {
@@ -72,6 +75,7 @@ impl Marching for Motion<'_> {
 
     fn step(&mut self) -> Result<(), ExperimentError> {
         self.step += 1;
+        self.since += 1;
         match self.fate {
             Fate::Diverges if self.step > STEPS => Err(diverged()),
             Fate::OutgrowsThenDiverges if self.size > 0 => Err(diverged()),
@@ -91,7 +95,8 @@ impl Marching for Motion<'_> {
             Fate::Wanders => (turn / std::f64::consts::SQRT_2).sin(),
             _ => 0.0,
         };
-        let x = 3e-6 * turn.cos() + 1e-6 * slow;
+        let transient = 1e-6 * 0.2f64.powf(self.since as f64 / STEPS as f64);
+        let x = 3e-6 * turn.cos() + 1e-6 * slow + transient;
         ([[0.0; 3], [0.0; 3], [x, 4e-6 * turn.sin(), 1e-5 * x]], vec![[x, 0.0, 0.0]])
     }
 
@@ -118,6 +123,7 @@ impl Marching for Motion<'_> {
     }
 
     fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError> {
+        self.since = 0;
         // Divergence is timed from the start of a point.
         self.step = if matches!(self.fate, Fate::Diverges) { 0 } else { state[0] as usize };
         Ok(())
@@ -153,7 +159,7 @@ impl SweepModel for Prescribed {
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
         let own = self.fates.iter().find(|(speed, _)| *speed == case.speed_rpm);
         let fate = own.map_or(Fate::Repeats(1), |(_, fate)| *fate);
-        Ok(Box::new(Motion { model: self, fate, size, step: 0 }))
+        Ok(Box::new(Motion { model: self, fate, size, step: 0, since: 0 }))
     }
 }
 
@@ -161,7 +167,7 @@ fn plan(speeds: &[f64]) -> Plan {
     let steady = SteadySettings {
         method: SteadyMethod::Shooting,
         tolerance: 1e-9,
-        most_cycles: 30,
+        most_cycles: 60,
         harmonics: 2,
         between_cycles: 0,
         whole_cycles: false,
@@ -227,6 +233,8 @@ fn the_number_of_cycles_after_which_a_motion_repeats_is_found() {
         let point = sweep.points()[0];
         assert_eq!(point.repeats_after, expected, "{fate:?}");
         assert_eq!(point.is_steady, expected == Some(1), "{fate:?}");
+        let shown = expected.map_or(Attraction::NotShown, |_| Attraction::ByDecay);
+        assert_eq!(point.attracts, shown, "{fate:?}");
     }
 }
 
