@@ -6,6 +6,7 @@ mod damped_model;
 mod extrapolation;
 mod failed_point;
 mod fixed_basis;
+mod growing_law;
 mod judge;
 mod keyed_model;
 mod marching;
