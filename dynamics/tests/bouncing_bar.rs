@@ -112,6 +112,15 @@ fn average_acceleration_keeps_the_energy_of_a_pair_that_hammers() {
         let found = at(&scheme, steps);
         assert!(found.energy.iter().all(|e| (e - 1.0).abs() < 0.01), "{steps}");
     }
+    // Errors oscillate with where in a step the flanks meet and part: between 28 and 56 steps some miss 1 %.
+    for steps in [28.0 * 1.4f64.powf(0.265), 40.0 * 1.4f64.powf(0.04)] {
+        let energy = at(&scheme, steps).energy[99];
+        assert!((energy - 1.0).abs() > 0.01, "{steps}: {energy}");
+    }
+    for steps in chances(56.0) {
+        let found = at(&scheme, steps);
+        assert!(found.energy.iter().all(|e| (e - 1.0).abs() < 0.01), "{steps}");
+    }
     // Gains and losses come about as often: a scheme that damps only loses.
     let ends: Vec<f64> = chances(20.0).map(|n| at(&scheme, n).energy[99]).collect();
     assert!(ends.iter().any(|e| *e > 1.0) && ends.iter().any(|e| *e < 1.0), "{ends:?}");

@@ -1,4 +1,4 @@
-//! Contact tables that are laid out again for twice the load if a load exceeds them.
+//! Contact tables and tables of mesh force that are made again for twice the load if a load exceeds them.
 
 use fe_contact::FeError;
 
@@ -7,21 +7,21 @@ use crate::error::ExperimentError;
 /// Number of table sizes that are tried, each for twice the load of the one before.
 pub const SIZES: usize = 5;
 
-/// An error that can mean that the contact tables are too small for the load.
+/// An error that can mean that tables are too small for the load.
 pub trait Outgrown {
-    /// Whether the contact tables are too small for the load.
+    /// Whether the tables are too small for the load.
     fn is_too_small(&self) -> bool;
 }
 
 impl Outgrown for FeError {
-    /// Whether the contact tables are too small for the load.
+    /// Whether the tables are too small for the load.
     fn is_too_small(&self) -> bool {
-        matches!(self, Self::GridOverflow { .. })
+        matches!(self, Self::GridOverflow { .. } | Self::TableExceeded { .. })
     }
 }
 
 impl Outgrown for ExperimentError {
-    /// Whether the contact tables are too small for the load.
+    /// Whether the tables are too small for the load.
     fn is_too_small(&self) -> bool {
         matches!(self, Self::Fe(e) if e.is_too_small())
     }

@@ -115,6 +115,16 @@ pub enum FeError {
         /// Force of the pair, N.
         force_n: f64,
     },
+    /// A mesh force beyond the tables of mesh force.
+    #[error(
+        "a mesh presses with {force_n:.0} N, and its tables of mesh force end at {largest_n:.0} N"
+    )]
+    TableExceeded {
+        /// The force, extrapolated, N.
+        force_n: f64,
+        /// Largest force of the tables, N.
+        largest_n: f64,
+    },
     /// Too few cells carry the load.
     #[error(
         "the grid is too coarse for the load: only {loaded} cells of pair {pair} carry {force_n:.3} N, at least {least} must; raise `fe_contact.contact_cells` above {cells}"

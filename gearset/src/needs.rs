@@ -97,6 +97,7 @@ impl Scene {
             let (quantity, own) = auto.quantity.names();
             if verb == Verb::Modes && own == "modes" {
                 self.lacks_for_auto(&mut lacks);
+                self.lacks_no_gyroscopic(&mut lacks);
                 return lacks;
             }
             let is_chosen = own == "sweep" && matches!(verb, Verb::Sweep(_));
@@ -111,9 +112,8 @@ impl Scene {
             if is_chosen || own == "static" && verb == Verb::Static {
                 self.lacks_planetary(&mut lacks);
             }
-            if is_chosen && self.dynamics.gyroscopic {
-                let why = "\"off\": the estimates are those of a set without gyroscopic terms";
-                lacks.push(lack("dynamics.gyroscopic", why));
+            if is_chosen {
+                self.lacks_no_gyroscopic(&mut lacks);
             }
         }
         match verb {
@@ -259,6 +259,14 @@ impl Scene {
         self.lacks_torque_path(lacks);
         self.lacks_carrier_mass(lacks);
         lacks.iter_mut().for_each(|lack| lack.argument = None);
+    }
+
+    /// No gyroscopic terms, which no estimate of an error covers.
+    fn lacks_no_gyroscopic(&self, lacks: &mut Vec<Lack>) {
+        if self.dynamics.gyroscopic {
+            let why = "it is \"on\": \"off\" is needed, because \"auto\" estimates errors of a set without gyroscopic terms";
+            lacks.push(lack("dynamics.gyroscopic", why));
+        }
     }
 
     fn lacks_torque(&self, lacks: &mut Vec<Lack>) {

@@ -283,7 +283,12 @@ impl TimeVarying {
     /// Force of each mesh: sun meshes, ring meshes, then their backside flanks if the law has them, N.
     pub fn mesh_forces(&self, out: &mut Vec<f64>) {
         out.clear();
-        out.extend_from_slice(self.system.forces());
+        out.extend_from_slice(self.forces());
+    }
+
+    /// The same as they are kept, N.
+    pub fn forces(&self) -> &[f64] {
+        self.system.forces()
     }
 
     /// Deflections in the same order, m; for backside flanks their approach.

@@ -73,7 +73,7 @@ fn write_maps(maps: &[StabilityMap], out: &mut Vec<u8>) -> Result<(), CommandErr
     writeln!(
         out,
         "## Stability\n\nMethods and sets pushed until they fail, what was measured beside theory. `epicyclic stability MAP` \
-         computes one anew; those of contact loss and of linear kinematics are kept.\n"
+         computes one anew; those of contact loss, of linear kinematics and of hammering are kept.\n"
     )?;
     for map in maps {
         writeln!(out, "### {}\n", map.map)?;

@@ -43,6 +43,8 @@ struct TorqueOutput {
     /// r_b · sun rotation.
     transmission_error_mean_um: f64,
     transmission_error_peak_to_peak_um: f64,
+    /// Part of the mesh cycle in which backside flanks of any mesh press.
+    backside_contact: f64,
     /// All 2N meshes: sun meshes, then ring meshes.
     meshes: Vec<MeshSummary>,
     /// Evenly spaced positions from 0, where planet 0's sun mesh is at phase 0.
@@ -220,6 +222,7 @@ fn describe(cycle: &SetCycle, radius: f64) -> TorqueOutput {
         sun_translation_rms_um: translation * 1e6,
         transmission_error_mean_um: error.mean * 1e6,
         transmission_error_peak_to_peak_um: error.peak_to_peak() * 1e6,
+        backside_contact: cycle.backside_contact(),
         meshes: cycle.states[0].meshes.iter().enumerate().map(summary).collect(),
         positions: cycle.states.iter().map(position).collect(),
         work: Work {
@@ -324,6 +327,12 @@ fn text(
             "sun about its mean: rotation {:.4} µrad RMS, translation {:.4} µm RMS",
             found.sun_rotation_rms_urad, found.sun_translation_rms_um
         )?;
+        if found.backside_contact > 0.0 {
+            let percent = 100.0 * found.backside_contact;
+            writeln!(out, "backside flanks press in {percent:.1} % of the mesh cycle")?;
+        } else {
+            writeln!(out, "no backside flank presses")?;
+        }
         writeln!(
             out,
             "windup moves the sun mesh of planet 0 by {:.4} mesh cycles, from which positions count; linear kinematics about the mean leave {:.1e} µm",

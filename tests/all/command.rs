@@ -354,6 +354,17 @@ fn a_report_that_cannot_be_written_is_one_message() {
     assert_eq!(err.lines().count(), 1, "{err}");
 }
 
+/// A set whose backside flanks do not press says so.
+#[test]
+fn static_says_whether_backside_flanks_press() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = coarse(folder.path(), "oh58_3p.toml");
+    let (code, out, err) = run(&["static", &set, "--positions", "2"]);
+    assert!(code == 0 && out.lines().any(|l| l == "no backside flank presses"), "{out} {err}");
+    let found = json(&["static", &set, "--positions", "2", "--format", "json"]);
+    assert_eq!(found["torques"][0]["backside_contact"], 0.0);
+}
+
 /// The contract of one mesh: keys, definitions that can be checked, numbers of the right size.
 #[test]
 fn static_of_one_mesh_as_json() {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::harness::{run, scene};
+use crate::harness::{json, run, scene};
 
 #[test]
 fn impulse_refuses_what_makes_no_sense_with_one_message() {
@@ -113,4 +113,24 @@ fn impulse_without_a_small_linearisation() {
     let rows: Vec<&str> = text.lines().filter(|l| l.contains("ational ")).collect();
     let empty = |row: &&&str| row.matches('–').count() >= 4;
     assert!(rows.iter().filter(empty).count() == 8, "{text}");
+}
+
+/// Five planets have pairs of modes 7e-4 apart: every pole is one mode, at its own frequency, beside the linearised mode that
+/// it is nearest to.
+#[test]
+fn impulse_tells_close_modes_apart() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = with_fidelity(folder.path(), "five_planets.toml", "fidelity = \"quasi_static\"");
+    let found = json(&["impulse", &path, "--format", "json"]);
+    let mut last = 0.0;
+    let modes = found["modes"].as_array().unwrap();
+    assert_eq!(modes.len(), 10);
+    for mode in modes {
+        let hz = mode["identified"]["frequency_hz"].as_f64().unwrap();
+        let off = mode["difference_percent"].as_f64().unwrap();
+        assert!(hz > 1.0002 * last, "{hz} follows {last}");
+        // Steps lower a frequency by less than 0.04 %.
+        assert!((-0.04..=0.0).contains(&off), "{hz}: {off} %");
+        last = hz;
+    }
 }

@@ -276,6 +276,11 @@ fn settings_that_meet_no_tolerance_are_refused_with_their_estimates() {
     ] {
         assert!(err.contains(words), "{words}: {err}");
     }
+    // No estimate covers gyroscopic terms.
+    let turning = with("1\ngyroscopic = \"on\"");
+    let (code, out, err) = run(&["modes", &turning]);
+    assert_eq!((code, out.as_str()), (2, ""), "{err}");
+    assert!(err.contains("`dynamics.gyroscopic`: it is \"on\": \"off\" is needed"), "{err}");
     for line in [
         "sweep @scene --speeds-rpm 800:900:10",
         "impulse @scene",

@@ -4,8 +4,8 @@ use lumped::ModeType;
 
 use super::mode::FeMode;
 
-/// Pairs identified modes with linearised ones: within a type in order if both lists have the same number,
-/// otherwise each identified mode with the nearest linearised one not yet paired. Both lists are ascending.
+/// Pairs identified modes with linearised ones of their type, one with one: in order if both lists have the same number,
+/// otherwise the nearest pairs first. Both lists are ascending.
 ///
 /// Returns indices into both lists, ascending in the identified frequency, or the linearised one of modes
 /// that were not identified; every mode occurs once.
@@ -13,22 +13,31 @@ pub fn beside(
     identified: &[FeMode],
     linearised: &[&FeMode],
 ) -> Vec<(Option<usize>, Option<usize>)> {
-    let mut left: Vec<usize> = (0..linearised.len()).collect();
     let is_as_many = |t: ModeType| {
         let ours = identified.iter().filter(|m| m.mode_type == t).count();
         ours == linearised.iter().filter(|m| m.mode_type == t).count()
     };
-    let mut pairs = Vec::new();
-    for (i, mode) in identified.iter().enumerate() {
-        let off = |j: usize| (linearised[left[j]].frequency_hz - mode.frequency_hz).abs();
-        let mut own = (0..left.len()).filter(|j| linearised[left[*j]].mode_type == mode.mode_type);
-        let other = match is_as_many(mode.mode_type) {
-            true => own.next(),
-            false => own.min_by(|a, b| off(*a).total_cmp(&off(*b))),
-        };
-        pairs.push((Some(i), other.map(|j| left.remove(j))));
+    let mut candidates = Vec::new();
+    for (i, own) in identified.iter().enumerate() {
+        let is_in_order = is_as_many(own.mode_type);
+        for (j, other) in linearised.iter().enumerate() {
+            if other.mode_type == own.mode_type {
+                let off = (other.frequency_hz - own.frequency_hz).abs();
+                candidates.push((if is_in_order { 0.0 } else { off }, i, j));
+            }
+        }
     }
-    pairs.extend(left.into_iter().map(|j| (None, Some(j))));
+    // Equal distances stay in the order of both lists.
+    candidates.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut partners, mut is_taken) =
+        (vec![None; identified.len()], vec![false; linearised.len()]);
+    for (_, i, j) in candidates {
+        if partners[i].is_none() && !is_taken[j] {
+            (partners[i], is_taken[j]) = (Some(j), true);
+        }
+    }
+    let mut pairs: Vec<_> = partners.iter().enumerate().map(|(i, j)| (Some(i), *j)).collect();
+    pairs.extend((0..linearised.len()).filter(|j| !is_taken[*j]).map(|j| (None, Some(j))));
     let frequency = |(i, j): &(Option<usize>, Option<usize>)| {
         let own = i.map(|i| &identified[i]).or(j.map(|j| linearised[j]));
         own.map_or(0.0, |m| m.frequency_hz)
@@ -59,6 +68,17 @@ mod tests {
             [(Some(0), Some(0)), (Some(1), Some(1)), (None, Some(2)), (Some(2), Some(3))];
         assert_eq!(beside(&ours, &theirs), expected);
         assert_eq!(beside(&ours[..1], &[]), [(Some(0), None)]);
+        // One pole between two modes that lie 0.03 % apart is the nearer one.
+        let theirs = list(&[(300.0, Planet), (300.09, Planet)]);
+        let theirs: Vec<&FeMode> = theirs.iter().collect();
+        let one = list(&[(300.06, Planet)]);
+        assert_eq!(beside(&one, &theirs), [(None, Some(0)), (Some(0), Some(1))]);
+        // The nearest pair first: the first pole does not take what the second one is nearer to.
+        let three = list(&[(100.0, Planet), (101.0, Planet), (500.0, Planet)]);
+        let three: Vec<&FeMode> = three.iter().collect();
+        let two = list(&[(100.8, Planet), (101.1, Planet)]);
+        let expected = [(Some(0), Some(0)), (Some(1), Some(1)), (None, Some(2))];
+        assert_eq!(beside(&two, &three), expected);
         assert_eq!(beside(&[], &theirs[..1]), [(None, Some(0))]);
     }
 }

@@ -2,6 +2,7 @@
 
 use dynamics::integrators::{IntegratorError, Scheme};
 use dynamics::stability::{Hammering, HammeringPair};
+use rayon::prelude::*;
 
 use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
 
@@ -9,10 +10,10 @@ use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
 const PAIR: HammeringPair = HammeringPair { landing_speed: 3.0 };
 const BOUNCES: usize = 100;
 
-/// Steps in a contact, coarse to fine. Where in a step the flanks part is a matter of chance: each number is taken at
-/// [`CHANCES`] values up to the next, and the worst counts.
+/// Steps in a contact, coarse to fine. Errors oscillate with where in a step the flanks meet and part: each number is taken
+/// at [`CHANCES`] values up to the next, and the worst counts. With a quarter of them the worst is missed by a half.
 const STEPS: [f64; 10] = [5.0, 7.0, 10.0, 14.0, 20.0, 28.0, 40.0, 56.0, 80.0, 112.0];
-const CHANCES: u32 = 12;
+const CHANCES: u32 = 400;
 
 /// Wanted accuracy of energy and place, 1 %.
 const WANTED: f64 = 0.01;
@@ -29,7 +30,11 @@ pub(super) fn map() -> Result<StabilityMap, MapError> {
             continue;
         };
         for (which, what, panel) in [
-            (0, "energy within 1 % after 100 bounces", "log₁₀ of |energy after 100 bounces − 1|"),
+            (
+                0,
+                "energy within 1 % over 100 bounces",
+                "log₁₀ of the largest |energy − 1| over 100 bounces",
+            ),
             (
                 1,
                 "place within 1 % of the height of flight over two bounces",
@@ -52,16 +57,19 @@ pub(super) fn map() -> Result<StabilityMap, MapError> {
     Ok(map)
 }
 
-/// Largest error of the energy after all bounces and of the place over the first two.
+/// Largest error of the energy over all bounces and of the place over the first two.
 fn worst(scheme: &Scheme, steps: f64) -> Result<[f64; 2], IntegratorError> {
-    let mut worst = [0.0f64; 2];
-    for chance in 0..CHANCES {
+    let chance = |chance: u32| {
         let steps = steps * 1.4f64.powf(f64::from(chance) / f64::from(CHANCES));
         let Hammering { energy, place_error } = PAIR.hammer(scheme, steps, BOUNCES)?;
-        let energy = energy.last().map_or(f64::NAN, |e| (e - 1.0).abs());
-        worst = [worst[0].max(energy), worst[1].max(place_error)];
-    }
-    Ok(worst)
+        // NaN is the largest of all.
+        let errors = energy.iter().map(|e| (e - 1.0).abs());
+        Ok([errors.max_by(f64::total_cmp).unwrap_or(f64::NAN), place_error])
+    };
+    let larger = |a: [f64; 2], b: [f64; 2]| {
+        [0, 1].map(|i| if a[i].total_cmp(&b[i]).is_lt() { b[i] } else { a[i] })
+    };
+    (0..CHANCES).into_par_iter().map(chance).try_reduce(|| [0.0; 2], |a, b| Ok(larger(a, b)))
 }
 
 /// `None` for a scheme that refuses a coordinate without mass.

@@ -1,6 +1,7 @@
 //! The yardstick of costs: mesh cycles of the lumped model.
 
 use fe_contact::statics::Bodies;
+use fe_contact::vibration::{MeshLawSettings, mesh_law};
 use gearset::{Fidelity, LoadCase, Scene};
 
 use super::cost::Stopwatch;
@@ -26,7 +27,9 @@ pub(super) fn yardstick(
     scene.dynamics.fidelity = Fidelity::MeshLaw;
     scene.dynamics.steps_per_cycle = STEPS;
     let bodies = Bodies::new(&scene)?;
-    Ok(MeshLawModel::new(&scene, &bodies, case)?.lumped())
+    let settings = MeshLawSettings::at(case.sun_load_nm());
+    let law = mesh_law(&scene, &bodies, case.sense(), STEPS as usize, &settings)?;
+    Ok(MeshLawModel::lumped_with(&scene, case, law))
 }
 
 /// A set of the yardstick that moves.

@@ -42,7 +42,7 @@ impl<'s> Made<'s> {
     ) -> Result<Box<dyn Marching + 's>, ExperimentError> {
         match self {
             Self::Fe(model) => model.set_of(scene, case, size),
-            Self::Law(model) => model.set_of(scene, case),
+            Self::Law(model) => model.set_of(scene, case, size),
         }
     }
 }

@@ -6,10 +6,11 @@ use std::sync::{Arc, OnceLock};
 use dynamics::{CarriedChange, CoupledState, CyclePart, MapDerivative, PassedSteps};
 use fe_contact::FeError;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-use fe_contact::vibration::{Along, MeshLawSet, MeshLawSettings, mesh_law};
+use fe_contact::vibration::{Along, MeshLawSet};
 use gearset::{Fidelity, LoadCase, MeshLaw, Scene, Symmetry};
 use lumped::TimeVarying;
 
+use super::growing_law::{GrowingLaw, Range};
 use super::marching::{Effort, Marching, motion_kinds};
 use super::set_shape::SetShape;
 use super::shooting::CycleDerivative;
@@ -27,7 +28,7 @@ pub struct MeshLawModel<'s> {
     /// The loaded FE/contact set; `None` for the lumped model.
     loaded: Option<StaticSet<'s>>,
     case: LoadCase,
-    law: Arc<MeshLaw>,
+    laws: Arc<GrowingLaw<'s>>,
     /// The lumped set of the model's own scene at the first speed asked for, and its symmetry: sets at other speeds differ in
     /// their time steps only.
     known: OnceLock<(TimeVarying, Part)>,
@@ -45,16 +46,16 @@ impl<'s> MeshLawModel<'s> {
         let mut scene = scene.clone();
         scene.dynamics.fidelity = Fidelity::MeshLaw;
         let steps = scene.dynamics.steps_per_cycle as usize;
-        let settings = MeshLawSettings::at(case.sun_load_nm());
-        let law = mesh_law(&scene, bodies, case.sense(), steps, &settings)?;
+        let laws = GrowingLaw::new(&scene, bodies, case, steps)?.into();
         let loaded = StaticSet::new(&scene, bodies, case.sense(), Imperfections::default())?;
         let loaded = loaded.under(case.sun_load_nm())?;
-        Ok(Self { scene, loaded: Some(loaded), case, law: law.into(), known: OnceLock::new() })
+        Ok(Self { scene, loaded: Some(loaded), case, laws, known: OnceLock::new() })
     }
 
     /// The lumped model with the same law in its meshes.
-    pub fn lumped(&self) -> MeshLawModel<'static> {
-        MeshLawModel::lumped_with(&self.scene, self.case, Arc::clone(&self.law))
+    pub fn lumped(&self) -> Self {
+        let (scene, laws) = (self.scene.clone(), Arc::clone(&self.laws));
+        Self { scene, loaded: None, case: self.case, laws, known: OnceLock::new() }
     }
 
     /// The lumped model with prescribed mesh stiffness: at each phase the secant of the law under the even share of the torque
@@ -69,57 +70,61 @@ impl<'s> MeshLawModel<'s> {
         let torque = self.case.sun_load_nm();
         let loaded = self.loaded.as_ref();
         let loaded = loaded.ok_or(ExperimentError::Incomplete("loaded FE/contact set"))?;
-        let law =
-            self.law.with_prescribed_stiffness(loaded.share(torque)).map_err(FeError::from)?;
+        let law = self.laws.first().with_prescribed_stiffness(loaded.share(torque));
+        let law = law.map_err(FeError::from)?;
         let law = if has_side_loads { law } else { law.without_side_loads() };
         Ok(MeshLawModel::lumped_with(&self.scene, self.case, law))
     }
 
     /// A set of a scene that differs from the model's own in nothing that the law or the loaded set depends on: damping,
-    /// masses.
+    /// masses; `size`: how often the tables of the law were found too small.
     pub(super) fn set_of(
         &self,
         scene: &Scene,
         case: &LoadCase,
+        size: usize,
     ) -> Result<Box<dyn Marching + 's>, ExperimentError> {
         check_sense(&self.case, case)?;
-        let (law, torque) = (Arc::clone(&self.law), case.sun_load_nm());
+        let (law, range) = self.laws.of_size(size)?;
+        let torque = case.sun_load_nm();
         let has_backside = law.has_backside();
         let (sense, mesh_frequency) = (self.case.sense(), case.mesh_frequency_hz);
         let rate = scaling_rate(mesh_frequency);
         let Some(loaded) = &self.loaded else {
             let set = TimeVarying::new(scene, sense, law, mesh_frequency)?;
-            return Ok(Box::new(self.lumped_marching(set, None, case)));
+            return Ok(Box::new(self.lumped_marching(set, range, None, case)));
         };
         let set = MeshLawSet::on(scene, loaded, mesh_frequency, law)?;
         let passed = PassedSteps::default();
-        Ok(Box::new(LawMarching { set, torque, has_backside, rate, passed, part: None }))
+        Ok(Box::new(LawMarching { set, range, torque, has_backside, rate, passed, part: None }))
     }
 
     /// The lumped set of the model's own scene.
     fn own_lumped(&self, case: &LoadCase) -> Result<LumpedMarching, ExperimentError> {
         check_sense(&self.case, case)?;
         let mesh_frequency = case.mesh_frequency_hz;
+        let (law, range) = self.laws.of_size(0)?;
         if let Some((known, part)) = self.known.get() {
             let set = known.at_frequency(mesh_frequency)?;
-            return Ok(self.lumped_marching(set, Some(part.clone()), case));
+            return Ok(self.lumped_marching(set, range, Some(part.clone()), case));
         }
-        let law = Arc::clone(&self.law);
         let set = TimeVarying::new(&self.scene, self.case.sense(), law, mesh_frequency)?;
         let (_, part) = self.known.get_or_init(|| (set.clone(), set.symmetry()));
-        Ok(self.lumped_marching(set, Some(part.clone()), case))
+        Ok(self.lumped_marching(set, range, Some(part.clone()), case))
     }
 
     fn lumped_marching(
         &self,
         set: TimeVarying,
+        range: Range,
         part: Option<Part>,
         case: &LoadCase,
     ) -> LumpedMarching {
         LumpedMarching {
             set,
+            range,
             torque: case.sun_load_nm(),
-            has_backside: self.law.has_backside(),
+            has_backside: self.laws.first().has_backside(),
             rate: scaling_rate(case.mesh_frequency_hz),
             passed: PassedSteps::default(),
             part,
@@ -130,7 +135,8 @@ impl<'s> MeshLawModel<'s> {
 impl MeshLawModel<'static> {
     /// The lumped model of a scene with any law in its meshes, under the torque of a load case.
     pub fn lumped_with(scene: &Scene, case: LoadCase, law: impl Into<Arc<MeshLaw>>) -> Self {
-        Self { scene: scene.clone(), loaded: None, case, law: law.into(), known: OnceLock::new() }
+        let (scene, laws) = (scene.clone(), GrowingLaw::given(law.into()).into());
+        Self { scene, loaded: None, case, laws, known: OnceLock::new() }
     }
 }
 
@@ -152,19 +158,19 @@ impl SweepModel for MeshLawModel<'_> {
     }
 
     fn steps_per_cycle(&self) -> usize {
-        self.law.steps()
+        self.laws.first().steps()
     }
 
     fn turning_damped(
         &self,
         case: &LoadCase,
         damping_factor: f64,
-        _: usize,
+        size: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
-        if self.loaded.is_none() && damping_factor == 1.0 {
+        if self.loaded.is_none() && damping_factor == 1.0 && size == 0 {
             return Ok(Box::new(self.own_lumped(case)?));
         }
-        self.set_of(&damped(&self.scene, damping_factor), case)
+        self.set_of(&damped(&self.scene, damping_factor), case, size)
     }
 }
 
@@ -199,6 +205,8 @@ const FOREIGN: ExperimentError = ExperimentError::Incomplete("state that fits th
 /// A set in time that follows a law.
 struct LawMarching<'s> {
     set: MeshLawSet<'s>,
+    /// Forces that its tables contain.
+    range: Range,
     /// Torque on the sun under which it rests, N·m.
     torque: f64,
     /// Whether the law tabulates backside flanks.
@@ -214,6 +222,7 @@ struct LawMarching<'s> {
 /// The same for the lumped set.
 struct LumpedMarching {
     set: TimeVarying,
+    range: Range,
     torque: f64,
     has_backside: bool,
     rate: f64,
@@ -229,7 +238,8 @@ macro_rules! marching {
             }
 
             fn step(&mut self) -> Result<(), ExperimentError> {
-                Ok(self.set.step()?)
+                self.set.step()?;
+                Ok(self.range.check(self.set.forces())?)
             }
 
             fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {

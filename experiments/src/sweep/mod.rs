@@ -6,6 +6,7 @@ mod critical_motion;
 mod damped_model;
 mod failed_point;
 mod fixed_basis;
+mod growing_law;
 mod judge;
 mod keyed_model;
 mod march;

@@ -1,13 +1,11 @@
 //! The lumped model in time, stepped by a scheme of one's choice.
 
-use std::sync::Arc;
-
 use dynamics::integrators::Scheme;
 use fe_contact::statics::Bodies;
-use fe_contact::vibration::{MeshLawSettings, mesh_law};
-use gearset::{Fidelity, LoadCase, MeshLaw, Scene};
+use gearset::{Fidelity, LoadCase, Scene};
 use lumped::{LAW_STEPS_A_STEP, SchemeSet};
 
+use super::growing_law::{GrowingLaw, Range};
 use super::marching::{Effort, Marching};
 use super::set_shape::SetShape;
 use super::sweep_model::{SweepModel, check_sense, damped};
@@ -16,34 +14,33 @@ use crate::error::ExperimentError;
 /// The lumped model with the mesh law that FE/contact gives under the torque of a load case, stepped by a scheme. Its
 /// steady states are marched.
 #[derive(Debug)]
-pub struct SchemeModel {
+pub struct SchemeModel<'s> {
     scene: Scene,
     case: LoadCase,
-    law: Arc<MeshLaw>,
+    laws: GrowingLaw<'s>,
     scheme: Scheme,
 }
 
-impl SchemeModel {
+impl<'s> SchemeModel<'s> {
     /// With as many steps in a mesh cycle as the scene has.
     ///
     /// # Errors
     /// If the law cannot be made.
     pub fn new(
         scene: &Scene,
-        bodies: &Bodies,
+        bodies: &'s Bodies,
         case: LoadCase,
         scheme: Scheme,
     ) -> Result<Self, ExperimentError> {
         let mut scene = scene.clone();
         scene.dynamics.fidelity = Fidelity::MeshLaw;
         let steps = LAW_STEPS_A_STEP * scene.dynamics.steps_per_cycle as usize;
-        let settings = MeshLawSettings::at(case.sun_load_nm());
-        let law = mesh_law(&scene, bodies, case.sense(), steps, &settings)?.into();
-        Ok(Self { scene, case, law, scheme })
+        let laws = GrowingLaw::new(&scene, bodies, case, steps)?;
+        Ok(Self { scene, case, laws, scheme })
     }
 }
 
-impl SweepModel for SchemeModel {
+impl SweepModel for SchemeModel<'_> {
     fn name(&self) -> String {
         format!("lumped, {}", self.scheme.label())
     }
@@ -61,28 +58,33 @@ impl SweepModel for SchemeModel {
     }
 
     fn steps_per_cycle(&self) -> usize {
-        self.law.steps() / LAW_STEPS_A_STEP
+        self.laws.first().steps() / LAW_STEPS_A_STEP
     }
 
     fn turning_damped(
         &self,
         case: &LoadCase,
         damping_factor: f64,
-        _: usize,
+        size: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
         check_sense(&self.case, case)?;
         let scene = damped(&self.scene, damping_factor);
-        let (law, torque) = (Arc::clone(&self.law), case.sun_load_nm());
+        let ((law, range), torque) = (self.laws.of_size(size)?, case.sun_load_nm());
         let has_backside = law.has_backside();
         let (sense, frequency) = (self.case.sense(), case.mesh_frequency_hz);
         let set = SchemeSet::new(&scene, sense, law, frequency, torque, self.scheme)?;
         let rest = set.continuous();
-        Ok(Box::new(SchemeMarching { set, rest, has_backside, steps: 0.0 }))
+        let forces = Vec::new();
+        Ok(Box::new(SchemeMarching { set, range, forces, rest, has_backside, steps: 0.0 }))
     }
 }
 
 struct SchemeMarching {
     set: SchemeSet,
+    /// Forces that its tables contain.
+    range: Range,
+    /// Those of the last step, N.
+    forces: Vec<f64>,
     /// The state of rest.
     rest: Vec<f64>,
     has_backside: bool,
@@ -97,7 +99,9 @@ impl Marching for SchemeMarching {
 
     fn step(&mut self) -> Result<(), ExperimentError> {
         self.steps += 1.0;
-        Ok(self.set.step()?)
+        self.set.step()?;
+        self.set.mesh_forces(&mut self.forces);
+        Ok(self.range.check(&self.forces)?)
     }
 
     fn displacements(&self) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {

@@ -355,6 +355,9 @@ impl PairFrame<'_> {
 /// Steps of a roll length that may be of rounding, m: a millionth of the width of a contact cell.
 const ROUNDED: f64 = 1e-11;
 
+/// A least gap is this far below the gap without relief only where it was not found, m.
+const LOST: f64 = 1e-9;
+
 /// Width of the interval at which a search along a flank ends, m: rounding of coordinates of the order of 0.1 m.
 const FOUND: f64 = 1e-16;
 
@@ -418,6 +421,8 @@ pub fn candidates(mesh: &Mesh, phase: f64, window: f64) -> Vec<PairFrame<'_>> {
             let [low, high] = pair.extent();
             high > low
         })
+        // Relief only adds to a gap. A lesser one is of flanks so far apart that their points were not found.
+        .filter(|pair| pair.least_gap() >= pair.rigid_gap() - LOST)
         .collect()
 }
 

@@ -171,6 +171,12 @@ impl SetCycle {
         self.range(|s| s.meshes[mesh].tangent)
     }
 
+    /// Part of the cycle in which backside flanks of any mesh press, 0 to 1.
+    pub fn backside_contact(&self) -> f64 {
+        let presses = |s: &SetState| s.backside.iter().any(|mesh| mesh.force > 0.0);
+        self.range(|s| f64::from(u8::from(presses(s)))).mean
+    }
+
     /// Kinematic rest over the cycle.
     pub fn kinematic_rest(&self, sun_base_radius: f64) -> KinematicRest {
         let largest = larger(self.states.iter().map(|s| s.kinematic_rest));

@@ -20,8 +20,8 @@ use crate::statics::{
 pub struct MeshLawSettings {
     /// Torque on the sun (magnitude) about whose equilibrium the set is to move, N·m.
     pub torque_nm: f64,
-    /// Largest tabulated force of a mesh divided by the mean one; beyond it forces are extrapolated
-    /// linearly.
+    /// Largest tabulated force of a mesh divided by the mean one. Beyond it forces are extrapolated linearly; sweeps refuse
+    /// them and take larger tables.
     pub reach: f64,
     /// Steps of each curve from first contact to the largest force.
     pub nodes: usize,
@@ -29,14 +29,19 @@ pub struct MeshLawSettings {
     pub has_backside: bool,
 }
 
-/// Steps of the curves of backside flanks, which rarely touch.
-const BACK_NODES: usize = 16;
+/// Steps of the curves of front flanks for one of backside flanks, which rarely touch.
+const STEPS_A_BACKSIDE_STEP: usize = 4;
 
 impl MeshLawSettings {
     /// For motion about the equilibrium under a torque (N·m): forces up to three times the mean one, backside
     /// flanks included.
     pub fn at(torque_nm: f64) -> Self {
         Self { torque_nm, reach: 3.0, nodes: 64, has_backside: true }
+    }
+
+    /// For forces so many times as large, in steps of the same length.
+    pub fn for_times_the_force(self, times: usize) -> Self {
+        Self { reach: self.reach * times as f64, nodes: self.nodes * times, ..self }
     }
 }
 
@@ -252,7 +257,8 @@ impl Job<'_, '_> {
             }
             FlankSide::Backside => {
                 let backlash = bodies.geometry.normal_backlash(key.kind).unwrap_or(0.0);
-                let curve = curve(&table, &along, self.largest, BACK_NODES)?;
+                let steps = self.nodes.div_ceil(STEPS_A_BACKSIDE_STEP);
+                let curve = curve(&table, &along, self.largest, steps)?;
                 let (curve, side_load) = (curve.moved(backlash), [0.0; 6]);
                 Ok(Made { curve, share: None, side_load })
             }

@@ -173,7 +173,12 @@ impl<'s> MeshLawSet<'s> {
     /// Force of each mesh: sun meshes, ring meshes, then their backside flanks if the law has them, N.
     pub fn mesh_forces(&self, out: &mut Vec<f64>) {
         out.clear();
-        out.extend_from_slice(self.system.forces());
+        out.extend_from_slice(self.forces());
+    }
+
+    /// The same as they are kept, N.
+    pub fn forces(&self) -> &[f64] {
+        self.system.forces()
     }
 
     /// Whether all deflections of the present step are within the law's tables; beyond them forces
