@@ -54,6 +54,16 @@ pub enum ExperimentError {
         /// What was found.
         found: String,
     },
+    /// A speed so low that the vibrations of the set need more steps than are taken.
+    #[error(
+        "the vibrations of the set need {steps} steps in a mesh cycle at this speed, and at most {most} are taken: a higher speed, more damping, or `dynamics.steps_per_cycle` = {steps} computes it"
+    )]
+    TooFewSteps {
+        /// Steps needed.
+        steps: usize,
+        /// Most that are taken.
+        most: usize,
+    },
     /// A torque whose sense is not that of the torque a model was made for.
     #[error(
         "{torque_nm} N·m on the sun: the model was made under {own_nm} N·m, and a torque in the other sense presses the other flanks"

@@ -104,3 +104,31 @@ fn what_a_sweep_finds_where_teeth_part_attracts() {
     }
     assert!(left > 0 && several > 0, "{left} marched, {several} repeat after several cycles");
 }
+
+/// OH-58 with three planets below 30 rpm, where 140 steps in a mesh cycle are longer than the periods of most natural modes: the
+/// answer is that of four times the steps, whatever speeds were asked before.
+#[test]
+fn slow_sets_have_the_motion_of_shorter_steps() {
+    let of = |steps: u32, speeds: &[f64]| {
+        let scene = shipped::scene("oh58_3p", steps, 1.0);
+        let bodies = Bodies::new(&scene).unwrap();
+        let case = LoadCase::of_scene(&scene).unwrap();
+        let model = FeModel::new(&scene, &bodies, Imperfections::default(), case);
+        swept(&model, speeds, Direction::Up, SteadyMethod::Shooting)
+    };
+    let rotation = |p: &SweepPoint| p.state.amplitude(Part::Sun, Coordinate::Rotation, 1);
+    let speeds = [5.0, 15.0, 40.0, 100.0];
+    let (together, fine) = (of(140, &speeds), of(560, &speeds));
+    for (a, b) in together.points().iter().zip(fine.points()) {
+        let rpm = a.state.case.speed_rpm;
+        let alone = of(140, &[rpm]);
+        let sizes = [a, &b, &alone.points()[0]].map(|p| p.largest_multiplier().unwrap());
+        let amplitudes = [a, &b, &alone.points()[0]].map(|p| 1e6 * rotation(p));
+        println!("{rpm} rpm: {amplitudes:?} µrad, multipliers {sizes:?}");
+        assert!(a.is_steady && b.is_steady && a.contact_loss == 0.0);
+        for k in [1, 2] {
+            assert!((amplitudes[k] / amplitudes[0] - 1.0).abs() < 0.01, "{rpm}");
+            assert!((sizes[k] - sizes[0]).abs() < 0.01, "{rpm}");
+        }
+    }
+}

@@ -179,6 +179,7 @@ impl<'a> Task<'a> {
             harmonics: arguments.harmonics as usize,
             between_cycles: arguments.between_cycles as usize,
             whole_cycles: arguments.whole_cycles,
+            keeps_steps: false,
         };
         if steady.whole_cycles && method == SteadyMethod::Marching {
             let reason = "is of --method shooting: marching passes through every step of a mesh cycle anyway: leave it out";

@@ -4,8 +4,8 @@ use std::io::Write;
 
 use experiments::auto::Choice;
 use experiments::sweep::{
-    Attraction, CriticalMotion, FailedPoint, LargestMultiplier, MOST_REPEATS, SearchStart,
-    SteadyMethod, SteadySettings, Sweep, SweepPoint,
+    Attraction, CriticalMotion, FailedPoint, LargestMultiplier, MOST_REPEATS, MultipliersOf,
+    SearchStart, SteadyMethod, SteadySettings, Sweep, SweepPoint,
 };
 use gearset::Scene;
 use schemars::JsonSchema;
@@ -88,6 +88,10 @@ struct PointHead<'a> {
     start: SearchStart,
     attracts: Attraction,
     multipliers: &'a [[f64; 2]],
+    multipliers_of: MultipliersOf,
+    steps_per_cycle: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    computed_at_rpm: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     largest_multiplier: Option<&'a LargestMultiplier>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -213,6 +217,9 @@ impl SweepOutput {
             start: p.start,
             attracts: p.attracts,
             multipliers: &p.multipliers,
+            multipliers_of: p.multipliers_of,
+            steps_per_cycle: p.steps_per_cycle,
+            computed_at_rpm: p.computed_at_rpm,
             largest_multiplier: p.largest_multiplier.as_ref(),
             critical: p.critical.as_ref(),
             residual: p.residual,
@@ -380,6 +387,26 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
             result.most_cycles
         )?;
     }
+    let usual = result.steps_per_cycle as usize;
+    let finer = result.points.iter().filter(|p| p.point.steps_per_cycle > usual).count();
+    if finer > 0 {
+        writeln!(
+            out,
+            "At {finer} of these speeds the vibrations of the set need more than {} steps in a mesh cycle, and as many were taken.",
+            result.steps_per_cycle
+        )?;
+    }
+    let mut faster = result
+        .points
+        .iter()
+        .filter_map(|p| p.point.computed_at_rpm.map(|rpm| (p.point.state.case.speed_rpm, rpm)));
+    if let Some((_, rpm)) = faster.next() {
+        writeln!(
+            out,
+            "At {} of these speeds, below {rpm:.1} rpm, inertia has no part in the motion: it is that at {rpm:.1} rpm, the mesh cycle at rest to the square of the highest harmonic over the lowest natural frequency.",
+            1 + faster.count()
+        )?;
+    }
     let neutral = count(|p| p.attracts == Attraction::Neutral);
     if neutral > 0 {
         writeln!(
@@ -448,6 +475,8 @@ mod tests {
                 state: SteadyState { case: case(rpm), lines },
                 method: SteadyMethod::Marching,
                 why_marched: None,
+                steps_per_cycle: 140,
+                computed_at_rpm: None,
                 cycles: 40,
                 derivatives: 0,
                 start: SearchStart::Rest,
@@ -456,6 +485,7 @@ mod tests {
                     None => Attraction::NotShown,
                 },
                 multipliers: Vec::new(),
+                multipliers_of: MultipliersOf::Steps,
                 largest_multiplier: None,
                 critical: None,
                 residual: 1e-10,

@@ -30,6 +30,7 @@ fn settings() -> SteadySettings {
         harmonics: 4,
         between_cycles: 4,
         whole_cycles: false,
+        keeps_steps: false,
     }
 }
 

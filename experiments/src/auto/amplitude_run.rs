@@ -14,7 +14,9 @@ use super::set_modes::SetModes;
 use super::settings::AutoSettings;
 use crate::error::ExperimentError;
 use crate::modal::{Preload, preloaded};
-use crate::sweep::{Direction, FeModel, Kept, Memory, Plan, Sweep, SweepModel, SweepPoint, run};
+use crate::sweep::{
+    Direction, FeModel, Kept, Memory, Plan, SteadySettings, Sweep, SweepModel, SweepPoint, run,
+};
 
 /// A candidate with its gears and contact tables, which its runs share.
 pub(super) struct Turning<'b> {
@@ -176,7 +178,7 @@ impl Turning<'_> {
     /// If one is not found, or is not steady.
     pub(super) fn motions_in_steps(&self, speeds_rpm: &[f64]) -> Result<Motions, ExperimentError> {
         let refused = |e: crate::sweep::PlanError| ExperimentError::Model(e.to_string().into());
-        let steady = self.request.steady.clone();
+        let steady = SteadySettings { keeps_steps: true, ..self.request.steady.clone() };
         let highest = steady.harmonics;
         let plan = Plan::new(speeds_rpm, &[Direction::Up], steady).map_err(refused)?;
         self.model.prepare()?;
@@ -280,7 +282,6 @@ mod tests {
 
     use super::super::amplitude::tests::oh58;
     use super::*;
-    use crate::sweep::SteadySettings;
 
     /// A motion with twice the steps on the tables of fewer is that of a candidate by itself.
     #[test]

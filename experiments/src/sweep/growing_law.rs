@@ -63,6 +63,15 @@ impl<'s> GrowingLaw<'s> {
         Ok(Self { first, source: Some(source), larger: [const { OnceLock::new() }; SIZES] })
     }
 
+    /// The same law with another number of steps in a mesh cycle; `None` of a law that is given as it is.
+    ///
+    /// # Errors
+    /// If the law cannot be made.
+    pub(super) fn with_steps(&self, steps: usize) -> Result<Option<Self>, ExperimentError> {
+        let own = self.source.as_ref();
+        own.map(|own| Self::new(&own.scene, own.bodies, own.case, steps)).transpose()
+    }
+
     /// A law that is given.
     pub(super) fn given(law: Arc<MeshLaw>) -> Self {
         Self { first: law, source: None, larger: [const { OnceLock::new() }; SIZES] }

@@ -14,7 +14,9 @@ use super::growing_law::{GrowingLaw, Range};
 use super::marching::{Effort, Marching, motion_kinds};
 use super::set_shape::SetShape;
 use super::shooting::CycleDerivative;
-use super::sweep_model::{SweepModel, check_sense, damped, fidelity_name, scaling_rate};
+use super::sweep_model::{
+    MOST_TIMES, SweepModel, check_sense, damped, fidelity_name, scaling_rate,
+};
 use crate::error::ExperimentError;
 use crate::modal::MotionKinds;
 
@@ -32,6 +34,8 @@ pub struct MeshLawModel<'s> {
     /// The lumped set of the model's own scene at the first speed asked for, and its symmetry: sets at other speeds differ in
     /// their time steps only.
     known: OnceLock<(TimeVarying, Part)>,
+    /// The same with 2, 3 … times the steps.
+    finer: [OnceLock<Box<Self>>; MOST_TIMES - 1],
 }
 
 /// Symmetry after a part of the cycle, if a set has one.
@@ -49,13 +53,27 @@ impl<'s> MeshLawModel<'s> {
         let laws = GrowingLaw::new(&scene, bodies, case, steps)?.into();
         let loaded = StaticSet::new(&scene, bodies, case.sense(), Imperfections::default())?;
         let loaded = loaded.under(case.sun_load_nm())?;
-        Ok(Self { scene, loaded: Some(loaded), case, laws, known: OnceLock::new() })
+        Ok(Self {
+            scene,
+            loaded: Some(loaded),
+            case,
+            laws,
+            known: OnceLock::new(),
+            finer: Default::default(),
+        })
     }
 
     /// The lumped model with the same law in its meshes.
     pub fn lumped(&self) -> Self {
         let (scene, laws) = (self.scene.clone(), Arc::clone(&self.laws));
-        Self { scene, loaded: None, case: self.case, laws, known: OnceLock::new() }
+        Self {
+            scene,
+            loaded: None,
+            case: self.case,
+            laws,
+            known: OnceLock::new(),
+            finer: Default::default(),
+        }
     }
 
     /// The lumped model with prescribed mesh stiffness: at each phase the secant of the law under the even share of the torque
@@ -136,7 +154,7 @@ impl MeshLawModel<'static> {
     /// The lumped model of a scene with any law in its meshes, under the torque of a load case.
     pub fn lumped_with(scene: &Scene, case: LoadCase, law: impl Into<Arc<MeshLaw>>) -> Self {
         let (scene, laws) = (scene.clone(), GrowingLaw::given(law.into()).into());
-        Self { scene, loaded: None, case, laws, known: OnceLock::new() }
+        Self { scene, loaded: None, case, laws, known: OnceLock::new(), finer: Default::default() }
     }
 }
 
@@ -159,6 +177,26 @@ impl SweepModel for MeshLawModel<'_> {
 
     fn steps_per_cycle(&self) -> usize {
         self.laws.first().steps()
+    }
+
+    fn with_times_the_steps(
+        &self,
+        times: usize,
+    ) -> Result<Option<&dyn SweepModel>, ExperimentError> {
+        let Some(slot) = times.checked_sub(2).and_then(|k| self.finer.get(k)) else {
+            return Ok(None);
+        };
+        if slot.get().is_none() {
+            let Some(laws) = self.laws.with_steps(times * self.laws.first().steps())? else {
+                return Ok(None);
+            };
+            let (scene, loaded) = (self.scene.clone(), self.loaded.clone());
+            let finer = Default::default();
+            let known = OnceLock::new();
+            let made = Self { scene, loaded, case: self.case, laws: laws.into(), known, finer };
+            slot.get_or_init(|| Box::new(made));
+        }
+        Ok(slot.get().map(|own| own.as_ref() as &dyn SweepModel))
     }
 
     fn turning_damped(

@@ -1,11 +1,13 @@
 //! One speed of a sweep: what the steady state gives, and its rows in the tidy table.
 
+use dynamics::Multiplier;
 use gearset::LoadCase;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::attraction::{Attraction, multiplier_kind};
 use super::critical_motion::CriticalMotion;
+use super::shooting::SMALL;
 use super::state::{Coordinate, Line, Part, SteadyState};
 use super::steady::{CameFrom, Steady, SteadyMethod};
 use crate::error::ExperimentError;
@@ -36,6 +38,18 @@ impl std::fmt::Display for SearchStart {
     }
 }
 
+/// What Floquet multipliers are those of.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum MultipliersOf {
+    /// The time steps.
+    #[default]
+    Steps,
+    /// The vibrations of the set about its mean mesh stiffness, e^{(−δ ± iω)T}: at low speeds, where these decay within a
+    /// mesh cycle and the time steps are longer than their periods.
+    Vibrations,
+}
+
 /// The Floquet multiplier of largest size.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LargestMultiplier {
@@ -61,6 +75,13 @@ pub struct SweepPoint {
     /// Why it was marched although shooting was asked for.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub why_marched: Option<String>,
+    /// Steps in a mesh cycle: at low speeds a multiple of those of the scene, as the vibrations of the set need them.
+    #[serde(default)]
+    pub steps_per_cycle: usize,
+    /// Speed (rpm) at which the motion was computed where that is not the speed asked for: the lowest that the most steps
+    /// resolve, below which inertia has no part and the motion is that at rest.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub computed_at_rpm: Option<f64>,
     /// Cycles marched.
     pub cycles: usize,
     /// Derivatives of the cycle that shooting computed.
@@ -74,6 +95,9 @@ pub struct SweepPoint {
     /// Floquet multipliers of one period of size 1e-3 and above (real and imaginary part) by descending size; empty for a
     /// model without derivative and for a motion that does not repeat. The motion attracts if all are smaller than 1.
     pub multipliers: Vec<[f64; 2]>,
+    /// What the multipliers are those of.
+    #[serde(default)]
+    pub multipliers_of: MultipliersOf,
     /// The largest of them; absent if there are none.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub largest_multiplier: Option<LargestMultiplier>,
@@ -174,6 +198,19 @@ impl SweepPoint {
         }
     }
 
+    /// The same with the multipliers of the vibrations of the set, the largest first, and the type of its motion.
+    pub(super) fn with_vibrations(
+        mut self,
+        mut multipliers: Vec<Multiplier>,
+        mode_type: Option<String>,
+    ) -> Self {
+        multipliers.retain(|m| m.size() >= SMALL);
+        self.largest_multiplier = largest(&multipliers, mode_type);
+        self.multipliers = multipliers.iter().map(|m| [m.re, m.im]).collect();
+        (self.multipliers_of, self.critical) = (MultipliersOf::Vibrations, None);
+        self
+    }
+
     /// What must be said of a motion that ended within the tolerance and may be a transient all the same.
     pub fn caution(&self) -> Option<String> {
         let left = self.transient.filter(|left| *left > MOST_TRANSIENT)?;
@@ -265,16 +302,18 @@ impl SweepPoint {
             state: SteadyState { case, lines },
             method: found.method,
             why_marched: found.why_marched.clone(),
+            steps_per_cycle: record.len(),
+            computed_at_rpm: None,
             cycles: found.cycles,
             derivatives: found.derivatives,
             start,
             attracts: found.attraction,
             multipliers: found.multipliers.iter().map(|m| [m.re, m.im]).collect(),
-            largest_multiplier: found.multipliers.first().map(|m| LargestMultiplier {
-                size: m.size(),
-                kind: multiplier_kind(*m).into(),
-                mode_type: found.critical.as_ref().map(|own| own.mode_type.clone()),
-            }),
+            multipliers_of: MultipliersOf::Steps,
+            largest_multiplier: largest(
+                &found.multipliers,
+                found.critical.as_ref().map(|own| own.mode_type.clone()),
+            ),
             critical: found.critical.clone(),
             residual: found.residual,
             is_steady: found.residual <= settings.tolerance
@@ -294,4 +333,10 @@ impl SweepPoint {
             is_beyond_linear: found.rest.is_some_and(|rest| rest.is_worth_a_warning()),
         })
     }
+}
+
+/// The first of multipliers that are ordered by size, with the type of its motion.
+fn largest(multipliers: &[Multiplier], mode_type: Option<String>) -> Option<LargestMultiplier> {
+    let own = multipliers.first()?;
+    Some(LargestMultiplier { size: own.size(), kind: multiplier_kind(*own).into(), mode_type })
 }

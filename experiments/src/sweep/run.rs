@@ -2,8 +2,9 @@
 
 use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
-use std::sync::Mutex;
+use std::sync::{Mutex, OnceLock};
 
+use gearset::LoadCase;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -11,9 +12,10 @@ use super::failed_point::FailedPoint;
 use super::judge::peak_centres;
 use super::plan::{Chain, Plan};
 use super::point::{SearchStart, SweepPoint, TableRow};
+use super::resolved_steps::{Resolved, Vibrations};
 use super::search::steady;
 use super::state::SteadyState;
-use super::steady::{CameFrom, SteadySettings};
+use super::steady::{CameFrom, SteadyMethod, SteadySettings};
 use super::sweep_model::SweepModel;
 use crate::error::ExperimentError;
 use crate::table_growth::large_enough;
@@ -215,6 +217,7 @@ pub fn run(
             break;
         }
     }
+    let vibrations = OnceLock::new();
     let found: Mutex<BTreeMap<usize, Chained>> = Mutex::default();
     plan.chains.par_iter().enumerate().try_for_each(|(k, chain)| {
         let (mut points, mut failed) = Chained::default();
@@ -224,7 +227,8 @@ pub fn run(
                 Some(kept) => kept,
                 None => {
                     let from = (start.0, start.1.as_deref());
-                    let kept = one(model, chain, *speed, from, &plan.steady)?;
+                    let known = of_model(model, &plan.steady, &vibrations)?;
+                    let kept = resolved((model, known), chain, *speed, from, &plan.steady)?;
                     store.save(chain, index, &kept)?;
                     kept
                 }
@@ -249,19 +253,93 @@ pub fn run(
     Ok(Sweep { fidelity: model.name(), chains, failed: failed.concat() })
 }
 
+/// The vibrations of a model, found once; `None` where steps are kept, and of a model without derivative.
+///
+/// # Errors
+/// If a set cannot be built, or its vibrations are not found.
+fn of_model<'v>(
+    model: &dyn SweepModel,
+    settings: &SteadySettings,
+    vibrations: &'v OnceLock<Option<Vibrations>>,
+) -> Result<Option<&'v Vibrations>, ExperimentError> {
+    if settings.keeps_steps {
+        return Ok(None);
+    }
+    if vibrations.get().is_none() {
+        let found = Vibrations::of(model)?;
+        vibrations.get_or_init(|| found);
+    }
+    Ok(vibrations.get().and_then(Option::as_ref))
+}
+
+/// One speed in the steps that the vibrations of the set need there.
+///
+/// # Errors
+/// As [`one`].
+fn resolved(
+    (model, vibrations): (&dyn SweepModel, Option<&Vibrations>),
+    chain: &Chain,
+    speed_rpm: f64,
+    from: (SearchStart, Option<&[f64]>),
+    settings: &SteadySettings,
+) -> Result<Kept, ExperimentError> {
+    let case = model.case().at_speed(speed_rpm);
+    let (mesh_hz, steps) = (case.mesh_frequency_hz, model.steps_per_cycle());
+    let in_steps = |settings: &SteadySettings| one(model, chain, (case, case), from, settings);
+    let Some(vibrations) = vibrations else { return in_steps(settings) };
+    let choice = vibrations.resolved(mesh_hz, steps, settings.harmonics);
+    if choice == Resolved::Times(1) {
+        return in_steps(settings);
+    }
+    if settings.method == SteadyMethod::Shooting
+        && let Some((multipliers, mode_type)) = vibrations.multipliers(mesh_hz)
+    {
+        let few = SteadySettings { most_cycles: settings.most_cycles.min(FEW), ..settings.clone() };
+        if let Kept::Found { point, state } = in_steps(&few)?
+            && point.is_steady
+        {
+            let point = Box::new(point.with_vibrations(multipliers, mode_type));
+            return Ok(Kept::Found { point, state });
+        }
+    }
+    let finer = match choice {
+        Resolved::Times(1) | Resolved::Faster { times: 1, .. } => Some(model),
+        Resolved::Times(times) | Resolved::Faster { times, .. } => {
+            model.with_times_the_steps(times)?
+        }
+        Resolved::Needs { .. } => model.with_times_the_steps(2)?,
+    };
+    // A model with a fixed number of steps is marched with these.
+    let Some(finer) = finer else { return in_steps(settings) };
+    match choice {
+        Resolved::Times(_) => one(finer, chain, (case, case), from, settings),
+        Resolved::Faster { mesh_hz, .. } => {
+            let faster = model.case().at_speed(mesh_hz / case.mesh_frequency_per_rpm_hz());
+            one(finer, chain, (case, faster), from, settings)
+        }
+        Resolved::Needs { steps, most } => {
+            let error = ExperimentError::TooFewSteps { steps, most };
+            Ok(Kept::Failed(FailedPoint::new(&chain.name, case, error, Default::default())))
+        }
+    }
+}
+
+/// Most cycles in which a motion is looked for in steps that are longer than the vibrations need.
+const FEW: usize = 16;
+
 /// One steady state, tables laid out for more where the load outgrows them; a failed point if the march
-/// fails.
+/// fails. It is that at the speed asked for, computed at another one where that is given.
 ///
 /// # Errors
 /// If the set cannot be built, brought to rest or put into `state`: faults that do not depend on the speed.
 fn one(
     model: &dyn SweepModel,
     chain: &Chain,
-    speed_rpm: f64,
+    (asked, case): (LoadCase, LoadCase),
     (start, state): (SearchStart, Option<&[f64]>),
     settings: &SteadySettings,
 ) -> Result<Kept, ExperimentError> {
-    let case = model.case().at_speed(speed_rpm);
+    let computed_at_rpm = (case != asked).then_some(case.speed_rpm);
     // Once a set has been built and has a state to start from, larger tables may fail, but the set-up is sound.
     let has_started = Cell::new(false);
     let last = RefCell::default();
@@ -281,6 +359,8 @@ fn one(
         if found.came_from == CameFrom::Given {
             point.start = start;
         }
+        point.state.case = asked;
+        point.computed_at_rpm = computed_at_rpm;
         Ok(Kept::Found { point: Box::new(point), state: set.state() })
     };
     let found = large_enough(|size| {
@@ -290,7 +370,7 @@ fn one(
     });
     match found {
         Err(error) if has_started.get() => {
-            Ok(Kept::Failed(FailedPoint::new(&chain.name, case, error, last.into_inner())))
+            Ok(Kept::Failed(FailedPoint::new(&chain.name, asked, error, last.into_inner())))
         }
         other => other,
     }

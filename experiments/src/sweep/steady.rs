@@ -42,6 +42,9 @@ pub struct SteadySettings {
     /// break the symmetry are then found too, and what the symmetry forbids is a result instead of a premise.
     #[serde(default)]
     pub whole_cycles: bool,
+    /// Whether low speeds keep the steps of the scene although these are too long for the vibrations of the set.
+    #[serde(default)]
+    pub keeps_steps: bool,
 }
 
 impl Default for SteadySettings {
@@ -56,6 +59,7 @@ impl Default for SteadySettings {
             harmonics,
             between_cycles,
             whole_cycles: false,
+            keeps_steps: false,
         }
     }
 }

@@ -43,6 +43,19 @@ pub trait SweepModel: Sync {
         Ok(())
     }
 
+    /// The same model with `times` as many steps in a mesh cycle, on what it has found where it can; `None` of a model with a
+    /// fixed number of steps.
+    ///
+    /// # Errors
+    /// If its tables cannot be made.
+    fn with_times_the_steps(
+        &self,
+        times: usize,
+    ) -> Result<Option<&dyn SweepModel>, ExperimentError> {
+        let _ = times;
+        Ok(None)
+    }
+
     /// The set turning at the speed and under the torque of a load case. `size`: how often its tables were found too
     /// small and are to be laid out for twice the load.
     ///
@@ -130,7 +143,12 @@ pub struct FeModel<'s> {
     case: LoadCase,
     table_size: usize,
     prepared: [OnceLock<Prepared<'s>>; SIZES],
+    /// The same with 2, 3 … times the steps.
+    finer: [OnceLock<Box<Self>>; MOST_TIMES - 1],
 }
+
+/// Most times the steps of a scene that a model takes at low speeds.
+pub(super) const MOST_TIMES: usize = 8;
 
 impl<'s> FeModel<'s> {
     /// Under the torque of a load case.
@@ -141,8 +159,9 @@ impl<'s> FeModel<'s> {
         case: LoadCase,
     ) -> Self {
         let prepared = [const { OnceLock::new() }; SIZES];
+        let finer = [const { OnceLock::new() }; MOST_TIMES - 1];
         let (scene, table_size) = (scene.clone(), 0);
-        Self { scene, bodies, imperfections, case, table_size, prepared }
+        Self { scene, bodies, imperfections, case, table_size, prepared, finer }
     }
 
     /// The same with tables laid out for twice the load, as often as `size` says, before any is found too
@@ -176,8 +195,9 @@ impl<'s> FeModel<'s> {
     /// # Errors
     /// If tables cannot be laid out.
     pub(crate) fn with_steps(&self, scene: &Scene) -> Result<Self, ExperimentError> {
-        let own = Self::new(scene, self.bodies, self.imperfections.clone(), self.case);
-        let made = self.shared(0)?.with_steps(scene, own.force(0)?)?;
+        let own = Self::new(scene, self.bodies, self.imperfections.clone(), self.case)
+            .with_tables(self.table_size);
+        let made = self.shared(0)?.with_steps(scene, own.force(self.table_size)?)?;
         own.prepared[0].get_or_init(|| made);
         Ok(own)
     }
@@ -285,6 +305,22 @@ impl SweepModel for FeModel<'_> {
 
     fn prepare(&self) -> Result<(), ExperimentError> {
         self.shared(0).map(|_| ())
+    }
+
+    fn with_times_the_steps(
+        &self,
+        times: usize,
+    ) -> Result<Option<&dyn SweepModel>, ExperimentError> {
+        let Some(slot) = times.checked_sub(2).and_then(|k| self.finer.get(k)) else {
+            return Ok(None);
+        };
+        if slot.get().is_none() {
+            let mut scene = self.scene.clone();
+            scene.dynamics.steps_per_cycle *= times as u32;
+            let made = Box::new(self.with_steps(&scene)?);
+            slot.get_or_init(|| made);
+        }
+        Ok(slot.get().map(|own| own.as_ref() as &dyn SweepModel))
     }
 
     fn turning_damped(

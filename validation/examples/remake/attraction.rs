@@ -46,6 +46,7 @@ pub(super) fn remake() -> Outcome {
     let rows: Vec<String> = SEEDS
         .into_par_iter()
         .map(|seed| row(seed).unwrap_or_else(|error| format!("{seed},,,,,,,,,,,failed: {error}")))
+        .inspect(|row| eprintln!("{row}"))
         .collect();
     let mut out = std::io::stdout().lock();
     writeln!(
@@ -71,7 +72,10 @@ fn row(seed: u64) -> Result<String, Box<dyn std::error::Error + Send + Sync>> {
     let hz = low + (high - low) * random.f64();
     let case = case.with_sun_torque(torque);
     let case = case.at_speed(hz / case.mesh_frequency_per_rpm_hz());
-    let fidelity = random.usize(..3);
+    let fidelity = match scene.lumped {
+        Some(_) => random.usize(..3),
+        None => random.usize(..2),
+    };
     scene.dynamics.fidelity = Fidelity::QuasiStatic;
     let bodies = Bodies::new(&scene)?;
     let model: Box<dyn SweepModel + '_> = match fidelity {
@@ -83,7 +87,7 @@ fn row(seed: u64) -> Result<String, Box<dyn std::error::Error + Send + Sync>> {
         format!("{seed},{path},{},{torque:.2},{damping},{:.2}", model.name(), case.speed_rpm);
     // Tables grow as in a sweep.
     let mut last = None;
-    for size in 0..4 {
+    for size in 0..5 {
         match (Pushed { model: model.as_ref(), case, size }).judged(&mut random) {
             Ok(tail) => return Ok(format!("{head},{tail}")),
             Err(error) => last = Some(error),

@@ -171,6 +171,7 @@ fn plan(speeds: &[f64]) -> Plan {
         harmonics: 2,
         between_cycles: 0,
         whole_cycles: false,
+        keeps_steps: false,
     };
     Plan::new(speeds, &[Direction::Up], steady).unwrap()
 }
