@@ -18,6 +18,7 @@ use super::critical_motion::CriticalMotion;
 use super::shooting::RecordedCycles;
 use super::sweep_model::{MOST_TIMES, SweepModel};
 use crate::error::ExperimentError;
+use crate::table_growth::large_enough;
 
 /// Mesh frequency of a cycle in which the set hardly moves, Hz. Vibrations up to half of it are told apart, and the lag of the
 /// teeth, some microseconds, is over within it.
@@ -81,11 +82,16 @@ impl Vibrations {
     /// # Errors
     /// If the set cannot be built, stepped or its multipliers are not found.
     pub(super) fn of(model: &dyn SweepModel) -> Result<Option<Self>, ExperimentError> {
-        // The set stands still while the stiffness of its meshes varies: under half of its torque no force leaves the tables.
+        large_enough(|size| Self::of_size(model, size))
+    }
+
+    fn of_size(model: &dyn SweepModel, size: usize) -> Result<Option<Self>, ExperimentError> {
+        // The set stands still while the stiffness of its meshes varies, and forces with it: half of its torque leaves room
+        // in the tables.
         let case = model.case();
         let case = case.with_sun_torque(0.5 * case.sun_torque_nm);
         let per_rpm = case.mesh_frequency_per_rpm_hz();
-        let mut set = model.turning(&case.at_speed(SHORT_CYCLE_HZ / per_rpm), 0)?;
+        let mut set = model.turning(&case.at_speed(SHORT_CYCLE_HZ / per_rpm), size)?;
         if set.derivative().is_none() {
             return Ok(None);
         }
