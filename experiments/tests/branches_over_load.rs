@@ -195,7 +195,8 @@ fn motions_that_repeat_after_two_cycles_are_followed_off_a_period_doubling() {
         between_cycles: 0,
         ..SteadySettings::default()
     };
-    // Where one motion after another is stable, marching from speed to speed stays on it: down from before the doubling.
+    // Where one motion after another is stable, marching from speed to speed stays on it: down from before the
+    // doubling.
     let mut state: Option<Vec<f64>> = None;
     let above = std::iter::once((at + 2.0, None));
     let mut met = 0;

@@ -75,8 +75,9 @@ fn last(model: &dyn SweepModel, speeds: &[f64]) -> (f64, SweepPoint) {
     (point.state.amplitude(Part::Sun, Coordinate::Rotation, 1), point)
 }
 
-/// At 10,500 rpm forces are far above three times the mean. With tables that are extrapolated the first harmonic was 19 %
-/// above that of contact solved at every step. Where forces stay within the first tables they do not grow.
+/// At 10,500 rpm forces are far above three times the mean. With tables that are extrapolated the first harmonic
+/// was 19 % above that of contact solved at every step. Where forces stay within the first tables they do not
+/// grow.
 #[test]
 fn tables_grow_where_teeth_hammer_on_both_flanks() {
     let scene = Scene::from_toml(PAIR).unwrap();

@@ -40,8 +40,8 @@ fn mean_deflection(law: &MeshLaw, mesh: usize, force: f64) -> f64 {
 
 /// What is off in a harmonic if planets do not carry the same force.
 struct Off {
-    /// Largest difference of a planet's harmonic from the mean over the planets, each turned back by its mesh phase, over the
-    /// mean.
+    /// Largest difference of a planet's harmonic from the mean over the planets, each turned back by its mesh
+    /// phase, over the mean.
     of_a_force: f64,
     /// Largest difference of a strength (torque, either force), as part of all planets in step.
     of_a_strength: f64,
@@ -108,8 +108,8 @@ fn off(positions: [i64; 5]) -> Vec<Off> {
     (1..).zip(&strengths).map(of_harmonic).collect()
 }
 
-/// Equally spaced planets carry the same force, and the strengths hold. Of planets up to a step (2.8°) off equal spacing they
-/// are off by what `checks/assumptions.toml` says.
+/// Equally spaced planets carry the same force, and the strengths hold. Of planets up to a step (2.8°) off equal
+/// spacing they are off by what `checks/assumptions.toml` says.
 #[test]
 fn strengths_hold_for_equal_forces_and_are_off_for_unequal_ones() {
     let worst = |list: &[Off]| {

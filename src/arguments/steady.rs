@@ -41,6 +41,11 @@ pub(crate) struct Sweep {
     /// Also sweep towards lower speeds.
     #[arg(long)]
     pub both_ways: bool,
+    /// Also search every speed from N random starts, which lists further motions that attract; not for models without
+    /// derivative of their steps (fidelity full, exact kinematics).
+    #[arg(long, value_name = "N", default_value_t = 0,
+          value_parser = whole::<0, 99>, allow_negative_numbers = true)]
+    pub random_starts: u32,
     /// Number of further speeds about each peak, 0 for none.
     #[arg(long, value_name = "N", default_value_t = 0,
           value_parser = whole::<0, 1000>, allow_negative_numbers = true)]
@@ -69,7 +74,8 @@ pub(crate) struct Sweep {
     /// the points in it. A folder with anything else that would be overwritten is refused.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Also draw figures into this folder (SVG, PNG): waterfalls, frequencies, harmonics_* of each quantity and, of a model with derivative, multipliers.
+    /// Also draw figures into this folder (SVG, PNG): waterfalls, frequencies, harmonics_* of each quantity and,
+    /// of a model with derivative, multipliers.
     #[cfg(feature = "charts")]
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,

@@ -7,7 +7,9 @@ use experiments::ExperimentError;
 use experiments::branches::{
     BranchError, BranchParameter, BranchSettings, BranchStore, Search, branches_kept, finished,
 };
-use experiments::sweep::{KeyedModel, LUMPED, Memory, SteadySettings, SweepModel, fidelity_name};
+use experiments::sweep::{
+    KeyedModel, LUMPED, Memory, SteadySettings, SweepModel, fidelity_name, steps_needed,
+};
 use fe_contact::statics::Bodies;
 use gearset::{Fidelity, LoadCase, MOST_SCENE_BYTES, Scene, Verb};
 
@@ -75,6 +77,17 @@ pub(super) fn run(
                 }
                 _ => turning::model(arguments.model, &scene, &bodies, case)?,
             };
+            let slowest_rpm = match settings.over {
+                BranchParameter::Speed => settings.range[0],
+                _ => case.speed_rpm,
+            };
+            if let Some(needed) = steps_needed(model.as_ref(), slowest_rpm)? {
+                writeln!(
+                    err,
+                    "warning: at {slowest_rpm} rpm the vibrations of the set need {needed} steps in a mesh cycle, not {steps} (`dynamics.steps_per_cycle`): \
+                     with longer steps motions that attract may seem unstable"
+                )?;
+            }
             working.now("following the branch");
             branches_kept(model.as_ref(), &settings, &search, store).map_err(|e| match e {
                 ExperimentError::Branch(e @ BranchError::NoDerivative(_)) => {

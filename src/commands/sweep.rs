@@ -196,6 +196,7 @@ impl<'a> Task<'a> {
             false => &[Direction::Up],
         };
         let plan = Plan::new(&speeds, directions, steady).map_err(refuse("--speeds-rpm"))?;
+        let plan = plan.with_random_starts(arguments.random_starts);
         let failed = |source| CommandError::File { what: "cannot read", path: path.into(), source };
         let text = gearset::read_text(path, MOST_SCENE_BYTES).map_err(failed)?;
         let fidelity = match arguments.model {

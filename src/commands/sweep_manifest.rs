@@ -5,9 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::result_folder::Manifest;
 
-/// Format of the folder; another one is refused. 4: points say how they were found and
-/// carry Floquet multipliers.
-pub(super) const FORMAT: u32 = 4;
+/// Format of the folder; another one is refused. 5: points say what shows that they attract.
+pub(super) const FORMAT: u32 = 5;
 
 /// Longest part of a line of the scene that a message repeats, characters.
 const LONGEST: usize = 60;

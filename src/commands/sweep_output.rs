@@ -4,8 +4,8 @@ use std::io::Write;
 
 use experiments::auto::Choice;
 use experiments::sweep::{
-    Attraction, CriticalMotion, FailedPoint, LargestMultiplier, MOST_REPEATS, MultipliersOf,
-    SearchStart, SteadyMethod, SteadySettings, Sweep, SweepPoint,
+    Attraction, Attractors, CriticalMotion, FailedPoint, LargestMultiplier, MOST_REPEATS,
+    MultipliersOf, SearchStart, SteadyMethod, SteadySettings, StepError, Sweep, SweepPoint,
 };
 use gearset::Scene;
 use schemars::JsonSchema;
@@ -45,6 +45,9 @@ pub(super) struct SweepOutput {
     points: Vec<ChainPoint>,
     /// Speeds (rpm) at which chains arrived at different motions that attract.
     coexisting_rpm: Vec<f64>,
+    /// Speeds that several chains reached, with the motions that attract on which these ended; empty if there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    attractors: Vec<Attractors>,
     /// Speeds at which nothing could be computed, by speed.
     failed: Vec<FailedPoint>,
     /// With `fidelity = "auto"`: the settings chosen, why, and the amplitude with its estimated error.
@@ -55,7 +58,7 @@ pub(super) struct SweepOutput {
 /// A point with the chain that it belongs to.
 #[derive(Debug, Serialize, JsonSchema)]
 struct ChainPoint {
-    /// Chain of the plan: `up_00`, `down_00`, `peak_00` and so on.
+    /// Chain of the plan: `up_00`, `down_00`, `peak_00`, `random_01_00` and so on.
     chain: String,
     #[serde(flatten)]
     point: SweepPoint,
@@ -100,6 +103,8 @@ struct PointHead<'a> {
     is_steady: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     transient: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    step_error: Option<StepError>,
     between_harmonics: Option<f64>,
     repeats_after: Option<usize>,
     lowest_force_n: f64,
@@ -117,7 +122,7 @@ const COLUMNS: [(&str, &str); 20] = [
     ("sun_torque_nm", "torque on the sun, N m"),
     ("speed_rpm", "speed of the input member, rpm"),
     ("mesh_frequency_hz", "mesh frequency, Hz"),
-    ("chain", "chain of the plan: up, down, or about a peak"),
+    ("chain", "chain of the plan: up, down, about a peak, or from a random start"),
     ("body", "carrier, ring, sun, planet_n, sun_mesh_n, ring_mesh_n"),
     (
         "coordinate",
@@ -155,7 +160,10 @@ const COLUMNS: [(&str, &str); 20] = [
         "mode_type",
         "type of the motion that it multiplies: rotational, translational, planet, mixed",
     ),
-    ("start", "where the search began: rest, the speed before, or an unstable motion, pushed"),
+    (
+        "start",
+        "where the search began: rest, the speed before, an unstable motion, pushed, or a random start",
+    ),
 ];
 
 impl SweepOutput {
@@ -179,6 +187,7 @@ impl SweepOutput {
             method: settings.method,
             most_cycles: settings.most_cycles,
             coexisting_rpm: sweep.coexisting_rpm(),
+            attractors: sweep.attractors(),
             harmonics: settings.harmonics,
             between_cycles: settings.between_cycles,
             points: sweep.by_speed().into_iter().map(point).collect(),
@@ -225,6 +234,7 @@ impl SweepOutput {
             residual: p.residual,
             is_steady: p.is_steady,
             transient: p.transient,
+            step_error: p.step_error,
             between_harmonics: p.between,
             repeats_after: p.repeats_after,
             lowest_force_n: p.lowest_force_n,
@@ -371,12 +381,15 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
             "At {pushed} of these speeds the march began at an unstable motion, pushed: none that attracts was found from the state before."
         )?;
     }
-    if !result.coexisting_rpm.is_empty() {
-        let list: Vec<String> = result.coexisting_rpm.iter().map(|s| format!("{s:.1}")).collect();
+    for here in result.attractors.iter().filter(|here| here.motions.len() > 1) {
+        let motions = here.motions.iter().map(|motion| motion.chains.join(" "));
+        let motions: Vec<String> = motions.collect();
         writeln!(
             out,
-            "More than one motion attracts at {} rpm: those reached from lower and from higher speeds differ.",
-            list.join(", ")
+            "At {:.1} rpm {} motions attract, reached in the chains: {}.",
+            here.speed_rpm,
+            motions.len(),
+            motions.join("; ")
         )?;
     }
     let none = count(|p| !p.attracts.is_shown() && p.attracts != Attraction::Neutral);
@@ -394,6 +407,17 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
             out,
             "At {finer} of these speeds the vibrations of the set need more than {} steps in a mesh cycle, and as many were taken.",
             result.steps_per_cycle
+        )?;
+    }
+    let limited = result.points.iter().filter_map(|p| Some((&p.point, p.point.step_error?)));
+    let largest = limited.clone().max_by(|(_, a), (_, b)| a.share.total_cmp(&b.share));
+    if let Some((point, StepError { harmonic, natural_hz, share, steps })) = largest {
+        writeln!(
+            out,
+            "At {} of these speeds the length of the steps may change the sun's strong harmonics by more than 1 %, most at {:.1} rpm: harmonic {harmonic} beside {natural_hz:.0} Hz by up to {:.1} % (1 % with {steps} steps in a mesh cycle, `dynamics.steps_per_cycle`).",
+            limited.count(),
+            point.state.case.speed_rpm,
+            100.0 * share,
         )?;
     }
     let mut faster = result
@@ -491,6 +515,7 @@ mod tests {
                 residual: 1e-10,
                 is_steady: repeats_after == Some(1),
                 transient: None,
+                step_error: None,
                 between: None,
                 repeats_after,
                 lowest_force_n: 0.0,

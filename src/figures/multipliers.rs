@@ -1,5 +1,5 @@
-//! Size of the largest Floquet multiplier over speed: how near every motion of a sweep is to losing its stability, in which
-//! way and in which type of motion.
+//! Size of the largest Floquet multiplier over speed: how near every motion of a sweep is to losing its stability,
+//! in which way and in which type of motion.
 
 use experiments::sweep::{Sweep, SweepPoint};
 

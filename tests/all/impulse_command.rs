@@ -115,8 +115,8 @@ fn impulse_without_a_small_linearisation() {
     assert!(rows.iter().filter(empty).count() == 8, "{text}");
 }
 
-/// Five planets have pairs of modes 7e-4 apart: every pole is one mode, at its own frequency, beside the linearised mode that
-/// it is nearest to.
+/// Five planets have pairs of modes 7e-4 apart: every pole is one mode, at its own frequency, beside the
+/// linearised mode that it is nearest to.
 #[test]
 fn impulse_tells_close_modes_apart() {
     let folder = tempfile::tempdir().unwrap();

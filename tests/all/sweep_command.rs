@@ -124,7 +124,7 @@ fn folders_that_hold_other_results_or_cannot_be_written_are_left_alone() {
         refused(&all)
     };
     for (manifest, words) in [
-        ("{\"format\": 99}", "format 99 where this program writes 4"),
+        ("{\"format\": 99}", "format 99 where this program writes 5"),
         ("nonsense", "its manifest is no JSON"),
         ("{\"format\": 4}", "its manifest lacks keys"),
     ] {
@@ -431,8 +431,8 @@ fn under_a_light_torque_with_little_damping_teeth_part() {
     assert!(text.contains("At 1 of these speeds teeth part"), "{text}");
 }
 
-/// Without damping a light load hammers: at 800 and 1600 rpm contact outgrows the largest tables. The sweep goes on, says so,
-/// keeps the speed as failed, and resumes to the same bytes.
+/// Without damping a light load hammers: at 800 and 1600 rpm contact outgrows the largest tables. The sweep goes
+/// on, says so, keeps the speed as failed, and resumes to the same bytes.
 #[test]
 fn a_speed_that_cannot_be_computed_is_kept_with_its_reason() {
     let folder = tempfile::tempdir().unwrap();

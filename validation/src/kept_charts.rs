@@ -62,8 +62,9 @@ pub fn kept_studies() -> Result<Vec<KeptStudy>, ReferenceError> {
 
 /// The stability maps that take minutes: contact loss over torque and damping of OH-58 with four planets, by
 /// `epicyclic stability contact-loss --scene scenes/oh58_4p.toml --format json > kept/stability/contact-loss.json`,
-/// linear kinematics, by `epicyclic stability linear-kinematics --format json > kept/stability/linear-kinematics.json`, and
-/// hammering, by `epicyclic stability hammering --format json > kept/stability/hammering.json`.
+/// linear kinematics, by `epicyclic stability linear-kinematics --format json >
+/// kept/stability/linear-kinematics.json`, and hammering, by `epicyclic stability hammering --format json >
+/// kept/stability/hammering.json`.
 ///
 /// # Errors
 /// If a file is not what the program writes.

@@ -4,8 +4,8 @@ use lumped::ModeType;
 
 use super::mode::FeMode;
 
-/// Pairs identified modes with linearised ones of their type, one with one: in order if both lists have the same number,
-/// otherwise the nearest pairs first. Both lists are ascending.
+/// Pairs identified modes with linearised ones of their type, one with one: in order if both lists have the same
+/// number, otherwise the nearest pairs first. Both lists are ascending.
 ///
 /// Returns indices into both lists, ascending in the identified frequency, or the linearised one of modes
 /// that were not identified; every mode occurs once.

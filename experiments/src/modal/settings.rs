@@ -32,8 +32,8 @@ const GAP: f64 = 1.5;
 /// Highest over lowest frequency of a band by default: a wider one needs more steps than a decay may have.
 const WIDEST: f64 = 40.0;
 
-/// Poles that differ by less than this part of them are one repeated pole. Without noise those of equally spaced planets
-/// differ by 1e-8, and modes 3e-4 apart are told apart.
+/// Poles that differ by less than this part of them are one repeated pole. Without noise those of equally spaced
+/// planets differ by 1e-8, and modes 3e-4 apart are told apart.
 const SAME_POLE: f64 = 1e-6;
 
 /// Modes below this are rigid-body motion, Hz.

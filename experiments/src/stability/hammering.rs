@@ -10,8 +10,9 @@ use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
 const PAIR: HammeringPair = HammeringPair { landing_speed: 3.0 };
 const BOUNCES: usize = 100;
 
-/// Steps in a contact, coarse to fine. Errors oscillate with where in a step the flanks meet and part: each number is taken
-/// at [`CHANCES`] values up to the next, and the worst counts. With a quarter of them the worst is missed by a half.
+/// Steps in a contact, coarse to fine. Errors oscillate with where in a step the flanks meet and part: each number
+/// is taken at [`CHANCES`] values up to the next, and the worst counts. With a quarter of them the worst is missed
+/// by a half.
 const STEPS: [f64; 10] = [5.0, 7.0, 10.0, 14.0, 20.0, 28.0, 40.0, 56.0, 80.0, 112.0];
 const CHANCES: u32 = 400;
 

@@ -96,7 +96,8 @@ impl Decay {
         self.largest > FALLEN * self.last.back().copied().unwrap_or(f64::INFINITY)
     }
 
-    /// Whether changes have fallen by [`FALLEN`] and were falling from window to window at the end, or are gone to rounding.
+    /// Whether changes have fallen by [`FALLEN`] and were falling from window to window at the end, or are gone to
+    /// rounding.
     pub(super) fn is_shown(&self, rounding: f64) -> bool {
         let all: Vec<f64> = self.last.iter().copied().collect();
         let tops: Vec<f64> =

@@ -10,8 +10,9 @@ use crate::error::ExperimentError;
 /// Largest number of mesh cycles after which a motion is tested for repeating.
 pub const MOST_REPEATS: usize = 8;
 
-/// A motion repeats after several cycles only if its change over fewer, into which these divide, exceeds the tolerance by
-/// this factor: transients that have nearly died out change within the tolerance over one cycle or several.
+/// A motion repeats after several cycles only if its change over fewer, into which these divide, exceeds the
+/// tolerance by this factor: transients that have nearly died out change within the tolerance over one cycle or
+/// several.
 const CLEARLY: f64 = 10.0;
 
 /// Changes over several cycles within this factor of each other are alike: the fewest cycles count.
@@ -67,8 +68,8 @@ impl<'m> March<'m> {
         }
     }
 
-    /// Mesh cycles, 1 to [`MOST_REPEATS`], after which the motion comes nearest to repeating, and the change over them. Of
-    /// numbers that are alike the least.
+    /// Mesh cycles, 1 to [`MOST_REPEATS`], after which the motion comes nearest to repeating, and the change over
+    /// them. Of numbers that are alike the least.
     pub(super) fn nearest_repeat(&self) -> (usize, f64) {
         let all: Vec<f64> = (1..=MOST_REPEATS).map(|count| self.change_over(count)).collect();
         let least = all.iter().copied().fold(f64::INFINITY, f64::min);

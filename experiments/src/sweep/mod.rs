@@ -1,7 +1,7 @@
 //! Speed sweeps: motions of a turning set that repeat and attract, their harmonics, as fixed plans.
 
 mod attraction;
-mod coexisting;
+mod attractors;
 mod critical_motion;
 mod damped_model;
 mod failed_point;
@@ -16,6 +16,7 @@ mod naturals;
 mod peaks;
 mod plan;
 mod point;
+mod random_start;
 mod record;
 mod resolved_steps;
 mod rest_samples;
@@ -31,6 +32,7 @@ mod sweep_model;
 mod varied_key;
 
 pub use attraction::Attraction;
+pub use attractors::{AttractingMotion, Attractors};
 pub use critical_motion::CriticalMotion;
 pub use damped_model::DampedModel;
 pub use failed_point::FailedPoint;
@@ -42,9 +44,11 @@ pub use mesh_law_model::{LUMPED, MeshLawModel};
 pub use naturals::naturals;
 pub use peaks::{Peak, Response, peaks, top_of_three};
 pub use plan::{Chain, Direction, Plan, PlanError, even_speeds};
-pub use point::{LargestMultiplier, MultipliersOf, SearchStart, SweepPoint, TableRow};
+pub use point::{LargestMultiplier, MultipliersOf, SearchStart, StepError, SweepPoint, TableRow};
+pub use random_start::{push_at_random, vibration};
 pub use record::Record;
 pub(crate) use record::radial;
+pub use resolved_steps::steps_needed;
 pub use run::{Kept, Memory, PointStore, StoreError, Sweep, run};
 pub use scheme_model::SchemeModel;
 pub use search::steady;

@@ -1,7 +1,8 @@
 //! What a sweep runs through: fixed chains of speeds.
 //!
 //! A chain starts from rest at its first speed and continues from each speed's steady state to the
-//! next. Chains know nothing of one another, so neither threads nor interruptions change a result.
+//! next, or begins every speed from a random start. Chains know nothing of one another, so neither threads nor
+//! interruptions change a result.
 
 use serde::{Deserialize, Serialize};
 
@@ -26,10 +27,14 @@ pub enum Direction {
 /// Speeds that follow one another.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Chain {
-    /// `up_03`, `down_03`, `peak_1`: unlike that of any other chain.
+    /// `up_03`, `down_03`, `peak_1`, `random_02_00`: unlike that of any other chain.
     pub name: String,
     /// Speeds of the input member, rpm.
     pub speeds_rpm: Vec<f64>,
+    /// Number of the random start from which every speed of it is searched; `None` where each goes on from the one
+    /// before.
+    #[serde(default)]
+    pub random_start: Option<u32>,
 }
 
 /// Chains of one model.
@@ -181,10 +186,29 @@ impl Plan {
                 if *direction == Direction::Down {
                     speeds_rpm.reverse();
                 }
-                chains.push(Chain { name: format!("{name}_{k:02}"), speeds_rpm });
+                let name = format!("{name}_{k:02}");
+                chains.push(Chain { name, speeds_rpm, random_start: None });
             }
         }
         Ok(Self { steady, chains })
+    }
+
+    /// The same with further chains, in which every speed is searched from each of `starts` random starts.
+    pub fn with_random_starts(mut self, starts: u32) -> Self {
+        let mut speeds: Vec<f64> =
+            self.chains.iter().flat_map(|c| c.speeds_rpm.iter().copied()).collect();
+        speeds.sort_by(f64::total_cmp);
+        speeds.dedup();
+        for number in 1..=starts {
+            for (k, part) in speeds.chunks(CHAIN).enumerate() {
+                self.chains.push(Chain {
+                    name: format!("random_{number:02}_{k:02}"),
+                    speeds_rpm: part.to_vec(),
+                    random_start: Some(number),
+                });
+            }
+        }
+        self
     }
 
     /// Number of points.
@@ -198,7 +222,7 @@ impl Plan {
         let chain = |(k, centre): (usize, &f64)| {
             let at = |i: usize| 2.0 * i as f64 / (count.max(2) - 1) as f64 - 1.0;
             let speeds_rpm = (0..count).map(|i| centre * (1.0 + span * at(i))).collect();
-            Chain { name: format!("peak_{k:02}"), speeds_rpm }
+            Chain { name: format!("peak_{k:02}"), speeds_rpm, random_start: None }
         };
         Self { steady, chains: centres_rpm.iter().enumerate().map(chain).collect() }
     }

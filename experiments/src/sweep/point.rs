@@ -26,6 +26,8 @@ pub enum SearchStart {
     Speed(f64),
     /// An unstable periodic motion at this speed, pushed along the perturbation that grows.
     Unstable,
+    /// The random start of this number: rest, pushed in a direction and by a size that the number alone decides.
+    Random(u32),
 }
 
 impl std::fmt::Display for SearchStart {
@@ -34,8 +36,22 @@ impl std::fmt::Display for SearchStart {
             Self::Rest => f.write_str("rest"),
             Self::Speed(rpm) => write!(f, "{rpm} rpm"),
             Self::Unstable => f.write_str("unstable motion, pushed"),
+            Self::Random(number) => write!(f, "random start {number}"),
         }
     }
+}
+
+/// What the length of the steps may change of an amplitude.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct StepError {
+    /// Harmonic of the mesh frequency.
+    pub harmonic: usize,
+    /// Natural frequency near which it is, Hz.
+    pub natural_hz: f64,
+    /// Change of the amplitude if that vibration alone made it, share.
+    pub share: f64,
+    /// Steps in a mesh cycle with which it would be 1 %.
+    pub steps: usize,
 }
 
 /// What Floquet multipliers are those of.
@@ -45,8 +61,8 @@ pub enum MultipliersOf {
     /// The time steps.
     #[default]
     Steps,
-    /// The vibrations of the set about its mean mesh stiffness, e^{(−δ ± iω)T}: at low speeds, where these decay within a
-    /// mesh cycle and the time steps are longer than their periods.
+    /// The vibrations of the set about its mean mesh stiffness, e^{(−δ ± iω)T}: at low speeds, where these decay
+    /// within a mesh cycle and the time steps are longer than their periods.
     Vibrations,
 }
 
@@ -55,11 +71,11 @@ pub enum MultipliersOf {
 pub struct LargestMultiplier {
     /// |μ| of one period.
     pub size: f64,
-    /// How stability is lost where it leaves the unit circle: `fold` (μ > 0), `period_doubling` (μ < 0) or `neimark_sacker`
-    /// (complex).
+    /// How stability is lost where it leaves the unit circle: `fold` (μ > 0), `period_doubling` (μ < 0) or
+    /// `neimark_sacker` (complex).
     pub kind: String,
-    /// Type of the motion that it multiplies: rotational, translational, planet or mixed; absent for sets of fewer than three
-    /// planets.
+    /// Type of the motion that it multiplies: rotational, translational, planet or mixed; absent for sets of fewer
+    /// than three planets.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub mode_type: Option<String>,
 }
@@ -78,8 +94,8 @@ pub struct SweepPoint {
     /// Steps in a mesh cycle: at low speeds a multiple of those of the scene, as the vibrations of the set need them.
     #[serde(default)]
     pub steps_per_cycle: usize,
-    /// Speed (rpm) at which the motion was computed where that is not the speed asked for: the lowest that the most steps
-    /// resolve, below which inertia has no part and the motion is that at rest.
+    /// Speed (rpm) at which the motion was computed where that is not the speed asked for: the lowest that the
+    /// most steps resolve, below which inertia has no part and the motion is that at rest.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub computed_at_rpm: Option<f64>,
     /// Cycles marched.
@@ -92,8 +108,9 @@ pub struct SweepPoint {
     /// Whether motions near this one come to it, and what showed it.
     #[serde(default)]
     pub attracts: Attraction,
-    /// Floquet multipliers of one period of size 1e-3 and above (real and imaginary part) by descending size; empty for a
-    /// model without derivative and for a motion that does not repeat. The motion attracts if all are smaller than 1.
+    /// Floquet multipliers of one period of size 1e-3 and above (real and imaginary part) by descending size;
+    /// empty for a model without derivative and for a motion that does not repeat. The motion attracts if all are
+    /// smaller than 1.
     pub multipliers: Vec<[f64; 2]>,
     /// What the multipliers are those of.
     #[serde(default)]
@@ -105,22 +122,26 @@ pub struct SweepPoint {
     /// fewer than three planets.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub critical: Option<CriticalMotion>,
-    /// Change of the last two periods, or mesh cycles of a motion that does not repeat, over the largest peak-to-peak vibration;
-    /// of a motion found by shooting, that from the last period to the next one, carried by the derivative.
+    /// Change of the last two periods, or mesh cycles of a motion that does not repeat, over the largest
+    /// peak-to-peak vibration; of a motion found by shooting, that from the last period to the next one, carried
+    /// by the derivative.
     pub residual: f64,
-    /// Whether the motion repeats with every mesh cycle within the tolerance and was shown to attract; what may be left of a
-    /// transient, where that is a question, is within 1 %.
+    /// Whether the motion repeats with every mesh cycle within the tolerance and was shown to attract; what may be
+    /// left of a transient, where that is a question, is within 1 %.
     pub is_steady: bool,
     /// What may be left of the transient in the recorded cycle, of the vibration, by the multipliers of a marched motion
     /// whose cycles still change by more than 1e-6; absent otherwise.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub transient: Option<f64>,
+    /// What the length of the steps may change of a strong harmonic of the sun; absent up to 1 %.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub step_error: Option<StepError>,
     /// Energy between mesh harmonics over all vibration.
     pub between: Option<f64>,
     /// Number of mesh cycles after which the motion repeats within the tolerance: 1 for a steady state, 2 to 8
-    /// for a subharmonic response; absent if none that repeats and attracts was found, because the motion is not periodic or has
-    /// not settled yet. Harmonics are those of the mean mesh cycle of one period, without one of the last mesh cycle;
-    /// contact is counted over one period, or over 8 mesh cycles if there is none.
+    /// for a subharmonic response; absent if none that repeats and attracts was found, because the motion is not
+    /// periodic or has not settled yet. Harmonics are those of the mean mesh cycle of one period, without one of
+    /// the last mesh cycle; contact is counted over one period, or over 8 mesh cycles if there is none.
     pub repeats_after: Option<usize>,
     /// Lowest force of any mesh, N; 0 where flanks part.
     pub lowest_force_n: f64,
@@ -189,8 +210,8 @@ pub struct TableRow {
 }
 
 impl SweepPoint {
-    /// Size of the largest Floquet multiplier: below 1 if the motion attracts, 0 if all perturbations are gone after one
-    /// period; `None` where there are no multipliers.
+    /// Size of the largest Floquet multiplier: below 1 if the motion attracts, 0 if all perturbations are gone
+    /// after one period; `None` where there are no multipliers.
     pub fn largest_multiplier(&self) -> Option<f64> {
         match self.attracts {
             Attraction::ByDecay | Attraction::NotShown => None,
@@ -321,6 +342,7 @@ impl SweepPoint {
                 && found.attraction.is_shown()
                 && found.transient.is_none_or(|left| left <= MOST_TRANSIENT),
             transient: found.transient,
+            step_error: None,
             between: found.between,
             repeats_after: found.repeats_after,
             lowest_force_n,

@@ -231,7 +231,8 @@ impl Record {
         ratio(kinds[0]).max(ratio(kinds[1]))
     }
 
-    /// Largest change over `later` of the `cycles` mesh cycles of a record, relative as in [`change_from`](Self::change_from).
+    /// Largest change over `later` of the `cycles` mesh cycles of a record, relative as in
+    /// [`change_from`](Self::change_from).
     pub(super) fn change_after(&self, later: usize, cycles: usize) -> f64 {
         let ahead = later * self.samples.len() / cycles.max(1);
         let [from, to] = [&self.samples[..self.samples.len() - ahead], &self.samples[ahead..]];

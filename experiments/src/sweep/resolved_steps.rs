@@ -6,8 +6,9 @@
 //! |μ| = |(1 + sh/2)/(1 − sh/2)|^S   for   e^{−δT}
 //! ```
 //!
-//! so that vibrations of short period decay the less, the longer the step is. With fewer than about one step in a period of
-//! the fastest, the stiffness that varies from step to step feeds it besides: motions that attract seem unstable.
+//! so that vibrations of short period decay the less, the longer the step is. With fewer than about one step in a
+//! period of the fastest, the stiffness that varies from step to step feeds it besides: motions that attract seem
+//! unstable.
 
 use std::f64::consts::TAU;
 
@@ -15,13 +16,15 @@ use dynamics::{Multiplier, PeriodMap, c64, multipliers};
 use fe_contact::vibration::Along;
 
 use super::critical_motion::CriticalMotion;
+use super::point::StepError;
 use super::shooting::RecordedCycles;
+use super::state::{Coordinate, Part, SteadyState};
 use super::sweep_model::{MOST_TIMES, SweepModel};
 use crate::error::ExperimentError;
 use crate::table_growth::large_enough;
 
-/// Mesh frequency of a cycle in which the set hardly moves, Hz. Vibrations up to half of it are told apart, and the lag of the
-/// teeth, some microseconds, is over within it.
+/// Mesh frequency of a cycle in which the set hardly moves, Hz. Vibrations up to half of it are told apart, and
+/// the lag of the teeth, some microseconds, is over within it.
 const SHORT_CYCLE_HZ: f64 = 5e4;
 
 /// Multipliers of that cycle below this are those of the lag.
@@ -39,11 +42,20 @@ const MOST_STEPS: usize = 1120;
 /// Largest part of a vibration that may outlast a cycle where steps are longer than the vibrations need.
 const LEFT: f64 = 0.5;
 
+/// Largest part of an amplitude that steps may change without a word.
+const MOST_STEP_ERROR: f64 = 0.01;
+
+/// Steps up to which a number that would do is looked for: without damping none does at a resonance.
+const MOST_NAMED: usize = 100_000;
+
+/// Harmonics of less than this share of the strongest are not asked about.
+const STRONG: f64 = 0.5;
+
 /// A multiplier that is gone after a cycle.
 const GONE: f64 = 1e-3;
 
-/// Largest share of the slowest vibration's frequency that the highest harmonic kept may have where the motion of a faster
-/// set is taken: its square is the part of inertia in that harmonic.
+/// Largest share of the slowest vibration's frequency that the highest harmonic kept may have where the motion of
+/// a faster set is taken: its square is the part of inertia in that harmonic.
 const QUASI_STATIC: f64 = 0.1;
 
 /// A vibration of a set about its mean mesh stiffness.
@@ -68,16 +80,52 @@ pub(super) struct Vibrations {
 pub(super) enum Resolved {
     /// With so many times the steps.
     Times(usize),
-    /// As the motion at a higher mesh frequency, Hz, with the most steps: no vibration outlasts a cycle there, and inertia has
-    /// no part.
+    /// As the motion at a higher mesh frequency, Hz, with the most steps: no vibration outlasts a cycle there, and
+    /// inertia has no part.
     Faster { times: usize, mesh_hz: f64 },
     /// Not at all: so many steps in a cycle would be needed, more than the most that are taken.
     Needs { steps: usize, most: usize },
 }
 
+/// Steps in a mesh cycle that the vibrations of a model need at a speed, rpm, where these are more than it has;
+/// `None` otherwise, and of a model without derivative.
+///
+/// # Errors
+/// If a set cannot be built or its vibrations are not found.
+pub fn steps_needed(
+    model: &dyn SweepModel,
+    speed_rpm: f64,
+) -> Result<Option<usize>, ExperimentError> {
+    let mesh_hz = model.case().at_speed(speed_rpm).mesh_frequency_hz;
+    let usual = model.steps_per_cycle();
+    let enough = Vibrations::of(model)?.map(|all| all.steps_enough(mesh_hz, usual));
+    Ok(enough.filter(|steps| *steps > usual))
+}
+
+/// Harmonics in which the sun translates or turns by at least [`STRONG`] of its largest amplitude of the kind.
+fn strong_harmonics(state: &SteadyState, highest: usize) -> Vec<usize> {
+    let of_sun: Vec<_> = state.with_translations().into_iter().collect();
+    let strong = |coordinate: Coordinate| {
+        let lines = of_sun.iter().filter(move |line| {
+            line.part == Part::Sun && line.coordinate == coordinate && line.harmonic > 0
+        });
+        let largest = lines.clone().map(|line| line.amplitude).fold(0.0, f64::max);
+        lines
+            .filter(move |line| line.amplitude > STRONG * largest)
+            .map(|line| line.harmonic)
+            .collect::<Vec<_>>()
+    };
+    let mut all = strong(Coordinate::Rotation);
+    all.extend(strong(Coordinate::Translation));
+    all.retain(|harmonic| *harmonic <= highest);
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
 impl Vibrations {
-    /// Of a model: from the multipliers of a cycle so short that the set hardly moves, μ = e^{(−δ ± iω)T}. `None` without
-    /// derivative.
+    /// Of a model: from the multipliers of a cycle so short that the set hardly moves, μ = e^{(−δ ± iω)T}. `None`
+    /// without derivative.
     ///
     /// # Errors
     /// If the set cannot be built, stepped or its multipliers are not found.
@@ -86,8 +134,8 @@ impl Vibrations {
     }
 
     fn of_size(model: &dyn SweepModel, size: usize) -> Result<Option<Self>, ExperimentError> {
-        // The set stands still while the stiffness of its meshes varies, and forces with it: half of its torque leaves room
-        // in the tables.
+        // The set stands still while the stiffness of its meshes varies, and forces with it: half of its torque
+        // leaves room in the tables.
         let case = model.case();
         let case = case.with_sun_torque(0.5 * case.sun_torque_nm);
         let per_rpm = case.mesh_frequency_per_rpm_hz();
@@ -113,9 +161,10 @@ impl Vibrations {
         Ok(Some(Self { all, slowest_type: slowest.map(|own| own.mode_type) }))
     }
 
-    /// Multipliers e^{(−δ ± iω)T} of a mesh cycle at a mesh frequency, Hz, the largest first, with the type of its motion; `None`
-    /// if more than [`LEFT`] of a vibration outlasts the cycle. Then the stiffness that varies over the cycle matters, and how
-    /// long the steps are; otherwise a motion that attracts in any steps is that of shorter ones.
+    /// Multipliers e^{(−δ ± iω)T} of a mesh cycle at a mesh frequency, Hz, the largest first, with the type of its
+    /// motion; `None` if more than [`LEFT`] of a vibration outlasts the cycle. Then the stiffness that varies over
+    /// the cycle matters, and how long the steps are; otherwise a motion that attracts in any steps is that of
+    /// shorter ones.
     pub(super) fn multipliers(&self, mesh_hz: f64) -> Option<(Vec<Multiplier>, Option<String>)> {
         let mut all: Vec<Multiplier> = Vec::new();
         for Vibration { omega, decay } in &self.all {
@@ -129,7 +178,8 @@ impl Vibrations {
         is_over.then(|| (all, self.slowest_type.clone()))
     }
 
-    /// How a mesh frequency is computed with `steps` in a cycle or a multiple of them, where harmonics up to `highest` are kept.
+    /// How a mesh frequency is computed with `steps` in a cycle or a multiple of them, where harmonics up to
+    /// `highest` are kept.
     pub(super) fn resolved(&self, mesh_hz: f64, steps: usize, highest: usize) -> Resolved {
         let most = (MOST_STEPS / steps.max(1)).clamp(1, MOST_TIMES);
         let is_enough = |hz: f64, times: usize| self.are_resolved(hz, steps * times);
@@ -151,11 +201,63 @@ impl Vibrations {
         if is_quasi_static && is_gone {
             return Resolved::Faster { times: most, mesh_hz: high };
         }
-        let mut times = 2 * most;
-        while !is_enough(mesh_hz, times) {
-            times *= 2;
+        Resolved::Needs { steps: self.steps_enough(mesh_hz, 2 * most * steps), most: most * steps }
+    }
+
+    /// The least of `steps` times a power of 2 that is enough at a mesh frequency, Hz.
+    fn steps_enough(&self, mesh_hz: f64, mut steps: usize) -> usize {
+        while !self.are_resolved(mesh_hz, steps) {
+            steps *= 2;
         }
-        Resolved::Needs { steps: times * steps, most: most * steps }
+        steps
+    }
+
+    /// What the steps may change of the strongest motions of the sun at a mesh frequency, Hz, where that is more
+    /// than 1 %.
+    ///
+    /// Average acceleration answers a force at Ω = 2π l f_m as the set itself does at Ω̃ = (2/h) tan(Ωh/2). A vibration
+    /// s = −δ ± iω that alone moved the sun would have
+    ///
+    /// ```text
+    /// |(iΩ − s)(iΩ − s*)| / |(iΩ̃ − s)(iΩ̃ − s*)|
+    /// ```
+    ///
+    /// of its amplitude; which vibrations do move it is not asked, so that this is the most that it may be.
+    pub(super) fn step_error(
+        &self,
+        state: &SteadyState,
+        steps: usize,
+        highest: usize,
+    ) -> Option<StepError> {
+        let harmonics = strong_harmonics(state, highest);
+        let mesh_hz = state.case.mesh_frequency_hz;
+        let mut largest = self.largest_error(&harmonics, mesh_hz, steps)?;
+        let mut needed = largest;
+        while needed.share > MOST_STEP_ERROR && needed.steps < MOST_NAMED {
+            // The error falls with the square of the steps.
+            let more = (needed.share / MOST_STEP_ERROR).sqrt().max(1.02);
+            let more = (needed.steps as f64 * more).ceil() as usize;
+            needed = self.largest_error(&harmonics, mesh_hz, more)?;
+        }
+        largest.steps = needed.steps;
+        (largest.share > MOST_STEP_ERROR).then_some(largest)
+    }
+
+    /// The largest change that so many steps make of any of the harmonics by any vibration; `None` without.
+    fn largest_error(&self, harmonics: &[usize], mesh_hz: f64, steps: usize) -> Option<StepError> {
+        let step_s = 1.0 / (mesh_hz * steps as f64);
+        let errors = harmonics.iter().flat_map(|harmonic| {
+            let exact = TAU * mesh_hz * *harmonic as f64;
+            let of_steps = 2.0 / step_s * (0.5 * exact * step_s).tan();
+            self.all.iter().map(move |Vibration { omega, decay }| {
+                let stiffness = |at: f64| {
+                    c64::new(omega * omega + decay * decay - at * at, 2.0 * decay * at).norm()
+                };
+                let share = (stiffness(exact) / stiffness(of_steps) - 1.0).abs();
+                StepError { harmonic: *harmonic, natural_hz: omega / TAU, share, steps }
+            })
+        });
+        errors.max_by(|a, b| a.share.total_cmp(&b.share))
     }
 
     /// Whether so many steps in a cycle are enough at a mesh frequency, Hz.

@@ -12,6 +12,7 @@ use super::failed_point::FailedPoint;
 use super::judge::peak_centres;
 use super::plan::{Chain, Plan};
 use super::point::{SearchStart, SweepPoint, TableRow};
+use super::random_start::start_at_random;
 use super::resolved_steps::{Resolved, Vibrations};
 use super::search::steady;
 use super::state::SteadyState;
@@ -226,9 +227,16 @@ pub fn run(
             let kept = match store.load(chain, index)? {
                 Some(kept) => kept,
                 None => {
-                    let from = (start.0, start.1.as_deref());
+                    let from = match chain.random_start {
+                        Some(number) => (SearchStart::Random(number), None),
+                        None => (start.0, start.1.as_deref()),
+                    };
                     let known = of_model(model, &plan.steady, &vibrations)?;
-                    let kept = resolved((model, known), chain, *speed, from, &plan.steady)?;
+                    let mut kept = resolved((model, known), chain, *speed, from, &plan.steady)?;
+                    if let (Kept::Found { point, .. }, Some(known)) = (&mut kept, known) {
+                        let (steps, highest) = (point.steps_per_cycle, plan.steady.harmonics);
+                        point.step_error = known.step_error(&point.state, steps, highest);
+                    }
                     store.save(chain, index, &kept)?;
                     kept
                 }
@@ -345,12 +353,16 @@ fn one(
     let last = RefCell::default();
     let attempt = |size: usize| {
         let mut set = model.turning(&case, size)?;
-        match state {
-            Some(state) => set.restore(state)?,
-            None => set.rest()?,
+        let steps = model.steps_per_cycle();
+        let cycle = (model.first_planet_rad(), steps);
+        match (state, start) {
+            (Some(state), _) => set.restore(state)?,
+            (None, SearchStart::Random(number)) => {
+                start_at_random(set.as_mut(), model.shape(), cycle, number)?;
+            }
+            (None, _) => set.rest()?,
         }
         has_started.set(true);
-        let steps = model.steps_per_cycle();
         let found = steady(set.as_mut(), model.shape(), model.first_planet_rad(), steps, settings)?;
         if let Some(rest) = found.rest {
             rest.check()?;

@@ -4,11 +4,12 @@
 //!
 //! 1. A motion that shooting finds from the given state is taken if its Floquet multipliers are smaller than 1.
 //! 2. Otherwise the set is marched from the given state as it moves by itself, off the unstable motion by a small push
-//!    along the perturbation that grows. Where cycles come near to repeating after 1 to 8, shooting finds the motion that they approach.
+//!    along the perturbation that grows. Where cycles come near to repeating after 1 to 8, shooting finds the motion
+//!    that they approach.
 //! 3. If that ends without one, the set is marched from rest, and from the unstable motion, pushed to either side.
 //!
-//! Without a derivative there are no multipliers: the march then goes on until changes from cycle to cycle have been seen to
-//! fall.
+//! Without a derivative there are no multipliers: the march then goes on until changes from cycle to cycle have
+//! been seen to fall.
 
 use super::attraction::{Attraction, Decay};
 use super::march::{MOST_REPEATS, March};
@@ -21,15 +22,15 @@ use super::steady::{CameFrom, Steady, SteadyMethod, SteadySettings, left_of_tran
 use crate::error::ExperimentError;
 use crate::table_growth::Outgrown;
 
-/// Changes from cycle to cycle up to this leave no question of a transient: it would have to lose less than 1e-4 of itself
-/// in a cycle to be 1 % of the vibration.
+/// Changes from cycle to cycle up to this leave no question of a transient: it would have to lose less than 1e-4
+/// of itself in a cycle to be 1 % of the vibration.
 const SETTLED: f64 = 1e-6;
 
 /// Changes of the displacements of this size are rounding, relative to the vibration.
 const ROUNDING: f64 = 1e-12;
 
-/// Push of the given state along what grows about the unstable motion, of the vibration: a state of the same symmetry would
-/// stay on that motion until rounding grows.
+/// Push of the given state along what grows about the unstable motion, of the vibration: a state of the same
+/// symmetry would stay on that motion until rounding grows.
 const SMALL_PUSH: f64 = 1e-3;
 
 /// Push of the unstable motion itself.
@@ -54,8 +55,9 @@ const MOST_PERIODS: usize = 16;
 /// Largest distance of the motion that shooting finds from the march, of the vibration.
 const MOST_DISTANCE: f64 = 0.3;
 
-/// Finds a motion near the present state, which must be at the start of a mesh cycle, that repeats and attracts. Where there is
-/// none, the motion after as many cycles as allowed, as what it is ([`Steady::attraction`], [`Steady::repeats_after`]).
+/// Finds a motion near the present state, which must be at the start of a mesh cycle, that repeats and attracts.
+/// Where there is none, the motion after as many cycles as allowed, as what it is ([`Steady::attraction`],
+/// [`Steady::repeats_after`]).
 ///
 /// # Errors
 /// If a step fails.
@@ -164,8 +166,8 @@ impl Search<'_> {
         Ok(None)
     }
 
-    /// Marches on, and shoots where cycles come near to repeating; `None` if no motion that attracts was found within `most`
-    /// cycles.
+    /// Marches on, and shoots where cycles come near to repeating; `None` if no motion that attracts was found
+    /// within `most` cycles.
     fn attractor_ahead(&mut self, most: usize) -> Result<Option<Steady>, ExperimentError> {
         self.march.begin_anew();
         let begin = self.march.cycles;

@@ -355,7 +355,8 @@ fn distance<M: PeriodMap>(cycles: &mut M, start: &[f64]) -> f64 {
     cycles.relative(&change)
 }
 
-/// The change of the coordinates that grows fastest about a motion, in size the peak-to-peak vibration; `None` if none grows.
+/// The change of the coordinates that grows fastest about a motion, in size the peak-to-peak vibration; `None` if
+/// none grows.
 ///
 /// # Errors
 /// If the eigenvector is not found.
@@ -378,8 +379,9 @@ fn of_whole_cycle(of_part: Vec<Multiplier>, parts: usize) -> Vec<Multiplier> {
     of_part.into_iter().map(of_cycle).collect()
 }
 
-/// Multipliers of the `count` cycles that begin at the present state, all of them, and the change of the coordinates that
-/// grows fastest if one does, in size the peak-to-peak vibration; `None` for a model without derivative.
+/// Multipliers of the `count` cycles that begin at the present state, all of them, and the change of the
+/// coordinates that grows fastest if one does, in size the peak-to-peak vibration; `None` for a model without
+/// derivative.
 ///
 /// # Errors
 /// If a step fails or the multipliers cannot be computed.

@@ -88,8 +88,8 @@ pub struct Steady {
     pub attraction: Attraction,
     /// Where the search for it began.
     pub came_from: CameFrom,
-    /// Floquet multipliers of size 1e-3 and above of one period, by descending size; none where the model has no derivative or
-    /// the motion does not repeat.
+    /// Floquet multipliers of size 1e-3 and above of one period, by descending size; none where the model has no
+    /// derivative or the motion does not repeat.
     pub multipliers: Vec<Multiplier>,
     /// How the perturbation moves whose multiplier is nearest in size to 1.
     pub critical: Option<CriticalMotion>,
@@ -97,9 +97,9 @@ pub struct Steady {
     pub record: Record,
     /// Cycles marched.
     pub cycles: usize,
-    /// Change from the last period but one to the last, relative as [`SteadySettings::tolerance`], of a motion that does not
-    /// repeat from the last mesh cycle but one to the last; of a motion found by shooting that from the last period to the
-    /// one that follows it, to first order.
+    /// Change from the last period but one to the last, relative as [`SteadySettings::tolerance`], of a motion
+    /// that does not repeat from the last mesh cycle but one to the last; of a motion found by shooting that from
+    /// the last period to the one that follows it, to first order.
     pub residual: f64,
     /// Share of the vibration's energy that lies between mesh harmonics, if requested.
     pub between: Option<f64>,
@@ -111,8 +111,8 @@ pub struct Steady {
     /// Number of mesh cycles after which the motion repeats within the tolerance: 1 for a steady state, 2 to
     /// [`MOST_REPEATS`](super::MOST_REPEATS) for a subharmonic response; `None` if it repeats after none of these.
     pub repeats_after: Option<usize>,
-    /// The cycles over which contact is watched where the motion does not repeat from cycle to cycle: as many as it takes to
-    /// repeat, or [`MOST_REPEATS`](super::MOST_REPEATS) if it does not.
+    /// The cycles over which contact is watched where the motion does not repeat from cycle to cycle: as many as
+    /// it takes to repeat, or [`MOST_REPEATS`](super::MOST_REPEATS) if it does not.
     pub(super) watched: Option<Record>,
 }
 

@@ -43,8 +43,8 @@ pub trait SweepModel: Sync {
         Ok(())
     }
 
-    /// The same model with `times` as many steps in a mesh cycle, on what it has found where it can; `None` of a model with a
-    /// fixed number of steps.
+    /// The same model with `times` as many steps in a mesh cycle, on what it has found where it can; `None` of a
+    /// model with a fixed number of steps.
     ///
     /// # Errors
     /// If its tables cannot be made.

@@ -1,10 +1,11 @@
-//! Motions of drawn sets and gear pairs at drawn operating points, pushed: those called attracting have to come back, where
-//! none was found random starts have to find none.
+//! Motions of drawn sets and gear pairs at drawn operating points, pushed: those called attracting have to come
+//! back, where none was found random starts have to find none.
 
 use std::io::Write;
 
 use experiments::sweep::{
-    FeModel, Marching, MeshLawModel, Record, SteadySettings, SweepModel, SweepPoint, steady,
+    FeModel, Marching, MeshLawModel, Record, SteadySettings, SweepModel, SweepPoint,
+    push_at_random, steady, vibration,
 };
 use fe_contact::statics::{Bodies, Imperfections};
 use gearset::{Fidelity, LoadCase, Scene};
@@ -15,7 +16,8 @@ use super::Outcome;
 /// Seeds, one an operating point.
 const SEEDS: std::ops::Range<u64> = 30_001..30_201;
 
-/// Scenes with the range of the mesh frequency (Hz) that is drawn from: resonances and tongues of parametric instability.
+/// Scenes with the range of the mesh frequency (Hz) that is drawn from: resonances and tongues of parametric
+/// instability.
 const SCENES: [(&str, [f64; 2]); 4] = [
     ("scenes/oh58_3p.toml", [300.0, 2400.0]),
     ("scenes/oh58_4p.toml", [300.0, 2400.0]),
@@ -35,9 +37,6 @@ const STARTS: usize = 10;
 /// Displacement of the small push, m; of the large one, of the vibration.
 const SMALL: f64 = 1e-9;
 const LARGE: f64 = 1e-2;
-
-/// Rotations count with this arm, m.
-const ARM: f64 = 0.05;
 
 /// Deviations of this share of the vibration from one of the motions listed are that motion.
 const SAME: f64 = 1e-3;
@@ -162,7 +161,7 @@ impl<'m> Pushed<'m> {
         let mut ends = Vec::new();
         for push in [0.0, SMALL, LARGE * size] {
             set.restore(&state)?;
-            self.push(set.as_mut(), push, random)?;
+            push_at_random(set.as_mut(), self.model.planets(), push, random)?;
             let first = self.march(set.as_mut(), count)?;
             let end = self.march(set.as_mut(), cycles - count)?;
             ends.push((first, end));
@@ -198,26 +197,6 @@ impl<'m> Pushed<'m> {
         Ok(format!("{head},{left:.2e},{arrives},{verdict}"))
     }
 
-    /// Moves the set at random: the largest translation, or rotation times [`ARM`], by `push` m.
-    fn push(
-        &self,
-        set: &mut dyn Marching,
-        push: f64,
-        random: &mut fastrand::Rng,
-    ) -> Result<(), Failure> {
-        let mut y = set.derivative().ok_or("a model with derivative")?.coordinates();
-        let leading = y.len().min(3 * (3 + self.model.planets()));
-        let direction: Vec<f64> = (0..y.len())
-            .map(|i| if i < leading { 2.0 * random.f64() - 1.0 } else { 0.0 })
-            .collect();
-        let (central, planets) = set.displacements_of(&direction);
-        let all = central.iter().chain(&planets).flat_map(|[x, y, t]| [*x, *y, ARM * t]);
-        let size = all.fold(0.0f64, |a, x| a.max(x.abs()));
-        y.iter_mut().zip(&direction).for_each(|(y, d)| *y += push / size * d);
-        set.derivative().ok_or("a model with derivative")?.set_coordinates(&y)?;
-        Ok(())
-    }
-
     /// Motions from random starts, up to three times the vibration off the motion at rest.
     fn random_starts(
         &self,
@@ -229,15 +208,9 @@ impl<'m> Pushed<'m> {
             let mut set = self.set()?;
             set.rest()?;
             let times = 3.0 * random.f64();
-            self.push(set.as_mut(), times * size, random)?;
+            push_at_random(set.as_mut(), self.model.planets(), times * size, random)?;
             all.push(self.search(set.as_mut())?);
         }
         Ok(all)
     }
-}
-
-/// Largest peak to peak of all translations, and rotations times [`ARM`], m.
-fn vibration(record: &Record) -> f64 {
-    let of = |channel: usize| record.range(channel) * if channel % 3 == 2 { ARM } else { 1.0 };
-    (0..record.displacements()).map(of).fold(0.0, f64::max)
 }

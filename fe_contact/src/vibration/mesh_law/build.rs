@@ -20,8 +20,8 @@ use crate::statics::{
 pub struct MeshLawSettings {
     /// Torque on the sun (magnitude) about whose equilibrium the set is to move, N·m.
     pub torque_nm: f64,
-    /// Largest tabulated force of a mesh divided by the mean one. Beyond it forces are extrapolated linearly; sweeps refuse
-    /// them and take larger tables.
+    /// Largest tabulated force of a mesh divided by the mean one. Beyond it forces are extrapolated linearly;
+    /// sweeps refuse them and take larger tables.
     pub reach: f64,
     /// Steps of each curve from first contact to the largest force.
     pub nodes: usize,

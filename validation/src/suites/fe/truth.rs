@@ -106,7 +106,10 @@ fn swept(lab: &Lab<'_>, fidelity: Fidelity, steps: u32) -> Result<Sweep, Validat
     let truth = by_speed(kept);
     let speeds_rpm: Vec<f64> = truth.iter().map(|p| p.speed_rpm).collect();
     let steady = SteadySettings { tolerance: 1e-7, between_cycles: 0, ..SteadySettings::default() };
-    let plan = Plan { steady, chains: vec![Chain { name: "truth".into(), speeds_rpm }] };
+    let plan = Plan {
+        steady,
+        chains: vec![Chain { name: "truth".into(), speeds_rpm, random_start: None }],
+    };
     let model =
         FeModel::new(&scene, &bodies, Imperfections::default(), under(&scene, kept.torque_nm)?);
     let model = model.with_tables(kept.table_size);

@@ -70,7 +70,10 @@ fn top(lab: &Lab<'_>, kept: &ExactPeak) -> Result<(f64, f64), ValidationError> {
     );
     let steady = SteadySettings { tolerance: 1e-7, between_cycles: 0, ..SteadySettings::default() };
     let speeds_rpm = kept.speeds_rpm.to_vec();
-    let plan = Plan { steady, chains: vec![Chain { name: "peak".into(), speeds_rpm }] };
+    let plan = Plan {
+        steady,
+        chains: vec![Chain { name: "peak".into(), speeds_rpm, random_start: None }],
+    };
     let found = run(&model, &plan, &Memory, &|_| ())?.complete()?;
     let own = found.states().into_iter();
     let own = top_of_three(own.map(|p| (p.case.speed_rpm, response.amplitude(p, kept.harmonic))));
