@@ -9,7 +9,7 @@ use std::path::Path;
 use fe_contact::body::GearBody;
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{Loading, NominalRotation, Prepared, VibratingSet};
-use gearset::{Facing, Scene};
+use gearset::{Facing, PathDirection, Scene};
 
 const TORQUE: f64 = 1413.0;
 
@@ -40,7 +40,11 @@ fn main() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/oh58_4p.toml");
     let scene = Scene::from_file(&path).expect("a scene of the repository");
     let steps_per_cycle = scene.dynamics.steps_per_cycle as usize;
-    let rotation = NominalRotation::Turning { mesh_frequency: 700.0, steps_per_cycle };
+    let rotation = NominalRotation::Turning {
+        mesh_frequency: 700.0,
+        steps_per_cycle,
+        direction: PathDirection::Forward,
+    };
     let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
     let mut before = cpu();
     let mut report = |part: &str| {

@@ -8,7 +8,7 @@ use criterion::{Criterion, criterion_group, criterion_main};
 
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{Loading, NominalRotation, VibratingSet};
-use gearset::{Facing, Fidelity, Scene};
+use gearset::{Facing, Fidelity, PathDirection, Scene};
 
 const STEPS: usize = 140;
 const TORQUE: f64 = 1413.0;
@@ -32,7 +32,11 @@ fn steps(c: &mut Criterion) {
         scene.dynamics.fidelity = fidelity;
         // A turning set at `full` needs a solution for each port at every position, a standing set at one.
         let rotation = match cycles {
-            Some(_) => NominalRotation::Turning { mesh_frequency: 565.714, steps_per_cycle: STEPS },
+            Some(_) => NominalRotation::Turning {
+                mesh_frequency: 565.714,
+                steps_per_cycle: STEPS,
+                direction: PathDirection::Forward,
+            },
             None => NominalRotation::Standing { position: 0.0, step: 12.6e-6 },
         };
         let (sense, none) = (Facing::CounterClockwise, Imperfections::default());

@@ -4,7 +4,7 @@ use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{
     Loading, MeshLawSet, MeshLawSettings, NominalRotation, VibratingSet, mesh_law,
 };
-use gearset::{Facing, Fidelity, Scene};
+use gearset::{Facing, Fidelity, PathDirection, Scene};
 
 #[test]
 fn a_warm_step_allocates_nothing() {
@@ -14,7 +14,11 @@ fn a_warm_step_allocates_nothing() {
         scene.fe_contact.flank_elements = 8;
         scene.dynamics.fidelity = fidelity;
         let bodies = Bodies::new(&scene).unwrap();
-        let rotation = NominalRotation::Turning { mesh_frequency: 500.0, steps_per_cycle: 28 };
+        let rotation = NominalRotation::Turning {
+            mesh_frequency: 500.0,
+            steps_per_cycle: 28,
+            direction: PathDirection::Forward,
+        };
         let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
         let loading = Loading { torque_nm: 1130.0, mesh_force: 8000.0 };
         let mut set = VibratingSet::new(&scene, &bodies, sense, none, rotation, loading).unwrap();

@@ -3,7 +3,7 @@
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use fe_contact::vibration::{Loading, NominalRotation, VibratingSet};
-use gearset::{Facing, Fidelity, Freedom, Kinematics, Scene, Torsional};
+use gearset::{Facing, Fidelity, Freedom, Kinematics, PathDirection, Scene, Torsional};
 
 const TORQUE: f64 = 1130.0;
 
@@ -20,7 +20,11 @@ fn turning<'b>(scene: &Scene, bodies: &'b Bodies, steps_per_cycle: usize) -> Vib
     let sun = bodies.geometry.sun.as_ref().unwrap();
     let force = TORQUE / scene.planets.count() as f64 / sun.base_radius;
     let mesh_frequency = Kinematics::from_scene(scene).unwrap().mesh_frequency_hz;
-    let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle };
+    let rotation = NominalRotation::Turning {
+        mesh_frequency,
+        steps_per_cycle,
+        direction: PathDirection::Forward,
+    };
     let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
     let loading = Loading { torque_nm: TORQUE, mesh_force: force };
     let mut set = VibratingSet::new(scene, bodies, sense, none, rotation, loading).unwrap();

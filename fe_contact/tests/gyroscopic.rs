@@ -8,7 +8,7 @@ use fe_contact::statics::{Bodies, CARRIER, Imperfections, PLANETS, SUN};
 use fe_contact::vibration::{
     Loading, MeshLawSet, MeshLawSettings, NominalRotation, VibratingSet, mesh_law,
 };
-use gearset::{Facing, Fidelity, MeshKind, Scene};
+use gearset::{Facing, Fidelity, MeshKind, PathDirection, Scene};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 type C = nalgebra::Complex<f64>;
@@ -40,7 +40,11 @@ const STEP: f64 = 1.0 / (FREQUENCY * STEPS as f64);
 
 /// An unloaded turning set at rest.
 fn unloaded<'b>(scene: &Scene, bodies: &'b Bodies) -> VibratingSet<'b> {
-    let rotation = NominalRotation::Turning { mesh_frequency: FREQUENCY, steps_per_cycle: STEPS };
+    let rotation = NominalRotation::Turning {
+        mesh_frequency: FREQUENCY,
+        steps_per_cycle: STEPS,
+        direction: PathDirection::Forward,
+    };
     let (none, loading) = (Imperfections::default(), Loading { torque_nm: 0.0, mesh_force: 8e3 });
     let made = VibratingSet::new(scene, bodies, Facing::CounterClockwise, none, rotation, loading);
     let mut set = made.unwrap();

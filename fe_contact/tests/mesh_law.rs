@@ -9,7 +9,7 @@ use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use fe_contact::vibration::{
     Loading, MeshLawSet, MeshLawSettings, NominalRotation, VibratingSet, mesh_law,
 };
-use gearset::{Facing, Fidelity, FlankSide, Scene};
+use gearset::{Facing, Fidelity, FlankSide, PathDirection, Scene};
 
 const TORQUE: f64 = 1413.0;
 
@@ -81,7 +81,11 @@ fn harmonics_are_those_of_the_quasi_static_fidelity() {
     );
     let mut fast = MeshLawSet::new(&scene, &bodies, sense, FREQUENCY, TORQUE, law).unwrap();
     fast.rest(TORQUE).unwrap();
-    let rotation = NominalRotation::Turning { mesh_frequency: FREQUENCY, steps_per_cycle: STEPS };
+    let rotation = NominalRotation::Turning {
+        mesh_frequency: FREQUENCY,
+        steps_per_cycle: STEPS,
+        direction: PathDirection::Forward,
+    };
     let none = Imperfections::default();
     let mut full =
         VibratingSet::new(&scene, &bodies, sense, none, rotation, loading(force)).unwrap();

@@ -16,7 +16,8 @@ use fe_contact::vibration::{
     Loading, MeshLawSet, MeshLawSettings, NominalRotation, VibratingSet, mesh_law,
 };
 use gearset::{
-    Facing, Fidelity, Gear, Geometry, MeshKind, MeshMember, ReliefShape, Scene, TipRelief,
+    Facing, Fidelity, Gear, Geometry, MeshKind, MeshMember, PathDirection, ReliefShape, Scene,
+    TipRelief,
 };
 
 const KIND: MeshKind = MeshKind::SunPlanet;
@@ -426,7 +427,11 @@ fn a_turning_set_with_relief_keeps_its_patches_on_their_grids() {
         let bodies = Bodies::new(&scene).unwrap();
         let torque_nm = 1130.0;
         let force = torque_nm / 3.0 / bodies.geometry.sun.as_ref().unwrap().base_radius;
-        let rotation = NominalRotation::Turning { mesh_frequency: 300.0, steps_per_cycle: 28 };
+        let rotation = NominalRotation::Turning {
+            mesh_frequency: 300.0,
+            steps_per_cycle: 28,
+            direction: PathDirection::Forward,
+        };
         let loading = Loading { torque_nm, mesh_force: 2.0 * force };
         let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
         let mut set = VibratingSet::new(&scene, &bodies, sense, none, rotation, loading).unwrap();
@@ -457,8 +462,11 @@ fn law_off_contact(amount_um: f64) -> [f64; 2] {
     let mut fast = MeshLawSet::new(&scene, &bodies, sense, MESH_FREQUENCY, TORQUE, law).unwrap();
     fast.rest(TORQUE).unwrap();
     let mesh_force = TORQUE / 3.0 / bodies.geometry.sun.as_ref().unwrap().base_radius;
-    let rotation =
-        NominalRotation::Turning { mesh_frequency: MESH_FREQUENCY, steps_per_cycle: STEPS };
+    let rotation = NominalRotation::Turning {
+        mesh_frequency: MESH_FREQUENCY,
+        steps_per_cycle: STEPS,
+        direction: PathDirection::Forward,
+    };
     let (none, loading) = (Imperfections::default(), Loading { torque_nm: TORQUE, mesh_force });
     let mut full = VibratingSet::new(&scene, &bodies, sense, none, rotation, loading).unwrap();
     full.rest(TORQUE).unwrap();

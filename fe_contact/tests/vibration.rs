@@ -3,7 +3,7 @@
 use fe_contact::body::BodyMatrices;
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{LinearSet, Loading, NominalRotation, VibratingSet, fixed_race_modes};
-use gearset::{Facing, Fidelity, Scene};
+use gearset::{Facing, Fidelity, PathDirection, Scene};
 
 const TORQUE: f64 = 1130.0;
 
@@ -36,7 +36,11 @@ fn standing(step: f64) -> NominalRotation {
 }
 
 fn turning(steps_per_cycle: usize) -> NominalRotation {
-    NominalRotation::Turning { mesh_frequency: 500.0, steps_per_cycle }
+    NominalRotation::Turning {
+        mesh_frequency: 500.0,
+        steps_per_cycle,
+        direction: PathDirection::Forward,
+    }
 }
 
 /// At every fidelity a set stays at rest in its equilibrium.
@@ -304,7 +308,11 @@ fn what_cannot_run_is_refused_with_its_key() {
     assert!(refused(&scene, turning(7)).contains("dynamics.steps_per_cycle"));
     assert!(refused(&scene, standing(0.0)).contains("step"));
     assert!(refused(&scene, standing(f64::NAN)).contains("step"));
-    let still = NominalRotation::Turning { mesh_frequency: 0.0, steps_per_cycle: 140 };
+    let still = NominalRotation::Turning {
+        mesh_frequency: 0.0,
+        steps_per_cycle: 140,
+        direction: PathDirection::Forward,
+    };
     assert!(refused(&scene, still).contains("operation.speed_rpm"));
     for bad in [f64::NAN, f64::INFINITY, -1.0] {
         scene.damping.stiffness_proportional_s = bad;

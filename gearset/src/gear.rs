@@ -2,7 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::involute::{inv, pressure_angle_at, radius_at, roll_length_at};
 use crate::scene::{ReliefShape, TipRelief};
@@ -143,7 +144,7 @@ impl Gear {
 }
 
 /// Which of a lobe's two flanks: the one at its counter-clockwise or at its clockwise end.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Facing {
     /// The lobe's counter-clockwise end: polar angle θ₀ − inv α(r).

@@ -56,7 +56,7 @@ pub use gear::{Facing, Flank, Gear, ToothSide};
 pub use geometry::{Geometry, GeometryError, ProfileShiftSums};
 pub use keys::{KeyKind, Presence, SceneKey, scene_key_page, scene_keys, scene_schema};
 pub use kinematics::*;
-pub use load_case::LoadCase;
+pub use load_case::{LoadCase, PathDirection};
 pub use load_size::{LoadSize, SPEEDS_RPM, is_speed};
 pub use mesh::{Mesh, NoMesh};
 pub use mesh_curve::{CurveError, CurvePoint, MeshCurve};

@@ -1,5 +1,16 @@
-//! How a set is driven and loaded. The sense of the load, the sign of the torque on every member and the mesh
-//! frequency at a speed are defined only here.
+//! How a set is driven and loaded. The sense of the load, the sign of the torque on every member, the mesh frequency at a
+//! speed and the direction in which meshes run are defined only here.
+//!
+//! ```text
+//! τ = sign T_s              which flanks press; a set with τ = −1 is computed as its mirror image
+//! σ = sign(ω_s − ω_c)       sense in which the sun turns relative to the carrier
+//! d = σ τ                   sign of the sun's power relative to the carrier, T_s (ω_s − ω_c)
+//! ```
+//!
+//! In the frame in which the torque on the sun is counter-clockwise all mesh phases advance at d f_m: pairs run from the
+//! start of the path of contact to its end with d = +1, from its end to its start with d = −1, in sun and ring meshes
+//! alike. Driving through the sun is d = +1; so is every set whose sun drives relative to the carrier. Braking flips d,
+//! reversing speeds and torques together does not.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -8,7 +19,37 @@ use crate::gear::Facing;
 use crate::kinematics::{Kinematics, KinematicsError};
 use crate::scene::{Member, Operation, Scene, SceneKind};
 
-/// One operating condition of a set. Torques and speeds are counter-clockwise positive.
+/// Direction in which tooth pairs run along the path of contact of the loaded flanks, d.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PathDirection {
+    /// From the start of the path to its end, d = +1.
+    #[default]
+    Forward,
+    /// From the end of the path to its start, d = −1.
+    Backward,
+}
+
+impl PathDirection {
+    /// d.
+    pub fn sign(self) -> f64 {
+        match self {
+            Self::Forward => 1.0,
+            Self::Backward => -1.0,
+        }
+    }
+
+    /// d as a whole number.
+    pub fn whole(self) -> i64 {
+        match self {
+            Self::Forward => 1,
+            Self::Backward => -1,
+        }
+    }
+}
+
+/// One operating condition of a set. Torques are counter-clockwise positive; speeds are magnitudes in the sense of rotation
+/// that `sun_turns` gives.
 ///
 /// ```
 /// use gearset::{LoadCase, Scene, template, SceneKind};
@@ -27,8 +68,12 @@ pub struct LoadCase {
     pub input_torque_nm: f64,
     /// External torque on the sun, N m.
     pub sun_torque_nm: f64,
-    /// Speed of the driven member, rpm; 0 for a standing set.
+    /// Magnitude of the speed of the driven member, rpm; 0 for a standing set.
     pub speed_rpm: f64,
+    /// Sense in which the sun turns relative to the carrier, σ; of a standing set that of its torque. Counter-clockwise if
+    /// left out.
+    #[serde(default = "counter_clockwise", skip_serializing_if = "is_counter_clockwise")]
+    pub sun_turns: Facing,
     /// Mesh frequency f_m at that speed, Hz.
     pub mesh_frequency_hz: f64,
     /// T_s/T_in by numbers of teeth.
@@ -52,12 +97,15 @@ impl LoadCase {
             operation.speed_rpm = 1.0;
         }
         let kinematics = Kinematics::from_scene(&at_one)?;
+        // The sign of ω_s − ω_c is that of −(ω_p − ω_c), which is no difference of speeds.
+        let of_one = -kinematics.speeds_rpm.planet_relative_to_carrier;
         let case = Self {
             driven: operation.input,
             held: Some(operation.fixed),
             input_torque_nm: 0.0,
             sun_torque_nm: 0.0,
             speed_rpm: 0.0,
+            sun_turns: sense(of_one * operation.speed_rpm),
             mesh_frequency_hz: 0.0,
             // T_s = T_in z_s/z_in, linear in T_in
             sun_torque_ratio: kinematics.torques_nm(1.0).sun,
@@ -73,6 +121,7 @@ impl LoadCase {
         let case = Self {
             held: Some(operation.fixed),
             mesh_frequency_per_rpm_hz: f64::from(teeth) / 60.0,
+            sun_turns: sense(operation.speed_rpm),
             ..Self::standing(operation.torque_nm)
         };
         Ok(case.at_speed(operation.speed_rpm))
@@ -87,6 +136,7 @@ impl LoadCase {
             input_torque_nm: sun_torque_nm,
             sun_torque_nm,
             speed_rpm: 0.0,
+            sun_turns: sense(sun_torque_nm),
             mesh_frequency_hz: 0.0,
             sun_torque_ratio: 1.0,
             mesh_frequency_per_rpm_hz: 0.0,
@@ -94,7 +144,7 @@ impl LoadCase {
     }
 
     /// A set driven at its sun with known torque (N m), speed (rpm) and mesh frequency (Hz), as for results
-    /// read from a table.
+    /// read from a table; meshes run forward.
     pub fn turning(sun_torque_nm: f64, speed_rpm: f64, mesh_frequency_hz: f64) -> Self {
         let mesh_frequency_per_rpm_hz = mesh_frequency_hz / speed_rpm;
         let standing = Self::standing(sun_torque_nm);
@@ -112,16 +162,30 @@ impl LoadCase {
         Self { input_torque_nm: sun_torque_nm / self.sun_torque_ratio, sun_torque_nm, ..self }
     }
 
-    /// The same at another speed of the driven member, rpm.
+    /// The same at another speed of the driven member in the same sense of rotation; the magnitude counts, rpm.
     pub fn at_speed(self, speed_rpm: f64) -> Self {
-        let mesh_frequency_hz = (self.mesh_frequency_per_rpm_hz * speed_rpm).abs();
+        let speed_rpm = speed_rpm.abs();
+        let mesh_frequency_hz = self.mesh_frequency_per_rpm_hz * speed_rpm;
         Self { speed_rpm, mesh_frequency_hz, ..self }
+    }
+
+    /// The same with meshes that run in a direction, under the same torque.
+    pub fn in_direction(self, direction: PathDirection) -> Self {
+        Self { sun_turns: sense(self.sense().sign() * direction.sign()), ..self }
+    }
+
+    /// Direction in which pairs run along the path of the loaded flanks, d = σ τ.
+    pub fn direction(&self) -> PathDirection {
+        match self.sun_turns == self.sense() {
+            true => PathDirection::Forward,
+            false => PathDirection::Backward,
+        }
     }
 
     /// Sense of the torque on the sun, which decides which flanks are loaded: counter-clockwise for a torque
     /// above or equal to 0.
     pub fn sense(&self) -> Facing {
-        if self.sun_torque_nm < 0.0 { Facing::Clockwise } else { Facing::CounterClockwise }
+        sense(self.sun_torque_nm)
     }
 
     /// Magnitude of the torque on the sun, N m; it acts in the direction of [`sense`](Self::sense).
@@ -133,6 +197,19 @@ impl LoadCase {
     pub fn mesh_frequency_per_rpm_hz(&self) -> f64 {
         self.mesh_frequency_per_rpm_hz
     }
+}
+
+/// Counter-clockwise for what is above or equal to 0.
+fn sense(value: f64) -> Facing {
+    if value < 0.0 { Facing::Clockwise } else { Facing::CounterClockwise }
+}
+
+fn counter_clockwise() -> Facing {
+    Facing::CounterClockwise
+}
+
+fn is_counter_clockwise(own: &Facing) -> bool {
+    *own == Facing::CounterClockwise
 }
 
 #[cfg(test)]
@@ -161,6 +238,51 @@ mod tests {
             assert!((case.mesh_frequency_hz - kinematics.mesh_frequency_hz).abs() < 1e-9);
             let back = case.with_sun_torque(case.sun_torque_nm);
             assert!((back.input_torque_nm + 300.0).abs() < 1e-9);
+        }
+    }
+
+    /// The direction of the path for every driven and held member, in both senses of rotation, driving and braking; it is that
+    /// of the sun's power relative to the carrier.
+    #[test]
+    fn pairs_run_the_way_the_power_of_the_sun_relative_to_the_carrier_flows() {
+        use Member::{Carrier, Ring, Sun};
+        use PathDirection::{Backward, Forward};
+        let table = [
+            (Sun, Ring, Forward),
+            (Sun, Carrier, Forward),
+            (Carrier, Ring, Backward),
+            (Carrier, Sun, Forward),
+            (Ring, Carrier, Backward),
+            (Ring, Sun, Backward),
+        ];
+        for (driver, held, driving) in table {
+            for speed in [-700.0, 700.0] {
+                for torque in [-300.0, 300.0] {
+                    let mut scene = scene();
+                    let operation = scene.operation.as_mut().unwrap();
+                    (operation.input, operation.fixed) = (driver, held);
+                    (operation.speed_rpm, operation.torque_nm) = (speed, torque);
+                    let case = LoadCase::of_scene(&scene).unwrap();
+                    let braking = match driving {
+                        Forward => Backward,
+                        Backward => Forward,
+                    };
+                    let expected = if speed * torque > 0.0 { driving } else { braking };
+                    assert_eq!(
+                        case.direction(),
+                        expected,
+                        "{driver:?}, {held:?} held: {speed}, {torque}"
+                    );
+                    let kinematics = Kinematics::from_scene(&scene).unwrap();
+                    let speeds = kinematics.speeds_rpm;
+                    let power = kinematics.torques_nm(torque).sun * (speeds.sun - speeds.carrier);
+                    assert_eq!(case.direction().sign(), power.signum());
+                    assert_eq!(case.speed_rpm, 700.0);
+                    let braked = case.with_input_torque(-torque);
+                    assert_ne!(braked.direction(), case.direction());
+                    assert_eq!(case.at_speed(100.0).direction(), case.direction());
+                }
+            }
         }
     }
 

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use serde::{Deserialize, Serialize};
 
 use crate::gear::Facing;
+use crate::load_case::PathDirection;
 use crate::mesh_curve::{CurveError, MeshCurve};
 use crate::mesh_kind::MeshKind;
 use crate::phasing::Phasing;
@@ -182,7 +183,8 @@ impl MeshLawPlan {
         }
         let Self { meshes, front, backside, .. } = self;
         let (damping_share, side_loads) = (vec![1.0; meshes], Vec::new());
-        Ok(MeshLaw { meshes, curves, front, backside, damping_share, side_loads })
+        let direction = PathDirection::Forward;
+        Ok(MeshLaw { meshes, curves, front, backside, damping_share, side_loads, direction })
     }
 }
 
@@ -207,6 +209,13 @@ pub struct MeshLaw {
     damping_share: Vec<f64>,
     /// Side load of each curve, N; empty without side loads.
     side_loads: Vec<[f64; 6]>,
+    /// Direction in which steps pass the positions.
+    #[serde(skip_serializing_if = "is_forward")]
+    direction: PathDirection,
+}
+
+fn is_forward(direction: &PathDirection) -> bool {
+    *direction == PathDirection::Forward
 }
 
 /// A law as stored in files, before its tables are checked.
@@ -218,13 +227,16 @@ struct StoredMeshLaw {
     backside: Vec<u32>,
     damping_share: Vec<f64>,
     side_loads: Vec<[f64; 6]>,
+    #[serde(default)]
+    direction: PathDirection,
 }
 
 impl TryFrom<StoredMeshLaw> for MeshLaw {
     type Error = MeshLawError;
 
     fn try_from(tables: StoredMeshLaw) -> Result<Self, MeshLawError> {
-        let StoredMeshLaw { meshes, curves, front, backside, damping_share, side_loads } = tables;
+        let StoredMeshLaw { meshes, curves, front, backside, damping_share, side_loads, direction } =
+            tables;
         let is_place = |place: &u32| (*place as usize) < curves.len();
         let steps = front.len().checked_div(meshes).unwrap_or(0);
         let fits = steps > 0
@@ -236,8 +248,16 @@ impl TryFrom<StoredMeshLaw> for MeshLaw {
             return Err(MeshLawError::Places);
         }
         let given = vec![1.0; meshes];
-        let law =
-            Self { meshes, curves, front, backside, damping_share: given, side_loads: Vec::new() };
+        let none = Vec::new();
+        let law = Self {
+            meshes,
+            curves,
+            front,
+            backside,
+            damping_share: given,
+            side_loads: none,
+            direction,
+        };
         let law = law.with_damping_share(&damping_share)?;
         if side_loads.is_empty() { Ok(law) } else { law.with_side_loads(side_loads) }
     }
@@ -303,6 +323,19 @@ impl MeshLaw {
         Ok(Self { curves, backside: Vec::new(), ..self.clone() })
     }
 
+    /// The law of a set whose meshes run in a direction: with backward ones step k has the tables of position −k/S.
+    pub fn in_direction(mut self, direction: PathDirection) -> Self {
+        if direction != self.direction {
+            self.direction = direction;
+            for places in [&mut self.front, &mut self.backside] {
+                let steps: Vec<&[u32]> = places.chunks(self.meshes).collect();
+                let reversed = steps.iter().take(1).chain(steps.iter().skip(1).rev());
+                *places = reversed.flat_map(|step| step.iter().copied()).collect();
+            }
+        }
+        self
+    }
+
     /// The same law with forces along the lines of action alone.
     pub fn without_side_loads(self) -> Self {
         Self { side_loads: Vec::new(), ..self }
@@ -322,6 +355,11 @@ impl MeshLaw {
     /// Steps of a mesh cycle.
     pub fn steps(&self) -> usize {
         self.front.len() / self.meshes
+    }
+
+    /// Direction in which steps pass the positions.
+    pub fn direction(&self) -> PathDirection {
+        self.direction
     }
 
     /// Whether the law includes the backside flanks.
@@ -493,6 +531,18 @@ mod tests {
             let apart = law.front(1, step).start_m() - meshes[1].front - step as f64 / 140.0;
             assert!((apart - apart.round()).abs() < 1e-12);
         }
+    }
+
+    #[test]
+    fn backward_steps_have_the_curves_of_the_positions_that_they_pass() {
+        let forward = law(MeshLawPlan::new(&starts(true), 10).unwrap());
+        let backward = forward.clone().in_direction(PathDirection::Backward);
+        for (flank, step) in (0..12).flat_map(|flank| (0..10).map(move |step| (flank, step))) {
+            let position = (10 - step) % 10;
+            assert_eq!(backward.curve(flank, step), forward.curve(flank, position));
+        }
+        assert_eq!(backward.clone().in_direction(PathDirection::Backward), backward);
+        assert_eq!(backward.in_direction(PathDirection::Forward), forward);
     }
 
     #[test]

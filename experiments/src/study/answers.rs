@@ -222,6 +222,7 @@ impl Bench<'_> {
         let (law_settings, steps) =
             (MeshLawSettings::at(case.sun_load_nm()), scene.dynamics.steps_per_cycle as usize);
         let law = mesh_law(scene, self.bodies, case.sense(), steps, &law_settings)?;
+        let law = law.in_direction(case.direction());
         let set = BalancedSet::new(scene, case.sense(), law, case.sun_load_nm())?;
         self.prepared_s += self.stopwatch.seconds() - start;
         let lumped = scene.lumped.as_ref().ok_or("the scene has no lumped parameters")?;

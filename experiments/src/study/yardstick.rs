@@ -29,7 +29,7 @@ pub(super) fn yardstick(
     let bodies = Bodies::new(&scene)?;
     let settings = MeshLawSettings::at(case.sun_load_nm());
     let law = mesh_law(&scene, &bodies, case.sense(), STEPS as usize, &settings)?;
-    Ok(MeshLawModel::lumped_with(&scene, case, law))
+    Ok(MeshLawModel::lumped_with(&scene, case, law.in_direction(case.direction())))
 }
 
 /// A set of the yardstick that moves.

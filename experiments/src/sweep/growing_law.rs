@@ -35,7 +35,8 @@ impl Source<'_> {
 
     fn law(&self, steps: usize, size: usize) -> Result<Arc<MeshLaw>, FeError> {
         let (scene, settings) = (&self.scene, self.settings(size));
-        Ok(mesh_law(scene, self.bodies, self.case.sense(), steps, &settings)?.into())
+        let law = mesh_law(scene, self.bodies, self.case.sense(), steps, &settings)?;
+        Ok(law.in_direction(self.case.direction()).into())
     }
 
     /// Largest force of the tables, N.

@@ -101,7 +101,7 @@ pub trait SweepModel: Sync {
 
 /// Refuses a torque that presses other flanks than those a model was made for.
 pub(super) fn check_sense(own: &LoadCase, other: &LoadCase) -> Result<(), ExperimentError> {
-    if own.sense() == other.sense() {
+    if own.sense() == other.sense() && own.direction() == other.direction() {
         return Ok(());
     }
     let (torque_nm, own_nm) = (other.sun_torque_nm, own.sun_torque_nm);
@@ -220,7 +220,8 @@ impl<'s> FeModel<'s> {
             return Ok(prepared);
         }
         let (steps_per_cycle, mesh_frequency) = (self.steps_per_cycle(), 1.0);
-        let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle };
+        let direction = self.case.direction();
+        let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle, direction };
         let mesh_force = self.force(self.table_size + size)?;
         let loading = Loading { torque_nm: self.case.sun_load_nm(), mesh_force };
         let (sense, own) = (self.case.sense(), self.imperfections.clone());
@@ -246,7 +247,8 @@ impl<'s> FeModel<'s> {
     ) -> Result<FeMarching<'s>, ExperimentError> {
         check_sense(&self.case, case)?;
         let (steps_per_cycle, mesh_frequency) = (self.steps_per_cycle(), case.mesh_frequency_hz);
-        let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle };
+        let direction = self.case.direction();
+        let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle, direction };
         let torque_nm = case.sun_load_nm();
         let set = VibratingSet::on(scene, self.shared(size)?, rotation)?;
         let rate = scaling_rate(mesh_frequency);

@@ -4,9 +4,9 @@ use experiments::sweep::{
     Coordinate, FeModel, MeshLawModel, SteadyMethod, SteadySettings, SweepModel, steady,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, LoadCase};
+use gearset::{Fidelity, LoadCase, PathDirection};
 
-use super::sets::{fe, scene};
+use super::sets::{backward, fe, scene};
 
 /// Largest difference between the records of shooting and of marching from rest, relative to the peak-to-peak
 /// vibration; also the cycles that each took, and the largest multiplier.
@@ -48,12 +48,38 @@ fn shooting_and_marching_agree_on_quasi_static_bodies() {
 #[test]
 fn shooting_and_marching_agree_on_modal_bodies() {
     let scene = scene("oh58_4p", Fidelity::Modal(6), 56);
-    let bodies = Bodies::new(&scene).unwrap();
-    let model = fe(&scene, &bodies, 1130.0);
-    for rpm in [900.0, 1430.0, 2200.0] {
-        let (off, cycles, largest) = compare(&model, rpm, 2000);
-        assert!(off < 1e-6, "{rpm} rpm: {off:e}, {cycles:?}");
-        assert!(largest < 1.0);
+    for (scene, speeds) in
+        [(backward(scene.clone()), vec![1430.0]), (scene, vec![900.0, 1430.0, 2200.0])]
+    {
+        let bodies = Bodies::new(&scene).unwrap();
+        let model = fe(&scene, &bodies, 1130.0);
+        for rpm in speeds {
+            let (off, cycles, largest) = compare(&model, rpm, 2000);
+            assert!(off < 1e-6, "{rpm} rpm: {off:e}, {cycles:?}");
+            assert!(largest < 1.0);
+        }
+    }
+}
+
+/// Meshes that run backward, symmetric sets (after a half and after a fifth of the cycle) and tabulated forces included.
+#[test]
+fn shooting_and_marching_agree_where_meshes_run_backward() {
+    for (name, torque, steps) in [("oh58_4p", 1130.0, 56), ("five_planets", 500.0, 60)] {
+        let scene = backward(scene(name, Fidelity::QuasiStatic, steps));
+        let bodies = Bodies::new(&scene).unwrap();
+        let contact = fe(&scene, &bodies, torque);
+        let law = MeshLawModel::new(&scene, &bodies, contact.case()).unwrap();
+        assert_eq!(contact.case().direction(), PathDirection::Backward);
+        for model in [&contact as &dyn SweepModel, &law, &law.lumped()] {
+            for rpm in [610.0, 1540.0] {
+                let mut set = model.turning(&model.case().at_speed(rpm), 0).unwrap();
+                let own = set.derivative().unwrap().symmetry().unwrap();
+                assert!(own.is_some(), "{name}, {}", model.name());
+                let (off, cycles, largest) = compare(model, rpm, 2000);
+                assert!(off < 1e-6, "{name}, {} {rpm} rpm: {off:e}, {cycles:?}", model.name());
+                assert!(largest < 1.0 && 2 * cycles[0] < cycles[1]);
+            }
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use gearset::{Fidelity, LoadCase};
 use nalgebra::DMatrix;
 
 use super::apart;
-use super::sets::{end_of_cycle, fe, march_cycle, scene};
+use super::sets::{backward, end_of_cycle, fe, march_cycle, scene};
 
 /// A cycle in the middle of which a step failed is begun anew by setting coordinates or a state: the same cycle follows, but for
 /// the rounding of contact patterns that were met in between.
@@ -59,11 +59,17 @@ fn a_cycle_that_fails_leaves_nothing_behind() {
     }
 }
 
-/// Columns of the derivative against central differences over a whole cycle.
+/// Columns of the derivative against central differences over a whole cycle, of meshes that run forward and backward.
 #[test]
 fn the_derivative_is_that_of_the_cycle() {
-    for fidelity in [Fidelity::QuasiStatic, Fidelity::Modal(4)] {
+    for (fidelity, runs_backward) in [
+        (Fidelity::QuasiStatic, false),
+        (Fidelity::QuasiStatic, true),
+        (Fidelity::Modal(4), false),
+        (Fidelity::Modal(4), true),
+    ] {
         let scene = scene("oh58_4p", fidelity, 28);
+        let scene = if runs_backward { backward(scene) } else { scene };
         let bodies = Bodies::new(&scene).unwrap();
         let model = fe(&scene, &bodies, 1130.0);
         let mut set = model.turning(&model.case().at_speed(1500.0), 0).unwrap();

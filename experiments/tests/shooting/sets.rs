@@ -18,6 +18,12 @@ pub(super) fn fe<'b>(scene: &Scene, bodies: &'b Bodies, torque_nm: f64) -> FeMod
     FeModel::new(scene, bodies, Imperfections::default(), case)
 }
 
+/// The same scene with its speed in the other sense: under the same torque on the sun its meshes run backward.
+pub(super) fn backward(mut scene: Scene) -> Scene {
+    scene.operation.as_mut().unwrap().speed_rpm *= -1.0;
+    scene
+}
+
 /// Marches a cycle with every step kept, and takes it back.
 pub(super) fn march_cycle(set: &mut dyn Marching, steps: usize) {
     set.derivative().unwrap().start();

@@ -11,7 +11,7 @@ pub(super) struct Clock {
     pub(super) rotation: NominalRotation,
     pub(super) rule: AverageAcceleration,
     pub(super) step_in_cycle: usize,
-    /// Whole mesh cycles completed.
+    /// Whole mesh cycles by which the gears have turned, less than 0 in backward direction.
     pub(super) cycles: i64,
     /// Steps taken.
     pub(super) steps: u64,
@@ -21,7 +21,7 @@ impl Clock {
     pub(super) fn new(rotation: NominalRotation) -> Result<Self, FeError> {
         let step = match rotation {
             NominalRotation::Standing { step, .. } => step,
-            NominalRotation::Turning { mesh_frequency, steps_per_cycle } => {
+            NominalRotation::Turning { mesh_frequency, steps_per_cycle, .. } => {
                 1.0 / (mesh_frequency * steps_per_cycle as f64)
             }
         };
@@ -46,19 +46,14 @@ impl Clock {
             self.step_in_cycle += 1;
             if self.step_in_cycle == steps_per_cycle {
                 self.step_in_cycle = 0;
-                self.cycles += 1;
+                self.cycles += self.rotation.direction().whole();
             }
         }
     }
 
     /// Position of a step in the cycle, cycles.
     pub(super) fn position(&self, step_in_cycle: usize) -> f64 {
-        match self.rotation {
-            NominalRotation::Standing { position, .. } => position,
-            NominalRotation::Turning { steps_per_cycle, .. } => {
-                step_in_cycle as f64 / steps_per_cycle as f64
-            }
-        }
+        self.rotation.position(step_in_cycle)
     }
 
     /// Mesh cycles by which the gears have turned since the start; 0 for a standing set.

@@ -387,7 +387,7 @@ impl Change {
 
 #[cfg(test)]
 mod tests {
-    use gearset::{Facing, Scene};
+    use gearset::{Facing, PathDirection, Scene};
 
     use super::super::prepared::Loading;
     use super::super::rotation::NominalRotation;
@@ -404,7 +404,11 @@ mod tests {
         scene.fe_contact.flank_elements = 8;
         let bodies = Bodies::new(&scene).unwrap();
         for (mesh_frequency, least) in [(20.0, 10), (570.0, 10)] {
-            let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle: 28 };
+            let rotation = NominalRotation::Turning {
+                mesh_frequency,
+                steps_per_cycle: 28,
+                direction: PathDirection::Forward,
+            };
             let loading = Loading { torque_nm: 1130.0, mesh_force: 12000.0 };
             let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
             let mut set =

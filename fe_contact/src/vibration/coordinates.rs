@@ -78,7 +78,7 @@ impl VibratingSet<'_> {
         if self.clock.step_in_cycle > 0 {
             return self.take_part_back();
         }
-        self.clock.cycles -= 1;
+        self.clock.cycles -= self.clock.rotation.direction().whole();
         if self.bodies.gears.iter().all(|gear| gear.vibrating.unknowns() == 0) {
             return Ok(());
         }
@@ -94,7 +94,7 @@ impl VibratingSet<'_> {
     /// Shift of the bodies' modes by one tooth, by body.
     pub(super) fn tooth_shifts(&mut self) -> Result<&[Option<ToothShift>], FeError> {
         if self.tooth_shifts.is_empty() {
-            self.tooth_shifts = ToothShift::of_set(&self.bodies)?;
+            self.tooth_shifts = ToothShift::of_set(&self.bodies, self.clock.rotation.direction())?;
         }
         Ok(&self.tooth_shifts)
     }

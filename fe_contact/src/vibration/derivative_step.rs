@@ -34,11 +34,12 @@ impl VibratingSet<'_> {
         cycles: i64,
     ) {
         let count = self.clock.rotation.count();
-        let (k, cycles) = (step % count, cycles + (step / count) as i64);
+        let whole = self.clock.rotation.direction().whole() * (step / count) as i64;
+        let (k, cycles) = (step % count, cycles + whole);
         let Some(frame) = self.frames.current(k) else { return };
         let plain = self.frames.at(k).unwrap_or(frame);
         for mesh in &self.pairs.restarts[k] {
-            d.meshes[*mesh].move_on();
+            d.meshes[*mesh].move_on(self.pairs.direction);
         }
         let (rule, lag) = (&self.clock.rule, &self.pairs.lag);
         let weights = StepWeights {

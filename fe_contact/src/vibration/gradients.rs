@@ -2,6 +2,7 @@
 //! changes at the start.
 
 use dynamics::Number;
+use gearset::PathDirection;
 use nalgebra::{DMatrix, DVector};
 
 use super::lag::WIDTH;
@@ -161,17 +162,21 @@ impl<T: Number> LagGradients<T> {
         self.lists.swap(1, 2);
     }
 
-    /// The mesh starts a new cycle: what was pair k is pair k + 1.
-    pub(super) fn move_on(&mut self) {
+    /// The phase of the mesh passes 0: what was pair k is pair k + 1, or k − 1 in backward direction.
+    pub(super) fn move_on(&mut self, direction: PathDirection) {
+        let (from, to, left) = match direction {
+            PathDirection::Forward => (0, 1, 0),
+            PathDirection::Backward => (1, 0, WIDTH - 1),
+        };
         for list in &mut self.lists {
             let m = list.nrows();
             let own = list.as_mut_slice();
-            own.copy_within(0..(WIDTH - 1) * m, m);
-            own[..m].fill(T::of(0.0));
+            own.copy_within(from * m..(from + WIDTH - 1) * m, to * m);
+            own[left * m..(left + 1) * m].fill(T::of(0.0));
         }
-        self.live.copy_within(0..WIDTH - 1, 1);
-        self.live[0] = false;
-        self.parted.copy_within(0..WIDTH - 1, 1);
+        self.live.copy_within(from..from + WIDTH - 1, to);
+        self.live[left] = false;
+        self.parted.copy_within(from..from + WIDTH - 1, to);
     }
 }
 

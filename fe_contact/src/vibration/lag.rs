@@ -11,9 +11,11 @@
 //! Instead the forces are interpolated by a parabola through the end of the step, its start and the
 //! start of the step before, for which the equation is solved exactly. This is of second order for
 //! any ratio of step and β, and damps motion faster than the step. The state belongs to tooth
-//! pairs, whose numbers grow by one whenever the phase of their mesh starts again at 0.
+//! pairs, whose numbers grow by one whenever the phase of their mesh starts again at 0, and fall by one where meshes run
+//! backward.
 
 use dynamics::AverageAcceleration;
+use gearset::PathDirection;
 
 use crate::error::FeError;
 
@@ -188,11 +190,19 @@ impl PairMemory {
         self.now = end;
     }
 
-    /// The mesh starts a new cycle: what was pair k is pair k + 1.
-    pub(super) fn move_on(&mut self) {
+    /// The phase of the mesh passes 0: what was pair k is pair k + 1, or k − 1 in backward direction.
+    pub(super) fn move_on(&mut self, direction: PathDirection) {
         for list in [&mut self.filtered, &mut self.now, &mut self.before] {
-            list.copy_within(0..WIDTH - 1, 1);
-            list[0] = 0.0;
+            match direction {
+                PathDirection::Forward => {
+                    list.copy_within(0..WIDTH - 1, 1);
+                    list[0] = 0.0;
+                }
+                PathDirection::Backward => {
+                    list.copy_within(1..WIDTH, 0);
+                    list[WIDTH - 1] = 0.0;
+                }
+            }
         }
     }
 }
@@ -271,7 +281,9 @@ mod tests {
     fn pairs_move_on() {
         let mut memory = PairMemory::default();
         memory.rest([(0, 5.0), (-1, 3.0)].into_iter().map(|(k, p)| (PairSlot::of(k), p)));
-        memory.move_on();
+        memory.move_on(PathDirection::Forward);
         assert_eq!((memory.filtered(1), memory.filtered(0)), (5.0, 3.0));
+        memory.move_on(PathDirection::Backward);
+        assert_eq!((memory.filtered(0), memory.filtered(-1)), (5.0, 3.0));
     }
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use gearset::PathDirection;
 use nalgebra::DVector;
 
 use super::frame::Frame;
@@ -19,8 +20,10 @@ pub(super) struct PairForces {
     pub(super) approaches: DVector<f64>,
     /// Load on the races from the second-order terms of corner gaps in the last step, n, N.
     pub(super) bent: DVector<f64>,
-    /// By step in the cycle: meshes whose phase starts again at 0 with this step.
+    /// By step in the cycle: meshes whose phase passes 0 with this step.
     pub(super) restarts: Arc<[Vec<usize>]>,
+    /// Direction in which it passes.
+    pub(super) direction: PathDirection,
 }
 
 impl PairForces {
@@ -29,7 +32,7 @@ impl PairForces {
         lag: LagRule,
         meshes: usize,
         races: usize,
-        restarts: Arc<[Vec<usize>]>,
+        (restarts, direction): (Arc<[Vec<usize>]>, PathDirection),
     ) -> Self {
         Self {
             lag,
@@ -38,6 +41,7 @@ impl PairForces {
             approaches: DVector::zeros(0),
             bent: DVector::zeros(races),
             restarts,
+            direction,
         }
     }
 
@@ -49,11 +53,11 @@ impl PairForces {
         }
     }
 
-    /// Renumbers the pairs in the lag of those meshes whose phase starts again at a step of the
+    /// Renumbers the pairs in the lag of those meshes whose phase passes 0 with a step of the
     /// cycle.
     pub(super) fn restart(&mut self, step_in_cycle: usize) {
         for mesh in &self.restarts[step_in_cycle] {
-            self.memory[*mesh].move_on();
+            self.memory[*mesh].move_on(self.direction);
         }
     }
 

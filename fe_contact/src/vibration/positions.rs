@@ -79,7 +79,7 @@ impl VibratingSet<'_> {
 
 #[cfg(test)]
 mod tests {
-    use gearset::{Facing, Scene};
+    use gearset::{Facing, PathDirection, Scene};
 
     use super::super::prepared::Loading;
     use super::*;
@@ -94,7 +94,11 @@ mod tests {
         scene.fe_contact.flank_elements = 8;
         let bodies = Bodies::new(&scene).unwrap();
         let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
-        let rotation = NominalRotation::Turning { mesh_frequency: 500.0, steps_per_cycle: 28 };
+        let rotation = NominalRotation::Turning {
+            mesh_frequency: 500.0,
+            steps_per_cycle: 28,
+            direction: PathDirection::Forward,
+        };
         let loading = Loading { torque_nm: 1130.0, mesh_force: 8000.0 };
         let mut set = VibratingSet::new(&scene, &bodies, sense, none, rotation, loading).unwrap();
         set.rest(1130.0).unwrap();
@@ -163,7 +167,11 @@ mod tests {
             let mut scene = Scene::from_file(format!("{root}{name}.toml").as_ref()).unwrap();
             scene.fe_contact.flank_elements = 8;
             let bodies = Bodies::new(&scene).unwrap();
-            let rotation = NominalRotation::Turning { mesh_frequency: 570.0, steps_per_cycle: 28 };
+            let rotation = NominalRotation::Turning {
+                mesh_frequency: 570.0,
+                steps_per_cycle: 28,
+                direction: PathDirection::Forward,
+            };
             let march = |most: usize| {
                 let displaced = Imperfections {
                     displaced_planets: vec![(0, 0.0, 12e-6)],

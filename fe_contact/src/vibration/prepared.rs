@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use gearset::{Facing, Fidelity, MeshKinematics, Scene};
+use gearset::{Facing, Fidelity, MeshKinematics, PathDirection, Scene};
 
 use super::frame_pattern::FramePatterns;
 use super::leaning::Leaning;
@@ -33,8 +33,8 @@ pub struct Prepared<'s> {
     pub(super) is_exact: bool,
     /// Patterns of the frames of the rotation it was made for, shared by its sets.
     patterns: Arc<FramePatterns>,
-    /// Whether that rotation turns.
-    turns: bool,
+    /// Direction in which that rotation turns; `None` if it stands.
+    turns: Option<PathDirection>,
 }
 
 impl<'s> Prepared<'s> {
@@ -55,8 +55,8 @@ impl<'s> Prepared<'s> {
     ) -> Result<Self, FeError> {
         solves_contact(scene)?;
         fit(scene, &rotation)?;
-        let turns = matches!(rotation, NominalRotation::Turning { .. });
-        let is_exact = turns && scene.dynamics.kinematics == MeshKinematics::Exact;
+        let is_exact =
+            rotation.turns().is_some() && scene.dynamics.kinematics == MeshKinematics::Exact;
         let statics = StaticSet::new(scene, bodies, sense, imperfections)?;
         let statics = statics.under(loading.torque_nm)?;
         Self::of(statics, is_exact, &rotation, loading.mesh_force, None)
@@ -71,7 +71,7 @@ impl<'s> Prepared<'s> {
         mesh_force: f64,
         known: Option<&Self>,
     ) -> Result<Self, FeError> {
-        let turns = matches!(rotation, NominalRotation::Turning { .. });
+        let turns = rotation.turns();
         let positions = rotation.positions();
         let patterns = Arc::new(FramePatterns::new(positions.len()));
         let cells = statics.bodies.cells_in_time(mesh_force);
@@ -86,8 +86,9 @@ impl<'s> Prepared<'s> {
         let tables = statics.tables_of(cells, &positions, known.map(|own| &own.tables))?;
         // Of positions that are even divisions of the cycle those of fewer are among those of more.
         let every = |own: &Self| positions.len() / own.leaning.len().max(1);
-        let known = known.filter(|own| own.turns && turns && own.tables.settings == cells);
-        let known = known.filter(|own| every(own) * own.leaning.len() == positions.len());
+        let known = known.filter(|own| own.turns == turns && own.tables.settings == cells);
+        let known = known
+            .filter(|own| turns.is_some() && every(own) * own.leaning.len() == positions.len());
         let known = |k: usize| {
             let own = known.filter(|own| k.is_multiple_of(every(own)))?;
             own.leaning.get(k / every(own))
@@ -122,7 +123,8 @@ impl<'s> Prepared<'s> {
     /// As [`Prepared::new`].
     pub fn with_steps(&self, scene: &Scene, mesh_force: f64) -> Result<Self, FeError> {
         let steps_per_cycle = scene.dynamics.steps_per_cycle as usize;
-        let rotation = NominalRotation::Turning { mesh_frequency: 1.0, steps_per_cycle };
+        let direction = self.turns.unwrap_or_default();
+        let rotation = NominalRotation::Turning { mesh_frequency: 1.0, steps_per_cycle, direction };
         solves_contact(scene)?;
         fit(scene, &rotation)?;
         Self::of(self.statics.clone(), self.is_exact, &rotation, mesh_force, Some(self))
@@ -139,8 +141,8 @@ impl<'s> Prepared<'s> {
 
     /// Whether a rotation passes the very positions that the data were prepared for.
     fn has_positions_of(&self, rotation: &NominalRotation) -> bool {
-        let turns = matches!(rotation, NominalRotation::Turning { .. });
-        turns && self.turns && rotation.count() == self.patterns.count()
+        let turns = rotation.turns();
+        turns.is_some() && turns == self.turns && rotation.count() == self.patterns.count()
     }
 
     /// Refuses a scene or a rotation for which the data were not prepared.
@@ -200,7 +202,7 @@ pub(super) fn fit(scene: &Scene, rotation: &NominalRotation) -> Result<(), FeErr
             return refuse(key, value, "a finite number, at least 0", why);
         }
     }
-    if let NominalRotation::Turning { mesh_frequency, steps_per_cycle } = *rotation {
+    if let NominalRotation::Turning { mesh_frequency, steps_per_cycle, .. } = *rotation {
         if steps_per_cycle < LEAST_STEPS {
             let why = "fewer steps see neither the second tooth pair nor a harmonic";
             let value = steps_per_cycle as f64;
@@ -232,7 +234,9 @@ mod tests {
         let loading = Loading { torque_nm: case.sun_load_nm(), mesh_force: 2e4 };
         let made = |scene: &Scene| {
             let steps_per_cycle = scene.dynamics.steps_per_cycle as usize;
-            let rotation = NominalRotation::Turning { mesh_frequency: 1.0, steps_per_cycle };
+            let direction = case.direction();
+            let rotation =
+                NominalRotation::Turning { mesh_frequency: 1.0, steps_per_cycle, direction };
             let own = Imperfections::default();
             Prepared::new(scene, &bodies, case.sense(), own, rotation, loading).unwrap()
         };

@@ -1,5 +1,7 @@
 //! Nominal rotation of a set, about which it vibrates.
 
+use gearset::PathDirection;
+
 /// Nominal rotation of a set: none, or at a constant mesh frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum NominalRotation {
@@ -16,6 +18,8 @@ pub enum NominalRotation {
         mesh_frequency: f64,
         /// Steps in a mesh cycle.
         steps_per_cycle: usize,
+        /// Direction in which positions are passed: step k ends at k/S or at −k/S.
+        direction: PathDirection,
     },
 }
 
@@ -24,10 +28,35 @@ impl NominalRotation {
     pub fn positions(&self) -> Vec<f64> {
         match *self {
             Self::Standing { position, .. } => vec![position],
-            Self::Turning { steps_per_cycle: count, .. } => {
-                (0..count).map(|i| i as f64 / count as f64).collect()
+            Self::Turning { steps_per_cycle, .. } => {
+                (0..steps_per_cycle).map(|step| self.position(step)).collect()
             }
         }
+    }
+
+    /// Position at which a step of the cycle ends, cycles: 0 to ±1.
+    pub(super) fn position(&self, step_in_cycle: usize) -> f64 {
+        match *self {
+            Self::Standing { position, .. } => position,
+            Self::Turning { steps_per_cycle, direction, .. } => {
+                let passed = step_in_cycle as f64 / steps_per_cycle as f64;
+                // Not −0: a set at position 0 is the same in both directions.
+                if step_in_cycle == 0 { 0.0 } else { direction.sign() * passed }
+            }
+        }
+    }
+
+    /// Direction in which positions are passed; `None` of a standing set.
+    pub(super) fn turns(&self) -> Option<PathDirection> {
+        match *self {
+            Self::Standing { .. } => None,
+            Self::Turning { direction, .. } => Some(direction),
+        }
+    }
+
+    /// The same, forward of a standing set.
+    pub(super) fn direction(&self) -> PathDirection {
+        self.turns().unwrap_or_default()
     }
 
     /// Number of positions at which steps end.

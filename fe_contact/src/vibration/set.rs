@@ -121,8 +121,10 @@ impl<'s> VibratingSet<'s> {
         let (carrier, ports, flexibility) = build::carrier(&statics, scene, &settings)?;
         let bodies = FlexibleBodies::new(carrier, gears);
         let speed = match rotation {
-            NominalRotation::Turning { mesh_frequency, .. } if scene.dynamics.gyroscopic => {
-                Some(carrier_speed(scene, mesh_frequency))
+            NominalRotation::Turning { mesh_frequency, direction, .. }
+                if scene.dynamics.gyroscopic =>
+            {
+                Some(direction.sign() * carrier_speed(scene, mesh_frequency))
             }
             _ => None,
         };
@@ -130,15 +132,22 @@ impl<'s> VibratingSet<'s> {
         let race_dynamics = RaceDynamics::new(&statics, scene, &rule, &bodies, seats, speed)?;
         let (n, meshes) = (statics.races.count, statics.meshes());
         let count = rotation.count();
-        // Meshes whose phase is less at a step of the cycle than at the one before.
+        // Meshes whose phase passes 0 from the step before: it is less than there, or greater in backward direction.
+        let direction = rotation.direction();
         let restarts = |step: usize| {
             let phase = |mesh: usize, step: usize| statics.phase(mesh, clock.position(step));
-            let starts = |mesh: &usize| phase(*mesh, step) < phase(*mesh, clock.before(step));
+            let change = |mesh: usize| phase(mesh, step) - phase(mesh, clock.before(step));
+            let starts = |mesh: &usize| direction.sign() * change(*mesh) < 0.0;
             (0..meshes).filter(starts).collect()
         };
         let restarts = patterns.restarts(|| (0..count).map(restarts).collect());
         Ok(Self {
-            pairs: PairForces::new(LagRule::new(damping.beta, &rule), meshes, n, restarts),
+            pairs: PairForces::new(
+                LagRule::new(damping.beta, &rule),
+                meshes,
+                n,
+                (restarts, direction),
+            ),
             clock,
             bodies,
             race_dynamics,

@@ -1,4 +1,4 @@
-//! The modes of a gear after it has turned by one tooth.
+//! The modes of a gear after it has turned by one tooth, either way.
 //!
 //! Gears turn on in their own frames while everything else repeats with the mesh cycle. A gear with equal teeth
 //! that has turned by one tooth is the same gear, its teeth renumbered: the shapes φ_j renumbered and turned are
@@ -10,6 +10,7 @@
 //! because modes of equal frequency are kept together.
 
 use dynamics::Motion;
+use gearset::PathDirection;
 use nalgebra::DMatrix;
 
 use super::flexible_bodies::FlexibleBodies;
@@ -29,27 +30,31 @@ impl ToothShift {
     ///
     /// # Errors
     /// If the modes of a gear are not those of equal teeth.
-    pub(super) fn of_set(bodies: &FlexibleBodies<'_>) -> Result<Vec<Option<Self>>, FeError> {
+    pub(super) fn of_set(
+        bodies: &FlexibleBodies<'_>,
+        direction: PathDirection,
+    ) -> Result<Vec<Option<Self>>, FeError> {
         let mut all: Vec<Option<Self>> = vec![None];
         for (k, gear) in bodies.gears.iter().enumerate() {
             // Planets are alike.
             let own = match (k > 2, all.last()) {
                 (true, Some(last)) => last.clone(),
-                _ => Self::of(gear)?,
+                _ => Self::of(gear, direction)?,
             };
             all.push(own);
         }
         Ok(all)
     }
 
-    fn of(gear: &VibratingGear<'_>) -> Result<Option<Self>, FeError> {
+    fn of(gear: &VibratingGear<'_>, direction: PathDirection) -> Result<Option<Self>, FeError> {
         let Some(modal) = gear.vibrating.modal().filter(|modal| !modal.modes.is_empty()) else {
             return Ok(None);
         };
         let mesh = &gear.body.mesh;
         let teeth = mesh.nodes.len();
-        let (sin, cos) = gear.rate.sin_cos();
-        let ahead = gear.teeth_per_cycle().rem_euclid(teeth as i64) as usize;
+        let (sin, cos) = (direction.sign() * gear.rate).sin_cos();
+        let ahead = direction.whole() * gear.teeth_per_cycle();
+        let ahead = ahead.rem_euclid(teeth as i64) as usize;
         let count = modal.modes.len();
         // Normal equations φᵀφ S = φᵀ R φ over the nodes of all teeth.
         let (mut own, mut across) = (DMatrix::zeros(count, count), DMatrix::zeros(count, count));

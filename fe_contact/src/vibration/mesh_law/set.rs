@@ -57,7 +57,10 @@ impl<'s> MeshLawSet<'s> {
     ) -> Result<Self, FeError> {
         let law = law.into();
         let steps = law.steps();
-        fit(scene, &NominalRotation::Turning { mesh_frequency, steps_per_cycle: steps })?;
+        let direction = law.direction();
+        let rotation =
+            NominalRotation::Turning { mesh_frequency, steps_per_cycle: steps, direction };
+        fit(scene, &rotation)?;
         let statics = loaded.clone();
         let bodies = statics.bodies;
         let reference = statics.reference();
@@ -90,7 +93,8 @@ impl<'s> MeshLawSet<'s> {
         let mut stiffness =
             DMatrix::from_fn(n, n, |i, j| races.stiffness[(i, j)] + turning[(i, j)]);
         if scene.dynamics.gyroscopic {
-            let terms = GyroscopicTerms::new(races, &mass, carrier_speed(scene, mesh_frequency));
+            let speed = direction.sign() * carrier_speed(scene, mesh_frequency);
+            let terms = GyroscopicTerms::new(races, &mass, speed);
             let (g, k) = (&terms.gyroscopic, &terms.centripetal);
             damping += g;
             stiffness += k;

@@ -3,7 +3,7 @@
 use dynamics::{Window, spectrum};
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{Loading, NominalRotation, Prepared, VibratingSet};
-use gearset::{Facing, LoadCase, Scene};
+use gearset::{Facing, LoadCase, PathDirection, Scene};
 
 use crate::check::Check;
 use crate::error::ValidationError;
@@ -33,7 +33,11 @@ impl<'b> Turning<'b> {
         let mesh_frequency = LoadCase::of_scene(scene)?.at_speed(SPEED_RPM).mesh_frequency_hz;
         let sun = bodies.geometry.sun.as_ref().ok_or(ValidationError::Incomplete("sun"))?;
         let force = TORQUE / sun.base_radius / scene.planets.psi_rad.len() as f64;
-        let rotation = NominalRotation::Turning { mesh_frequency, steps_per_cycle };
+        let rotation = NominalRotation::Turning {
+            mesh_frequency,
+            steps_per_cycle,
+            direction: PathDirection::Forward,
+        };
         let loading = Loading { torque_nm: TORQUE, mesh_force: force };
         let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
         let prepared = Prepared::new(scene, bodies, sense, none, rotation, loading)?;
