@@ -6,10 +6,12 @@ mod shipped;
 use std::f64::consts::TAU;
 
 use experiments::sweep::{
-    Coordinate, Direction, FeModel, Memory, Part, Plan, SteadySettings, SweepModel, SweepPoint, run,
+    Coordinate, Direction, FeModel, Memory, MeshLawModel, Part, Plan, SteadySettings, SweepModel,
+    SweepPoint, naturals, run,
 };
 use fe_contact::statics::{Bodies, Imperfections};
 use gearset::{LoadCase, Member, PathDirection, Scene};
+use lumped::ModeType;
 
 /// Driver, held member and the direction while driving.
 const MACHINES: [(Member, Member, PathDirection); 6] = [
@@ -80,6 +82,149 @@ fn sun_meshes_come_in_the_order_in_which_their_planets_pass() {
             let windup = point.state.line(Part::Sun, Coordinate::Rotation, 0).unwrap();
             let sense = windup.amplitude * windup.phase_rad.cos();
             assert!(sense * case.sun_torque_nm > 0.0);
+        }
+    }
+}
+
+/// Displacements and mesh forces at the ends of the steps of some cycles from rest.
+fn marched(scene: &Scene, case: LoadCase, mesh_hz: f64) -> Vec<(Vec<[f64; 3]>, Vec<f64>)> {
+    let bodies = Bodies::new(scene).unwrap();
+    let model = FeModel::new(scene, &bodies, Imperfections::default(), case);
+    let rpm = mesh_hz / case.mesh_frequency_per_rpm_hz();
+    let mut set = model.turning(&case.at_speed(rpm), 0).unwrap();
+    set.rest().unwrap();
+    let step = |_| {
+        set.step().unwrap();
+        let (central, planets) = set.displacements();
+        let mut forces = Vec::new();
+        set.mesh_forces(&mut forces);
+        (central.into_iter().chain(planets).collect(), forces)
+    };
+    (0..3 * 56).map(step).collect()
+}
+
+/// The mirror image of a machine, planets, speed and torque reversed, moves as its mirror image, bit for bit.
+#[test]
+fn mirror_images_pair_up() {
+    for (driver, held, _) in MACHINES {
+        for torque in [300.0, -300.0] {
+            let (scene, case) = machine(driver, held, [100.0, torque]);
+            let (mut mirrored, other) = machine(driver, held, [-100.0, -torque]);
+            mirrored.planets.psi_rad.iter_mut().for_each(|psi| *psi *= -1.0);
+            if let Some(steps) = &mut mirrored.planets.steps {
+                steps.iter_mut().for_each(|step| *step *= -1);
+            }
+            assert_eq!(case.direction(), other.direction());
+            let pairs =
+                marched(&scene, case, 700.0).into_iter().zip(marched(&mirrored, other, 700.0));
+            for ((x, forces), (image, of_image)) in pairs {
+                assert_eq!(forces, of_image);
+                for ([a, b, c], [x, y, z]) in x.into_iter().zip(image) {
+                    assert_eq!([a, b, c], [x, -y, -z]);
+                }
+            }
+        }
+    }
+}
+
+/// A set driven through the carrier against a held ring is the same set braked through its sun.
+#[test]
+fn driving_through_the_carrier_is_braking_through_the_sun() {
+    let (scene, driven) = machine(Member::Carrier, Member::Ring, [100.0, 300.0]);
+    let (_, braked) = machine(Member::Sun, Member::Ring, [100.0, -300.0]);
+    assert!(driven.sun_torque_nm < 0.0 && driven.direction() == PathDirection::Backward);
+    let [a, b] = [driven, braked].map(|case| marched(&scene, case, 700.0));
+    assert!(a == b);
+    // Driving through the sun under the same torque is another motion.
+    let (_, other) = machine(Member::Sun, Member::Ring, [-100.0, -300.0]);
+    assert!(a != marched(&scene, other, 700.0));
+}
+
+/// Where nothing vibrates, a set that runs backward is at every instant as the set that runs forward is in the same position.
+#[test]
+fn slow_sets_pass_the_same_positions_in_reverse() {
+    let of = |speed: f64| {
+        let (mut scene, case) = machine(Member::Sun, Member::Ring, [speed, 300.0]);
+        scene.dynamics.steps_per_cycle = 280;
+        let bodies = Bodies::new(&scene).unwrap();
+        let model = FeModel::new(&scene, &bodies, Imperfections::default(), case);
+        at(&model, 40.0)
+    };
+    let (forward, backward) = (of(100.0), of(-100.0));
+    let largest = forward.state.amplitude(Part::SunMesh(0), Coordinate::Force, 1);
+    for (mesh, harmonic) in (0..4).flat_map(|n| [1, 2, 3].map(|l| (n, l))) {
+        for part in [Part::SunMesh(mesh), Part::RingMesh(mesh)] {
+            let [a, b] = [&forward, &backward].map(|p| {
+                let line = p.state.line(part, Coordinate::Force, harmonic).unwrap();
+                [line.amplitude * line.phase_rad.cos(), line.amplitude * line.phase_rad.sin()]
+            });
+            // Time reversed: the conjugate.
+            let off = (a[0] - b[0]).hypot(a[1] + b[1]);
+            assert!(off < 0.02 * largest, "{part:?}, l = {harmonic}: {a:?} {b:?}");
+        }
+    }
+}
+
+/// Gyroscopic terms split the first translational mode as whirl and carrier turn: a whirl in the carrier's sense appears
+/// slower in its frame. Of five planets with 27 sun teeth harmonic 2 whirls at −σ, the carrier turns at σ with the ring
+/// held and at −σ with the sun held.
+#[test]
+fn gyroscopic_peaks_split_as_the_carrier_turns() {
+    let peak = |driver: Member, held: Member, torque: f64, is_on: bool| {
+        let mut scene = shipped::scene("five_planets", 60, 0.25);
+        scene.fe_contact.flank_elements = 6;
+        scene.dynamics.gyroscopic = is_on;
+        let operation = scene.operation.as_mut().unwrap();
+        (operation.input, operation.fixed) = (driver, held);
+        (operation.speed_rpm, operation.torque_nm) = (100.0, torque);
+        let bodies = Bodies::new(&scene).unwrap();
+        let case = LoadCase::of_scene(&scene).unwrap();
+        let case = case.with_sun_torque(SUN_NM * case.sun_torque_nm.signum());
+        let model = MeshLawModel::new(&scene, &bodies, case).unwrap();
+        let mut linear = scene.clone();
+        linear.dynamics.fidelity = gearset::Fidelity::QuasiStatic;
+        let found = naturals(&linear, &bodies, case).unwrap();
+        let first = found.iter().find(|own| own.mode_type == ModeType::Translational);
+        let hz = first.unwrap().frequency_hz;
+        let height = |share: f64| {
+            let point = at(&model, 0.5 * hz * share);
+            let lines = point.state.with_translations();
+            let mut lines = lines.into_iter();
+            let is_own = |l: &experiments::sweep::Line| {
+                l.part == Part::Sun && l.coordinate == Coordinate::Translation && l.harmonic == 2
+            };
+            lines.find(is_own).unwrap().amplitude
+        };
+        let mut best = (0.0, 0.0);
+        for k in -12..=12 {
+            let share = 1.0 + 0.0025 * f64::from(k);
+            let own = height(share);
+            if own > best.1 {
+                best = (share, own);
+            }
+        }
+        let [a, b, c] = [-1.0, 0.0, 1.0].map(|k| height(best.0 + 0.0025 * k).powi(-2));
+        let share = best.0 + 0.0025 * 0.5 * (a - c) / (a - 2.0 * b + c);
+        let speeds = gearset::Kinematics::from_scene(&scene).unwrap();
+        let carrier = speeds.speeds_rpm.carrier / speeds.mesh_frequency_hz / 60.0;
+        // Peak, and the carrier's speed as part of it.
+        (share * hz, 0.5 * carrier.abs())
+    };
+    let (still, _) = peak(Member::Sun, Member::Ring, 300.0, false);
+    for (driver, held, torque, sign) in [
+        (Member::Sun, Member::Ring, 300.0, 1.0),
+        (Member::Sun, Member::Ring, -300.0, 1.0),
+        (Member::Carrier, Member::Ring, 300.0, 1.0),
+        (Member::Sun, Member::Carrier, 300.0, 0.0),
+        (Member::Ring, Member::Sun, 300.0, -1.0),
+        (Member::Carrier, Member::Sun, 300.0, -1.0),
+    ] {
+        let (found, carrier) = peak(driver, held, torque, true);
+        let shift = (found / still - 1.0) / carrier.max(1e-3);
+        println!("{driver:?} {held:?} {torque}: {found:.3} Hz, {shift:.3} of the carrier's speed");
+        match sign {
+            0.0 => assert!((found / still - 1.0).abs() < 1e-3),
+            _ => assert!(sign * shift > 0.2 && sign * shift < 1.0, "{shift}"),
         }
     }
 }

@@ -40,6 +40,15 @@ impl SweepModel for DampedModel<'_> {
         self.model.prepare()
     }
 
+    fn in_short_cycles(
+        &self,
+        case: &LoadCase,
+        damping_factor: f64,
+        size: usize,
+    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+        self.model.in_short_cycles(case, self.factor * damping_factor, size)
+    }
+
     fn turning_damped(
         &self,
         case: &LoadCase,

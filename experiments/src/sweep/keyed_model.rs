@@ -170,6 +170,15 @@ impl SweepModel for KeyedModel<'_> {
         self.first.model().prepare()
     }
 
+    fn in_short_cycles(
+        &self,
+        case: &LoadCase,
+        damping_factor: f64,
+        size: usize,
+    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+        self.first.model().in_short_cycles(case, damping_factor, size)
+    }
+
     fn turning_damped(
         &self,
         case: &LoadCase,

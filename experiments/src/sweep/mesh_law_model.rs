@@ -15,7 +15,7 @@ use super::marching::{Effort, Marching, motion_kinds};
 use super::set_shape::SetShape;
 use super::shooting::CycleDerivative;
 use super::sweep_model::{
-    MOST_TIMES, SweepModel, check_sense, damped, fidelity_name, scaling_rate,
+    MOST_TIMES, SweepModel, check_sense, damped, fidelity_name, scaling_rate, without_gyroscopic,
 };
 use crate::error::ExperimentError;
 use crate::modal::MotionKinds;
@@ -197,6 +197,21 @@ impl SweepModel for MeshLawModel<'_> {
             slot.get_or_init(|| Box::new(made));
         }
         Ok(slot.get().map(|own| own.as_ref() as &dyn SweepModel))
+    }
+
+    fn in_short_cycles(
+        &self,
+        case: &LoadCase,
+        damping_factor: f64,
+        size: usize,
+    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+        match &self.loaded {
+            Some(_) => {
+                let scene = damped(&without_gyroscopic(&self.scene), damping_factor);
+                self.set_of(&scene, case, size)
+            }
+            None => self.turning_damped(case, damping_factor, size),
+        }
     }
 
     fn turning_damped(

@@ -139,7 +139,7 @@ impl Vibrations {
         let case = model.case();
         let case = case.with_sun_torque(0.5 * case.sun_torque_nm);
         let per_rpm = case.mesh_frequency_per_rpm_hz();
-        let mut set = model.turning(&case.at_speed(SHORT_CYCLE_HZ / per_rpm), size)?;
+        let mut set = model.in_short_cycles(&case.at_speed(SHORT_CYCLE_HZ / per_rpm), 1.0, size)?;
         if set.derivative().is_none() {
             return Ok(None);
         }

@@ -72,7 +72,22 @@ pub trait SweepModel: Sync {
         self.turning_damped(case, 1.0, size)
     }
 
-    /// The same with every damping of the scene multiplied by `damping_factor`.
+    /// The set of a cycle so short that it hardly moves, whose multipliers are those of its vibrations: as
+    /// [`turning_damped`](Self::turning_damped), but without the terms of the carrier's turning, which would be those of a carrier that
+    /// turns as fast.
+    ///
+    /// # Errors
+    /// As [`turning_damped`](Self::turning_damped).
+    fn in_short_cycles(
+        &self,
+        case: &LoadCase,
+        damping_factor: f64,
+        size: usize,
+    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+        self.turning_damped(case, damping_factor, size)
+    }
+
+    /// The set with every damping of the scene multiplied by `damping_factor`.
     ///
     /// # Errors
     /// As [`turning`](Self::turning), or if the factor is negative or not finite.
@@ -97,6 +112,13 @@ pub trait SweepModel: Sync {
         let _ = (key, value, size);
         Err(ExperimentError::Incomplete("varied key: the model is of one scene"))
     }
+}
+
+/// A scene without the terms of the carrier's turning.
+pub(super) fn without_gyroscopic(scene: &Scene) -> Scene {
+    let mut scene = scene.clone();
+    scene.dynamics.gyroscopic = false;
+    scene
 }
 
 /// Refuses a torque that presses other flanks than those a model was made for.
@@ -323,6 +345,15 @@ impl SweepModel for FeModel<'_> {
             slot.get_or_init(|| made);
         }
         Ok(slot.get().map(|own| own.as_ref() as &dyn SweepModel))
+    }
+
+    fn in_short_cycles(
+        &self,
+        case: &LoadCase,
+        damping_factor: f64,
+        size: usize,
+    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+        self.set_of(&damped(&without_gyroscopic(&self.scene), damping_factor), case, size)
     }
 
     fn turning_damped(
