@@ -9,7 +9,8 @@ use experiments::sweep::{
     Coordinate, Direction, FeModel, Memory, MeshLawModel, Part, Plan, SteadySettings, SweepModel,
     SweepPoint, naturals, run,
 };
-use fe_contact::statics::{Bodies, Imperfections};
+use fe_contact::complementarity::ActiveSet;
+use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use gearset::{LoadCase, Member, PathDirection, Scene};
 use lumped::ModeType;
 
@@ -226,5 +227,58 @@ fn gyroscopic_peaks_split_as_the_carrier_turns() {
             0.0 => assert!((found / still - 1.0).abs() < 1e-3),
             _ => assert!(sign * shift > 0.2 && sign * shift < 1.0, "{shift}"),
         }
+    }
+}
+
+/// At rest it hardly matters which of the three members turns under the torque and which two react: mesh forces and the
+/// transmission error by work are the same, and so are the mean torques on all members. Only where pairs touch at corners, whose
+/// normals are no common tangents of the base circles, is the ratio of torques not that of the teeth at every instant; the torque
+/// that is given is the one that is constant then.
+#[test]
+fn statics_are_the_same_whichever_member_turns() {
+    use gearset::Freedom::{Free, Held, RotationHeld};
+    let cycle = |loaded: Member| {
+        let mut scene = shipped::scene("oh58_4p", 28, 1.0);
+        scene.fe_contact.flank_elements = 6;
+        let supports = &mut scene.supports;
+        // Central members stay where they are, so that only rotations differ.
+        (supports.sun.motion, supports.ring.motion) = (RotationHeld, Held);
+        supports.carrier.motion = RotationHeld;
+        match loaded {
+            Member::Sun => supports.sun.motion = Free,
+            Member::Ring => (supports.ring.motion, supports.ring.bearing) = (Free, 1e15),
+            Member::Carrier => supports.carrier.motion = Free,
+        }
+        let operation = scene.operation.as_mut().unwrap();
+        (operation.fixed, operation.input) = match loaded {
+            Member::Sun => (Member::Ring, Member::Sun),
+            Member::Ring => (Member::Sun, Member::Ring),
+            Member::Carrier => (Member::Sun, Member::Carrier),
+        };
+        assert_eq!(scene.loaded_member(), Ok(loaded));
+        let bodies = Bodies::new(&scene).unwrap();
+        let sense = gearset::Facing::CounterClockwise;
+        let set = StaticSet::new(&scene, &bodies, sense, Imperfections::default()).unwrap();
+        let radius = bodies.geometry.sun.as_ref().unwrap().base_radius;
+        (set.cycle(SUN_NM, 56, &ActiveSet).unwrap(), radius)
+    };
+    let (of_sun, radius) = cycle(Member::Sun);
+    let largest = of_sun.mesh_force(0).largest;
+    for loaded in [Member::Ring, Member::Carrier] {
+        let (found, _) = cycle(loaded);
+        for (a, b) in of_sun.states.iter().zip(&found.states) {
+            for (a, b) in a.meshes.iter().zip(&b.meshes) {
+                assert!((a.force - b.force).abs() < 2e-3 * largest, "{loaded:?}: {a:?} {b:?}");
+            }
+            let [a, b] = [a, b].map(|state| state.transmission_error(radius));
+            assert!((a / b - 1.0).abs() < 2e-3, "{loaded:?}: {a:e} {b:e}");
+        }
+        let [a, b] = [&of_sun, &found].map(|own| {
+            [own.range(|s| s.reactions.carrier_nm).mean, own.range(|s| s.reactions.ring_nm).mean]
+        });
+        println!("{loaded:?}: {a:?} {b:?}");
+        assert!((a[0] / b[0] - 1.0).abs() < 3e-4 && (a[1] / b[1] - 1.0).abs() < 3e-4);
+        let willis = [SUN_NM * 126.0 / 27.0, -SUN_NM * 99.0 / 27.0];
+        assert!(b.iter().zip(willis).all(|(b, willis)| (b / willis - 1.0).abs() < 3e-4));
     }
 }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::geometry::Geometry;
 use crate::load_case::LoadCase;
 use crate::mesh::Mesh;
-use crate::scene::{Freedom, PerBody, PerMesh, Scene, SceneKind, Support, Torsional};
+use crate::scene::{Freedom, Member, PerBody, PerMesh, Scene, SceneKind, Support, Torsional};
 
 /// One pair of steel teeth in mesh has about E b/13: 14 N/(mm µm) for steel, as in ISO 6336-1.
 const PAIR_STIFFNESS_DIVISOR: f64 = 13.0;
@@ -98,8 +98,8 @@ pub(crate) fn mesh_force(scene: &Scene, geometry: &Geometry) -> Option<f64> {
     Some(torque / radius / scene.planets.count() as f64)
 }
 
-/// How far the sun's teeth give way at the operating point, m: both meshes, the planet bearing and the torsional
-/// supports of ring and carrier in series; of a pair, its mesh. `None` without a torque, or where it has no path through the
+/// How far the teeth give way at the operating point, m: both meshes, the planet bearing and the torsional supports of the
+/// members that react in series; of a pair, its mesh. `None` without a torque, or where it has no path through the
 /// meshes.
 pub(crate) fn deflection(scene: &Scene, geometry: &Geometry) -> Option<f64> {
     way_under(scene, geometry, mesh_force(scene, geometry)?)
@@ -110,20 +110,20 @@ pub(crate) fn way_under(scene: &Scene, geometry: &Geometry, force: f64) -> Optio
     if scene.kind == SceneKind::GearPair {
         return Some(force / pair_stiffness(scene)?);
     }
-    if scene.torque_path().is_err() {
-        return None;
-    }
+    let loaded = scene.loaded_member().ok()?;
     let planets = scene.planets.count() as f64;
     // A pin carries the forces of both meshes.
     let mut length =
         2.0 * force / pair_stiffness(scene)? + 2.0 * force / scene.supports.planet_bearing;
-    let ring = geometry.ring.as_ref()?.base_radius;
+    let (sun, ring) = (geometry.sun.as_ref()?.base_radius, geometry.ring.as_ref()?.base_radius);
+    let supports = &scene.supports;
     let members = [
-        (scene.supports.ring, ring, planets * force),
-        (scene.supports.carrier, geometry.center_distance, 2.0 * planets * force),
+        (Member::Ring, supports.ring, ring, planets * force),
+        (Member::Carrier, supports.carrier, geometry.center_distance, 2.0 * planets * force),
+        (Member::Sun, supports.sun, sun, planets * force),
     ];
-    for (support, radius, load) in members {
-        if support.motion == Freedom::Free {
+    for (member, support, radius, load) in members {
+        if member != loaded && support.motion == Freedom::Free {
             length += load / per_length(&support, radius);
         }
     }

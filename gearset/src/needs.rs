@@ -2,7 +2,7 @@
 
 use crate::choices::{Fidelity, MeshKinematics};
 use crate::mesh_kind::MeshKind;
-use crate::scene::{Freedom, GearInput, Scene, SceneKind};
+use crate::scene::{Freedom, GearInput, Member, Scene, SceneKind};
 
 /// A verb of the command that reads a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -111,6 +111,7 @@ impl Scene {
             }
             if is_chosen || own == "static" && verb == Verb::Static {
                 self.lacks_planetary(&mut lacks);
+                self.lacks_turning_sun(&mut lacks);
             }
             if is_chosen {
                 self.lacks_no_gyroscopic(&mut lacks);
@@ -248,6 +249,16 @@ impl Scene {
         }
     }
 
+    /// A torque that acts on the sun, whose motion alone is the quantity that errors are estimated of.
+    fn lacks_turning_sun(&self, lacks: &mut Vec<Lack>) {
+        if self.kind == SceneKind::Planetary
+            && self.loaded_member().is_ok_and(|loaded| loaded != Member::Sun)
+        {
+            let why = "the torque acts on another member: with fidelity = \"auto\" errors are estimated of sets whose sun turns";
+            lacks.push(lack("sun.motion", why));
+        }
+    }
+
     /// A planetary set with teeth, under a torque by keys alone: `modes` has no argument for it.
     fn lacks_for_auto(&self, lacks: &mut Vec<Lack>) {
         self.lacks_planetary(lacks);
@@ -257,6 +268,7 @@ impl Scene {
         self.lacks_bodies(lacks);
         self.lacks_torque(lacks);
         self.lacks_torque_path(lacks);
+        self.lacks_turning_sun(lacks);
         self.lacks_carrier_mass(lacks);
         lacks.iter_mut().for_each(|lack| lack.argument = None);
     }
@@ -280,7 +292,7 @@ impl Scene {
     }
 
     fn lacks_torque_path(&self, lacks: &mut Vec<Lack>) {
-        if let Err(e) = self.torque_path() {
+        if let Err(e) = self.loaded_member() {
             lacks.push(lack(
                 e.key,
                 format!("it is \"{}\": allowed is {}, because {}", e.value, e.allowed, e.why),

@@ -19,7 +19,7 @@ use dynamics::{
     AverageAcceleration, CarriedChange, Coupled, CoupledState, Coupling, CouplingForce, CyclePart,
     LinearPart, MapDerivative, Motion, Number, PassedSteps, Renumbering,
 };
-use gearset::{Facing, MeshLaw, Scene, Symmetry};
+use gearset::{Facing, Member, MeshLaw, Scene, Symmetry};
 
 use crate::coordinates::{Axis, Body, Coordinates};
 use crate::error::LumpedError;
@@ -144,12 +144,21 @@ impl Parts {
         let mut side_loads = side_loads(&model, law);
         let mut by_torque = vec![0.0; n];
         let balances = scene.supports.pair.is_some_and(|pair| pair.planet.turns_freely());
-        let loaded = [Some(Body::Sun), balances.then_some(Body::Planet(0))];
-        for i in
-            loaded.into_iter().flatten().filter_map(|b| model.coordinates.of(b, Axis::Rotation))
-        {
-            // f_u = T_s / r_s; of a planet T_p / r_p with T_p = T_s r_p / r_s.
-            by_torque[i] = 1.0 / radii[2];
+        // f_u = T_s / r_s; of a planet T_p / r_p with T_p = T_s r_p / r_s.
+        let of_sun = 1.0 / radii[2];
+        let teeth = scene.teeth.and_then(|teeth| teeth.sun_ring());
+        let (z_s, z_r) = teeth.map_or((1.0, 1.0), |(sun, ring)| (f64::from(sun), f64::from(ring)));
+        // T_s : T_r : T_c = Z_s : Z_r : −(Z_s + Z_r), on the member that turns without support.
+        let loaded = match scene.loaded_member() {
+            Ok(Member::Ring) => (Body::Ring, z_r / z_s / radii[1]),
+            Ok(Member::Carrier) => (Body::Carrier, -(z_s + z_r) / z_s / radii[0]),
+            Ok(Member::Sun) | Err(_) => (Body::Sun, of_sun),
+        };
+        let balancing = balances.then_some((Body::Planet(0), of_sun));
+        for (body, force) in std::iter::once(loaded).chain(balancing) {
+            if let Some(i) = model.coordinates.of(body, Axis::Rotation) {
+                by_torque[i] = force;
+            }
         }
         let relative = RelativeRotation::of(scene, &model);
         if let Some(relative) = &relative {

@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::error::CommandError;
 use crate::output;
 
-use super::turning::{OF_SUN, of_sun};
+use super::turning::{OF_MEMBER, of_member};
 
 /// What is held fixed along branches, apart from the parameter.
 pub(super) struct Fixed {
@@ -169,10 +169,10 @@ impl BranchesOutput {
             "stable",
             "μ",
             "mode",
-            OF_SUN[0],
-            OF_SUN[1],
-            OF_SUN[2],
-            OF_SUN[3],
+            OF_MEMBER[0],
+            OF_MEMBER[1],
+            OF_MEMBER[2],
+            OF_MEMBER[3],
             "lowest N",
             "no contact",
             "grazing",
@@ -180,7 +180,7 @@ impl BranchesOutput {
         ];
         let mut table = output::table(&header, &[0, 3, 5, 6, 7, 8, 9, 10, 11, 12]);
         for p in &branch.points {
-            let [rotation, l, translation, of_translation] = of_sun(&p.state, self.harmonics);
+            let [rotation, l, translation, of_translation] = of_member(&p.state, self.harmonics);
             table.add_row([
                 match self.over {
                     BranchParameter::Speed => format!("{:.3}", p.parameter),
@@ -232,7 +232,7 @@ const LEGEND: &str = "\
 points are in order along each branch, which turns back at folds
 μ: size of the largest Floquet multiplier, below 1 if the motion is stable
 mode: type, by kinetic energy, of the perturbation whose multiplier is nearest in size to 1
-rotation, translation: the sun's strongest harmonic, and its number l as a multiple of the mesh frequency
+rotation, translation: strongest harmonic of the sun, of a held sun that of the ring or carrier that turns, and its number l as a multiple of the mesh frequency
 lowest N: lowest force of any mesh during a cycle, N
 no contact: largest part of the time in which a mesh carries nothing; – for never
 grazing: least of lowest over mean force of the meshes that never part; – where all part";

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use experiments::auto::{Choice, cycle_with};
 use fe_contact::statics::{Bodies, Imperfections, MeshState, SetCycle, SetState, StaticSet};
-use gearset::{LoadCase, Scene};
+use gearset::{LoadCase, Member, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -40,7 +40,12 @@ struct TorqueOutput {
     sun_rotation_rms_urad: f64,
     /// Root mean square of |(x, y) − mean| over the cycle.
     sun_translation_rms_um: f64,
-    /// r_b · sun rotation.
+    /// External torques on the central members, means over the mesh cycle, counter-clockwise: one of them acts, the
+    /// supports of the others react.
+    member_torques_nm: MemberTorquesOutput,
+    /// Member that the torque acts on: the one that turns without support.
+    torque_acts_on: &'static str,
+    /// r_b · rotation of that member (of a carrier: the base radii of sun and ring times its rotation).
     transmission_error_mean_um: f64,
     transmission_error_peak_to_peak_um: f64,
     /// Part of the mesh cycle in which backside flanks of any mesh press.
@@ -50,6 +55,14 @@ struct TorqueOutput {
     /// Evenly spaced positions from 0, where planet 0's sun mesh is at phase 0.
     positions: Vec<SetPosition>,
     work: Work,
+}
+
+/// Torques on the central members.
+#[derive(Debug, Serialize, JsonSchema)]
+struct MemberTorquesOutput {
+    sun: f64,
+    ring: f64,
+    carrier: f64,
 }
 
 /// One mesh over the cycle.
@@ -141,6 +154,7 @@ pub(super) fn run(
     drop(working);
     let radius = bodies.geometry.sun.as_ref().map(|sun| sun.base_radius);
     let radius = radius.ok_or_else(|| unfit(path, "`geometry.sun` is absent"))?;
+    let loaded = scene.loaded_member().map_err(|e| unfit(path, e.to_string()))?;
     let saved: Result<(), CommandError> = Ok(());
     #[cfg(feature = "charts")]
     let saved = arguments.figures.as_ref().map_or(saved, |folder| {
@@ -149,12 +163,12 @@ pub(super) fn run(
     // What was computed is shown also where its figures cannot be saved.
     let shown = match arguments.format {
         TableFormat::Json => {
-            let torques = cycles.iter().map(|c| describe(c, radius)).collect();
+            let torques = cycles.iter().map(|c| describe(c, (radius, loaded))).collect();
             output::json(out, &SetOutput { torques, auto })
         }
         TableFormat::Csv => csv(&cycles, out),
         TableFormat::Text => {
-            text(scene, &cycles, radius, auto.as_ref(), out).map_err(CommandError::from)
+            text(scene, &cycles, (radius, loaded), auto.as_ref(), out).map_err(CommandError::from)
         }
     };
     saved.and(shown)
@@ -175,7 +189,7 @@ pub(super) fn answered(
     Ok(())
 }
 
-fn describe(cycle: &SetCycle, radius: f64) -> TorqueOutput {
+fn describe(cycle: &SetCycle, (radius, loaded): (f64, Member)) -> TorqueOutput {
     let (rotation, translation) = cycle.sun_rms();
     let error = cycle.transmission_error(radius);
     let summary = |(i, m): (usize, &MeshState)| {
@@ -213,6 +227,9 @@ fn describe(cycle: &SetCycle, radius: f64) -> TorqueOutput {
         meshes: s.meshes.iter().map(mesh).collect(),
         backside_flanks: s.backside.iter().filter(|m| m.force > 0.0).map(mesh).collect(),
     };
+    let of_gears = |of: fn(&SetState) -> f64| -cycle.range(of).mean;
+    let ring = of_gears(|s| s.reactions.ring_nm);
+    let carrier = of_gears(|s| s.reactions.carrier_nm);
     let rest = cycle.kinematic_rest(radius);
     let (equilibrium_iterations, contact_iterations) = cycle.iterations();
     TorqueOutput {
@@ -220,6 +237,9 @@ fn describe(cycle: &SetCycle, radius: f64) -> TorqueOutput {
         loaded_phase_shift_cycles: cycle.lead,
         sun_rotation_rms_urad: rotation * 1e6,
         sun_translation_rms_um: translation * 1e6,
+        // In equilibrium they sum to nothing.
+        member_torques_nm: MemberTorquesOutput { sun: -(ring + carrier), ring, carrier },
+        torque_acts_on: loaded.name(),
         transmission_error_mean_um: error.mean * 1e6,
         transmission_error_peak_to_peak_um: error.peak_to_peak() * 1e6,
         backside_contact: cycle.backside_contact(),
@@ -279,7 +299,7 @@ fn csv(cycles: &[SetCycle], out: &mut dyn Write) -> Result<(), CommandError> {
 fn text(
     scene: &Scene,
     cycles: &[SetCycle],
-    radius: f64,
+    of: (f64, Member),
     auto: Option<&Choice>,
     out: &mut dyn Write,
 ) -> std::io::Result<()> {
@@ -288,7 +308,7 @@ fn text(
         auto_choice::write(choice, out)?;
     }
     for cycle in cycles {
-        let found = describe(cycle, radius);
+        let found = describe(cycle, of);
         writeln!(
             out,
             "{} N·m on the sun, {} positions of the mesh cycle",
@@ -319,8 +339,18 @@ fn text(
         writeln!(out, "{table}")?;
         writeln!(
             out,
-            "transmission error r_b θ_sun: mean {:.3} µm, peak to peak {:.4} µm",
-            found.transmission_error_mean_um, found.transmission_error_peak_to_peak_um
+            "torques, mean: sun {:.1}, ring {:.1}, carrier {:.1} N·m; it acts on the {}, the supports of the others react",
+            found.member_torques_nm.sun,
+            found.member_torques_nm.ring,
+            found.member_torques_nm.carrier,
+            found.torque_acts_on
+        )?;
+        writeln!(
+            out,
+            "transmission error r_b θ of the {}: mean {:.3} µm, peak to peak {:.4} µm",
+            found.torque_acts_on,
+            found.transmission_error_mean_um,
+            found.transmission_error_peak_to_peak_um
         )?;
         writeln!(
             out,
@@ -338,7 +368,7 @@ fn text(
             "windup moves the sun mesh of planet 0 by {:.4} mesh cycles, from which positions count; linear kinematics about the mean leave {:.1e} µm",
             found.loaded_phase_shift_cycles, found.work.kinematic_rest_um
         )?;
-        if cycle.kinematic_rest(radius).is_worth_a_warning() {
+        if cycle.kinematic_rest(of.0).is_worth_a_warning() {
             let share = found.work.kinematic_rest_share;
             let of_what = share.map_or("large".into(), |share| {
                 format!("{:.1} % of the transmission error", 100.0 * share)

@@ -15,7 +15,7 @@ use crate::error::CommandError;
 use crate::output;
 
 use super::auto_choice;
-use super::turning::{OF_SUN, of_sun};
+use super::turning::{OF_MEMBER, of_member};
 
 /// A sweep as JSON.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -278,7 +278,7 @@ pub(super) fn write_failed(result: &SweepOutput, out: &mut dyn Write) -> Result<
 
 /// Below the table: what each column is.
 const LEGEND: &str = "\
-rotation, translation: the sun's strongest harmonic, and its number l as a multiple of the mesh frequency
+rotation, translation: strongest harmonic of the sun, of a held sun that of the ring or carrier that turns, and its number l as a multiple of the mesh frequency
 translation: √(R² + T²) of the amplitudes R and T of the radial and the tangential displacement
 lowest N: lowest force of any mesh during a cycle, N
 no contact: largest part of the time in which a mesh carries nothing; – for never
@@ -303,10 +303,10 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
         "chain",
         "rpm",
         "f_m Hz",
-        OF_SUN[0],
-        OF_SUN[1],
-        OF_SUN[2],
-        OF_SUN[3],
+        OF_MEMBER[0],
+        OF_MEMBER[1],
+        OF_MEMBER[2],
+        OF_MEMBER[3],
         "lowest N",
         "no contact",
         "backside",
@@ -320,7 +320,7 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
     ];
     let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 13, 15, 16]);
     for ChainPoint { chain, point: p } in &result.points {
-        let [rotation, l, translation, of_translation] = of_sun(&p.state, result.harmonics);
+        let [rotation, l, translation, of_translation] = of_member(&p.state, result.harmonics);
         table.add_row([
             chain.clone(),
             format!("{:.1}", p.state.case.speed_rpm),

@@ -1,14 +1,14 @@
-//! What `sweep` and `branches` share: the model that turns, and the sun's strongest motion in their tables.
+//! What `sweep` and `branches` share: the model that turns, and the strongest motion of the sun in their tables.
 
-use experiments::sweep::{FeModel, MeshLawModel, Part, Response, SteadyState, SweepModel};
+use experiments::sweep::{FeModel, MeshLawModel, Response, SteadyState, SweepModel};
 use fe_contact::statics::{Bodies, Imperfections};
 use gearset::{Fidelity, LoadCase, Scene};
 
 use crate::arguments::Model;
 use crate::error::CommandError;
 
-/// Headings of the cells of [`of_sun`].
-pub(super) const OF_SUN: [&str; 4] = ["rotation µrad", "l", "translation µm", "l"];
+/// Headings of the cells of [`of_member`].
+pub(super) const OF_MEMBER: [&str; 4] = ["rotation µrad", "l", "translation µm", "l"];
 
 /// The model asked for, at the fidelity of the scene.
 ///
@@ -29,10 +29,12 @@ pub(super) fn model<'a>(
     })
 }
 
-/// The sun's strongest harmonics, of its rotation and of its translation, each with its number.
-pub(super) fn of_sun(state: &SteadyState, harmonics: usize) -> [String; 4] {
-    let rotation = Response::Rotation(Part::Sun).strongest(state, harmonics);
-    let translation = Response::Translation(Part::Sun).strongest(state, harmonics);
+/// Strongest harmonics of the sun, or of the member that turns where it is held, of its rotation and of its translation, each
+/// with its number.
+pub(super) fn of_member(state: &SteadyState, harmonics: usize) -> [String; 4] {
+    let member = state.turning_member();
+    let rotation = Response::Rotation(member).strongest(state, harmonics);
+    let translation = Response::Translation(member).strongest(state, harmonics);
     [
         format!("{:.3}", 1e6 * rotation.0),
         rotation.1.to_string(),

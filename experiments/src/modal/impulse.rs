@@ -3,7 +3,7 @@
 use dynamics::identify::{Identification, Scaling, identify};
 use dynamics::orthonormal_basis;
 use fe_contact::FeError;
-use fe_contact::statics::{Bodies, CARRIER, PLANETS, Races, SUN};
+use fe_contact::statics::{Bodies, CARRIER, PLANETS, RING, Races, SUN};
 use fe_contact::vibration::VibratingSet;
 use gearset::Scene;
 
@@ -62,7 +62,7 @@ pub struct ImpulseTest {
     pub steps: u64,
 }
 
-/// Forces on sun and carrier (of a gear pair on sun and planet), a torque on the sun, and pulses on the planets that do not move the central
+/// Forces on sun and carrier (of a gear pair on sun and planet), a torque on the sun (where it is held, on ring and carrier), and pulses on the planets that do not move the central
 /// members: radial, tangential and rotational, in every pattern over the planets orthogonal to 1, cos ψ and
 /// sin ψ.
 pub fn pulses(races: &Races) -> Vec<Pulse> {
@@ -79,8 +79,17 @@ pub fn pulses(races: &Races) -> Vec<Pulse> {
         ("carrier y force", CARRIER, 1),
         ("sun torque", SUN, 2),
     ];
+    // A sun that is held is not pushed: the member that turns in its place is.
+    let instead = [
+        ("ring x force", RING, 0),
+        ("ring y force", RING, 1),
+        ("ring torque", RING, 2),
+        ("carrier torque", CARRIER, 2),
+    ];
+    let turns = races.of(SUN, 2).is_some();
+    let central = central.into_iter().chain(instead.into_iter().filter(|_| !turns));
     let mut list: Vec<Pulse> =
-        central.into_iter().filter_map(|(name, body, axis)| single(name, body, axis)).collect();
+        central.filter_map(|(name, body, axis)| single(name, body, axis)).collect();
     if races.is_pair() {
         // No pattern over one planet leaves the sun at rest.
         let of_planet = [("planet x force", 0), ("planet y force", 1), ("planet torque", 2)];

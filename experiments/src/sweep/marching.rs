@@ -1,7 +1,6 @@
 //! Interface between a sweep and a model that is integrated in time.
 
 use dynamics::{CarriedChange, MapDerivative};
-use fe_contact::statics::SUN;
 use fe_contact::vibration::{Along, LoadedStep, VibratingSet};
 use gearset::Symmetry;
 
@@ -53,7 +52,7 @@ pub trait Marching {
     }
 
     /// Kinematic rest (largest deviation of a pair's approach from its linear form) at a step since which the set has not passed
-    /// that position of the cycle, and the sun's base radius, m; `None` as [`loaded_step`](Self::loaded_step).
+    /// that position of the cycle, and the radius of the member that the torque acts on, m; `None` as [`loaded_step`](Self::loaded_step).
     fn kinematic_rest(&self, at: &LoadedStep) -> Option<[f64; 2]> {
         let _ = at;
         None
@@ -130,7 +129,8 @@ impl Marching for FeMarching<'_> {
     }
 
     fn kinematic_rest(&self, at: &LoadedStep) -> Option<[f64; 2]> {
-        Some([self.set.kinematic_rest(at), self.set.races().radii[SUN]])
+        let races = self.set.races();
+        Some([self.set.kinematic_rest(at), races.radii[races.loaded().0]])
     }
 
     fn effort(&self) -> Effort {

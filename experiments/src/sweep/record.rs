@@ -24,6 +24,9 @@ pub struct Record {
 
 /// Channels of the sun: x, y, rotation.
 pub(super) const SUN: [usize; 3] = [6, 7, 8];
+/// The same of the ring and of the carrier.
+pub(super) const RING: [usize; 3] = [3, 4, 5];
+pub(super) const CARRIER: [usize; 3] = [0, 1, 2];
 
 /// Displacements of carrier, ring and sun with x and y turned to radial (towards planet 0, at ψ₀) and tangential.
 pub(crate) fn radial(central: [[f64; 3]; 3], first_planet_rad: f64) -> [[f64; 3]; 3] {

@@ -18,7 +18,7 @@ use fe_contact::vibration::Along;
 use super::critical_motion::CriticalMotion;
 use super::point::StepError;
 use super::shooting::RecordedCycles;
-use super::state::{Coordinate, Part, SteadyState};
+use super::state::{Coordinate, SteadyState};
 use super::sweep_model::{MOST_TIMES, SweepModel};
 use crate::error::ExperimentError;
 use crate::table_growth::large_enough;
@@ -102,12 +102,12 @@ pub fn steps_needed(
     Ok(enough.filter(|steps| *steps > usual))
 }
 
-/// Harmonics in which the sun translates or turns by at least [`STRONG`] of its largest amplitude of the kind.
+/// Harmonics in which the sun, or the member that turns where it is held, translates or turns by at least [`STRONG`] of its largest amplitude of the kind.
 fn strong_harmonics(state: &SteadyState, highest: usize) -> Vec<usize> {
-    let of_sun: Vec<_> = state.with_translations().into_iter().collect();
+    let (member, all) = (state.turning_member(), state.with_translations());
     let strong = |coordinate: Coordinate| {
-        let lines = of_sun.iter().filter(move |line| {
-            line.part == Part::Sun && line.coordinate == coordinate && line.harmonic > 0
+        let lines = all.iter().filter(move |line| {
+            line.part == member && line.coordinate == coordinate && line.harmonic > 0
         });
         let largest = lines.clone().map(|line| line.amplitude).fold(0.0, f64::max);
         lines

@@ -4,7 +4,7 @@ use fe_contact::statics::KinematicRest;
 use fe_contact::vibration::LoadedStep;
 
 use super::marching::Marching;
-use super::record::{Record, SUN};
+use super::record::{CARRIER, RING, Record, SUN};
 
 /// Number of positions of a mesh cycle at which exact kinematics are evaluated.
 const SAMPLED: usize = 14;
@@ -35,7 +35,7 @@ impl RestSamples {
         }
     }
 
-    /// The largest kinematic rest, also relative to the sun's largest peak-to-peak motion over the recorded cycle, the last one
+    /// The largest kinematic rest, also relative to the largest peak-to-peak motion of the sun, or of the member that turns in its place, over the recorded cycle, the last one
     /// that the set marched; `None` for a set without. The motion includes x and y, since the transmission error (rotation at
     /// the base circle) is small at resonances of translational modes.
     pub(super) fn rest(&self, set: &dyn Marching, record: &Record) -> Option<KinematicRest> {
@@ -46,7 +46,10 @@ impl RestSamples {
             largest = if largest.is_nan() || largest >= rest { largest } else { rest };
             radius = Some(base_radius);
         }
-        let [x, y, rotation] = SUN.map(|channel| record.range(channel));
+        // A sun that is held does not turn: the torque then acts on the ring or the carrier.
+        let turns = |body: &[usize; 3]| record.range(body[2]) > 0.0;
+        let body = [SUN, RING, CARRIER].into_iter().find(turns).unwrap_or(SUN);
+        let [x, y, rotation] = body.map(|channel| record.range(channel));
         radius.map(|radius| KinematicRest::new(largest, x.max(y).max(radius * rotation)))
     }
 }

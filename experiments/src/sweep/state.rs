@@ -183,6 +183,16 @@ impl SteadyState {
             .find(|l| l.part == part && l.coordinate == coordinate && l.harmonic == harmonic)
     }
 
+    /// The central member whose motion stands for that of the set: the sun, or where that does not turn, because it is held,
+    /// the ring or the carrier.
+    pub fn turning_member(&self) -> Part {
+        let turns = |part: &Part| {
+            let rotates = |l: &&Line| l.part == *part && l.coordinate == Coordinate::Rotation;
+            self.lines.iter().filter(rotates).any(|l| l.harmonic > 0 && l.amplitude > 0.0)
+        };
+        [Part::Sun, Part::Ring, Part::Carrier].into_iter().find(turns).unwrap_or(Part::Sun)
+    }
+
     /// The lines with those of each body's [`Coordinate::Translation`] after its rotation, in every harmonic
     /// of vibration (from 1).
     pub fn with_translations(&self) -> Vec<Line> {

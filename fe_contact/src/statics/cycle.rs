@@ -277,11 +277,13 @@ impl<'s> StaticSet<'s> {
     pub(super) fn state_of(&self, found: &Equilibrium<'_>, kinematic_rest: f64) -> SetState {
         let Equilibrium { position, q, meshes, answers, residual, counts, .. } = found;
         let (central, planets) = self.displacements(q);
+        let (loaded, share) = self.races.loaded();
         let mut states: Vec<MeshState> =
             meshes.iter().zip(answers).map(|(mesh, answer)| mesh.state(q, answer)).collect();
         SetState {
             position: *position,
             central,
+            loaded_rotation: share * central[loaded][2],
             planets,
             backside: states.split_off(self.nominal.len()),
             meshes: states,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use gearset::{Displacements, Freedom, GivenInertia, MeshKind, Scene, Support, Torsional};
+use gearset::{Displacements, Freedom, GivenInertia, Member, MeshKind, Scene, Support, Torsional};
 
 use super::bodies::Bodies;
 use crate::body::CarrierBody;
@@ -39,8 +39,9 @@ pub struct Races {
     pub(crate) seated: usize,
     /// Supports to ground: carrier, ring, sun; of a pair its planet, too.
     supports: Vec<Support>,
-    /// Torque that balances a unit torque on the sun, on a planet of a pair that turns freely; else 0.
-    balancing: f64,
+    /// External torques under a unit torque on the sun, by body: on the member that turns without support, and on a planet of a
+    /// pair that turns freely the one that balances it. The first body is the loaded one.
+    torques: Vec<(usize, f64)>,
 }
 
 /// Number of the carrier in the order of the bodies.
@@ -107,8 +108,17 @@ impl Races {
             radii[SUN] *= (m_s + m_p) / m_p;
             radii[PLANETS] *= (m_s + m_p) / m_s;
         }
-        let balances = pair.is_some_and(|pair| pair.planet.turns_freely());
-        let balancing = if balances { base_radii[PLANETS] / base_radii[SUN] } else { 0.0 };
+        // T_s : T_r : T_c = r_s : r_r : −(r_s + r_r) of base radii, which are as the numbers of teeth.
+        let [_, ring, sun, planet] = base_radii;
+        let mut torques = vec![match scene.loaded_member() {
+            Ok(Member::Ring) => (RING, ring / sun),
+            Ok(Member::Carrier) => (CARRIER, -(sun + ring) / sun),
+            // Supports under which a torque has no path are refused before, or by the equilibrium.
+            Ok(Member::Sun) | Err(_) => (SUN, 1.0),
+        }];
+        if pair.is_some_and(|pair| pair.planet.turns_freely()) {
+            torques.push((PLANETS, planet / sun));
+        }
         let seated = if pair.is_some() { 0 } else { n };
         let shape = scene.geometry.as_ref().and_then(|g| g.carrier);
         let (a, width) = (geometry.center_distance, geometry.face_width);
@@ -123,7 +133,7 @@ impl Races {
             base_radii,
             seated,
             supports,
-            balancing,
+            torques,
             stiffness: DMatrix::zeros(next, next),
             carrier,
             count: next,
@@ -170,15 +180,21 @@ impl Races {
         }
     }
 
-    /// Generalised load of a torque on the sun (N m, magnitude), with the torque on a planet that balances it, N.
+    /// Generalised load where the torque on the sun is `torque_nm` (N m, magnitude), which acts on the loaded member in
+    /// proportion, with the torque on a planet that balances it, N.
     pub(crate) fn load(&self, torque_nm: f64) -> DVector<f64> {
         let mut f = DVector::zeros(self.count);
-        for (body, torque) in [(SUN, torque_nm), (PLANETS, self.balancing * torque_nm)] {
-            if let Some(i) = self.of(body, 2) {
-                f[i] += torque / self.radii[body];
+        for (body, share) in &self.torques {
+            if let Some(i) = self.of(*body, 2) {
+                f[i] += share * torque_nm / self.radii[*body];
             }
         }
         f
+    }
+
+    /// The body that the torque acts on, and its torque under a unit torque on the sun.
+    pub fn loaded(&self) -> (usize, f64) {
+        self.torques.first().copied().unwrap_or((SUN, 1.0))
     }
 
     /// Body and quantity of a coordinate.

@@ -44,6 +44,9 @@ pub struct SetState {
     pub meshes: Vec<MeshState>,
     /// Loaded backside flanks; phases count in the mirrored mesh.
     pub backside: Vec<MeshState>,
+    /// Rotation of the member that the torque acts on, times its torque over that of the sun, rad: the sun's rotation, unless
+    /// the sun is held.
+    pub loaded_rotation: f64,
     /// Torques that the gears exert on carrier and ring.
     pub reactions: ThroughTorques,
     /// Kinematic rest: largest difference of a loaded pair's approach, by exact kinematics at these
@@ -58,9 +61,10 @@ pub struct SetState {
 }
 
 impl SetState {
-    /// r_b · sun rotation, m.
+    /// r_b θ of the member that the torque acts on, by work: r_b of the sun times [`loaded_rotation`](Self::loaded_rotation), m.
+    /// With the sun held and the torque on the ring it is r_b θ of the ring.
     pub fn transmission_error(&self, sun_base_radius: f64) -> f64 {
-        self.central[2][2] * sun_base_radius
+        self.loaded_rotation * sun_base_radius
     }
 }
 
@@ -151,7 +155,7 @@ impl SetCycle {
         }
     }
 
-    /// Transmission error r_b θ of the sun, m.
+    /// Transmission error r_b θ of the loaded member, the sun unless it is held, m.
     pub fn transmission_error(&self, sun_base_radius: f64) -> CycleRange {
         self.range(|s| s.transmission_error(sun_base_radius))
     }
