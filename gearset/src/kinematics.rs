@@ -15,6 +15,7 @@
 
 use std::f64::consts::TAU;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::scene::{Member, Operation, Scene, SceneKind};
@@ -42,7 +43,7 @@ pub enum KinematicsError {
 }
 
 /// Angular speeds of all members, counter-clockwise positive, all in one unit.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct MemberSpeeds {
     /// ω_s.
     pub sun: f64,
@@ -79,7 +80,7 @@ impl MemberSpeeds {
 
 /// External torques that hold the central members in steady motion, N·m, counter-clockwise
 /// positive.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct MemberTorques {
     /// T_s.
     pub sun: f64,

@@ -105,7 +105,8 @@ impl LoadCase {
             input_torque_nm: 0.0,
             sun_torque_nm: 0.0,
             speed_rpm: 0.0,
-            sun_turns: sense(of_one * operation.speed_rpm),
+            // At a standstill as with a positive speed.
+            sun_turns: sense(of_one * if operation.speed_rpm < 0.0 { -1.0 } else { 1.0 }),
             mesh_frequency_hz: 0.0,
             // T_s = T_in z_s/z_in, linear in T_in
             sun_torque_ratio: kinematics.torques_nm(1.0).sun,

@@ -445,7 +445,7 @@ pub struct Operation {
     pub fixed: Member,
     /// The member whose speed and torque are given.
     pub input: Member,
-    /// Its speed, rpm, counter-clockwise positive.
+    /// Its speed, rpm, counter-clockwise positive: the sense also counts where speeds are swept, as magnitudes.
     pub speed_rpm: f64,
     /// Its external torque, N·m, counter-clockwise positive.
     pub torque_nm: f64,

@@ -4,8 +4,8 @@ use fe_contact::FeError;
 use fe_contact::statics::within_memory;
 use gearset::involute::roll_length_at;
 use gearset::{
-    Gear, Geometry, Kinematics, LoadCase, Mesh, MeshKind, Phasing, ReliefShape, Scene, SceneKind,
-    Verb,
+    Gear, Geometry, Kinematics, LoadCase, Member, MemberSpeeds, MemberTorques, Mesh, MeshKind,
+    PathDirection, Phasing, ReliefShape, Scene, SceneKind, Verb,
 };
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -30,6 +30,8 @@ pub(crate) struct SceneSummary {
     pub(super) ring_mesh_phases: Option<Vec<f64>>,
     pub(super) mesh_frequency_hz: Option<f64>,
     pub(super) carrier_speed_rpm: Option<f64>,
+    /// Speeds and torques at the operating point.
+    pub(super) motion: Option<MotionSummary>,
     pub(super) limits: Vec<String>,
     /// Finite-element bodies of the gears; null if they cannot be meshed.
     pub(super) fe_bodies: Option<FeBodiesSummary>,
@@ -37,6 +39,48 @@ pub(crate) struct SceneSummary {
     pub(super) warnings: Vec<WarningSummary>,
     /// Every verb that reads a scene, `sweep` at each fidelity.
     pub(super) verbs: Vec<VerbSummary>,
+}
+
+/// Speeds and torques of a whole set at its operating point, counter-clockwise positive.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct MotionSummary {
+    /// Member that stands still.
+    pub(super) fixed: Member,
+    /// Member whose speed and torque are given.
+    pub(super) input: Member,
+    pub(super) output: Member,
+    /// Whether power goes in at the input member; otherwise it is braked.
+    pub(super) drives: bool,
+    /// Speed of the output member over that of the input member.
+    pub(super) speed_ratio: f64,
+    pub(super) speeds_rpm: MemberSpeeds,
+    /// External torques that hold the members in steady motion, without friction.
+    pub(super) torques_nm: MemberTorques,
+    /// Direction in which tooth pairs run along the path of contact: forward, from its start to its end, where the sun's
+    /// power relative to the carrier is positive.
+    pub(super) pairs_run: PathDirection,
+    /// Member that the torque acts on in experiments, because it turns without support; null if it has no path.
+    pub(super) torque_acts_on: Option<Member>,
+}
+
+impl MotionSummary {
+    fn of(scene: &Scene) -> Option<Self> {
+        let kinematics = Kinematics::from_scene(scene).ok()?;
+        let case = LoadCase::of_scene(scene).ok()?;
+        let operation = scene.operation?;
+        let Kinematics { fixed, input, output, speed_ratio, speeds_rpm, .. } = kinematics;
+        Some(Self {
+            fixed,
+            input,
+            output,
+            drives: operation.speed_rpm * operation.torque_nm >= 0.0,
+            speed_ratio,
+            speeds_rpm,
+            torques_nm: kinematics.torques_nm(operation.torque_nm),
+            pairs_run: case.direction(),
+            torque_acts_on: scene.loaded_member().ok(),
+        })
+    }
 }
 
 /// Size of the finite-element bodies of the gears.
@@ -142,6 +186,7 @@ impl SceneSummary {
             ring_mesh_phases: phases.as_ref().map(|p| relative(&p.ring_planet, zero)),
             mesh_frequency_hz,
             carrier_speed_rpm: kinematics.as_ref().map(|k| k.speeds_rpm.carrier),
+            motion: MotionSummary::of(scene),
             limits: scene.limits(),
             fe_bodies: admitted.as_ref().ok().map(|found| FeBodiesSummary {
                 degrees_of_freedom: found.bodies.iter().map(|b| b.unknowns).sum(),

@@ -2,9 +2,11 @@
 
 use std::io::Write;
 
+use gearset::{Member, PathDirection};
+
 use crate::output;
 
-use super::scene_summary::{SceneSummary, VerbSummary};
+use super::scene_summary::{MotionSummary, SceneSummary, VerbSummary};
 
 /// Writes the summary of a scene.
 pub(super) fn text(summary: &SceneSummary, out: &mut dyn Write) -> std::io::Result<()> {
@@ -59,6 +61,9 @@ pub(super) fn text(summary: &SceneSummary, out: &mut dyn Write) -> std::io::Resu
     }
     if let (Some(f), Some(n)) = (summary.mesh_frequency_hz, summary.carrier_speed_rpm) {
         writeln!(out, "mesh frequency {f:.2} Hz, carrier at {n:.2} rpm")?;
+    }
+    if let Some(motion) = &summary.motion {
+        write_motion(motion, out)?;
     }
     for g in &summary.gears {
         if let Some(r) = &g.tip_relief {
@@ -117,4 +122,38 @@ fn verbs(verbs: &[VerbSummary], out: &mut dyn Write) -> std::io::Result<()> {
         told.push(verb);
     }
     Ok(())
+}
+/// Speeds and torques of all members.
+fn write_motion(motion: &MotionSummary, out: &mut dyn Write) -> std::io::Result<()> {
+    let MotionSummary { speeds_rpm: speeds, torques_nm: torques, .. } = motion;
+    writeln!(
+        out,
+        "the {} {}, the {} stands still; ratio of the {}'s speed to it {:.5}",
+        motion.input.name(),
+        if motion.drives { "drives" } else { "is braked" },
+        motion.fixed.name(),
+        motion.output.name(),
+        motion.speed_ratio
+    )?;
+    let mut table = output::table(&["member", "rpm", "torque N·m"], &[1, 2]);
+    for member in [Member::Sun, Member::Ring, Member::Carrier] {
+        let (speed, torque) = (speeds.of(member), torques.of(member));
+        table.add_row([member.name().into(), format!("{speed:.4}"), format!("{torque:.1}")]);
+    }
+    table.add_row(["planet".into(), format!("{:.4}", speeds.planet), String::new()]);
+    let on_pin = format!("{:.4}", speeds.planet_relative_to_carrier);
+    table.add_row(["planet on its pin".into(), on_pin, String::new()]);
+    writeln!(out, "{table}")?;
+    let (from, to, sign) = match motion.pairs_run {
+        PathDirection::Forward => ("start", "end", "positive"),
+        PathDirection::Backward => ("end", "start", "negative"),
+    };
+    write!(
+        out,
+        "tooth pairs run from the {from} of the path of contact to its {to}: the sun's power relative to the carrier is {sign}"
+    )?;
+    match motion.torque_acts_on {
+        Some(member) => writeln!(out, "; in experiments the torque acts on the {}", member.name()),
+        None => writeln!(out),
+    }
 }
