@@ -19,6 +19,10 @@ pub enum PublishedScene {
     Oh58SecondSystem,
     /// Five equally spaced planets.
     FivePlanets,
+    /// A wind turbine's first stage: the carrier drives, the ring stands still.
+    WindTurbineStage,
+    /// A set of an automatic transmission: the ring drives, the sun stands still.
+    AutomaticTransmissionSet,
     /// OH-58 lumped model as published: 24.6° twice, equal spacing, four planets.
     Oh58FourPlanetsAsPublished,
     /// The same with three planets.
@@ -51,6 +55,8 @@ pub fn scene(which: PublishedScene) -> Result<Scene, SceneError> {
         }
         PublishedScene::Oh58SecondSystem => file!("oh58_4p_second_system.toml"),
         PublishedScene::FivePlanets => file!("five_planets.toml"),
+        PublishedScene::WindTurbineStage => file!("wind_turbine_stage.toml"),
+        PublishedScene::AutomaticTransmissionSet => file!("automatic_transmission_set.toml"),
         PublishedScene::Oh58FourPlanetsAsPublished => file!("oh58_4p_as_published.toml"),
         PublishedScene::Oh58ThreePlanetsAsPublished => file!("oh58_3p_as_published.toml"),
         PublishedScene::LinParkerThreePlanets => file!("lin_parker_1999_3p.toml"),

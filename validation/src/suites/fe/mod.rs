@@ -10,6 +10,7 @@ pub(crate) mod hertz;
 pub(crate) mod iso6336;
 pub(crate) mod kinematics;
 pub(crate) mod lumped_from_fe;
+mod machines;
 pub(crate) mod modal;
 pub(crate) mod resolved;
 pub(crate) mod sets;

@@ -53,7 +53,7 @@ pub(crate) fn speeds(first: f64, last: f64, ratio: f64) -> Vec<f64> {
 }
 
 /// Over whole cycles: what planet phasing forbids must come out, not be put in.
-fn steady_settings() -> SteadySettings {
+pub(super) fn steady_settings() -> SteadySettings {
     SteadySettings { tolerance: 1e-9, whole_cycles: true, ..SteadySettings::default() }
 }
 
@@ -147,6 +147,7 @@ fn judged(
 /// `four planets` or, of another model, `four planets, lumped`, for people.
 fn words(name: &str) -> String {
     match name.split_once('_') {
+        _ if name.starts_with("machine_") => name.replace('_', " ").replace("machine ", ""),
         Some((count, model)) => format!("{count} planets, {}", model.replace('_', " ")),
         None => format!("{name} planets"),
     }
@@ -239,8 +240,9 @@ fn harmonics_of_modes(
     Ok(checks)
 }
 
-/// The forces of the sun meshes follow one another with the phase differences of the planets' meshes.
-fn order(
+/// The forces of the sun meshes follow one another with the phase differences of the planets' meshes, in the sense in which the
+/// sun of the scene turns relative to the carrier.
+pub(super) fn order(
     reference: &Reference,
     scene: &Scene,
     name: &str,
@@ -248,14 +250,15 @@ fn order(
 ) -> Result<Check, ValidationError> {
     let id = format!("sweep.order.{name}");
     let title = format!(
-        "{name} planets: mesh forces of the sun against the order that the planets' phases say, harmonics 1 to 5, in cycles"
+        "{}: mesh forces of the sun against the order that the planets' phases say, harmonics 1 to 5, in cycles",
+        words(name)
     );
     let off = states.iter().map(|s| order_of_meshes(s, scene).unwrap_or(f64::NAN));
     Ok(reference.about(&id, &title)?.at_most(worst(off)))
 }
 
 /// Whether our own models reach steady states, and the energy between harmonics.
-fn marches(lab: &Lab<'_>, name: &str, points: &[&SweepPoint]) -> Checks {
+pub(super) fn marches(lab: &Lab<'_>, name: &str, points: &[&SweepPoint]) -> Checks {
     let words = words(name);
     let id = format!("sweep.unsteady.{name}");
     let title = format!("{words}: speeds at which cycles do not come to repeat");
@@ -293,6 +296,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     checks.extend(five(lab, ratios)?);
     checks.extend(reduced(lab, ratios)?);
     checks.extend(controls(lab)?);
+    checks.extend(super::machines::checks(lab)?);
     lab.gears.drop_unused();
     Ok(checks)
 }
@@ -451,15 +455,15 @@ fn controls(lab: &Lab<'_>) -> Checks {
 }
 
 /// Largest deviation of the sun meshes' forces from F_n(t) = F_0(t + φ_n/f_m), which holds for equally spaced
-/// planets with the mesh phases φ_n, in cycles of the harmonic.
+/// planets with the mesh phases φ_n of a sun that turns with σ relative to the carrier, in cycles of the harmonic.
 fn order_of_meshes(point: &SteadyState, scene: &Scene) -> Option<f64> {
-    let teeth = f64::from(scene.teeth?.sun?);
+    let teeth = f64::from(scene.teeth?.sun?) * LoadCase::of_scene(scene).ok()?.sun_turns.sign();
     let mut largest = 0.0f64;
     for l in 1..=5 {
         let first = point.line(Part::SunMesh(0), Coordinate::Force, l)?;
         for (n, psi) in scene.planets.psi_rad.iter().enumerate().skip(1) {
             let own = point.line(Part::SunMesh(n), Coordinate::Force, l)?;
-            // φ_n = −Z_s ψ_n/2π
+            // φ_n = −σ Z_s ψ_n/2π
             let expected = -(l as f64) * teeth * psi / TAU;
             let off = (own.phase_rad - first.phase_rad) / TAU - expected;
             largest = largest.max((off - off.round()).abs());
