@@ -24,20 +24,40 @@ const MACHINES: [(Member, Member, PathDirection); 6] = [
     (Member::Ring, Member::Sun, PathDirection::Backward),
 ];
 
-/// Largest and smallest torque of the cases, on the sun, N m.
+/// Magnitude of the torque on the sun, N m.
 const SUN_NM: f64 = 1130.0;
 
-/// OH-58 with four planets as a machine that turns at a mesh frequency, with its torque and speed in given senses; rotations
-/// are held where the catalogue holds them, or of the two members that no torque drives.
-fn machine(driver: Member, held: Member, [speed, torque]: [f64; 2]) -> (Scene, LoadCase) {
+/// OH-58 with four planets as a machine with its speed and torque in given senses. The torque acts on a member that turns, the
+/// other two are held.
+fn machine_loaded_at(
+    loaded: Member,
+    (driver, held): (Member, Member),
+    [speed, torque]: [f64; 2],
+) -> (Scene, LoadCase) {
+    use gearset::Freedom::{Free, RotationHeld};
     let mut scene = shipped::scene("oh58_4p", 56, 1.0);
     scene.fe_contact.flank_elements = 6;
+    let supports = &mut scene.supports;
+    supports.ring.bearing = supports.sun.bearing;
+    for (member, support) in [
+        (Member::Sun, &mut supports.sun),
+        (Member::Ring, &mut supports.ring),
+        (Member::Carrier, &mut supports.carrier),
+    ] {
+        support.motion = if member == loaded { Free } else { RotationHeld };
+    }
     let operation = scene.operation.as_mut().unwrap();
     (operation.input, operation.fixed) = (driver, held);
     (operation.speed_rpm, operation.torque_nm) = (speed, torque);
     let case = LoadCase::of_scene(&scene).unwrap();
     let sun_nm = SUN_NM * case.sun_torque_nm.signum();
+    assert_eq!(scene.loaded_member(), Ok(loaded));
     (scene, case.with_sun_torque(sun_nm))
+}
+
+/// The same, loaded at its driver.
+fn machine(driver: Member, held: Member, signs: [f64; 2]) -> (Scene, LoadCase) {
+    machine_loaded_at(driver, (driver, held), signs)
 }
 
 fn at(model: &dyn SweepModel, mesh_hz: f64) -> SweepPoint {
@@ -79,10 +99,15 @@ fn sun_meshes_come_in_the_order_in_which_their_planets_pass() {
                     expected.rem_euclid(1.0)
                 );
             }
-            // The sun is wound up in the sense of its torque.
-            let windup = point.state.line(Part::Sun, Coordinate::Rotation, 0).unwrap();
-            let sense = windup.amplitude * windup.phase_rad.cos();
-            assert!(sense * case.sun_torque_nm > 0.0);
+            // The loaded member is wound up in the sense of its torque.
+            let (part, torque) = match driver {
+                Member::Sun => (Part::Sun, case.sun_torque_nm),
+                Member::Ring => (Part::Ring, case.sun_torque_nm),
+                Member::Carrier => (Part::Carrier, -case.sun_torque_nm),
+            };
+            assert!(case.input_torque_nm * torque > 0.0);
+            let windup = point.state.line(part, Coordinate::Rotation, 0).unwrap();
+            assert!(windup.amplitude * windup.phase_rad.cos() * torque > 0.0);
         }
     }
 }
@@ -131,13 +156,14 @@ fn mirror_images_pair_up() {
 /// A set driven through the carrier against a held ring is the same set braked through its sun.
 #[test]
 fn driving_through_the_carrier_is_braking_through_the_sun() {
-    let (scene, driven) = machine(Member::Carrier, Member::Ring, [100.0, 300.0]);
-    let (_, braked) = machine(Member::Sun, Member::Ring, [100.0, -300.0]);
+    let of = |driver, signs| machine_loaded_at(Member::Sun, (driver, Member::Ring), signs);
+    let (scene, driven) = of(Member::Carrier, [100.0, 300.0]);
+    let (_, braked) = of(Member::Sun, [100.0, -300.0]);
     assert!(driven.sun_torque_nm < 0.0 && driven.direction() == PathDirection::Backward);
     let [a, b] = [driven, braked].map(|case| marched(&scene, case, 700.0));
     assert!(a == b);
     // Driving through the sun under the same torque is another motion.
-    let (_, other) = machine(Member::Sun, Member::Ring, [-100.0, -300.0]);
+    let (_, other) = of(Member::Sun, [-100.0, -300.0]);
     assert!(a != marched(&scene, other, 700.0));
 }
 

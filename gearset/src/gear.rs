@@ -143,7 +143,7 @@ impl Gear {
     }
 }
 
-/// Which of a lobe's two flanks: the one at its counter-clockwise or at its clockwise end.
+/// Which of a lobe's two flanks: the one at its counter-clockwise or at its clockwise end; of a torque or a rotation, its sense.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Facing {
@@ -159,6 +159,14 @@ impl Facing {
         match self {
             Self::CounterClockwise => 1.0,
             Self::Clockwise => -1.0,
+        }
+    }
+
+    /// As tables print it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::CounterClockwise => "counter_clockwise",
+            Self::Clockwise => "clockwise",
         }
     }
 

@@ -292,7 +292,7 @@ impl Scene {
     }
 
     fn lacks_torque_path(&self, lacks: &mut Vec<Lack>) {
-        if let Err(e) = self.loaded_member() {
+        if let Err(e) = self.torque_path() {
             lacks.push(lack(
                 e.key,
                 format!("it is \"{}\": allowed is {}, because {}", e.value, e.allowed, e.why),

@@ -1,7 +1,7 @@
 //! Which member a torque acts on, and whether it can load the meshes.
 
 use crate::mesh_kind::MeshKind;
-use crate::scene::{Freedom, Member, Scene, SceneKind};
+use crate::scene::{Freedom, Member, Operation, Scene, SceneKind};
 
 /// The supports let no torque pass from the sun through the meshes.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -27,7 +27,7 @@ impl Scene {
     /// its support.
     ///
     /// # Errors
-    /// [`NoTorquePath`] with the first support that lets no torque pass, or the held member that the torque would turn.
+    /// [`NoTorquePath`] with the first support that lets no torque pass.
     pub fn loaded_member(&self) -> Result<Member, NoTorquePath> {
         let supports = &self.supports;
         let is_pair = self.kind == SceneKind::GearPair;
@@ -75,7 +75,18 @@ impl Scene {
                 why: "the torque acts on a member that can turn: here all three pass it to their supports, and no tooth is loaded",
             });
         };
-        if self.operation.is_some_and(|operation| operation.fixed == *loaded) {
+        Ok(*loaded)
+    }
+
+    /// Whether a torque on the [loaded member](Self::loaded_member) loads the meshes, and whether the operating point agrees with
+    /// the supports about the member that stands still.
+    ///
+    /// # Errors
+    /// As [`loaded_member`](Self::loaded_member), or if the operating point holds the member that the torque would turn.
+    pub fn torque_path(&self) -> Result<(), NoTorquePath> {
+        let loaded = self.loaded_member()?;
+        let holds_it = |operation: Operation| operation.fixed == loaded;
+        if self.kind == SceneKind::Planetary && self.operation.is_some_and(holds_it) {
             return Err(NoTorquePath {
                 key: "operation.fixed",
                 value: loaded.name(),
@@ -84,7 +95,7 @@ impl Scene {
                       alone free to turn, so that the torque would turn it",
             });
         }
-        Ok(*loaded)
+        Ok(())
     }
 }
 
@@ -141,7 +152,7 @@ mod tests {
             scene.supports.carrier.motion = carrier;
             let operation = scene.operation.as_mut().unwrap();
             (operation.fixed, operation.input) = (fixed, input);
-            scene.loaded_member().map_err(|e| e.key)
+            scene.torque_path().and_then(|()| scene.loaded_member()).map_err(|e| e.key)
         };
         use Member::{Carrier, Ring, Sun};
         assert_eq!(loaded(Free, Held, Held, [Ring, Sun]), Ok(Sun));

@@ -81,7 +81,8 @@ pub(super) fn run(
                 BranchParameter::Speed => settings.range[0],
                 _ => case.speed_rpm,
             };
-            if let Some(needed) = steps_needed(model.as_ref(), slowest_rpm)? {
+            // A set that cannot be built is refused by the search below.
+            if let Ok(Some(needed)) = steps_needed(model.as_ref(), slowest_rpm) {
                 writeln!(
                     err,
                     "warning: at {slowest_rpm} rpm the vibrations of the set need {needed} steps in a mesh cycle, not {steps} (`dynamics.steps_per_cycle`): \

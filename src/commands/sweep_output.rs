@@ -71,7 +71,7 @@ pub(super) struct Sidecar<'a> {
     head: serde_json::Map<String, serde_json::Value>,
     /// The scene file.
     scene_file: &'a str,
-    columns: [(&'static str, &'static str); 20],
+    columns: [(&'static str, &'static str); 21],
     points: Vec<PointHead<'a>>,
     /// Speeds that have no rows in the table, with the reason.
     failed: &'a [FailedPoint],
@@ -116,7 +116,7 @@ struct PointHead<'a> {
     kinematic_rest_share: Option<f64>,
 }
 
-const COLUMNS: [(&str, &str); 20] = [
+const COLUMNS: [(&str, &str); 21] = [
     ("scene", "title of the scene"),
     ("fidelity", "fidelity of the fidelity ladder"),
     ("sun_torque_nm", "torque on the sun, N m"),
@@ -164,6 +164,7 @@ const COLUMNS: [(&str, &str); 20] = [
         "start",
         "where the search began: rest, the speed before, an unstable motion, pushed, or a random start",
     ),
+    ("sun_turns", "sense in which the sun turns relative to the carrier"),
 ];
 
 impl SweepOutput {

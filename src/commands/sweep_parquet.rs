@@ -23,7 +23,7 @@ enum Column {
 use Column::{Count, Number, OptionalCount, OptionalNumber, Text};
 
 /// Named and ordered as in the CSV.
-const COLUMNS: [(&str, Column); 20] = [
+const COLUMNS: [(&str, Column); 21] = [
     ("scene", Text(|row| &row.scene)),
     ("fidelity", Text(|row| &row.fidelity)),
     ("sun_torque_nm", Number(|row| row.sun_torque_nm)),
@@ -44,6 +44,7 @@ const COLUMNS: [(&str, Column); 20] = [
     ("multiplier_kind", Text(|row| &row.multiplier_kind)),
     ("mode_type", Text(|row| &row.mode_type)),
     ("start", Text(|row| &row.start)),
+    ("sun_turns", Text(|row| &row.sun_turns)),
 ];
 
 /// The table as one row group.
@@ -126,6 +127,7 @@ mod tests {
             multiplier_kind: "fold".into(),
             mode_type: "rotational".into(),
             start: "rest".into(),
+            sun_turns: "counter_clockwise".into(),
         };
         let rows = [row(800.0, 1), row(900.0, 2), row(1000.0, 3)];
         let folder = tempfile::tempdir().unwrap();

@@ -10,6 +10,7 @@ mod figures;
 mod harness;
 mod help;
 mod impulse_command;
+mod machines;
 mod mutated_scenes;
 mod progress;
 mod readings;

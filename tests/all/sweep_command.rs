@@ -126,7 +126,7 @@ fn folders_that_hold_other_results_or_cannot_be_written_are_left_alone() {
     for (manifest, words) in [
         ("{\"format\": 99}", "format 99 where this program writes 5"),
         ("nonsense", "its manifest is no JSON"),
-        ("{\"format\": 4}", "its manifest lacks keys"),
+        ("{\"format\": 5}", "its manifest lacks keys"),
     ] {
         std::fs::write(out.join("plan.json"), manifest).unwrap();
         let text = run(out.to_str().unwrap());

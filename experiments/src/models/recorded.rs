@@ -6,17 +6,17 @@
 //! |---|---|---|
 //! | `modes.csv` | a natural frequency | `scene`, `frequency_hz`, `mode_type` (`rotational`, `translational`, `planet`, `mixed`), `multiplicity` (1 if absent) |
 //! | `mesh_cycle.csv` | one quantity at one position | `scene`, `sun_torque_nm`, `position` (0 to 1), `body`, `coordinate`, `value` |
-//! | `steady_states.csv` | one harmonic at one speed | `scene`, `sun_torque_nm`, `speed_rpm`, `mesh_frequency_hz`, `body`, `coordinate`, `harmonic`, `amplitude`, `phase_rad` |
+//! | `steady_states.csv` | one harmonic at one speed | `scene`, `sun_torque_nm`, `speed_rpm`, `mesh_frequency_hz`, `body`, `coordinate`, `harmonic`, `amplitude`, `phase_rad`, `sun_turns` (as the torque on the sun if absent) |
 //!
 //! `scene` is the title in the scene file. Bodies are `sun`, `planet_0`, `sun_mesh_0`, `ring_mesh_0` and so on;
 //! coordinates are `x`, `y`, `rotation` and `force` in a mesh cycle, `radial`, `tangential`, `rotation` and `force`
 //! in steady states, which are written so by `epicyclic sweep --out`; its further coordinates (`translation`,
 //! `share`, `contact_loss`, `lowest_force`, `backside_contact`) may be there. `sun_torque_nm` is the torque on the
-//! sun. Units are Hz, N m, rpm, m, rad, N.
+//! sun; `sun_turns` is `counter_clockwise` or `clockwise`, relative to the carrier. Units are Hz, N m, rpm, m, rad, N.
 
 use std::path::{Path, PathBuf};
 
-use gearset::{LoadCase, Scene, read_text};
+use gearset::{Facing, LoadCase, Scene, read_text};
 use lumped::ModeType;
 use serde::{Deserialize, Serialize};
 
@@ -122,6 +122,8 @@ struct StateRow {
     harmonic: usize,
     amplitude: f64,
     phase_rad: f64,
+    #[serde(default)]
+    sun_turns: Option<Facing>,
 }
 
 /// The number of a column, if it is finite.
@@ -260,6 +262,7 @@ impl Recorded {
                 harmonic: line.harmonic,
                 amplitude: line.amplitude,
                 phase_rad: line.phase_rad,
+                sun_turns: Some(state.case.sun_turns),
             })
         });
         save(folder, "steady_states.csv", states)
@@ -356,19 +359,18 @@ impl Recorded {
             amplitude: row.amplitude,
             phase_rad: row.phase_rad,
         };
+        let mut case = LoadCase::turning(row.sun_torque_nm, row.speed_rpm, row.mesh_frequency_hz);
+        case.sun_turns = row.sun_turns.unwrap_or(case.sun_turns);
         let is_own = |(scene, state): &(String, SteadyState)| {
             *scene == row.scene
                 && state.case.sun_torque_nm == row.sun_torque_nm
-                && state.case.speed_rpm == row.speed_rpm
+                && state.case.speed_rpm == case.speed_rpm
+                && state.case.sun_turns == case.sun_turns
         };
         // The newest first: rows come by speed.
         match self.steady_states.iter_mut().rev().find(|own| is_own(own)) {
             Some((_, state)) => state.lines.push(line),
-            None => {
-                let case =
-                    LoadCase::turning(row.sun_torque_nm, row.speed_rpm, row.mesh_frequency_hz);
-                self.steady_states.push((row.scene, SteadyState { case, lines: vec![line] }));
-            }
+            None => self.steady_states.push((row.scene, SteadyState { case, lines: vec![line] })),
         }
         Ok(())
     }
@@ -428,6 +430,7 @@ impl SteadyStateModel for Recorded {
         let is_own = |(title, state): &&(String, SteadyState)| {
             *title == scene.title
                 && same_torque(&state.case, case)
+                && state.case.direction() == case.direction()
                 && ends.is_some_and(|(low, high)| (*low..=*high).contains(&state.case.speed_rpm))
         };
         let own = self.steady_states.iter().filter(is_own);

@@ -207,6 +207,8 @@ pub struct TableRow {
     pub mode_type: String,
     /// Where the search began.
     pub start: String,
+    /// Sense in which the sun turns relative to the carrier: `counter_clockwise` or `clockwise`.
+    pub sun_turns: String,
 }
 
 impl SweepPoint {

@@ -187,6 +187,7 @@ impl Sweep {
                 multiplier_kind: kind.to_owned(),
                 mode_type: mode_type.to_owned(),
                 start: p.start.to_string(),
+                sun_turns: p.state.case.sun_turns.name().to_owned(),
             })
         })
     }
