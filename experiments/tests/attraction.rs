@@ -97,14 +97,16 @@ fn the_error_of_the_steps_is_that_seen_with_more_of_them() {
         [("oh58_3p", 650.0, 0.09), ("oh58_4p", 950.0, 0.09), ("oh58_4p", 1200.0, 0.08)]
     {
         let coarse = at(name, 140, rpm);
-        let told = coarse.step_error.unwrap();
+        let estimate = coarse.step_error.unwrap();
         let fine = at(name, 560, rpm);
         let [a, b] = [&coarse, &fine].map(|p| {
             let of = |coordinate| {
                 let lines = p.state.with_translations();
                 let mut lines = lines.into_iter();
                 let line = lines.find(|l| {
-                    l.part == Part::Sun && l.coordinate == coordinate && l.harmonic == told.harmonic
+                    l.part == Part::Sun
+                        && l.coordinate == coordinate
+                        && l.harmonic == estimate.harmonic
                 });
                 line.map_or(0.0, |l| l.amplitude)
             };
@@ -114,9 +116,12 @@ fn the_error_of_the_steps_is_that_seen_with_more_of_them() {
         // A harmonic that is rounding in one of the two is left out.
         let changes = changes.zip(a).filter(|(_, a)| *a > 1e-9).map(|(change, _)| change);
         let seen = changes.fold(0.0, f64::max);
-        println!("{name}, {rpm} rpm: {seen:.4} seen, {told:?}");
-        assert!(seen > least && told.share > seen && told.share < 1.5 * seen, "{seen} {told:?}");
-        assert!(at(name, told.steps as u32, rpm).step_error.is_none());
+        println!("{name}, {rpm} rpm: {seen:.4} seen, {estimate:?}");
+        assert!(
+            seen > least && estimate.share > seen && estimate.share < 1.5 * seen,
+            "{seen} {estimate:?}"
+        );
+        assert!(at(name, estimate.steps as u32, rpm).step_error.is_none());
     }
 }
 

@@ -51,7 +51,7 @@ impl Scene {
             (Member::Carrier, supports.carrier, "carrier.motion"),
         ];
         let free: Vec<_> = all.iter().filter(|(_, support, _)| support.turns_freely()).collect();
-        if let [_, .., (_, support, key)] = free[..] {
+        if let [_, (_, support, key), ..] = free[..] {
             return Err(NoTorquePath {
                 key,
                 value: word(support.motion),
