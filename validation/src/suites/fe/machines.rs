@@ -64,16 +64,17 @@ fn torques_off(
     let operation = machine.operation.ok_or(ValidationError::Incomplete("operation"))?;
     let torques = Kinematics::from_scene(machine)?.torques_nm(operation.torque_nm);
     let planets = machine.planets.count();
-    let members: [(Member, Option<f64>, fn(usize) -> Part); 2] = [
-        (Member::Sun, geometry.sun.as_ref().map(|gear| gear.base_radius), Part::SunMesh),
-        (Member::Ring, geometry.ring.as_ref().map(|gear| gear.base_radius), Part::RingMesh),
-    ];
-    let off = members.into_iter().map(|(member, radius, mesh)| {
-        let radius = radius.ok_or(ValidationError::Incomplete("base radius"))?;
+    let off = [
+        (Member::Sun, geometry.sun.as_ref(), Part::SunMesh as fn(usize) -> Part),
+        (Member::Ring, geometry.ring.as_ref(), Part::RingMesh),
+    ]
+    .into_iter()
+    .map(|(member, gear, mesh)| {
+        let radius = gear.ok_or(ValidationError::Incomplete("gear"))?.base_radius;
         let mean = |n: usize| state.amplitude(mesh(n), Coordinate::Force, 0);
         let through: f64 = (0..planets).map(|n| radius * mean(n)).sum();
-        Ok(through / torques.of(member).abs() - 1.0)
+        Ok((through / torques.of(member).abs() - 1.0).abs())
     });
     let off: Vec<f64> = off.collect::<Result<_, ValidationError>>()?;
-    Ok(worst(off.into_iter().map(f64::abs)))
+    Ok(worst(off))
 }
