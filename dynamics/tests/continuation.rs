@@ -4,8 +4,8 @@ use std::convert::Infallible;
 use std::f64::consts::TAU;
 
 use dynamics::continuation::{
-    BranchPoint, ContinuationError, ContinuationOptions, Deflation, Direction, End, Evaluation,
-    Family, Judgement, PointKind, Scales, branch_off, deflated_solution, trace, trace_both,
+    BranchPoint, ContinuationError, ContinuationOptions, Direction, End, Evaluation, Family,
+    Judgement, PointKind, Scales, branch_off, trace, trace_both,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -151,10 +151,9 @@ fn a_cusp_s_folds_are_found_both_ways_and_bounds_are_met() {
     }
 }
 
-/// y (λ − y²) = 0 along y = 0: the pitchfork at λ = 0 is a bifurcation without a fold, and deflation finds the
-/// other two solutions beyond it.
+/// y (λ − y²) = 0 along y = 0: the pitchfork at λ = 0 is a bifurcation without a fold.
 #[test]
-fn a_pitchfork_is_located_and_its_branches_found_by_deflation() {
+fn a_pitchfork_is_located() {
     let mut fork =
         Scalar(|y: f64, l: f64| [y * (l - y * y), l - 3.0 * y * y, y], |y, l| l - 3.0 * y * y);
     let options = ContinuationOptions::within([-1.0, 1.0]);
@@ -163,19 +162,6 @@ fn a_pitchfork_is_located_and_its_branches_found_by_deflation() {
     let found: Vec<&BranchPoint> = branch.bifurcations().collect();
     assert!(found.len() == 1 && found[0].lambda.abs() < 1e-8, "{found:?}");
     assert_eq!(found[0].kind, PointKind::Bifurcation(0));
-    let mut known = vec![vec![0.0]];
-    for sign in [1.0, -1.0] {
-        let deflation = Deflation::default();
-        let next = deflated_solution(&mut fork, 0.25, &[0.1 * sign], &known, &one(), &deflation);
-        known.push(next.unwrap());
-    }
-    known.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    for (found, exact) in known.iter().zip([-0.5, 0.0, 0.5]) {
-        assert!((found[0] - exact).abs() < 1e-9, "{known:?}");
-    }
-    // There are no more.
-    let error = deflated_solution(&mut fork, 0.25, &[0.2], &known, &one(), &Deflation::default());
-    assert!(matches!(error, Err(ContinuationError::NotConverged { .. })), "{error:?}");
 }
 
 #[test]

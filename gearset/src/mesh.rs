@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::gear::{Facing, Flank, Gear, ToothSide};
-use crate::involute::{radius_at, roll_length_at};
+use crate::involute::roll_length_at;
 use crate::mesh_kind::{MeshKind, MeshMember};
 
 /// One involute mesh with the central gear at the origin and the planet at (a, 0); the central
@@ -174,17 +174,6 @@ impl Mesh {
             MeshMember::Driven => (driven, driver),
         };
         mate.gap_to(own.point(own.gear.tip_roll_length()))
-    }
-
-    /// Radii between which the driver and the driven flank touch: `[[low, high]; 2]`.
-    pub fn active_radii(&self) -> [[f64; 2]; 2] {
-        let own = |s: f64| radius_at(self.driver.base_radius, s.max(0.0));
-        let mate = |s: f64| radius_at(self.driven.base_radius, self.driven_roll_length(s).max(0.0));
-        let sorted = |a: f64, b: f64| [a.min(b), a.max(b)];
-        [
-            sorted(own(self.path_start), own(self.path_end)),
-            sorted(mate(self.path_start), mate(self.path_end)),
-        ]
     }
 
     /// Length by which the path of contact extends beyond the involute part of the flanks of `member`, m:

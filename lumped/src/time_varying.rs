@@ -19,7 +19,7 @@ use dynamics::{
     AverageAcceleration, CarriedChange, Coupled, CoupledState, Coupling, CouplingForce, CyclePart,
     LinearPart, MapDerivative, Motion, Number, PassedSteps, Renumbering,
 };
-use gearset::{Facing, Member, MeshLaw, Scene, Symmetry};
+use gearset::{Facing, Geometry, Member, MeshLaw, Scene, Symmetry};
 
 use crate::coordinates::{Axis, Body, Coordinates};
 use crate::error::LumpedError;
@@ -226,6 +226,9 @@ impl TimeVarying {
         let Parts { layout, linear, front, backside, side_loads } = Parts::new(scene, sense, &law)?;
         let mut system =
             Coupled::new(&linear, &front, &backside, MeshLawCouplings(law), rule, steps)?;
+        if let Ok(geometry) = Geometry::from_scene(scene) {
+            system = system.bounded_by(geometry.largest_displacement());
+        }
         for (step, load) in side_loads.iter().enumerate() {
             system.add_in_cycle(step, load)?;
         }
@@ -298,11 +301,6 @@ impl TimeVarying {
     /// The same as they are kept, N.
     pub fn forces(&self) -> &[f64] {
         self.system.forces()
-    }
-
-    /// Deflections in the same order, m; for backside flanks their approach.
-    pub fn mesh_deflections(&self) -> Vec<f64> {
-        self.system.deflections()
     }
 
     /// Whether the law's tables contain all deflections of the present step; beyond their last node forces

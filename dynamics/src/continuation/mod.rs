@@ -15,10 +15,9 @@
 //! turns back along the tangent of the piece beyond (`kink.rs`).
 //!
 //! **What is missed.** Two sign changes of one function within a step cancel. At a branch point the tangent is not
-//! unique: the branch is followed straight across, and others are reached by [`branch_off`] or [`deflated_solution`].
+//! unique: the branch is followed straight across, and others are reached by [`branch_off`].
 
 mod branch;
-mod deflation;
 mod error;
 mod family;
 mod judged;
@@ -30,7 +29,6 @@ mod space;
 mod trace;
 
 pub use branch::{Branch, BranchPoint, End, PointKind};
-pub use deflation::{Deflation, deflated_solution};
 pub use error::ContinuationError;
 pub use family::{Evaluation, Family, Judgement};
 pub use judged::JudgedBy;

@@ -227,19 +227,6 @@ impl<'a, F: Family> Space<'a, F> {
         Err(ContinuationError::NotConverged { lambda, iterations, correction: last })
     }
 
-    /// Newton's correction of u in the hyperplane across `border`.
-    pub(super) fn newton_correction(
-        &mut self,
-        u: &[f64],
-        border: &[f64],
-    ) -> Result<Vec<f64>, ContinuationError<F::Error>> {
-        let found = self.evaluate(u)?;
-        let n = border.len() - 1;
-        let residual = |i: usize| if i < n { -found.residual[i] } else { 0.0 };
-        let [change, _] = self.bordered(&found, border, [&residual, &residual]);
-        Ok(change)
-    }
-
     /// The border that keeps λ where it is.
     pub(super) fn fixed_parameter(&self) -> Vec<f64> {
         let n = self.scales.unknowns.len();

@@ -9,9 +9,6 @@ const MOST_ITERATIONS: usize = 60;
 /// Residual over the largest free deflection below which one linear correction ends the iteration.
 const NEARLY: f64 = 1e-11;
 
-/// Least deflection to which residuals are related, m: below it they are rounding.
-const NOTHING: f64 = 1e-13;
-
 /// A Jacobian is kept while each iteration reduces the residual to less than this share.
 const KEPT: f64 = 0.02;
 
@@ -21,6 +18,8 @@ const ALTERNATING: usize = 14;
 /// Data of one time step for the solver.
 pub(super) struct Start<'a> {
     pub(super) step_in_cycle: usize,
+    /// Least deflection to which residuals are related, m: below it they are rounding.
+    pub(super) nothing: f64,
     /// 2/h, 1/s.
     pub(super) rate: f64,
     /// Modal displacements without coupling forces, and v* of the modes.
@@ -64,7 +63,7 @@ pub(super) fn solve<const W: usize, L: CouplingForce>(
             shift[k] = lag * (start.rate * group.offsets[k] - w[k]);
         }
     }
-    let mut scale = NOTHING;
+    let mut scale = start.nothing;
     for (b, offset) in b.iter_mut().zip(&group.offsets) {
         *b -= offset;
         scale = b.abs().max(scale);

@@ -7,8 +7,11 @@ use super::linear::{LANES, LinearPart, Modes};
 use super::newton::{self, Left, Start};
 use crate::newmark::{AverageAcceleration, Motion};
 
-/// Displacements above this (m) count as divergence.
-const BOUND: f64 = 1e-2;
+/// Displacements above this (m) count as divergence, unless a system has a bound of its own.
+const USUAL_BOUND: f64 = 1e-2;
+
+/// Deflections below this part of the bound are rounding.
+const ROUNDING: f64 = 1e-11;
 
 /// A linear system with couplings, stepped by Newmark's average acceleration.
 ///
@@ -20,6 +23,8 @@ pub struct Coupled<L> {
     pub(super) law: L,
     pub(super) rule: AverageAcceleration,
     pub(super) modes: Modes,
+    /// Displacements above this count as divergence, m.
+    bound: f64,
     /// Least mass, kg.
     least_mass: f64,
     /// Those that usually act.
@@ -140,6 +145,7 @@ impl<L: CouplingForce> Coupled<L> {
             silent,
             law,
             rule,
+            bound: USUAL_BOUND,
             least_mass: linear.mass.iter().copied().fold(f64::INFINITY, f64::min),
             modes,
             steps_per_cycle,
@@ -169,6 +175,7 @@ impl<L: CouplingForce> Coupled<L> {
             law: self.law.clone(),
             rule,
             modes,
+            bound: self.bound,
             least_mass: self.least_mass,
             usual,
             rare,
@@ -231,14 +238,15 @@ impl<L: CouplingForce> Coupled<L> {
     /// One step.
     ///
     /// # Errors
-    /// If the couplings' equations are not solved, or a displacement passes 10 mm.
+    /// If the couplings' equations are not solved, or a displacement passes the largest of a motion that does not diverge.
     pub fn step(&mut self) -> Result<(), CoupledError> {
         let after = self.state.step_in_cycle + 1;
         let step_in_cycle = if after == self.steps_per_cycle { 0 } else { after };
         self.predict(step_in_cycle);
         self.guess(self.usual.count);
         let (law, group) = (&self.law, &self.usual);
-        let done = solve(group, law, step_in_cycle, &self.rule, &mut self.work);
+        let at = (step_in_cycle, ROUNDING * self.bound);
+        let done = solve(group, law, at, &self.rule, &mut self.work);
         self.iterations += done.map_err(|left| self.not_converged(left))? as u64;
         self.apply(false);
         let mut taking_part = self.usual.count;
@@ -246,7 +254,7 @@ impl<L: CouplingForce> Coupled<L> {
             taking_part = all.count;
             self.guess(taking_part);
             if let Some((_, all)) = &self.rare {
-                let done = solve(all, &self.law, step_in_cycle, &self.rule, &mut self.work);
+                let done = solve(all, &self.law, at, &self.rule, &mut self.work);
                 self.iterations += done.map_err(|left| self.not_converged(left))? as u64;
             }
             self.apply(true);
@@ -370,16 +378,21 @@ impl<L: CouplingForce> Coupled<L> {
     }
 
     /// Refuses displacements above the bound: Σ m x² = Σ q² bounds every coordinate.
+    /// The same with another largest displacement (m) of a motion that does not diverge.
+    pub fn bounded_by(self, bound: f64) -> Self {
+        Self { bound, ..self }
+    }
+
     #[inline]
     fn check(&self) -> Result<(), CoupledError> {
         let size: f64 = self.state.modal.x.iter().map(|q| q * q).sum();
-        if size <= self.least_mass * BOUND * BOUND {
+        if size <= self.least_mass * self.bound * self.bound {
             return Ok(());
         }
         let time_s = self.time();
         for coordinate in 0..self.modes.count {
             let value = self.displacement(coordinate);
-            if value.is_nan() || value.abs() > BOUND {
+            if value.is_nan() || value.abs() > self.bound {
                 return Err(CoupledError::Diverged { time_s, coordinate, value });
             }
         }
@@ -415,11 +428,11 @@ impl<L: CouplingForce> Coupled<L> {
 fn solve<L: CouplingForce>(
     group: &Condensed,
     law: &L,
-    step_in_cycle: usize,
+    (step_in_cycle, nothing): (usize, f64),
     rule: &AverageAcceleration,
     work: &mut Work,
 ) -> Result<usize, Left> {
     let Work { free, velocity_history, forces, .. } = work;
-    let start = Start { step_in_cycle, rate: rule.damping(), free, velocity_history };
+    let start = Start { step_in_cycle, nothing, rate: rule.damping(), free, velocity_history };
     at_width!(group.width, W => newton::solve::<W, L>(group, law, &start, forces))
 }

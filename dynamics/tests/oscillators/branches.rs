@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use crate::oscillator::{Law, Oscillator, duffing, duffing_fold};
 use crate::shooting::Shooting;
 use dynamics::continuation::{
-    Branch, BranchPoint, ContinuationOptions, Deflation, Direction, End, Evaluation, Family,
-    JudgedBy, PointKind, Scales, deflated_solution, trace,
+    Branch, BranchPoint, ContinuationOptions, Direction, End, Evaluation, Family, JudgedBy,
+    PointKind, Scales, trace,
 };
 use dynamics::harmonic_balance::{
     BalanceError, BalanceOptions, FrequencyResponse, HarmonicBalance, LoadResponse,
@@ -198,42 +198,6 @@ fn folds_peaks_and_stability_of_duffing_by_two_routes() {
     let (a, b) = (peak(&branch, amplitude), peak(&shot, greatest));
     println!("peak {a:?} and {b:?}");
     assert!((a[0] / b[0] - 1.0).abs() < 1e-4 && (a[1] / b[1] - 1.0).abs() < 1e-4, "{a:?} {b:?}");
-}
-
-/// Three motions coexist between the folds; deflation finds the others from the least.
-#[test]
-fn deflation_finds_the_second_stable_motion() {
-    let own = duffing(0.05, 0.3);
-    let problem = own.balance(64);
-    let mut family = FrequencyResponse::new(&problem, 7).unwrap();
-    let omega = 1.7;
-    let balance = BalanceOptions { first_harmonics: 7, tail: 1e-2, ..BalanceOptions::default() };
-    let first = problem.solve(omega, None, &balance).unwrap();
-    let mut known = vec![first.unknowns.clone()];
-    let scales = Scales::uniform(family.dimension(), 1e-3, 1.0);
-    // The start points away from the least motion by its own size.
-    let start: Vec<f64> = first.unknowns.iter().map(|y| -2.0 * y + 1e-4).collect();
-    for _ in 0..2 {
-        let deflation = Deflation::default();
-        let next = deflated_solution(&mut family, omega, &start, &known, &scales, &deflation);
-        known.push(next.unwrap());
-    }
-    let mut shooting = Shooting { own, gamma: 1e6, steps: 600 };
-    let mut motions: Vec<(f64, Option<bool>)> = known
-        .iter()
-        .map(|y| {
-            let series = family.equations(omega).unwrap().series(y).unwrap();
-            let x = &series[0][0];
-            let state = [x.value(0.0), omega * x.derivative(1, 0.0)];
-            (x.extremes(256)[1], shooting.judge(&state, omega).unwrap().is_stable)
-        })
-        .collect();
-    motions.sort_by(|a, b| a.0.total_cmp(&b.0));
-    println!("{motions:?}");
-    assert_eq!(
-        motions.iter().map(|m| m.1).collect::<Vec<_>>(),
-        [Some(true), Some(false), Some(true)]
-    );
 }
 
 /// A spring pressed together by a growing load until contact is never lost: beyond, the motion about the mean is that

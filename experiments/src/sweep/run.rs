@@ -1,8 +1,7 @@
 //! Runs a plan: chains side by side, points kept as soon as they are there.
 
 use std::cell::{Cell, RefCell};
-use std::collections::BTreeMap;
-use std::sync::{Mutex, OnceLock};
+use std::sync::OnceLock;
 
 use gearset::LoadCase;
 use rayon::prelude::*;
@@ -220,8 +219,7 @@ pub fn run(
         }
     }
     let vibrations = OnceLock::new();
-    let found: Mutex<BTreeMap<usize, Chained>> = Mutex::default();
-    plan.chains.par_iter().enumerate().try_for_each(|(k, chain)| {
+    let chains = plan.chains.par_iter().map(|chain| {
         let (mut points, mut failed) = Chained::default();
         let mut start: (SearchStart, Option<Vec<f64>>) = Default::default();
         for (index, speed) in chain.speeds_rpm.iter().enumerate() {
@@ -251,13 +249,10 @@ pub fn run(
                 Kept::Failed(point) => failed.push(point),
             }
         }
-        if let Ok(mut all) = found.lock() {
-            all.insert(k, (points, failed));
-        }
-        Ok::<(), ExperimentError>(())
-    })?;
-    let found = found.into_inner().unwrap_or_default();
-    let (points, failed): (Vec<_>, Vec<_>) = found.into_values().unzip();
+        Ok((points, failed))
+    });
+    let found: Vec<Chained> = chains.collect::<Result<_, ExperimentError>>()?;
+    let (points, failed): (Vec<_>, Vec<_>) = found.into_iter().unzip();
     let chains = plan.chains.iter().map(|c| c.name.clone()).zip(points).collect();
     Ok(Sweep { fidelity: model.name(), chains, failed: failed.concat() })
 }

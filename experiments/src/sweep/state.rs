@@ -215,10 +215,4 @@ impl SteadyState {
         }
         all
     }
-
-    /// Largest part of the mesh cycle in which a mesh carries no force, 0 to 1.
-    pub fn largest_contact_loss(&self) -> f64 {
-        let lost = self.lines.iter().filter(|l| l.coordinate == Coordinate::ContactLoss);
-        lost.fold(0.0, |a, l| a.max(l.amplitude))
-    }
 }

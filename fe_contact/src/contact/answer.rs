@@ -94,18 +94,6 @@ impl MeshTable {
         self.pressures(pair, forces).into_iter().fold(0.0, f64::max)
     }
 
-    /// Sum of force times row over all pairs: generalised forces on (x, y, θ) of driver, then
-    /// driven gear, to be *subtracted* in the races' equations, N and N·m.
-    pub fn resultant(&self, pair_forces: &[f64]) -> [f64; 6] {
-        let mut sum = [0.0; 6];
-        for (pair, force) in self.pairs.iter().zip(pair_forces) {
-            for (s, b) in sum.iter_mut().zip(pair.row) {
-                *s += b * force;
-            }
-        }
-        sum
-    }
-
     /// Smallest gap of all cells, m.
     pub fn least_gap(&self) -> f64 {
         self.gaps.iter().fold(f64::INFINITY, |a, g| a.min(*g))

@@ -217,12 +217,6 @@ impl ReferenceConfiguration {
         self.meshes.first().map_or(0.0, |pose| self.loaded[pose.group].shift)
     }
 
-    /// Centre distance of each mesh (sun meshes, then ring meshes), m.
-    pub fn center_distances(&self) -> Vec<f64> {
-        let of = |pose: &MeshPose| self.loaded[pose.group].mesh.center_distance + pose.at[2];
-        self.meshes.iter().map(of).collect()
-    }
-
     /// Angle between the line of action and the normal to the nominal line of centres of each mesh
     /// (sun meshes, then ring meshes): the pressure angle that a model with fixed centres needs for
     /// the loaded set, rad.

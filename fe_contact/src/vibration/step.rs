@@ -13,9 +13,6 @@ use crate::error::FeError;
 /// Most Newton iterations of one step.
 const MOST_ITERATIONS: usize = 60;
 
-/// Displacements above this (m) are refused as divergence.
-const BOUND: f64 = 1e-2;
-
 impl VibratingSet<'_> {
     /// One step; the external forces must be those at its end. After a step that fails the set is in the mesh cycle in which
     /// the step began, with a motion to be replaced.
@@ -248,8 +245,9 @@ impl VibratingSet<'_> {
     /// Refuses patches beyond their grids, deflections beyond the window of the tables, and
     /// divergence.
     fn check(&self, frame: &Frame) -> Result<(), FeError> {
+        let bound = self.statics.bodies.geometry.largest_displacement();
         for (i, x) in self.work.x.iter().enumerate() {
-            if x.is_nan() || x.abs() > BOUND {
+            if x.is_nan() || x.abs() > bound {
                 let (body, quantity) = self.statics.races.name_of(i);
                 return Err(FeError::Diverged { time_s: self.time(), body, quantity, value: *x });
             }

@@ -2,6 +2,7 @@
 //! several mesh cycles.
 
 use std::collections::HashMap;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use fe_contact::FeError;

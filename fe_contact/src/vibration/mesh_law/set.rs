@@ -127,7 +127,8 @@ impl<'s> MeshLawSet<'s> {
             load.iter_mut().zip(turning.iter()).for_each(|(load, f)| *load += f);
         }
         let system = Coupled::new(&part, &front, &backside, MeshLawCouplings(law), rule, steps);
-        let mut system = system.map_err(|cause| failed(&statics, cause))?;
+        let system = system.map_err(|cause| failed(&statics, cause))?;
+        let mut system = system.bounded_by(bodies.geometry.largest_displacement());
         for (step, load) in side_loads.iter().enumerate() {
             system.add_in_cycle(step, load).map_err(|cause| failed(&statics, cause))?;
         }
