@@ -6,10 +6,11 @@ mod values;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use experiments::stability::Map;
 
 pub(crate) use steady::{Branches, Model, SteadyMethod, Sweep};
 pub(crate) use values::DAMPING_FACTORS;
-use values::{elements, tolerance, two, whole};
+use values::{elements, map, tolerance, two, whole};
 
 /// Verification and benchmark suite for planetary gear dynamics (2-D, spur, single stage).
 #[derive(Debug, Parser)]
@@ -241,45 +242,11 @@ pub(crate) struct Impulse {
     pub format: TableFormat,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum MapArgument {
-    /// Spectral radius, period error and numerical damping of time-stepping schemes over ω Δt.
-    Integrators,
-    /// Where the explicit central difference becomes unstable, and how many steps a mesh cycle would need.
-    ExplicitStep,
-    /// Energy of a bar bouncing on rigid ground, by scheme.
-    BouncingBar,
-    /// Parametric instability by varying mesh stiffness: tongues over mesh frequency.
-    Parametric,
-    /// Types of modes when one planet is heavier.
-    ModeTypes,
-    /// Energy and place of a pair that hammers under a light torque, by scheme and steps in a contact.
-    Hammering,
-    /// Where meshes lose contact and motions coexist at the strongest resonance, over torque and damping.
-    ContactLoss,
-    /// Contact cells, definiteness of the flexibility matrix and contact solvers on Hertz's problem.
-    ContactCells,
-    /// Bending stiffness of one quadrilateral, by family and shape.
-    Locking,
-    /// Too few steps in a mesh cycle: place and size of harmonics, and cancellation by phasing.
-    Resolution,
-    /// Marches that end before their transient has died out, over the tolerance and damping.
-    Transients,
-    /// Mesh stiffness cut off after some harmonics.
-    TruncatedStiffness,
-    /// The lag of damped flexibility without inertia, over the step, by rule of integration.
-    Lag,
-    /// Errors of kinematics linear about the unloaded and the loaded configuration, over the windup.
-    LinearKinematics,
-    /// Splits and types of modes when planets are displaced in angle.
-    Spacing,
-}
-
 #[derive(Debug, Args)]
 pub(crate) struct Stability {
     /// The map; without it, the maps are listed.
-    #[arg(value_enum)]
-    pub map: Option<MapArgument>,
+    #[arg(value_parser = map())]
+    pub map: Option<&'static Map>,
     /// List the guards of the program: what it says on either side of each border.
     #[arg(long, conflicts_with_all = ["map", "scene", "out"])]
     pub guards: bool,

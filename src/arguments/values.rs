@@ -1,7 +1,15 @@
 //! Values of the command line with their bounds.
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use experiments::branches::BranchParameter;
+use experiments::stability::{MAPS, Map};
 use experiments::sweep::VariedKey;
+
+/// A stability map by its name.
+pub(super) fn map() -> impl TypedValueParser<Value = &'static Map> {
+    let value = |map: &'static Map| PossibleValue::new(map.name).help(map.about);
+    PossibleValuesParser::new(MAPS.map(value)).try_map(|name| Map::named(&name).ok_or("no map"))
+}
 
 pub(super) fn elements(text: &str) -> Result<f64, String> {
     match text.parse() {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use experiments::stability::{MapError, MapName, StabilityMap, stability_maps};
+use experiments::stability::{MAPS, Map, MapError, StabilityMap, stability_maps};
 use validation::{KeptStudy, ValidationError, kept_maps, kept_studies};
 
 use crate::error::CommandError;
@@ -30,12 +30,12 @@ pub(super) fn write(folder: &Path) -> Result<(), CommandError> {
 
 /// All maps, of the set built in; those that take minutes as they are `kept`.
 fn maps(kept: Vec<StabilityMap>) -> Result<Vec<StabilityMap>, CommandError> {
-    let is_kept = |which: &MapName| kept.iter().any(|map| map.map == which.name());
-    let others: Vec<MapName> = MapName::ALL.into_iter().filter(|which| !is_kept(which)).collect();
+    let is_kept = |which: &&Map| kept.iter().any(|map| map.map == which.name);
+    let others: Vec<&Map> = MAPS.into_iter().filter(|which| !is_kept(which)).collect();
     let refused = |e: MapError| unfit(Path::new("the scene built in"), e.to_string());
     let mut all = stability_maps(&others, &built_in()?).map_err(refused)?;
     all.extend(kept);
-    all.sort_by_key(|map| MapName::ALL.iter().position(|which| which.name() == map.map));
+    all.sort_by_key(|map| MAPS.iter().position(|which| which.name == map.map));
     Ok(all)
 }
 
@@ -135,7 +135,7 @@ mod tests {
             names.insert(format!("study_{name}"));
         }
         assert_eq!(kept.len(), names.len());
-        names.extend(MapName::ALL.map(|m| format!("stability_{}", m.name().replace('-', "_"))));
+        names.extend(MAPS.map(|m| format!("stability_{}", m.name.replace('-', "_"))));
         for name in names {
             if cfg!(feature = "charts") {
                 assert!(page.contains(&format!("]({name}.svg)")), "{name}");

@@ -3,13 +3,13 @@
 use std::io::Write;
 use std::path::Path;
 
-use experiments::stability::{Border, MapName, StabilityMap, stability_map};
+use experiments::stability::{Border, MAPS, Map, StabilityMap, stability_map};
 use gearset::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
 use validation::PublishedScene;
 
-use crate::arguments::{MapArgument, Stability, TableFormat};
+use crate::arguments::{Stability, TableFormat};
 use crate::error::CommandError;
 use crate::output;
 
@@ -52,12 +52,11 @@ pub(super) fn run(
     if arguments.guards {
         return super::stability_guards::run(arguments.format, out);
     }
-    let Some(argument) = arguments.map else {
+    let Some(which) = arguments.map else {
         return list(arguments, out);
     };
-    let which = name(argument);
     if arguments.scene.is_some() && !which.is_of_a_scene() {
-        let reason = format!("the map {} is of no scene: leave it out", which.name());
+        let reason = format!("the map {} is of no scene: leave it out", which.name);
         return Err(CommandError::Argument { argument: "--scene", reason });
     }
     let scene = match &arguments.scene {
@@ -68,7 +67,7 @@ pub(super) fn run(
         }
         None => built_in()?,
     };
-    let files = ResultFiles::new(arguments.out.as_deref(), which.name())?;
+    let files = ResultFiles::new(arguments.out.as_deref(), which.name)?;
     let working = Working::new("computing the map");
     let map = stability_map(which, &scene).map_err(|e| match &arguments.scene {
         Some(path) => unfit(path, e.to_string()),
@@ -101,26 +100,6 @@ fn figure(_: &StabilityMap, _: &Path) -> Result<(), CommandError> {
     Ok(())
 }
 
-fn name(argument: MapArgument) -> MapName {
-    match argument {
-        MapArgument::Integrators => MapName::Integrators,
-        MapArgument::ExplicitStep => MapName::ExplicitStep,
-        MapArgument::BouncingBar => MapName::BouncingBar,
-        MapArgument::Parametric => MapName::Parametric,
-        MapArgument::ModeTypes => MapName::ModeTypes,
-        MapArgument::Hammering => MapName::Hammering,
-        MapArgument::ContactLoss => MapName::ContactLoss,
-        MapArgument::ContactCells => MapName::ContactCells,
-        MapArgument::Locking => MapName::Locking,
-        MapArgument::Resolution => MapName::Resolution,
-        MapArgument::Transients => MapName::Transients,
-        MapArgument::TruncatedStiffness => MapName::TruncatedStiffness,
-        MapArgument::Lag => MapName::Lag,
-        MapArgument::LinearKinematics => MapName::LinearKinematics,
-        MapArgument::Spacing => MapName::Spacing,
-    }
-}
-
 /// Five equally spaced planets: the set that shows every kind of mode and of phasing.
 pub(super) fn built_in() -> Result<Scene, CommandError> {
     validation::scene(PublishedScene::FivePlanets)
@@ -137,12 +116,12 @@ fn list(arguments: &Stability, out: &mut dyn Write) -> Result<(), CommandError> 
         let reason = "no map is named: name one of those that `epicyclic stability` lists".into();
         return Err(CommandError::Argument { argument, reason });
     }
-    let entry = |m: MapName| MapEntry {
-        name: m.name().into(),
-        meaning: m.meaning().into(),
+    let entry = |m: &Map| MapEntry {
+        name: m.name.into(),
+        meaning: m.meaning.into(),
         takes_scene: m.is_of_a_scene(),
     };
-    let maps: Vec<MapEntry> = MapName::ALL.into_iter().map(entry).collect();
+    let maps: Vec<MapEntry> = MAPS.into_iter().map(entry).collect();
     match arguments.format {
         TableFormat::Json => output::json(out, &StabilityList { maps }),
         TableFormat::Csv => {

@@ -3,16 +3,23 @@
 use dynamics::integrators::Scheme;
 use dynamics::stability::BouncingBar;
 
-use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+
+pub(super) const MAP: Map = Map {
+    name: "bouncing-bar",
+    about: "Energy of a bar bouncing on rigid ground, by scheme",
+    meaning: "a scheme that is stable for every linear motion may still gain energy each time a contact opens",
+    of: MapOf::Nothing(map),
+};
 
 const ELEMENTS: usize = 50;
 const COURANT: f64 = 0.5;
 const BOUNCES: usize = 100;
 
-pub(super) fn map() -> Result<StabilityMap, MapError> {
+fn map() -> Result<StabilityMap, MapError> {
     let system =
         format!("elastic bar, {ELEMENTS} elements, {COURANT} passages of an element a step");
-    let mut map = empty(MapName::BouncingBar, system, "bounce");
+    let mut map = empty(&MAP, system, "bounce");
     let inelastic = Scheme::MoreauJean { theta: 0.5, restitution: 0.0 };
     let plain = Scheme::ALL.into_iter().chain([inelastic]).map(|s| (s, false));
     for (scheme, massless) in plain.chain([(Scheme::AverageAcceleration, true)]) {

@@ -8,8 +8,16 @@ use fe_contact::{Elastic, FeError};
 use gearset::PlaneState;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
 use crate::error::ExperimentError;
+
+pub(super) const MAP: Map = Map {
+    name: "contact-cells",
+    about: "Contact cells, definiteness of the flexibility matrix and contact solvers on Hertz's problem",
+    meaning: "with fewer contact cells in the loaded half-width than this pressures are those of the grid; solvers are \
+         held against one another where they could cycle or lose accuracy",
+    of: MapOf::Nothing(map),
+};
 
 const STEEL: Elastic =
     Elastic { young: 207e9, poisson: 0.3, density: 7800.0, plane: PlaneState::Strain };
@@ -30,9 +38,9 @@ const COMPARED: usize = 80;
 /// Problems with as many cells that just touch without force as cells that press.
 const DEGENERATE: usize = 40;
 
-pub(super) fn map() -> Result<StabilityMap, MapError> {
+fn map() -> Result<StabilityMap, MapError> {
     let system = "two steel cylinders pressed together, half-planes with Hertz's closed form";
-    let mut map = empty(MapName::ContactCells, system, "log₁₀ of cells in the loaded half-width");
+    let mut map = empty(&MAP, system, "log₁₀ of cells in the loaded half-width");
     accuracy(&mut map)?;
     definiteness(&mut map);
     solvers(&mut map)?;

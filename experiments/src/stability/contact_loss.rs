@@ -12,13 +12,21 @@ use fe_contact::statics::Bodies;
 use gearset::{LoadCase, Scene};
 use rayon::prelude::*;
 
-use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
 use super::resonance::strongest;
 use crate::branches::{
     Branch, BranchEnd, BranchError, BranchPoint, BranchSettings, Branches, branch,
 };
 use crate::error::ExperimentError;
 use crate::sweep::{DampedModel, MeshLawModel, SweepModel};
+
+pub(super) const MAP: Map = Map {
+    name: "contact-loss",
+    about: "Where meshes lose contact and motions coexist at the strongest resonance, over torque and damping",
+    meaning: "with less damping than this teeth part at the resonance, then several motions are possible at one speed, \
+         then the backside flanks touch",
+    of: MapOf::Scene(map),
+};
 
 /// Torques as shares of the operating one.
 const SHARES: [f64; 4] = [0.05, 0.2, 0.5, 1.0];
@@ -30,14 +38,14 @@ const REACH: f64 = 0.12;
 const FACTORS: [f64; 7] = [4.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.0625];
 const HALVINGS: usize = 3;
 
-pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
+fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let case = LoadCase::of_scene(scene).map_err(|_| MapError::NoOperation)?;
     let bodies = Bodies::new(scene).map_err(ExperimentError::from)?;
     let model = MeshLawModel::new(scene, &bodies, case)?;
     let resonance = strongest(&model)?;
     let frequency = case.at_speed(resonance).mesh_frequency_hz;
     let system = format!("{}, {frequency:.0} Hz", scene.title);
-    let mut map = empty(MapName::ContactLoss, system, "torque on the sun, N·m");
+    let mut map = empty(&MAP, system, "torque on the sun, N·m");
     let range = [(1.0 - REACH) * resonance, (1.0 + REACH) * resonance];
     let range = [range[0].min(range[1]), range[0].max(range[1])];
     let at = |share: &f64| -> Result<Borders, MapError> {

@@ -6,10 +6,18 @@ use gearset::{LoadCase, Scene};
 use lumped::LumpedModel;
 use nalgebra::{DMatrix, DVector};
 
-use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
 
-pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
-    let mut map = empty(MapName::ExplicitStep, scene.title.clone(), "ω Δt");
+pub(super) const MAP: Map = Map {
+    name: "explicit-step",
+    about: "Where the explicit central difference becomes unstable, and how many steps a mesh cycle would need",
+    meaning: "beyond Δt·ω_max = 2 the explicit central difference grows without bound, however small the motion at the \
+         highest frequency",
+    of: MapOf::Scene(map),
+};
+
+fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
+    let mut map = empty(&MAP, scene.title.clone(), "ω Δt");
     for ratio in [0.0, 0.02, 0.3] {
         let limit = explicit_limit(ratio)?;
         let of = format!("central difference, damping ratio {ratio}");

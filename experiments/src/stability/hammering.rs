@@ -4,7 +4,15 @@ use dynamics::integrators::{IntegratorError, Scheme};
 use dynamics::stability::{Hammering, HammeringPair};
 use rayon::prelude::*;
 
-use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+
+pub(super) const MAP: Map = Map {
+    name: "hammering",
+    about: "Energy and place of a pair that hammers under a light torque, by scheme and steps in a contact",
+    meaning: "teeth that part and meet again: with fewer steps in a contact than this the motion gains or loses energy \
+         that no damping and no torque accounts for",
+    of: MapOf::Nothing(map),
+};
 
 /// The largest force is 4.2 times the static one.
 const PAIR: HammeringPair = HammeringPair { landing_speed: 3.0 };
@@ -19,9 +27,9 @@ const CHANCES: u32 = 400;
 /// Wanted accuracy of energy and place, 1 %.
 const WANTED: f64 = 0.01;
 
-pub(super) fn map() -> Result<StabilityMap, MapError> {
+fn map() -> Result<StabilityMap, MapError> {
     let system = format!("mass on a tooth spring, {BOUNCES} bounces, no damping");
-    let mut map = empty(MapName::Hammering, system, "log₁₀ of the number of steps in a contact");
+    let mut map = empty(&MAP, system, "log₁₀ of the number of steps in a contact");
     for scheme in Scheme::ALL {
         let of = scheme.label();
         let found = STEPS.iter().map(|steps| worst(&scheme, *steps)).collect();

@@ -2,7 +2,15 @@
 
 use dynamics::integrators::{Amplification, Scheme, amplification, closed_form};
 
-use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+
+pub(super) const MAP: Map = Map {
+    name: "integrators",
+    about: "Spectral radius, period error and numerical damping of time-stepping schemes over ω Δt",
+    meaning: "what one time step does to an oscillation: above a spectral radius of 1 it grows without cause, and below 1 it \
+         is damped without cause",
+    of: MapOf::Nothing(map),
+};
 
 /// ω Δt from 10^−1.5 to 10^1.5.
 const POINTS: i32 = 90;
@@ -18,8 +26,8 @@ const QUANTITIES: [Quantity; 3] = [
     ("numerical damping ratio", |a| a.damping_ratio),
 ];
 
-pub(super) fn map() -> Result<StabilityMap, MapError> {
-    let mut map = empty(MapName::Integrators, "one undamped oscillator", "ω Δt");
+fn map() -> Result<StabilityMap, MapError> {
+    let mut map = empty(&MAP, "one undamped oscillator", "ω Δt");
     for scheme in Scheme::ALL {
         for (name, of) in QUANTITIES {
             let mut curves = [Vec::new(), Vec::new()];

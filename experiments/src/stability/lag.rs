@@ -15,8 +15,16 @@ use std::f64::consts::TAU;
 use dynamics::c64;
 use fe_contact::vibration::lagged;
 
-use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
 use crate::error::ExperimentError;
+
+pub(super) const MAP: Map = Map {
+    name: "lag",
+    about: "The lag of damped flexibility without inertia, over the step, by rule of integration",
+    meaning: "flexibility without inertia follows its load within microseconds: with steps longer than that the \
+         trapezoidal rule makes it ring",
+    of: MapOf::Nothing(map),
+};
 
 /// Steps in a period of the sine: the tenth harmonic of a mesh cycle of 140 steps.
 const PERIOD: u32 = 14;
@@ -79,9 +87,9 @@ impl Rule {
     }
 }
 
-pub(super) fn map() -> Result<StabilityMap, MapError> {
+fn map() -> Result<StabilityMap, MapError> {
     let system = "lag of one tooth pair";
-    let mut map = empty(MapName::Lag, system, "log₁₀ of the step over β");
+    let mut map = empty(&MAP, system, "log₁₀ of the step over β");
     for rule in [Rule::Trapezoidal, Rule::Parabola] {
         let of = rule.name();
         let rings = |z: f64| -> Result<bool, ExperimentError> {

@@ -26,9 +26,17 @@ use lumped::{Axis, Body, LumpedModel, ModeGroup, NaturalModes, SpringId, strain_
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
 use super::windup::{Left, WoundUp, of_slopes};
 use crate::error::ExperimentError;
+
+pub(super) const MAP: Map = Map {
+    name: "linear-kinematics",
+    about: "Errors of kinematics linear about the unloaded and the loaded configuration, over the windup",
+    meaning: "bearings give way under the load by far more than teeth: beyond this windup, kinematics linear about the \
+         unloaded set, or about the loaded one, are more than 1 % off in harmonics at rest and natural frequencies",
+    of: MapOf::Planets(map),
+};
 
 /// An error that counts.
 const WANTED: f64 = 0.01;
@@ -69,14 +77,14 @@ struct Load {
     frequency: Option<f64>,
 }
 
-pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
+fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let case = LoadCase::of_scene(scene).map_err(|_| MapError::NoOperation)?;
     let mut scene = scene.clone();
     scene.dynamics.fidelity = Fidelity::QuasiStatic;
     scene.dynamics.kinematics = MeshKinematics::AboutMean;
     let bodies = Bodies::new(&scene).map_err(ExperimentError::from)?;
     let axis = "log₁₀ of the windup over the base pitch";
-    let mut map = empty(MapName::LinearKinematics, scene.title.clone(), axis);
+    let mut map = empty(&MAP, scene.title.clone(), axis);
     for by in [By::Torque, By::SofterBearings] {
         let one = |factor: f64| at(&scene, &bodies, &case, by, factor);
         let factors = factors(&scene, &case, by)?;

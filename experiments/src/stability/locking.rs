@@ -15,7 +15,15 @@ use fe_contact::element::{Shape, matrices};
 use gearset::PlaneState;
 use nalgebra::DVector;
 
-use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+
+pub(super) const MAP: Map = Map {
+    name: "locking",
+    about: "Bending stiffness of one quadrilateral, by family and shape",
+    meaning: "bilinear elements resist bending by a shear that is not there: teeth come out too stiff, the more the \
+         longer the elements",
+    of: MapOf::Nothing(map),
+};
 
 const STEEL: Elastic =
     Elastic { young: 207e9, poisson: 0.3, density: 7800.0, plane: PlaneState::Stress };
@@ -26,9 +34,9 @@ const RATIOS: [f64; 9] = [0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0];
 /// Half the height, m.
 const HALF_HEIGHT: f64 = 1e-3;
 
-pub(super) fn map() -> Result<StabilityMap, MapError> {
+fn map() -> Result<StabilityMap, MapError> {
     let system = "one element bent with the curvature of a beam, plane stress, ν = 0.3";
-    let mut map = empty(MapName::Locking, system, "length over height of the element");
+    let mut map = empty(&MAP, system, "length over height of the element");
     for (name, shape, incompatible) in [
         ("linear", Shape::LINEAR, false),
         ("incompatible", Shape::LINEAR, true),

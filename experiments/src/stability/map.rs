@@ -11,158 +11,57 @@ use super::{
     truncated_stiffness,
 };
 
-/// The maps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum MapName {
-    /// Spectral radius, period error and numerical damping over ω Δt.
-    Integrators,
-    /// Central difference at Δt·ω_max = 2.
-    ExplicitStep,
-    /// A bar that bounces on rigid ground.
-    BouncingBar,
-    /// Tongues of parametric instability.
-    Parametric,
-    /// Types of modes with one planet heavier.
-    ModeTypes,
-    /// A gear pair that hammers under a light torque.
-    Hammering,
-    /// Loss of contact over torque and damping.
-    ContactLoss,
-    /// Contact cells and contact solvers on Hertz's problem.
-    ContactCells,
-    /// Locking of quadrilaterals in bending.
-    Locking,
-    /// Too few steps in a mesh cycle.
-    Resolution,
-    /// Unfinished transients that pass for steady states.
-    Transients,
-    /// Mesh stiffness cut off after some harmonics.
-    TruncatedStiffness,
-    /// The lag of damped flexibility without inertia, by rule of integration.
-    Lag,
-    /// Kinematics linear about the unloaded and the loaded configuration, over windup.
-    LinearKinematics,
-    /// Splits and types of modes with planets displaced in angle.
-    Spacing,
+/// A map: what it is called, what it is about, and what computes it.
+#[derive(Debug)]
+pub struct Map {
+    /// As on the command line.
+    pub name: &'static str,
+    /// What it shows, in a line.
+    pub about: &'static str,
+    /// What its border means.
+    pub meaning: &'static str,
+    pub(super) of: MapOf,
 }
 
-impl MapName {
-    /// All of them.
-    pub const ALL: [Self; 15] = [
-        Self::Integrators,
-        Self::ExplicitStep,
-        Self::BouncingBar,
-        Self::Parametric,
-        Self::ModeTypes,
-        Self::Hammering,
-        Self::ContactLoss,
-        Self::ContactCells,
-        Self::Locking,
-        Self::Resolution,
-        Self::Transients,
-        Self::TruncatedStiffness,
-        Self::Lag,
-        Self::LinearKinematics,
-        Self::Spacing,
-    ];
+/// What a map is computed for.
+#[derive(Debug)]
+pub(super) enum MapOf {
+    /// A system of its own.
+    Nothing(fn() -> Result<StabilityMap, MapError>),
+    /// A scene.
+    Scene(fn(&Scene) -> Result<StabilityMap, MapError>),
+    /// A scene of a planetary set.
+    Planets(fn(&Scene) -> Result<StabilityMap, MapError>),
+}
 
-    /// As on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Integrators => "integrators",
-            Self::ExplicitStep => "explicit-step",
-            Self::BouncingBar => "bouncing-bar",
-            Self::Parametric => "parametric",
-            Self::ModeTypes => "mode-types",
-            Self::Hammering => "hammering",
-            Self::ContactLoss => "contact-loss",
-            Self::ContactCells => "contact-cells",
-            Self::Locking => "locking",
-            Self::Resolution => "resolution",
-            Self::Transients => "transients",
-            Self::TruncatedStiffness => "truncated-stiffness",
-            Self::Lag => "lag",
-            Self::LinearKinematics => "linear-kinematics",
-            Self::Spacing => "spacing",
-        }
-    }
+/// The maps that there are.
+pub static MAPS: [&Map; 15] = [
+    &integrators::MAP,
+    &explicit_step::MAP,
+    &bouncing_bar::MAP,
+    &parametric::MAP,
+    &mode_types::MAP,
+    &hammering::MAP,
+    &contact_loss::MAP,
+    &contact_cells::MAP,
+    &locking::MAP,
+    &resolution::MAP,
+    &transients::MAP,
+    &truncated_stiffness::MAP,
+    &lag::MAP,
+    &linear_kinematics::MAP,
+    &spacing::MAP,
+];
 
-    /// What its border means.
-    pub fn meaning(self) -> &'static str {
-        match self {
-            Self::Integrators => {
-                "what one time step does to an oscillation: above a spectral radius of 1 it grows without cause, and below 1 it \
-                 is damped without cause"
-            }
-            Self::ExplicitStep => {
-                "beyond Δt·ω_max = 2 the explicit central difference grows without bound, however small the motion at the \
-                 highest frequency"
-            }
-            Self::BouncingBar => {
-                "a scheme that is stable for every linear motion may still gain energy each time a contact opens"
-            }
-            Self::Parametric => {
-                "between the borders of a tongue the varying mesh stiffness feeds a vibration that grows from nothing"
-            }
-            Self::ModeTypes => {
-                "with one planet heavier than this a mode has lost its type: it is listed as mixed, and further on it is \
-                 shared by kinds"
-            }
-            Self::Hammering => {
-                "teeth that part and meet again: with fewer steps in a contact than this the motion gains or loses energy \
-                 that no damping and no torque accounts for"
-            }
-            Self::ContactLoss => {
-                "with less damping than this teeth part at the resonance, then several motions are possible at one speed, \
-                 then the backside flanks touch"
-            }
-            Self::ContactCells => {
-                "with fewer contact cells in the loaded half-width than this pressures are those of the grid; solvers are \
-                 held against one another where they could cycle or lose accuracy"
-            }
-            Self::Locking => {
-                "bilinear elements resist bending by a shear that is not there: teeth come out too stiff, the more the \
-                 longer the elements"
-            }
-            Self::Resolution => {
-                "with fewer steps in a mesh cycle than this a harmonic resonates at the wrong speed, is taken for another, or \
-                 is not cancelled by planet phasing"
-            }
-            Self::Transients => {
-                "a march that ends when cycles change by less than a tolerance may be off by far more than that: by up to \
-                 1/(2πζl) times as much at a resonance of harmonic l"
-            }
-            Self::TruncatedStiffness => {
-                "a mesh stiffness of some harmonics only has no hand-over between tooth pairs: resonances of the harmonics \
-                 left out are missing"
-            }
-            Self::Lag => {
-                "flexibility without inertia follows its load within microseconds: with steps longer than that the \
-                 trapezoidal rule makes it ring"
-            }
-            Self::LinearKinematics => {
-                "bearings give way under the load by far more than teeth: beyond this windup, kinematics linear about the \
-                 unloaded set, or about the loaded one, are more than 1 % off in harmonics at rest and natural frequencies"
-            }
-            Self::Spacing => {
-                "with a planet displaced in angle by this a mode has lost its type, and modes of equal frequency have split to \
-                 first or second order by the pattern of the displacement"
-            }
-        }
+impl Map {
+    /// The map of that name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        MAPS.into_iter().find(|map| map.name == name)
     }
 
     /// Whether it is computed for a scene.
-    pub fn is_of_a_scene(self) -> bool {
-        matches!(
-            self,
-            Self::ExplicitStep
-                | Self::Parametric
-                | Self::ModeTypes
-                | Self::ContactLoss
-                | Self::Transients
-                | Self::LinearKinematics
-                | Self::Spacing
-        )
+    pub fn is_of_a_scene(&self) -> bool {
+        !matches!(self.of, MapOf::Nothing(_))
     }
 }
 
@@ -253,34 +152,17 @@ pub enum MapError {
     NotPlanetary(&'static str),
 }
 
-/// Computes a map; `scene` is used by those for which [`MapName::is_of_a_scene`] holds.
+/// Computes a map; `scene` is used by those for which [`Map::is_of_a_scene`] holds.
 ///
 /// # Errors
 /// If the scene lacks what the map needs, or a step or an eigenproblem fails.
-pub fn stability_map(which: MapName, scene: &Scene) -> Result<StabilityMap, MapError> {
-    let is_of_planets = matches!(
-        which,
-        MapName::Parametric | MapName::ModeTypes | MapName::LinearKinematics | MapName::Spacing
-    );
-    if is_of_planets && scene.kind == SceneKind::GearPair {
-        return Err(MapError::NotPlanetary(which.name()));
-    }
-    match which {
-        MapName::Integrators => integrators::map(),
-        MapName::ExplicitStep => explicit_step::map(scene),
-        MapName::BouncingBar => bouncing_bar::map(),
-        MapName::Parametric => parametric::map(scene),
-        MapName::ModeTypes => mode_types::map(scene),
-        MapName::Hammering => hammering::map(),
-        MapName::ContactLoss => contact_loss::map(scene),
-        MapName::ContactCells => contact_cells::map(),
-        MapName::Locking => locking::map(),
-        MapName::Resolution => resolution::map(),
-        MapName::Transients => transients::map(scene),
-        MapName::TruncatedStiffness => truncated_stiffness::map(),
-        MapName::Lag => lag::map(),
-        MapName::LinearKinematics => linear_kinematics::map(scene),
-        MapName::Spacing => spacing::map(scene),
+pub fn stability_map(which: &Map, scene: &Scene) -> Result<StabilityMap, MapError> {
+    match which.of {
+        MapOf::Nothing(map) => map(),
+        MapOf::Planets(_) if scene.kind == SceneKind::GearPair => {
+            Err(MapError::NotPlanetary(which.name))
+        }
+        MapOf::Scene(map) | MapOf::Planets(map) => map(scene),
     }
 }
 
@@ -288,15 +170,15 @@ pub fn stability_map(which: MapName, scene: &Scene) -> Result<StabilityMap, MapE
 ///
 /// # Errors
 /// As [`stability_map`].
-pub fn stability_maps(which: &[MapName], scene: &Scene) -> Result<Vec<StabilityMap>, MapError> {
-    which.par_iter().map(|own| stability_map(*own, scene)).collect()
+pub fn stability_maps(which: &[&Map], scene: &Scene) -> Result<Vec<StabilityMap>, MapError> {
+    which.par_iter().map(|own| stability_map(own, scene)).collect()
 }
 
 /// A map without borders and curves.
-pub(super) fn empty(which: MapName, system: impl Into<String>, x_axis: &str) -> StabilityMap {
+pub(super) fn empty(which: &Map, system: impl Into<String>, x_axis: &str) -> StabilityMap {
     StabilityMap {
-        map: which.name().into(),
-        meaning: which.meaning().into(),
+        map: which.name.into(),
+        meaning: which.meaning.into(),
         system: system.into(),
         x_axis: x_axis.into(),
         borders: Vec::new(),

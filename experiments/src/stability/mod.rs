@@ -22,4 +22,4 @@ mod truncated_stiffness;
 mod windup;
 
 pub use guards::{Guard, guards};
-pub use map::{Border, MapCurve, MapError, MapName, StabilityMap, stability_map, stability_maps};
+pub use map::{Border, MAPS, Map, MapCurve, MapError, StabilityMap, stability_map, stability_maps};

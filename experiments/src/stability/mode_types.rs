@@ -4,14 +4,22 @@ use gearset::Scene;
 use lumped::{LumpedModel, ModeGroup, NaturalModes, tolerances_to};
 
 use super::changed_group::ChangedGroup;
-use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+
+pub(super) const MAP: Map = Map {
+    name: "mode-types",
+    about: "Types of modes when one planet is heavier",
+    meaning: "with one planet heavier than this a mode has lost its type: it is listed as mixed, and further on it is \
+         shared by kinds",
+    of: MapOf::Planets(map),
+};
 
 /// The planet that is made heavier.
 const PLANET: usize = 0;
 
-pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
+fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let mut map = empty(
-        MapName::ModeTypes,
+        &MAP,
         format!("{}, planet {PLANET} heavier", scene.title),
         "log₁₀ of the part by which a planet is heavier",
     );

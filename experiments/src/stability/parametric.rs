@@ -3,7 +3,14 @@
 use gearset::Scene;
 use lumped::{ParametricSet, Tongue, TongueEdges, tongues};
 
-use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+
+pub(super) const MAP: Map = Map {
+    name: "parametric",
+    about: "Parametric instability by varying mesh stiffness: tongues over mesh frequency",
+    meaning: "between the borders of a tongue the varying mesh stiffness feeds a vibration that grows from nothing",
+    of: MapOf::Planets(map),
+};
 
 /// Harmonics of the mesh frequency.
 const HARMONICS: u32 = 3;
@@ -19,10 +26,10 @@ const CLOSED: usize = 6;
 /// A tongue weaker than this, beside what it would be without phasing, is closed.
 const NOTHING: f64 = 1e-9;
 
-pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
+fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let set = ParametricSet::from_scene(scene, TABLED)?;
     let mut map = empty(
-        MapName::Parametric,
+        &MAP,
         scene.title.clone(),
         "detuning of the mesh frequency over the first-order half-width at ε = 0.04",
     );

@@ -17,7 +17,15 @@ use dynamics::c64;
 use dynamics::integrators::{Scheme, amplification};
 use lumped::MeshWave;
 
-use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+
+pub(super) const MAP: Map = Map {
+    name: "resolution",
+    about: "Too few steps in a mesh cycle: place and size of harmonics, and cancellation by phasing",
+    meaning: "with fewer steps in a mesh cycle than this a harmonic resonates at the wrong speed, is taken for another, or \
+         is not cancelled by planet phasing",
+    of: MapOf::Nothing(map),
+};
 
 /// Steps of the default.
 const STEPS: u32 = 140;
@@ -34,9 +42,9 @@ const WANTED: f64 = 0.01;
 /// Harmonics over steps between which a border is sought.
 const SHARES: [f64; 2] = [1e-3, 0.25];
 
-pub(super) fn map() -> Result<StabilityMap, MapError> {
+fn map() -> Result<StabilityMap, MapError> {
     let system = "one mesh of rectangular stiffness and one mode at a harmonic of it";
-    let mut map = empty(MapName::Resolution, system, "harmonic over steps in a mesh cycle");
+    let mut map = empty(&MAP, system, "harmonic over steps in a mesh cycle");
     let harmonics = || (1..=STEPS / 4).map(|l| (l, f64::from(l) / f64::from(STEPS)));
     let mut measured = [Vec::new(), Vec::new()];
     for (l, share) in harmonics() {

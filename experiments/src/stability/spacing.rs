@@ -9,7 +9,15 @@ use gearset::{Geometry, Scene};
 use lumped::{LumpedModel, ModeType, NaturalModes, SpacingChange};
 
 use super::changed_group::ChangedGroup;
-use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+
+pub(super) const MAP: Map = Map {
+    name: "spacing",
+    about: "Splits and types of modes when planets are displaced in angle",
+    meaning: "with a planet displaced in angle by this a mode has lost its type, and modes of equal frequency have split to \
+         first or second order by the pattern of the displacement",
+    of: MapOf::Planets(map),
+};
 
 /// Displacements at which orders and coefficients are taken, rad: small enough for leading order, large enough for splits
 /// of second order to stand out from rounding.
@@ -47,9 +55,9 @@ fn patterns(model: &LumpedModel) -> Vec<(&'static str, Vec<f64>)> {
     ]
 }
 
-pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
+fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let axis = "log₁₀ of the displacement in angle, rad";
-    let mut map = empty(MapName::Spacing, scene.title.clone(), axis);
+    let mut map = empty(&MAP, scene.title.clone(), axis);
     let model = LumpedModel::from_scene(scene)?;
     let modes = NaturalModes::of(&model)?;
     let geometry = Geometry::from_scene(scene).ok();

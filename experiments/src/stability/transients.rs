@@ -12,11 +12,19 @@
 use fe_contact::statics::Bodies;
 use gearset::{LoadCase, Scene};
 
-use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
 use super::resonance::slowest;
 use crate::error::ExperimentError;
 use crate::sweep::{
     MeshLawModel, Record, SteadyMethod, SteadySettings, SweepModel, left_of_transient, steady,
+};
+
+pub(super) const MAP: Map = Map {
+    name: "transients",
+    about: "Marches that end before their transient has died out, over the tolerance and damping",
+    meaning: "a march that ends when cycles change by less than a tolerance may be off by far more than that: by up to \
+         1/(2πζl) times as much at a resonance of harmonic l",
+    of: MapOf::Scene(map),
 };
 
 /// A march whose last cycle is off by this many times what the multipliers let expect has ended on another motion.
@@ -35,7 +43,7 @@ const CHANGE: f64 = 1e-3;
 const LEAST_CHANGE: f64 = 1e-8;
 const MOST_CYCLES: usize = 4000;
 
-pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
+fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let case = LoadCase::of_scene(scene).map_err(|_| MapError::NoOperation)?;
     let bodies = Bodies::new(scene).map_err(ExperimentError::from)?;
     let model = MeshLawModel::new(scene, &bodies, case)?;
@@ -43,7 +51,7 @@ pub(super) fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let system =
         format!("{}, mesh_law, {:.0} Hz, marched from rest", scene.title, case.mesh_frequency_hz);
     let axis = "log₁₀ of the change from cycle to cycle, of the vibration";
-    let mut map = empty(MapName::Transients, system, axis);
+    let mut map = empty(&MAP, system, axis);
     for factor in FACTORS {
         let of = format!("damping times {factor}");
         let March { changes, factor_left, last_left } = match March::of(&model, &case, factor)? {

@@ -15,7 +15,15 @@ use std::f64::consts::TAU;
 use dynamics::c64;
 use lumped::MeshWave;
 
-use super::map::{Border, MapCurve, MapError, MapName, StabilityMap, empty};
+use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+
+pub(super) const MAP: Map = Map {
+    name: "truncated-stiffness",
+    about: "Mesh stiffness cut off after some harmonics",
+    meaning: "a mesh stiffness of some harmonics only has no hand-over between tooth pairs: resonances of the harmonics \
+         left out are missing",
+    of: MapOf::Nothing(map),
+};
 
 /// A contact ratio of which no harmonic up to [`MOST`] vanishes.
 const WAVE: MeshWave = MeshWave { contact_ratio: 1.618, phase: 0.0 };
@@ -34,13 +42,13 @@ const SAMPLES: u32 = 1 << 12;
 /// An error of a harmonic that counts, 1 %.
 const WANTED: f64 = 0.01;
 
-pub(super) fn map() -> Result<StabilityMap, MapError> {
+fn map() -> Result<StabilityMap, MapError> {
     let system = format!(
         "one mesh of rectangular stiffness, contact ratio {}, variation ε = {VARIATION}",
         WAVE.contact_ratio
     );
     let axis = "harmonics of the stiffness that are kept";
-    let mut map = empty(MapName::TruncatedStiffness, system, axis);
+    let mut map = empty(&MAP, system, axis);
     for l in OF_DEFLECTION {
         let of = format!("harmonic {l} of the deflection");
         let errors: Vec<(u32, f64)> = (0..=MOST).map(|h| (h, error(l, h, VARIATION))).collect();
