@@ -2,6 +2,7 @@
 //! periodic solutions by shooting with their stability, periodic motions by harmonic balance, harmonics of systems with periodic stiffness, branches of
 //! solutions, spectra of records, identification of modes from records, and discretisation errors from three grids.
 
+pub mod benchmark_subjects;
 mod bundles;
 pub mod continuation;
 mod coupled;
@@ -12,7 +13,6 @@ mod gyroscopic;
 pub mod harmonic_balance;
 mod hill;
 pub mod identify;
-pub mod integrators;
 mod lowest_modes;
 mod matrix;
 mod newmark;

@@ -4,7 +4,7 @@
 //! dissipative or energy-keeping treatments do not; Acary, Z. Angew. Math. Mech. 96 (2016), proves that Moreau–Jean with
 //! θ = ½ keeps it for e = 1 and never gains for e < 1.
 
-use dynamics::integrators::{IntegratorError, Scheme, VibratingSystem};
+use dynamics::benchmark_subjects::{IntegratorError, Scheme, VibratingSystem};
 use dynamics::stability::{BouncingBar, HammeringPair};
 
 const SOUND: Scheme = Scheme::MoreauJean { theta: 0.5, restitution: 1.0 };

@@ -1,6 +1,6 @@
 //! Integrators against their closed forms, their orders, their limits and their energy with contact.
 
-use dynamics::integrators::{
+use dynamics::benchmark_subjects::{
     IntegratorError, Obstacle, Scheme, VibratingSystem, amplification, closed_form,
 };
 use nalgebra::DMatrix;
@@ -124,7 +124,7 @@ fn central_difference_is_refused_beyond_its_limit_only() {
     let system = VibratingSystem::new(m, DMatrix::zeros(2, 2), k, vec![0.0; 2]).unwrap();
     assert!((system.highest_frequency().unwrap() / omega_max - 1.0).abs() < 1e-14);
     let limit = 2.0 / omega_max;
-    let largest = |scheme: &dyn Fn(f64) -> Box<dyn dynamics::integrators::Integrator>, h| {
+    let largest = |scheme: &dyn Fn(f64) -> Box<dyn dynamics::benchmark_subjects::Integrator>, h| {
         let integrator = scheme(h);
         let mut state = system.start(&[1e-6, -0.9e-6], &[0.0; 2]).unwrap();
         integrator.march(&mut state, 4000).unwrap();

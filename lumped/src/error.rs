@@ -89,7 +89,7 @@ pub enum LumpedError {
     },
     /// A scheme or one of its steps.
     #[error(transparent)]
-    Integrator(#[from] dynamics::integrators::IntegratorError),
+    Integrator(#[from] dynamics::benchmark_subjects::IntegratorError),
     /// A planet whose mass would not be positive and finite.
     #[error(
         "a planet heavier by a part {part} has no positive mass: allowed is a finite part above -1"

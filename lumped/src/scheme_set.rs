@@ -1,4 +1,4 @@
-//! The lumped set in time by any scheme of [`dynamics::integrators`]: the equations of [`TimeVarying`](crate::TimeVarying),
+//! The lumped set in time by any scheme of [`dynamics::benchmark_subjects`]: the equations of [`TimeVarying`](crate::TimeVarying),
 //! stepped by average acceleration there, without mesh damping.
 //!
 //! ```text
@@ -12,7 +12,9 @@
 use std::sync::Arc;
 
 use dynamics::Coupling;
-use dynamics::integrators::{Instant, Integrator, Scheme, StepState, VibratingSystem, driven_step};
+use dynamics::benchmark_subjects::{
+    Instant, Integrator, Scheme, StepState, VibratingSystem, driven_step,
+};
 use gearset::{Facing, MeshLaw, Scene};
 use nalgebra::{DMatrix, DVector};
 

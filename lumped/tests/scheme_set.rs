@@ -4,8 +4,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use dynamics::benchmark_subjects::Scheme;
 use dynamics::harmonic_balance::BalanceOptions;
-use dynamics::integrators::Scheme;
 use gearset::{Facing, Geometry, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing, Scene};
 use lumped::{Axis, BalancedSet, Body, LAW_STEPS_A_STEP, LumpedError, SchemeSet, TimeVarying};
 

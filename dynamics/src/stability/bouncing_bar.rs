@@ -21,7 +21,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::integrators::{IntegratorError, Obstacle, Scheme, StepState, VibratingSystem};
+use crate::benchmark_subjects::{IntegratorError, Obstacle, Scheme, StepState, VibratingSystem};
 
 /// k must be whole to this.
 const WHOLE: f64 = 1e-9;

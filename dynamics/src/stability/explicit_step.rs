@@ -1,6 +1,6 @@
 //! Where the explicit central difference stops being stable.
 
-use crate::integrators::{IntegratorError, Scheme, amplification};
+use crate::benchmark_subjects::{IntegratorError, Scheme, amplification};
 
 /// A spectral radius above this is growth; below it, rounding at the double root of the border.
 const GROWS: f64 = 1e-6;

@@ -13,7 +13,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::integrators::{IntegratorError, Obstacle, Scheme, VibratingSystem};
+use crate::benchmark_subjects::{IntegratorError, Obstacle, Scheme, VibratingSystem};
 
 /// The pair, in units in which m = 1, ω = 1 and δ = 1: what remains is v/(ωδ).
 #[derive(Debug, Clone, Copy, PartialEq)]

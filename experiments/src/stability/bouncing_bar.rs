@@ -1,6 +1,6 @@
 //! Energy over a hundred bounces of the bar, by scheme.
 
-use dynamics::integrators::Scheme;
+use dynamics::benchmark_subjects::Scheme;
 use dynamics::stability::BouncingBar;
 
 use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};

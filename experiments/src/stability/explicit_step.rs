@@ -1,6 +1,6 @@
 //! Where the explicit central difference stops being stable, and how many steps a mesh cycle of a set would need.
 
-use dynamics::integrators::{Scheme, VibratingSystem, amplification, closed_form};
+use dynamics::benchmark_subjects::{Scheme, VibratingSystem, amplification, closed_form};
 use dynamics::stability::explicit_limit;
 use gearset::{LoadCase, Scene};
 use lumped::LumpedModel;
@@ -40,18 +40,23 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     Ok(map)
 }
 
-type Of =
-    fn(
-        &Scheme,
-        f64,
-        f64,
-    ) -> Result<dynamics::integrators::Amplification, dynamics::integrators::IntegratorError>;
+type Of = fn(
+    &Scheme,
+    f64,
+    f64,
+) -> Result<
+    dynamics::benchmark_subjects::Amplification,
+    dynamics::benchmark_subjects::IntegratorError,
+>;
 
 fn exact(
     scheme: &Scheme,
     omega_h: f64,
     ratio: f64,
-) -> Result<dynamics::integrators::Amplification, dynamics::integrators::IntegratorError> {
+) -> Result<
+    dynamics::benchmark_subjects::Amplification,
+    dynamics::benchmark_subjects::IntegratorError,
+> {
     Ok(closed_form(scheme, omega_h, ratio))
 }
 

@@ -1,6 +1,6 @@
 //! Guards: what the program says beyond each border, from both sides of it.
 
-use dynamics::integrators::{Scheme, VibratingSystem};
+use dynamics::benchmark_subjects::{Scheme, VibratingSystem};
 use dynamics::stability::{BouncingBar, HammeringPair};
 use fe_contact::FeError;
 use fe_contact::complementarity::ActiveSet;

@@ -1,6 +1,6 @@
 //! Energy and place of a pair that hammers, by scheme and number of steps in a contact.
 
-use dynamics::integrators::{IntegratorError, Scheme};
+use dynamics::benchmark_subjects::{IntegratorError, Scheme};
 use dynamics::stability::{Hammering, HammeringPair};
 use rayon::prelude::*;
 

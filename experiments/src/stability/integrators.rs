@@ -1,6 +1,6 @@
 //! Spectral radius, period error and numerical damping of every scheme over ω Δt.
 
-use dynamics::integrators::{Amplification, Scheme, amplification, closed_form};
+use dynamics::benchmark_subjects::{Amplification, Scheme, amplification, closed_form};
 
 use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
 

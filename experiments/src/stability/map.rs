@@ -134,7 +134,7 @@ pub struct StabilityMap {
 pub enum MapError {
     /// A step in time.
     #[error(transparent)]
-    Integrator(#[from] dynamics::integrators::IntegratorError),
+    Integrator(#[from] dynamics::benchmark_subjects::IntegratorError),
     /// The lumped set of the scene.
     #[error(transparent)]
     Lumped(#[from] lumped::LumpedError),

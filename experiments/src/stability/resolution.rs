@@ -13,8 +13,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use dynamics::benchmark_subjects::{Scheme, amplification};
 use dynamics::c64;
-use dynamics::integrators::{Scheme, amplification};
 use lumped::MeshWave;
 
 use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};

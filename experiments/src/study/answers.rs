@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use dynamics::benchmark_subjects::Scheme;
 use dynamics::harmonic_balance::BalanceOptions;
-use dynamics::integrators::Scheme;
 use fe_contact::contact::Location;
 use fe_contact::statics::{Bodies, Imperfections, SetCycle, StaticSet, at_phase, estimate};
 use fe_contact::vibration::{MeshLawSettings, mesh_law};

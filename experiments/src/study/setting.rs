@@ -1,6 +1,6 @@
 //! Settings: scene keys, model, and how answers are found.
 
-use dynamics::integrators::Scheme;
+use dynamics::benchmark_subjects::Scheme;
 use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, Lemke};
 use gearset::Scene;
 use schemars::JsonSchema;

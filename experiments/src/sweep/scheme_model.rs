@@ -1,6 +1,6 @@
 //! The lumped model in time, stepped by a scheme of one's choice.
 
-use dynamics::integrators::Scheme;
+use dynamics::benchmark_subjects::Scheme;
 use fe_contact::statics::Bodies;
 use gearset::{Fidelity, LoadCase, Scene};
 use lumped::{LAW_STEPS_A_STEP, SchemeSet};
