@@ -24,9 +24,9 @@ pub(crate) struct SceneSummary {
     pub(super) meshes: Vec<MeshSummary>,
     /// γ, path start to path start, cycles.
     pub(super) gamma: Option<f64>,
-    /// Sun mesh phases relative to planet 0, cycles.
+    /// Sun mesh phases as they follow in time at the operating point, relative to planet 0, cycles.
     pub(super) sun_mesh_phases: Option<Vec<f64>>,
-    /// Ring mesh phases relative to planet 0's sun mesh, cycles.
+    /// Ring mesh phases in the same way, relative to planet 0's sun mesh, cycles.
     pub(super) ring_mesh_phases: Option<Vec<f64>>,
     pub(super) mesh_frequency_hz: Option<f64>,
     pub(super) carrier_speed_rpm: Option<f64>,
@@ -162,9 +162,12 @@ impl SceneSummary {
         let geometry = geometry.as_ref();
         let phasing = geometry.and_then(|g| Phasing::new(g, &scene.planets));
         let phasing = phasing.filter(|_| scene.kind == SceneKind::Planetary);
-        let phases = phasing.as_ref().map(|p| p.phases(0.0, gearset::Facing::CounterClockwise));
+        let case = LoadCase::of_scene(scene).unwrap_or(LoadCase::standing(0.0));
+        let phases = phasing.as_ref().map(|p| p.phases(0.0, case.sense()));
+        let direction = case.direction().sign();
         let relative = |list: &[f64], zero: f64| {
-            list.iter().map(|p| (p - zero).rem_euclid(1.0)).collect::<Vec<_>>()
+            let in_time = |phase: &f64| (direction * (phase - zero)).rem_euclid(1.0);
+            list.iter().map(in_time).collect::<Vec<_>>()
         };
         let zero = phases.as_ref().map_or(0.0, |p| p.sun_planet[0]);
         let admitted = within_memory(scene);

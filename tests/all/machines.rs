@@ -68,3 +68,24 @@ fn supports_that_contradict_the_operating_point_are_refused() {
         assert!(text.contains("`operation.fixed`: it is \"ring\""), "{text}");
     }
 }
+
+/// −σ Z_s ψ_n/2π, whichever way the torque acts.
+#[test]
+fn scene_check_has_mesh_phases_as_they_follow_in_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(scene("oh58_4p.toml")).unwrap();
+    let forward = [0.0, 27.0 / 42.0, 0.5, 6.0 / 42.0];
+    for (speed, torque) in [(1600i32, 1413), (1600, -1413), (-1600, 1413), (-1600, -1413)] {
+        let text = text
+            .replace("speed_rpm = 1600", &format!("speed_rpm = {speed}"))
+            .replace("torque_nm = 1413", &format!("torque_nm = {torque}"));
+        let path = folder.path().join("machine.toml");
+        std::fs::write(&path, text).unwrap();
+        let found = json(&["scene", "check", path.to_str().unwrap(), "--format", "json"]);
+        for (n, forward) in forward.iter().enumerate() {
+            let expected = (f64::from(speed.signum()) * forward).rem_euclid(1.0);
+            let off = number(&found["sun_mesh_phases"][n]) - expected;
+            assert!((off - off.round()).abs() < 1e-9, "{speed} rpm, {torque} N·m: {found}");
+        }
+    }
+}
