@@ -344,15 +344,14 @@ pub(super) mod tests {
         }
     }
 
-    /// With its torque reversed a set of evenly spaced planets presses on its other flanks, and but for damping moves as its mirror image backwards in time, at positions
+    /// With its torque and rotation reversed a set of evenly spaced planets presses on its other flanks, and but for damping moves as its mirror image backwards in time, at positions
     /// that fall otherwise on the steps: with 120 of them both corrections change a motion alike to a fiftieth. What inertia changes of the amplitude is the small part of this change that
     /// is in phase with the motion, and is compared with all of it.
     #[test]
     fn a_mirrored_set_is_corrected_alike() {
         let scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
         let case = LoadCase::of_scene(&scene).unwrap();
-        let mut reversed = case;
-        reversed.sun_torque_nm = -case.sun_torque_nm;
+        let reversed = case.with_sun_torque(-case.sun_torque_nm).in_direction(case.direction());
         let own = AutoSettings::quasi_static(6, 20).with_steps(120).with_elastic_inertia();
         for response in [AutoResponse::TransmissionError, AutoResponse::SunTranslation] {
             let request = request(response, 5.0);

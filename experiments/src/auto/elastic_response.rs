@@ -264,14 +264,13 @@ mod tests {
         compared(60, 240, &[700.0, 1100.0, 1500.0, 2000.0, 2500.0, 3000.0, 4000.0], 0.3);
     }
 
-    /// A steady motion without damping is the same backwards in time, and a set under the reversed torque moves as its mirror image backwards in time. With a tenth of
+    /// A steady motion without damping is the same backwards in time, and a set under the reversed torque that turns the other way moves as its mirror image backwards in time. With a tenth of
     /// its damping OH-58 is loaded by the inertia of its elastic displacements alike in both, although the steps fall otherwise where pairs begin to touch.
     #[test]
-    fn inertia_of_displacements_is_the_same_under_the_reversed_torque() {
+    fn inertia_of_displacements_is_the_same_in_the_reversed_machine() {
         let (mut scene, case, request) = oh58(AutoResponse::TransmissionError, &[2000.0]);
         scene.damping = scene.damping.times(0.1);
-        let mut reversed = case;
-        reversed.sun_torque_nm = -case.sun_torque_nm;
+        let reversed = case.with_sun_torque(-case.sun_torque_nm).in_direction(case.direction());
         let own = AutoSettings::quasi_static(6, 20).with_steps(120);
         let [one, other] = [case, reversed].map(|case| {
             let found = on((&scene, &case), own, &request, |turning| {
