@@ -166,7 +166,8 @@ impl SceneSummary {
         let phases = phasing.as_ref().map(|p| p.phases(0.0, case.sense()));
         let direction = case.direction().sign();
         let relative = |list: &[f64], zero: f64| {
-            let in_time = |phase: &f64| (direction * (phase - zero)).rem_euclid(1.0);
+            // Not −0.
+            let in_time = |phase: &f64| (direction * (phase - zero)).rem_euclid(1.0) + 0.0;
             list.iter().map(in_time).collect::<Vec<_>>()
         };
         let zero = phases.as_ref().map_or(0.0, |p| p.sun_planet[0]);
