@@ -1,5 +1,5 @@
-//! Every machine turns its own way: which members drive and are held, driving and braking, decide in which direction meshes
-//! run along the path of contact.
+//! Every machine turns its own way: which members drive and are held, driving and braking, decide in which
+//! direction meshes run along the path of contact.
 
 mod shipped;
 
@@ -27,8 +27,8 @@ const MACHINES: [(Member, Member, PathDirection); 6] = [
 /// Magnitude of the torque on the sun, N m.
 const SUN_NM: f64 = 1130.0;
 
-/// OH-58 with four planets as a machine with its speed and torque in given senses. The torque acts on a member that turns, the
-/// other two are held.
+/// OH-58 with four planets as a machine with its speed and torque in given senses. The torque acts on a member
+/// that turns, the other two are held.
 fn machine_loaded_at(
     loaded: Member,
     (driver, held): (Member, Member),
@@ -76,8 +76,8 @@ fn order(point: &SweepPoint) -> Vec<f64> {
     (0..4).map(|n| (phase(n) - phase(0)).rem_euclid(1.0)).collect()
 }
 
-/// The order of the first harmonics of sun-mesh forces follows −σ Z_s ψ_n/2π for every driver, held member, sense of rotation
-/// and of torque; the flanks follow the torque alone.
+/// The order of the first harmonics of sun-mesh forces follows −σ Z_s ψ_n/2π for every driver, held member, sense
+/// of rotation and of torque; the flanks follow the torque alone.
 #[test]
 fn sun_meshes_come_in_the_order_in_which_their_planets_pass() {
     for (driver, held, driving) in MACHINES {
@@ -167,7 +167,8 @@ fn driving_through_the_carrier_is_braking_through_the_sun() {
     assert!(a != marched(&scene, other, 700.0));
 }
 
-/// Where nothing vibrates, a set that runs backward is at every instant as the set that runs forward is in the same position.
+/// Where nothing vibrates, a set that runs backward is at every instant as the set that runs forward is in the
+/// same position.
 #[test]
 fn slow_sets_pass_the_same_positions_in_reverse() {
     let of = |speed: f64| {
@@ -192,9 +193,9 @@ fn slow_sets_pass_the_same_positions_in_reverse() {
     }
 }
 
-/// Gyroscopic terms split the first translational mode as whirl and carrier turn: a whirl in the carrier's sense appears
-/// slower in its frame. Of five planets with 27 sun teeth harmonic 2 whirls at −σ, the carrier turns at σ with the ring
-/// held and at −σ with the sun held.
+/// Gyroscopic terms split the first translational mode as whirl and carrier turn: a whirl in the carrier's sense
+/// appears slower in its frame. Of five planets with 27 sun teeth harmonic 2 whirls at −σ, the carrier turns at σ
+/// with the ring held and at −σ with the sun held.
 #[test]
 fn gyroscopic_peaks_split_as_the_carrier_turns() {
     let peak = |driver: Member, held: Member, torque: f64, is_on: bool| {
@@ -257,9 +258,9 @@ fn gyroscopic_peaks_split_as_the_carrier_turns() {
 }
 
 /// At rest it hardly matters which of the three members turns under the torque and which two react: mesh forces and the
-/// transmission error by work are the same, and so are the mean torques on all members. Only where pairs touch at corners, whose
-/// normals are no common tangents of the base circles, is the ratio of torques not that of the teeth at every instant; the torque
-/// that is given is the one that is constant then.
+/// transmission error by work are the same, and so are the mean torques on all members. Only where pairs touch at
+/// corners, whose normals are no common tangents of the base circles, is the ratio of torques not that of the
+/// teeth at every instant; the torque that is given is the one that is constant then.
 #[test]
 fn statics_are_the_same_whichever_member_turns() {
     use gearset::Freedom::{Free, Held, RotationHeld};

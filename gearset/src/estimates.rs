@@ -98,9 +98,9 @@ pub(crate) fn mesh_force(scene: &Scene, geometry: &Geometry) -> Option<f64> {
     Some(torque / radius / scene.planets.count() as f64)
 }
 
-/// How far the teeth give way at the operating point, m: both meshes, the planet bearing and the torsional supports of the
-/// members that react in series; of a pair, its mesh. `None` without a torque, or where it has no path through the
-/// meshes.
+/// How far the teeth give way at the operating point, m: both meshes, the planet bearing and the torsional
+/// supports of the members that react in series; of a pair, its mesh. `None` without a torque, or where it has no
+/// path through the meshes.
 pub(crate) fn deflection(scene: &Scene, geometry: &Geometry) -> Option<f64> {
     way_under(scene, geometry, mesh_force(scene, geometry)?)
 }

@@ -143,7 +143,8 @@ impl Gear {
     }
 }
 
-/// Which of a lobe's two flanks: the one at its counter-clockwise or at its clockwise end; of a torque or a rotation, its sense.
+/// Which of a lobe's two flanks: the one at its counter-clockwise or at its clockwise end; of a torque or a
+/// rotation, its sense.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Facing {

@@ -52,8 +52,8 @@ pub struct ProfileShiftSums {
 }
 
 impl Geometry {
-    /// Largest displacement of a body that is taken for motion and not for divergence, m: a tenth of the centre distance, beyond
-    /// which no mesh is linear.
+    /// Largest displacement of a body that is taken for motion and not for divergence, m: a tenth of the centre
+    /// distance, beyond which no mesh is linear.
     pub fn largest_displacement(&self) -> f64 {
         0.1 * self.center_distance
     }

@@ -1,5 +1,5 @@
-//! How a set is driven and loaded. The sense of the load, the sign of the torque on every member, the mesh frequency at a
-//! speed and the direction in which meshes run are defined only here.
+//! How a set is driven and loaded. The sense of the load, the sign of the torque on every member, the mesh
+//! frequency at a speed and the direction in which meshes run are defined only here.
 //!
 //! ```text
 //! τ = sign T_s              which flanks press; a set with τ = −1 is computed as its mirror image
@@ -7,10 +7,10 @@
 //! d = σ τ                   sign of the sun's power relative to the carrier, T_s (ω_s − ω_c)
 //! ```
 //!
-//! In the frame in which the torque on the sun is counter-clockwise all mesh phases advance at d f_m: pairs run from the
-//! start of the path of contact to its end with d = +1, from its end to its start with d = −1, in sun and ring meshes
-//! alike. Driving through the sun is d = +1; so is every set whose sun drives relative to the carrier. Braking flips d,
-//! reversing speeds and torques together does not.
+//! In the frame in which the torque on the sun is counter-clockwise all mesh phases advance at d f_m: pairs run
+//! from the start of the path of contact to its end with d = +1, from its end to its start with d = −1, in sun and
+//! ring meshes alike. Driving through the sun is d = +1; so is every set whose sun drives relative to the carrier.
+//! Braking flips d, reversing speeds and torques together does not.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -48,8 +48,8 @@ impl PathDirection {
     }
 }
 
-/// One operating condition of a set. Torques are counter-clockwise positive; speeds are magnitudes in the sense of rotation
-/// that `sun_turns` gives.
+/// One operating condition of a set. Torques are counter-clockwise positive; speeds are magnitudes in the sense of
+/// rotation that `sun_turns` gives.
 ///
 /// ```
 /// use gearset::{LoadCase, Scene, template, SceneKind};
@@ -70,8 +70,8 @@ pub struct LoadCase {
     pub sun_torque_nm: f64,
     /// Magnitude of the speed of the driven member, rpm; 0 for a standing set.
     pub speed_rpm: f64,
-    /// Sense in which the sun turns relative to the carrier, σ; of a standing set that of its torque. Counter-clockwise if
-    /// left out.
+    /// Sense in which the sun turns relative to the carrier, σ; of a standing set that of its torque.
+    /// Counter-clockwise if left out.
     #[serde(default = "counter_clockwise", skip_serializing_if = "is_counter_clockwise")]
     pub sun_turns: Facing,
     /// Mesh frequency f_m at that speed, Hz.
@@ -242,8 +242,8 @@ mod tests {
         }
     }
 
-    /// The direction of the path for every driven and held member, in both senses of rotation, driving and braking; it is that
-    /// of the sun's power relative to the carrier.
+    /// The direction of the path for every driven and held member, in both senses of rotation, driving and
+    /// braking; it is that of the sun's power relative to the carrier.
     #[test]
     fn pairs_run_the_way_the_power_of_the_sun_relative_to_the_carrier_flows() {
         use Member::{Carrier, Ring, Sun};

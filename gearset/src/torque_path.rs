@@ -22,9 +22,9 @@ impl Scene {
     ///
     /// T_s + T_r + T_c = 0 with every share other than 0, so that two of the three rotations must be held or sprung and
     /// the third must be able to turn: it is the one without support. Where all are supported it is the sun, if it can
-    /// turn, else the driven member or the one that can. Natural modes need none of this. Of a gear pair it is the sun: a
-    /// planet that turns freely carries the torque that balances the sun's, and one that is held or sprung passes it to
-    /// its support.
+    /// turn, else the driven member or the one that can. Natural modes need none of this. Of a gear pair it is the
+    /// sun: a planet that turns freely carries the torque that balances the sun's, and one that is held or sprung
+    /// passes it to its support.
     ///
     /// # Errors
     /// [`NoTorquePath`] with the first support that lets no torque pass.
@@ -78,11 +78,12 @@ impl Scene {
         Ok(*loaded)
     }
 
-    /// Whether a torque on the [loaded member](Self::loaded_member) loads the meshes, and whether the operating point agrees with
-    /// the supports about the member that stands still.
+    /// Whether a torque on the [loaded member](Self::loaded_member) loads the meshes, and whether the operating
+    /// point agrees with the supports about the member that stands still.
     ///
     /// # Errors
-    /// As [`loaded_member`](Self::loaded_member), or if the operating point holds the member that the torque would turn.
+    /// As [`loaded_member`](Self::loaded_member), or if the operating point holds the member that the torque would
+    /// turn.
     pub fn torque_path(&self) -> Result<(), NoTorquePath> {
         let loaded = self.loaded_member()?;
         let holds_it = |operation: Operation| operation.fixed == loaded;

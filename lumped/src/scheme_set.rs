@@ -1,5 +1,5 @@
-//! The lumped set in time by any scheme of [`dynamics::benchmark_subjects`]: the equations of [`TimeVarying`](crate::TimeVarying),
-//! stepped by average acceleration there, without mesh damping.
+//! The lumped set in time by any scheme of [`dynamics::benchmark_subjects`]: the equations of
+//! [`TimeVarying`](crate::TimeVarying), stepped by average acceleration there, without mesh damping.
 //!
 //! ```text
 //! M q̈ + C q̇ + (K_s + Σ k̄ b bᵀ) q = f − Σ b (P − k̄ δ),   P = F(phase, δ),   δ = bᵀ q

@@ -107,6 +107,27 @@ fn natural_modes_are_those_of_the_eigen_model() {
     }
 }
 
+/// Stiffness-proportional damping acts on the bodies' share of the flexibility of a mesh alone: with a share of
+/// 0.3 a set moves as with 0.3 times the damping on all of it.
+#[test]
+fn damping_of_a_mesh_is_that_of_its_bodies_share() {
+    let mut scene = scene("oh58_4p.toml");
+    scene.damping.bearing_s = 1e-6;
+    let mut march = |beta: f64, share: f64| {
+        scene.damping.stiffness_proportional_s = beta;
+        let law = changing(&scene, 140).with_damping_share(&[share; 8]).unwrap();
+        let mut set = TimeVarying::new(&scene, Facing::CounterClockwise, law, FREQUENCY).unwrap();
+        set.rest(TORQUE).unwrap();
+        (0..280).for_each(|_| set.step().unwrap());
+        set.motion().x
+    };
+    let (own, same, whole) = (march(2e-6, 0.3), march(0.6e-6, 1.0), march(2e-6, 1.0));
+    let size = own.iter().fold(0.0f64, |a, x| a.max(x.abs()));
+    let off = |other: &[f64]| own.iter().zip(other).fold(0.0f64, |a, (x, y)| a.max((x - y).abs()));
+    assert!(off(&same) < 1e-10 * size, "{:e}", off(&same) / size);
+    assert!(off(&whole) > 1e-5 * size, "{:e}", off(&whole) / size);
+}
+
 /// At light load and large initial displacement contact is lost and backside flanks touch; all steps
 /// converge, no mesh force is negative, and contact is regained.
 #[test]

@@ -56,8 +56,8 @@ pub(super) struct MotionSummary {
     pub(super) speeds_rpm: MemberSpeeds,
     /// External torques that hold the members in steady motion, without friction.
     pub(super) torques_nm: MemberTorques,
-    /// Direction in which tooth pairs run along the path of contact: forward, from its start to its end, where the sun's
-    /// power relative to the carrier is positive.
+    /// Direction in which tooth pairs run along the path of contact: forward, from its start to its end, where the
+    /// sun's power relative to the carrier is positive.
     pub(super) pairs_run: PathDirection,
     /// Member that the torque acts on in experiments, because it turns without support; null if it has no path.
     pub(super) torque_acts_on: Option<Member>,

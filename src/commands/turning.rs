@@ -29,8 +29,8 @@ pub(super) fn model<'a>(
     })
 }
 
-/// Strongest harmonics of the sun, or of the member that turns where it is held, of its rotation and of its translation, each
-/// with its number.
+/// Strongest harmonics of the sun, or of the member that turns where it is held, of its rotation and of its
+/// translation, each with its number.
 pub(super) fn of_member(state: &SteadyState, harmonics: usize) -> [String; 4] {
     let member = state.turning_member();
     let rotation = Response::Rotation(member).strongest(state, harmonics);

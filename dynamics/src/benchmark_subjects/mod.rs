@@ -1,5 +1,6 @@
-//! Schemes held against one another and against theory: time integration of linear vibrating systems between rigid obstacles, behind
-//! one trait. Motions of gear sets are stepped by [`AverageAcceleration`](crate::AverageAcceleration) alone.
+//! Schemes held against one another and against theory: time integration of linear vibrating systems between rigid
+//! obstacles, behind one trait. Motions of gear sets are stepped by
+//! [`AverageAcceleration`](crate::AverageAcceleration) alone.
 //!
 //! ```text
 //! M ẍ + C ẋ + K x = f + Gᵀ λ,   0 ≤ λ ⟂ g = d + G x ≥ 0

@@ -238,7 +238,8 @@ impl<L: CouplingForce> Coupled<L> {
     /// One step.
     ///
     /// # Errors
-    /// If the couplings' equations are not solved, or a displacement passes the largest of a motion that does not diverge.
+    /// If the couplings' equations are not solved, or a displacement passes the largest of a motion that does not
+    /// diverge.
     pub fn step(&mut self) -> Result<(), CoupledError> {
         let after = self.state.step_in_cycle + 1;
         let step_in_cycle = if after == self.steps_per_cycle { 0 } else { after };

@@ -344,9 +344,11 @@ pub(super) mod tests {
         }
     }
 
-    /// With its torque and rotation reversed a set of evenly spaced planets presses on its other flanks, and but for damping moves as its mirror image backwards in time, at positions
-    /// that fall otherwise on the steps: with 120 of them both corrections change a motion alike to a fiftieth. What inertia changes of the amplitude is the small part of this change that
-    /// is in phase with the motion, and is compared with all of it.
+    /// With its torque and rotation reversed a set of evenly spaced planets presses on its other flanks, and but
+    /// for damping moves as its mirror image backwards in time, at positions that fall otherwise on the steps:
+    /// with 120 of them both corrections change a motion alike to a fiftieth. What inertia changes of the
+    /// amplitude is the small part of this change that is in phase with the motion, and is compared with all of
+    /// it.
     #[test]
     fn a_mirrored_set_is_corrected_alike() {
         let scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();

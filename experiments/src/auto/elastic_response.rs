@@ -264,8 +264,10 @@ mod tests {
         compared(60, 240, &[700.0, 1100.0, 1500.0, 2000.0, 2500.0, 3000.0, 4000.0], 0.3);
     }
 
-    /// A steady motion without damping is the same backwards in time, and a set under the reversed torque that turns the other way moves as its mirror image backwards in time. With a tenth of
-    /// its damping OH-58 is loaded by the inertia of its elastic displacements alike in both, although the steps fall otherwise where pairs begin to touch.
+    /// A steady motion without damping is the same backwards in time, and a set under the reversed torque that
+    /// turns the other way moves as its mirror image backwards in time. With a tenth of its damping OH-58 is
+    /// loaded by the inertia of its elastic displacements alike in both, although the steps fall otherwise where
+    /// pairs begin to touch.
     #[test]
     fn inertia_of_displacements_is_the_same_in_the_reversed_machine() {
         let (mut scene, case, request) = oh58(AutoResponse::TransmissionError, &[2000.0]);

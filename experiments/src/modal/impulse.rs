@@ -62,9 +62,9 @@ pub struct ImpulseTest {
     pub steps: u64,
 }
 
-/// Forces on sun and carrier (of a gear pair on sun and planet), a torque on the sun (where it is held, on ring and carrier), and pulses on the planets that do not move the central
-/// members: radial, tangential and rotational, in every pattern over the planets orthogonal to 1, cos ψ and
-/// sin ψ.
+/// Forces on sun and carrier (of a gear pair on sun and planet), a torque on the sun (where it is held, on ring
+/// and carrier), and pulses on the planets that do not move the central members: radial, tangential and
+/// rotational, in every pattern over the planets orthogonal to 1, cos ψ and sin ψ.
 pub fn pulses(races: &Races) -> Vec<Pulse> {
     let single = |name: &str, body: usize, axis: usize| {
         let i = races.of(body, axis)?;

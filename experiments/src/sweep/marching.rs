@@ -52,7 +52,8 @@ pub trait Marching {
     }
 
     /// Kinematic rest (largest deviation of a pair's approach from its linear form) at a step since which the set has not passed
-    /// that position of the cycle, and the radius of the member that the torque acts on, m; `None` as [`loaded_step`](Self::loaded_step).
+    /// that position of the cycle, and the radius of the member that the torque acts on, m; `None` as
+    /// [`loaded_step`](Self::loaded_step).
     fn kinematic_rest(&self, at: &LoadedStep) -> Option<[f64; 2]> {
         let _ = at;
         None

@@ -16,7 +16,8 @@ const CYCLES: usize = 8;
 /// Largest push off rest, of that vibration.
 const LARGEST: f64 = 3.0;
 
-/// Cycles marched from the push before the search begins: shooting at once would end on whichever motion its corrections meet.
+/// Cycles marched from the push before the search begins: shooting at once would end on whichever motion its
+/// corrections meet.
 const AHEAD: usize = 32;
 
 /// A model that a random start is asked of in vain.

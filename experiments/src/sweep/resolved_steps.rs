@@ -102,7 +102,8 @@ pub fn steps_needed(
     Ok(enough.filter(|steps| *steps > usual))
 }
 
-/// Harmonics in which the sun, or the member that turns where it is held, translates or turns by at least [`STRONG`] of its largest amplitude of the kind.
+/// Harmonics in which the sun, or the member that turns where it is held, translates or turns by at least
+/// [`STRONG`] of its largest amplitude of the kind.
 fn strong_harmonics(state: &SteadyState, highest: usize) -> Vec<usize> {
     let (member, all) = (state.turning_member(), state.with_translations());
     let strong = |coordinate: Coordinate| {

@@ -35,9 +35,10 @@ impl RestSamples {
         }
     }
 
-    /// The largest kinematic rest, also relative to the largest peak-to-peak motion of the sun, or of the member that turns in its place, over the recorded cycle, the last one
-    /// that the set marched; `None` for a set without. The motion includes x and y, since the transmission error (rotation at
-    /// the base circle) is small at resonances of translational modes.
+    /// The largest kinematic rest, also relative to the largest peak-to-peak motion of the sun, or of the member
+    /// that turns in its place, over the recorded cycle, the last one that the set marched; `None` for a set
+    /// without. The motion includes x and y, since the transmission error (rotation at the base circle) is small
+    /// at resonances of translational modes.
     pub(super) fn rest(&self, set: &dyn Marching, record: &Record) -> Option<KinematicRest> {
         let (mut largest, mut radius) = (0.0f64, None);
         for step in &self.steps {

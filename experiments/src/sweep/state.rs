@@ -183,8 +183,8 @@ impl SteadyState {
             .find(|l| l.part == part && l.coordinate == coordinate && l.harmonic == harmonic)
     }
 
-    /// The central member whose motion stands for that of the set: the sun, or where that does not turn, because it is held,
-    /// the ring or the carrier.
+    /// The central member whose motion stands for that of the set: the sun, or where that does not turn, because
+    /// it is held, the ring or the carrier.
     pub fn turning_member(&self) -> Part {
         let turns = |part: &Part| {
             let rotates = |l: &&Line| l.part == *part && l.coordinate == Coordinate::Rotation;

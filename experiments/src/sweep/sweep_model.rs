@@ -73,8 +73,8 @@ pub trait SweepModel: Sync {
     }
 
     /// The set of a cycle so short that it hardly moves, whose multipliers are those of its vibrations: as
-    /// [`turning_damped`](Self::turning_damped), but without the terms of the carrier's turning, which would be those of a carrier that
-    /// turns as fast.
+    /// [`turning_damped`](Self::turning_damped), but without the terms of the carrier's turning, which would be
+    /// those of a carrier that turns as fast.
     ///
     /// # Errors
     /// As [`turning_damped`](Self::turning_damped).

@@ -61,7 +61,8 @@ fn shooting_and_marching_agree_on_modal_bodies() {
     }
 }
 
-/// Meshes that run backward, symmetric sets (after a half and after a fifth of the cycle) and tabulated forces included.
+/// Meshes that run backward, symmetric sets (after a half and after a fifth of the cycle) and tabulated forces
+/// included.
 #[test]
 fn shooting_and_marching_agree_where_meshes_run_backward() {
     for (name, torque, steps) in [("oh58_4p", 1130.0, 56), ("five_planets", 500.0, 60)] {

@@ -39,8 +39,8 @@ pub struct Races {
     pub(crate) seated: usize,
     /// Supports to ground: carrier, ring, sun; of a pair its planet, too.
     supports: Vec<Support>,
-    /// External torques under a unit torque on the sun, by body: on the member that turns without support, and on a planet of a
-    /// pair that turns freely the one that balances it. The first body is the loaded one.
+    /// External torques under a unit torque on the sun, by body: on the member that turns without support, and on
+    /// a planet of a pair that turns freely the one that balances it. The first body is the loaded one.
     torques: Vec<(usize, f64)>,
 }
 

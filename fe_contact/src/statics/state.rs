@@ -44,8 +44,8 @@ pub struct SetState {
     pub meshes: Vec<MeshState>,
     /// Loaded backside flanks; phases count in the mirrored mesh.
     pub backside: Vec<MeshState>,
-    /// Rotation of the member that the torque acts on, times its torque over that of the sun, rad: the sun's rotation, unless
-    /// the sun is held.
+    /// Rotation of the member that the torque acts on, times its torque over that of the sun, rad: the sun's
+    /// rotation, unless the sun is held.
     pub loaded_rotation: f64,
     /// Torques that the gears exert on carrier and ring.
     pub reactions: ThroughTorques,
@@ -61,8 +61,9 @@ pub struct SetState {
 }
 
 impl SetState {
-    /// r_b θ of the member that the torque acts on, by work: r_b of the sun times [`loaded_rotation`](Self::loaded_rotation), m.
-    /// With the sun held and the torque on the ring it is r_b θ of the ring.
+    /// r_b θ of the member that the torque acts on, by work: r_b of the sun times
+    /// [`loaded_rotation`](Self::loaded_rotation), m. With the sun held and the torque on the ring it is r_b θ of
+    /// the ring.
     pub fn transmission_error(&self, sun_base_radius: f64) -> f64 {
         self.loaded_rotation * sun_base_radius
     }

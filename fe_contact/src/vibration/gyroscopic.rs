@@ -37,8 +37,8 @@ impl GyroscopicTerms {
 }
 
 /// Speed of the carrier (rad/s) at a mesh frequency (Hz), positive in the sense in which the sun turns relative to the
-/// carrier: times d it is that in the frame of counter-clockwise torque, in which the sun turns so relative to the carrier
-/// at d times its magnitude.
+/// carrier: times d it is that in the frame of counter-clockwise torque, in which the sun turns so relative to the
+/// carrier at d times its magnitude.
 pub(super) fn carrier_speed(scene: &Scene, mesh_frequency: f64) -> f64 {
     match Kinematics::from_scene(scene) {
         Ok(k) if k.mesh_frequency_hz > 0.0 => {

@@ -11,8 +11,8 @@
 //! Instead the forces are interpolated by a parabola through the end of the step, its start and the
 //! start of the step before, for which the equation is solved exactly. This is of second order for
 //! any ratio of step and β, and damps motion faster than the step. The state belongs to tooth
-//! pairs, whose numbers grow by one whenever the phase of their mesh starts again at 0, and fall by one where meshes run
-//! backward.
+//! pairs, whose numbers grow by one whenever the phase of their mesh starts again at 0, and fall by one where
+//! meshes run backward.
 
 use dynamics::AverageAcceleration;
 use gearset::PathDirection;

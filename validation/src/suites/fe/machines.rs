@@ -1,5 +1,5 @@
-//! Machines that are not driven through the sun: a carrier that drives against a held ring, a ring that drives against a held
-//! sun. Their tooth pairs run from the end of the path of contact to its start.
+//! Machines that are not driven through the sun: a carrier that drives against a held ring, a ring that drives
+//! against a held sun. Their tooth pairs run from the end of the path of contact to its start.
 
 use experiments::sweep::{
     Coordinate, Direction, FeModel, Memory, Part, Plan, SteadyState, Sweep, run,
@@ -55,7 +55,8 @@ fn swept(lab: &Lab<'_>, machine: &Scene, speeds: &[f64]) -> Result<Sweep, Valida
     Ok(run(&model, &plan, &Memory, &|_| ())?.complete()?)
 }
 
-/// Largest deviation of r_b Σ F̄ of the meshes of sun and ring from the torques of the operating point, as part of these.
+/// Largest deviation of r_b Σ F̄ of the meshes of sun and ring from the torques of the operating point, as part of
+/// these.
 fn torques_off(
     machine: &Scene,
     geometry: &Geometry,

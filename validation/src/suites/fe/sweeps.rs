@@ -240,8 +240,8 @@ fn harmonics_of_modes(
     Ok(checks)
 }
 
-/// The forces of the sun meshes follow one another with the phase differences of the planets' meshes, in the sense in which the
-/// sun of the scene turns relative to the carrier.
+/// The forces of the sun meshes follow one another with the phase differences of the planets' meshes, in the sense
+/// in which the sun of the scene turns relative to the carrier.
 pub(super) fn order(
     reference: &Reference,
     scene: &Scene,
