@@ -87,6 +87,11 @@ impl Asked<'_> {
                 "gives the largest amplitude over the speeds that are named",
             ),
             ("--both-ways", given.both_ways, "compares settings by one motion at each speed"),
+            (
+                "--random-starts",
+                given.random_starts > 0,
+                "compares settings by one motion at each speed",
+            ),
             ("--harmonics", given.harmonics > 5, "chooses steps that resolve up to 5 harmonics"),
             (
                 "--out",
