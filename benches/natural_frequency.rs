@@ -6,7 +6,7 @@
 
 use std::path::Path;
 
-use experiments::auto::{AutoSettings, FrequencyRequest, frequency_with};
+use experiments::auto::{AutoSettings, BodyInertia, FrequencyQuestion, Question};
 use experiments::study::{CpuTime, Stopwatch};
 use gearset::{LoadCase, Scene};
 use lumped::{LumpedModel, ModeType, NaturalModes};
@@ -30,10 +30,13 @@ fn main() {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("scenes/{name}.toml"));
         let scene = Scene::from_file(&path).expect("a scene of the repository");
         let case = LoadCase::of_scene(&scene).expect("a load");
-        let request =
-            |mode_type, number| FrequencyRequest { mode_type, number, tolerance_percent: 1.0 };
-        let first = request(ModeType::Rotational, 1);
-        let fe = AutoSettings::quasi_static(6, 20);
+        let (scene, case) = (&scene, &case);
+        let question = |mode_type, number| FrequencyQuestion { scene, case, mode_type, number };
+        let first = question(ModeType::Rotational, 1);
+        let closed = |asked: &FrequencyQuestion<'_>| {
+            asked.in_closed_form().expect("closed forms").expect("a frequency").0
+        };
+        let coarse = AutoSettings::fe_contact(0, BodyInertia::None);
         let mut times = [const { Vec::new() }; 3];
         let mut clock = CpuTime::default();
         let mut timed = |list: &mut Vec<f64>, work: &dyn Fn()| {
@@ -44,28 +47,22 @@ fn main() {
         for _ in 0..ROUNDS {
             for _ in 0..RUNS {
                 timed(&mut times[0], &|| {
-                    let model = LumpedModel::from_scene(&scene).expect("parameters");
+                    let model = LumpedModel::from_scene(scene).expect("parameters");
                     std::hint::black_box(NaturalModes::of(&model)).expect("modes");
                 });
                 timed(&mut times[1], &|| {
-                    std::hint::black_box(frequency_with(
-                        &scene,
-                        &case,
-                        AutoSettings::LUMPED,
-                        &first,
-                    ))
-                    .expect("closed forms");
+                    std::hint::black_box(closed(&first));
                 });
             }
             timed(&mut times[2], &|| {
-                std::hint::black_box(frequency_with(&scene, &case, fe, &first)).expect("bodies");
+                std::hint::black_box(first.answer(&coarse)).expect("bodies");
             });
         }
-        let [given, closed, finite] = times.map(median);
+        let [given, of_closed, finite] = times.map(median);
         println!(
             "{name}: lumped as given 1 ({:.0} µs), in closed form {:.2}, FE/contact {:.0}",
             1e6 * given,
-            closed / given,
+            of_closed / given,
             finite / given
         );
         for (mode_type, number) in [
@@ -76,10 +73,10 @@ fn main() {
             (ModeType::Planet, 1),
             (ModeType::Planet, 2),
         ] {
-            let asked = request(mode_type, number);
-            let [own, fe] = [AutoSettings::LUMPED, fe]
-                .map(|s| frequency_with(&scene, &case, s, &asked).expect("a mode"));
-            println!("  {asked}: {own:.1} Hz, {:+.2} % of {fe:.1} Hz", 100.0 * (own / fe - 1.0));
+            let asked = question(mode_type, number);
+            let (own, fe) = (closed(&asked), asked.answer(&coarse).expect("a mode"));
+            let (words, off) = (asked.words(), 100.0 * (own / fe - 1.0));
+            println!("  {words}: {own:.1} Hz, {off:+.2} % of {fe:.1} Hz");
         }
     }
 }

@@ -1,17 +1,16 @@
 //! Numerical methods without gears: eigenproblems of vibrating systems and their subspaces, time integration,
-//! periodic solutions by shooting with their stability, periodic motions by harmonic balance, harmonics of systems with periodic stiffness, branches of
-//! solutions, spectra of records, identification of modes from records, and discretisation errors from three grids.
+//! periodic solutions by shooting with their stability, periodic motions by harmonic balance, branches of
+//! solutions, spectra of records, identification of modes from records, and discretisation errors of refined sequences.
 
 pub mod benchmark_subjects;
 mod bundles;
 pub mod continuation;
+mod convergence;
 mod coupled;
 mod error;
 mod factored;
-mod grid_convergence;
 mod gyroscopic;
 pub mod harmonic_balance;
-mod hill;
 pub mod identify;
 mod lowest_modes;
 mod matrix;
@@ -27,6 +26,7 @@ mod symmetric;
 mod wide;
 
 pub use bundles::{Bundle, Bundles, InBundles, MOST as MOST_IN_BUNDLE, in_bundles};
+pub use convergence::{Extrapolated, error_by_distances, extrapolate};
 pub use coupled::{
     Coupled, CoupledDerivative, CoupledError, CoupledState, Coupling, CouplingForce, CyclePart,
     LinearPart, PassedSteps, Renumbering,
@@ -34,9 +34,7 @@ pub use coupled::{
 pub use error::{EigenError, SpectrumError};
 pub use factored::{FactoredModes, SpringRow, factored_modes};
 pub use faer::c64;
-pub use grid_convergence::{GridConvergence, grid_convergence_index};
 pub use gyroscopic::{GyroscopicMode, gyroscopic_modes};
-pub use hill::{HillEquations, HillError, PeriodicSystem, PeriodicTerm};
 pub use lowest_modes::{LowMode, ModalOperator, lowest_modes};
 pub use newmark::{AverageAcceleration, Motion, StepError};
 pub use number::Number;

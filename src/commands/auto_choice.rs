@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use experiments::auto::Choice;
+use experiments::auto::{AutoModel, Choice, SHARED_KEYS};
 
 /// The quantity with its estimated error, the settings chosen and why, and what was passed over.
 pub(super) fn write(choice: &Choice, out: &mut dyn Write) -> std::io::Result<()> {
@@ -14,17 +14,8 @@ pub(super) fn write(choice: &Choice, out: &mut dyn Write) -> std::io::Result<()>
         "{quantity}: {value:.digits$} {unit}, estimated error {estimated_error_percent:.2} % (allowed: {tolerance_percent} %)"
     )?;
     writeln!(out, "chosen: {}", choice.settings)?;
-    if let Some(elements) = choice.settings.matching_depth_elements {
-        writeln!(out, "  with fe_contact.matching_depth_elements = {elements}")?;
-    }
-    if choice.settings.divided_flank_layer {
-        writeln!(out, "  with fe_contact.flank_layer = \"divided\"")?;
-    }
-    if choice.settings.graded_at_rest {
-        writeln!(out, "  with fe_contact.cell_layout_at_rest = \"graded\"")?;
-    }
-    for own in &choice.corrections {
-        writeln!(out, "  corrected by {:+.3} % for {}", own.percent, own.of)?;
+    if choice.settings.model != AutoModel::Lumped {
+        writeln!(out, "  with {SHARED_KEYS}")?;
     }
     for part in &choice.error_parts {
         writeln!(out, "  {:.3} % from {}", part.percent, part.source)?;

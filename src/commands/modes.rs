@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::io::Write;
 
-use experiments::auto::{AutoModel, Choice, FrequencyRequest, choose_frequency};
+use experiments::auto::{AutoModel, Choice, FrequencyQuestion, choose_frequency};
 use experiments::modal::majority;
 use gearset::{AutoQuantity, LoadCase, Scene, SceneKind, Verb};
 use lumped::{
@@ -105,8 +105,10 @@ pub(crate) fn run(
         needs::require(&arguments.scene, &scene, Verb::Modes, |_| false)?;
         // No other quantity is given by this verb, which the line above refuses.
         if let AutoQuantity::NaturalFrequency { mode_type, number } = wanted.quantity {
-            let request = FrequencyRequest::new(mode_type, number, wanted.tolerance_percent);
-            return chosen(arguments, &scene, request, out);
+            let case = LoadCase::of_scene(&scene);
+            let case = case.map_err(|e| unfit(&arguments.scene, e.to_string()))?;
+            let question = FrequencyQuestion::new(&scene, &case, mode_type, number);
+            return chosen(arguments, &question, wanted.tolerance_percent, out);
         }
     }
     let (model, modes) = solve(&scene).map_err(|reason| unfit(&arguments.scene, reason))?;
@@ -159,22 +161,21 @@ pub(crate) fn describe(model: &LumpedModel, modes: &NaturalModes) -> ModesOutput
 /// that is chosen.
 fn chosen(
     arguments: &Modes,
-    scene: &Scene,
-    request: FrequencyRequest,
+    question: &FrequencyQuestion<'_>,
+    tolerance_percent: f64,
     out: &mut dyn Write,
 ) -> Result<(), CommandError> {
-    let path = &arguments.scene;
+    let (path, scene) = (&arguments.scene, question.scene);
     if !arguments.carrier_speeds_rpm.is_empty() {
         let reason = "`dynamics.fidelity` = \"auto\" chooses settings for a set without gyroscopic terms: leave it out";
         return Err(refused("--carrier-speeds-rpm", reason));
     }
-    let case = LoadCase::of_scene(scene).map_err(|e| unfit(path, e.to_string()))?;
     let working = Working::new("choosing settings");
-    let choice = choose_frequency(scene, &case, &request)
+    let choice = choose_frequency(question, tolerance_percent)
         .map_err(|e| unfit(path, format!("`dynamics.fidelity` = \"auto\": {e}")))?;
     drop(working);
     let is_lumped = choice.settings.model == AutoModel::Lumped;
-    let listed = is_lumped.then(|| in_closed_form(scene, &case)).transpose();
+    let listed = is_lumped.then(|| in_closed_form(scene, question.case)).transpose();
     let listed = listed.map_err(|e| unfit(path, e.to_string()))?;
     let mut result = match &listed {
         Some((model, modes)) => describe(model, modes),

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use experiments::auto::{AutoModel, CycleRequest, CycleValue, choose_transmission_error};
+use experiments::auto::{AutoModel, CycleQuestion, CycleValue, choose_transmission_error};
 use gearset::{AutoQuantity, LoadCase, Scene};
 
 use crate::arguments::{ContactSolver, Static, TableFormat};
@@ -12,15 +12,14 @@ use super::working::Working;
 use super::{auto_choice, refused, static_set, unfit};
 
 /// What the scene asks `static` to choose settings for, if anything.
-pub(super) fn request(scene: &Scene) -> Option<CycleRequest> {
+pub(super) fn request(scene: &Scene) -> Option<CycleValue> {
     let wanted = scene.dynamics.auto?;
-    let value = match wanted.quantity {
-        AutoQuantity::TransmissionError => CycleValue::PeakToPeak,
-        AutoQuantity::MeanTransmissionError => CycleValue::Mean,
+    match wanted.quantity {
+        AutoQuantity::TransmissionError => Some(CycleValue::PeakToPeak),
+        AutoQuantity::MeanTransmissionError => Some(CycleValue::Mean),
         // Statics have no fidelity: what is chosen for other verbs changes nothing here.
-        AutoQuantity::NaturalFrequency { .. } | AutoQuantity::Amplitude { .. } => return None,
-    };
-    Some(CycleRequest { value, tolerance_percent: wanted.tolerance_percent })
+        AutoQuantity::NaturalFrequency { .. } | AutoQuantity::Amplitude { .. } => None,
+    }
 }
 
 /// The mesh cycle with the cheapest settings within the tolerance. Beside a table (CSV) the choice goes to `err`.
@@ -28,7 +27,7 @@ pub(super) fn run(
     arguments: &Static,
     scene: &Scene,
     torques: &[f64],
-    request: &CycleRequest,
+    value: CycleValue,
     (out, err): (&mut dyn Write, &mut dyn Write),
 ) -> Result<(), CommandError> {
     let path = &arguments.scene;
@@ -45,7 +44,7 @@ pub(super) fn run(
         return Err(refused("--solver", reason));
     }
     // The lumped model, which may be enough for a mean, has no tooth pairs to list or draw.
-    if request.value == CycleValue::Mean {
+    if value == CycleValue::Mean {
         let reason = "`dynamics.quantity` = \"mean_transmission_error\" may be answered by the lumped model, which has no \
                       positions: leave it out, or name the settings";
         if arguments.format == TableFormat::Csv {
@@ -57,7 +56,10 @@ pub(super) fn run(
         }
     }
     let working = Working::new("choosing settings");
-    let choice = choose_transmission_error(scene, &LoadCase::standing(*torque), request)
+    let case = LoadCase::standing(*torque);
+    let question = CycleQuestion { scene, case: &case, value };
+    let tolerance_percent = scene.dynamics.auto.map_or(f64::NAN, |a| a.tolerance_percent);
+    let choice = choose_transmission_error(&question, tolerance_percent)
         .map_err(|e| unfit(path, format!("`dynamics.fidelity` = \"auto\": {e}")))?;
     drop(working);
     if arguments.format == TableFormat::Csv {

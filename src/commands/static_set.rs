@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use experiments::auto::{Choice, cycle_with};
+use experiments::auto::Choice;
 use fe_contact::statics::{Bodies, Imperfections, MeshState, SetCycle, SetState, StaticSet};
 use gearset::{LoadCase, Member, Scene};
 use schemars::JsonSchema;
@@ -141,14 +141,10 @@ pub(super) fn run(
     let mut cycles = Vec::new();
     for torque in torques {
         let load = LoadCase::standing(*torque);
-        if let Some(Choice { settings, .. }) = auto {
-            let found = cycle_with(scene, &bodies, &load, settings);
-            cycles.push(found.map_err(|e| unfit(path, e.to_string()))?);
-            continue;
-        }
         let set = StaticSet::new(scene, &bodies, load.sense(), Imperfections::default())
             .map_err(fe_refused(path))?;
-        let positions = arguments.position_count();
+        let chosen = auto.as_ref().and_then(|choice| choice.settings.positions);
+        let positions = chosen.map_or(arguments.position_count(), |n| n as usize);
         cycles.push(set.cycle(load.sun_load_nm(), positions, solver).map_err(fe_refused(path))?);
     }
     drop(working);

@@ -49,9 +49,7 @@ pub(crate) fn run(
             };
             needs::require(path, &scene, Verb::Static, is_given)?;
             match static_auto::request(&scene) {
-                Some(request) => {
-                    static_auto::run(arguments, &scene, &torques, &request, (out, err))
-                }
+                Some(value) => static_auto::run(arguments, &scene, &torques, value, (out, err)),
                 None => static_set::run(arguments, &scene, &torques, None, out),
             }
         }

@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use experiments::auto::{AmplitudeRequest, choose_amplitude};
+use experiments::auto::{AmplitudeQuestion, choose_amplitude};
 use experiments::sweep::Plan;
 use gearset::{AutoQuantity, AutoResponse, LoadCase, Scene};
 
@@ -47,9 +47,9 @@ impl Asked<'_> {
         let speeds_rpm = plan.chains.iter().flat_map(|c| c.speeds_rpm.iter().copied()).collect();
         let tolerance_percent = scene.dynamics.auto.map_or(f64::NAN, |a| a.tolerance_percent);
         let steady = plan.steady.clone();
-        let request = AmplitudeRequest { response, speeds_rpm, steady, tolerance_percent };
+        let question = AmplitudeQuestion::new((scene, case), response, speeds_rpm, steady);
         let working = Working::new("choosing settings");
-        let found = choose_amplitude(scene, case, &request)
+        let found = choose_amplitude(&question, tolerance_percent)
             .map_err(|e| unfit(&arguments.scene, format!("`dynamics.fidelity` = \"auto\": {e}")))?;
         drop(working);
         let own = found.choice.settings.applied_to(scene);

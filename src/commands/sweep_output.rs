@@ -4,8 +4,9 @@ use std::io::Write;
 
 use experiments::auto::Choice;
 use experiments::sweep::{
-    Attraction, Attractors, CriticalMotion, FailedPoint, LargestMultiplier, MOST_REPEATS,
-    MultipliersOf, SearchStart, SteadyMethod, SteadySettings, StepError, Sweep, SweepPoint,
+    Attraction, Attractors, CriticalMotion, FailedPoint, InertiaError, LargestMultiplier,
+    MOST_REPEATS, MultipliersOf, SearchStart, SteadyMethod, SteadySettings, StepError, Sweep,
+    SweepPoint,
 };
 use gearset::Scene;
 use schemars::JsonSchema;
@@ -105,6 +106,8 @@ struct PointHead<'a> {
     transient: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     step_error: Option<StepError>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    inertia_error: Option<InertiaError>,
     between_harmonics: Option<f64>,
     repeats_after: Option<usize>,
     lowest_force_n: f64,
@@ -236,6 +239,7 @@ impl SweepOutput {
             is_steady: p.is_steady,
             transient: p.transient,
             step_error: p.step_error,
+            inertia_error: p.inertia_error,
             between_harmonics: p.between,
             repeats_after: p.repeats_after,
             lowest_force_n: p.lowest_force_n,
@@ -421,6 +425,23 @@ pub(super) fn text(result: &SweepOutput, out: &mut dyn Write) -> Result<(), Comm
             100.0 * share,
         )?;
     }
+    let unsure = result.points.iter().filter_map(|p| Some((&p.point, p.point.inertia_error?)));
+    // Where no share is known it may be any.
+    let size = |error: &InertiaError| error.share.unwrap_or(f64::INFINITY);
+    let largest = unsure.clone().max_by(|(_, a), (_, b)| size(a).total_cmp(&size(b)));
+    if let Some((point, InertiaError { harmonic, natural_hz, share })) = largest {
+        let (count, rpm) = (unsure.count(), point.state.case.speed_rpm);
+        let beside = match share {
+            Some(share) => {
+                format!("beside the set's {natural_hz:.0} Hz by up to {:.0} %", 100.0 * share)
+            }
+            None => format!("which is near or above the first {natural_hz:.0} Hz of a body"),
+        };
+        writeln!(
+            out,
+            "Warning: at {count} of these speeds the inertia of the bodies behind the teeth, which quasi_static lacks, may change the sun's strong harmonics by more than 5 %, most at {rpm:.1} rpm: harmonic {harmonic} {beside}; `dynamics.fidelity` = \"modal\" has it."
+        )?;
+    }
     let mut faster = result
         .points
         .iter()
@@ -517,6 +538,7 @@ mod tests {
                 is_steady: repeats_after == Some(1),
                 transient: None,
                 step_error: None,
+                inertia_error: None,
                 between: None,
                 repeats_after,
                 lowest_force_n: 0.0,

@@ -1,11 +1,9 @@
 //! Virtual experiments and checks: the models against published numbers, theorems and each other.
 
-mod auto_record;
-mod auto_response_record;
-mod auto_tables;
 mod catalogue;
 mod check;
 mod compare;
+mod drawn_set;
 pub mod effects;
 mod error;
 mod glob;
@@ -24,12 +22,10 @@ mod suites;
 mod verdict;
 mod worst;
 
-pub use auto_record::{AutoRow, DrawnScene, auto_row, drawn_scene};
-pub use auto_response_record::{Asked, ResponseRow, drawn_response, response_row};
-pub use auto_tables::auto_tables;
 pub use catalogue::{PublishedScene, scene};
 pub use check::{Check, ReferenceKind, Status, Subject, Tolerance, Value};
 pub use compare::{Comparison, ListedMode, Match, ModelMode, compare};
+pub use drawn_set::drawn_set;
 pub use error::ValidationError;
 pub use judged::Judged;
 pub use kept_charts::{KeptStudy, kept_maps, kept_studies};

@@ -3,15 +3,14 @@
 //! errors from these.
 
 use experiments::auto::{
-    AutoModel, AutoSettings, CycleRequest, CycleValue, FrequencyRequest, choose_transmission_error,
-    frequency_with, transmission_error_with,
+    AutoSettings, BodyInertia, CycleQuestion, CycleValue, FrequencyQuestion, Question,
 };
 use experiments::modal::{Preload, preloaded};
 use fe_contact::body::CarrierBody;
 use fe_contact::statics::Bodies;
 use gearset::{AutoModeType, LoadCase, Scene};
 use lumped::{AnalyticCycle, AnalyticSet, SpringId};
-use validation::drawn_scene;
+use validation::drawn_set;
 
 /// Ratios of one set, closed forms over FE/contact.
 #[derive(Debug, Default)]
@@ -29,7 +28,7 @@ struct Ratios {
 }
 
 fn ratios(scene: &Scene, positions: &[f64]) -> Option<Ratios> {
-    let own = AutoSettings::quasi_static(10, 30).applied_to(scene);
+    let own = AutoSettings::fe_contact(1, BodyInertia::None).applied_to(scene);
     let (bodies, load) = (Bodies::new(&own).ok()?, LoadCase::of_scene(scene).ok()?);
     let mut all = Ratios { mass: 1.0, ..Ratios::default() };
     for &position in positions {
@@ -94,15 +93,14 @@ fn closed_forms_hold_on_shipped_sets() {
 /// apart by about 0.1 %.
 #[test]
 fn modes_hardly_pressed_follow_the_load() {
-    for (name, scene) in [("OH-58", scene("oh58_4p")), ("18037", drawn_scene(18037).unwrap().scene)]
-    {
-        let request = FrequencyRequest::new(AutoModeType::Planet, 1, 1.0);
+    for (name, scene) in [("OH-58", scene("oh58_4p")), ("18037", drawn_set(18037).unwrap())] {
         let over_contact = |part: f64| {
             let mut scene = scene.clone();
             scene.operation.as_mut().unwrap().torque_nm *= part;
             let case = LoadCase::of_scene(&scene).unwrap();
-            let of = |settings| frequency_with(&scene, &case, settings, &request).unwrap();
-            of(AutoSettings::LUMPED) / of(AutoSettings::quasi_static(10, 30))
+            let question = FrequencyQuestion::new(&scene, &case, AutoModeType::Planet, 1);
+            let contact = question.answer(&AutoSettings::fe_contact(1, BodyInertia::None));
+            question.in_closed_form().unwrap().unwrap().0 / contact.unwrap()
         };
         let [loaded, light] = [1.0, 0.03].map(over_contact);
         let apart = 100.0 * (loaded / light - 1.0);
@@ -115,21 +113,20 @@ fn modes_hardly_pressed_follow_the_load() {
 /// percent.
 fn means(scene: &Scene) -> Option<[f64; 3]> {
     let case = LoadCase::of_scene(scene).ok()?;
-    let mean = CycleRequest { value: CycleValue::Mean, tolerance_percent: 50.0 };
-    let positions = mean.candidates(scene).last()?.positions? / 8;
-    let contact = AutoSettings::quasi_static(10, 30).at_positions(positions);
-    let choice = choose_transmission_error(scene, &case, &mean).ok()?;
-    assert_eq!(choice.settings.model, AutoModel::Lumped);
-    let by_contact = transmission_error_with(scene, &case, contact, &mean).ok()?;
-    let range = CycleRequest { value: CycleValue::PeakToPeak, tolerance_percent: 50.0 };
-    let range_by_contact = transmission_error_with(scene, &case, contact, &range).ok()?;
+    let mean = CycleQuestion { scene, case: &case, value: CycleValue::Mean };
+    let contact = AutoSettings::fe_contact(1, BodyInertia::None).at_positions(scene, 0);
+    let positions = contact.positions?;
+    let (in_closed_form, parts) = mean.in_closed_form().ok()??;
+    let estimate = parts.iter().map(|part| part.percent).sum();
+    let by_contact = mean.answer(&contact).ok()?;
+    let range_by_contact = by_contact.above + by_contact.below;
     let all: Vec<f64> = (0..positions).map(|i| f64::from(i) / f64::from(positions)).collect();
     let rest = AnalyticCycle::new(scene, &case).and_then(|cycle| cycle.at_rest(&all)).ok()?;
     let curve = rest.iter().map(|own| 1e6 * own.transmission_error);
     let [low, high] = curve.fold([f64::INFINITY, 0.0], |[a, b], x| [a.min(x), b.max(x)]);
     let percent = |ratio: f64| 100.0 * (ratio - 1.0);
     let of_range = percent((high - low) / range_by_contact);
-    Some([percent(choice.value / by_contact), choice.estimated_error_percent, of_range])
+    Some([percent(in_closed_form / by_contact.mean), estimate, of_range])
 }
 
 /// The mean transmission error at rest is within its estimate on shipped sets; peak to peak, which has none, is within a third.
@@ -151,8 +148,8 @@ fn mean_transmission_errors_hold_on_shipped_sets() {
 fn mean_transmission_errors_hold_on_drawn_sets() {
     let (mut off, mut ranges, mut beyond) = (Vec::new(), Vec::new(), 0);
     for seed in 13001..13061 {
-        let Ok(drawn) = drawn_scene(seed) else { continue };
-        let Some([own, estimate, of_range]) = means(&drawn.scene) else { continue };
+        let Ok(drawn) = drawn_set(seed) else { continue };
+        let Some([own, estimate, of_range]) = means(&drawn) else { continue };
         beyond += usize::from(own.abs() > estimate);
         off.push(own);
         ranges.push(of_range);
@@ -177,8 +174,8 @@ fn closed_forms_hold_on_drawn_sets() {
         let (mut suns, mut rings) = (Vec::new(), Vec::new());
         let (mut handing_over, mut sets) = (0, 0);
         for seed in seeds {
-            let Ok(drawn) = drawn_scene(seed) else { continue };
-            let Some(own) = ratios(&drawn.scene, &[0.0, 0.2, 0.4, 0.6, 0.8]) else { continue };
+            let Ok(drawn) = drawn_set(seed) else { continue };
+            let Some(own) = ratios(&drawn, &[0.0, 0.2, 0.4, 0.6, 0.8]) else { continue };
             holds(&format!("set {seed}"), &Ratios { meshes: [vec![1.0], vec![1.0]], ..own });
             sets += 1;
             handing_over += own.handing_over;

@@ -3,7 +3,6 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::error_parts::EXPANDED;
 use super::settings::AutoSettings;
 use crate::error::ExperimentError;
 
@@ -22,21 +21,12 @@ impl ErrorPart {
     }
 }
 
-/// A correction of a value.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
-pub struct Correction {
-    /// The approximation whose effect it takes out.
-    pub of: String,
-    /// Change of the value, percent.
-    pub percent: f64,
-}
-
 /// A candidate that was not chosen.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PassedOver {
     /// Its settings.
     pub settings: AutoSettings,
-    /// Its estimated error, percent; absent where the candidate gave no answer.
+    /// Its estimated error, percent; absent where the candidate gave no answer, or none to compare it with.
     pub estimated_error_percent: Option<f64>,
     /// Why it was passed over.
     pub why: String,
@@ -53,15 +43,10 @@ pub struct Choice {
     pub unit: String,
     /// Wanted accuracy, percent of the value.
     pub tolerance_percent: f64,
-    /// Estimated error of the value, percent: the sum of `error_parts`, of an amplitude the root of the sum of their squares, of the lumped model
-    /// 2/√3 of that if it is less.
+    /// Estimated error of the value, percent: the sum of `error_parts`.
     pub estimated_error_percent: f64,
     /// What the error consists of.
     pub error_parts: Vec<ErrorPart>,
-    /// What the value was corrected for, after the calculation with these settings: by so many percent of the value that they give by
-    /// themselves.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub corrections: Vec<Correction>,
     /// Settings chosen.
     pub settings: AutoSettings,
     /// Cheaper candidates, and why each was not chosen.
@@ -71,29 +56,6 @@ pub struct Choice {
 /// Sum of the parts, percent: as if all errors had one sign.
 pub(super) fn total(parts: &[ErrorPart]) -> f64 {
     parts.iter().map(|part| part.percent).sum()
-}
-
-/// How the parts of an error are taken together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Together {
-    /// As if all had one sign.
-    Sum,
-    /// As errors of independent causes that are anywhere within their bounds, at most the sum.
-    Squares,
-    /// As errors of independent causes whose parts are what most of them are within, not bounds (expanded uncertainties: JCGM 100:2008, 5.1.2).
-    Expanded,
-}
-
-impl Together {
-    /// The error that the parts amount to, percent.
-    pub(super) fn of(self, parts: &[ErrorPart]) -> f64 {
-        let squares = || parts.iter().map(|part| part.percent * part.percent).sum::<f64>();
-        match self {
-            Self::Sum => total(parts),
-            Self::Squares => total(parts).min(EXPANDED * squares().sqrt()),
-            Self::Expanded => squares().sqrt(),
-        }
-    }
 }
 
 /// Why there is no choice.
@@ -125,7 +87,7 @@ pub enum AutoError {
         /// Every candidate with its estimate.
         passed_over: Vec<PassedOver>,
     },
-    /// The scene lacks what the estimates need.
+    /// The scene lacks what the question needs.
     #[error(transparent)]
     Experiment(#[from] ExperimentError),
 }
@@ -142,42 +104,4 @@ fn listed(all: &[PassedOver]) -> String {
         }
     };
     groups.iter().map(one).collect::<Vec<_>>().join("; ")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Two equal parts by squares are √(8/3) of one; one alone, or one beside a very small one, is no more than the sum.
-    #[test]
-    fn parts_together_are_at_most_their_sum() {
-        let of = |list: &[f64]| {
-            let parts: Vec<_> = list.iter().map(|e| ErrorPart::new("", *e)).collect();
-            [Together::Sum, Together::Squares, Together::Expanded].map(|own| own.of(&parts))
-        };
-        let [sum, squares, expanded] = of(&[0.01, 0.01]);
-        assert!((sum - 2.0).abs() < 1e-12 && (squares - (8.0f64 / 3.0).sqrt()).abs() < 1e-12);
-        assert!((expanded - 2f64.sqrt()).abs() < 1e-12);
-        for list in [&[0.02][..], &[0.02, 0.001], &[]] {
-            let [sum, squares, expanded] = of(list);
-            assert!(sum == squares && expanded <= sum, "{list:?}");
-        }
-        assert!(of(&[0.01, f64::INFINITY])[1..].iter().all(|e| e.is_infinite()));
-    }
-
-    #[test]
-    fn a_reason_that_candidates_share_is_given_once() {
-        let over = |flank_elements, why: &str| PassedOver {
-            settings: AutoSettings::quasi_static(flank_elements, 20),
-            estimated_error_percent: None,
-            why: why.into(),
-        };
-        assert_eq!(listed(&[over(6, "no such mode"), over(10, "no such mode")]), "no such mode");
-        assert_eq!(
-            listed(&[over(6, "a"), over(10, "b"), over(16, "b")]),
-            "quasi_static, 6 flank elements, 20 contact cells: a; quasi_static, 10 flank elements, 20 contact cells and \
-             quasi_static, 16 flank elements, 20 contact cells: b"
-        );
-        assert_eq!(listed(&[over(6, "a")]), "quasi_static, 6 flank elements, 20 contact cells: a");
-    }
 }

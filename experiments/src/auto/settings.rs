@@ -1,7 +1,5 @@
 //! Settings among which `auto` chooses.
 
-use std::f64::consts::TAU;
-
 use gearset::{CellLayout, ElementFamily, Facing, Fidelity, FlankLayer, Geometry, Phasing, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -18,9 +16,38 @@ pub enum AutoModel {
     Modal,
 }
 
-/// Least matching depth of every candidate in elements of a flank (`fe_contact.matching_depth_elements`): with the default
-/// of 0.85 amplitudes are 0.8 % too small on six and ten elements alike (`docs/auto.md`).
+/// How FE/contact takes the inertia of the bodies behind the teeth into account.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BodyInertia {
+    /// Not at all.
+    None,
+    /// To first order, added to a frequency of quasi-static bodies.
+    FirstOrder,
+    /// By so many modes of each body with its race held.
+    Modes(u32),
+}
+
+/// Number of discretisations.
+pub const LEVELS: usize = 3;
+
+/// Elements along a flank, from coarse to fine: their ratio is that of everything else.
+pub(super) const FLANK_ELEMENTS: [u32; LEVELS] = [6, 10, 16];
+
+/// Contact cells of a tooth pair.
+const CONTACT_CELLS: [u32; LEVELS] = [30, 45, 70];
+
+/// Positions of a mesh cycle at rest, at least.
+const POSITIONS: [u32; LEVELS] = [60, 100, 160];
+
+/// Time steps in a mesh cycle, at least.
+const STEPS: [u32; LEVELS] = [90, 150, 240];
+
+/// Least depth, in elements, at which half-planes and finite elements are matched (`fe_contact.matching_depth_elements`). At the default of 0.85 both
+/// points of the match lie in the first two elements on every mesh, and meshes agree on a stiffness that is too high.
 const MATCHING_DEPTH_ELEMENTS: f64 = 1.3;
+
+/// Scene keys that every FE/contact candidate has besides the numbers it differs by.
+pub const SHARED_KEYS: &str = "fe_contact.matching_depth_elements = 1.3, flank_layer = \"divided\", cell_layout_at_rest = \"graded\"";
 
 /// One candidate; what a model does not have is absent.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
@@ -30,34 +57,21 @@ pub struct AutoSettings {
     /// Modes of each body with its race held.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modes: Option<u32>,
-    /// Elements along one flank, of eight nodes.
+    /// Whether what the inertia of elastic displacements changes of a frequency to first order, which quasi-static bodies lack, is added.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub elastic_inertia: bool,
+    /// Elements along one flank, of eight nodes, those next to the flank divided in three along and across it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flank_elements: Option<u32>,
-    /// Whether those next to the flanks are divided in three along and across them (`fe_contact.flank_layer`).
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub divided_flank_layer: bool,
-    /// Contact cells of one tooth pair.
+    /// Contact cells of one tooth pair, graded at rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_cells: Option<u32>,
-    /// Whether they are graded at rest (`fe_contact.cell_layout_at_rest`).
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub graded_at_rest: bool,
-    /// Least depth, elements of a flank, at which half-planes and finite elements are matched.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub matching_depth_elements: Option<f64>,
     /// Evenly spaced positions of a mesh cycle at rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub positions: Option<u32>,
-    /// Positions of a mesh cycle at the spacing to which the surroundings of the extremes are refined.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub positions_about_extremes: Option<u32>,
     /// Time steps in a mesh cycle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps_per_cycle: Option<u32>,
-    /// Whether an amplitude has what the inertia of the bodies' elastic displacements, which quasi-static bodies lack, changes of it to
-    /// first order.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub elastic_inertia: bool,
 }
 
 impl AutoSettings {
@@ -65,70 +79,37 @@ impl AutoSettings {
     pub const LUMPED: Self = Self {
         model: AutoModel::Lumped,
         modes: None,
-        flank_elements: None,
-        divided_flank_layer: false,
-        contact_cells: None,
-        graded_at_rest: false,
-        matching_depth_elements: None,
-        positions: None,
-        positions_about_extremes: None,
-        steps_per_cycle: None,
         elastic_inertia: false,
+        flank_elements: None,
+        contact_cells: None,
+        positions: None,
+        steps_per_cycle: None,
     };
 
-    /// FE/contact with quasi-static bodies.
-    pub const fn quasi_static(flank_elements: u32, contact_cells: u32) -> Self {
+    /// FE/contact with the elements and cells of a level (0 is the coarsest).
+    pub fn fe_contact(level: usize, inertia: BodyInertia) -> Self {
+        let modes = match inertia {
+            BodyInertia::Modes(modes) => Some(modes),
+            _ => None,
+        };
         Self {
-            model: AutoModel::QuasiStatic,
-            flank_elements: Some(flank_elements),
-            contact_cells: Some(contact_cells),
-            matching_depth_elements: Some(MATCHING_DEPTH_ELEMENTS),
+            model: if modes.is_some() { AutoModel::Modal } else { AutoModel::QuasiStatic },
+            modes,
+            elastic_inertia: inertia == BodyInertia::FirstOrder,
+            flank_elements: Some(FLANK_ELEMENTS[level]),
+            contact_cells: Some(CONTACT_CELLS[level]),
             ..Self::LUMPED
         }
     }
 
-    /// The same with the layer of elements next to the flanks divided.
-    pub const fn with_divided_layer(self) -> Self {
-        Self { divided_flank_layer: true, ..self }
+    /// The same at the positions of a level at rest.
+    pub fn at_positions(self, scene: &Scene, level: usize) -> Self {
+        Self { positions: Some(divided(scene, POSITIONS[level])), ..self }
     }
 
-    /// The same with graded contact cells at rest.
-    pub const fn with_graded_cells_at_rest(self) -> Self {
-        Self { graded_at_rest: true, ..self }
-    }
-
-    /// The same at so many positions of a mesh cycle at rest.
-    pub const fn at_positions(self, positions: u32) -> Self {
-        Self { positions: Some(positions), ..self }
-    }
-
-    /// The same with the surroundings of the extremes refined to the spacing of so many positions.
-    pub const fn about_extremes(self, positions: u32) -> Self {
-        Self { positions_about_extremes: Some(positions), ..self }
-    }
-
-    /// The same with so many time steps in a mesh cycle.
-    pub const fn with_steps(self, steps_per_cycle: u32) -> Self {
-        Self { steps_per_cycle: Some(steps_per_cycle), ..self }
-    }
-
-    /// The same with the inertia of the bodies' elastic displacements to first order.
-    pub const fn with_elastic_inertia(self) -> Self {
-        Self { elastic_inertia: true, ..self }
-    }
-
-    /// FE/contact with modes of each body.
-    pub const fn modal(modes: u32, flank_elements: u32, contact_cells: u32) -> Self {
-        Self {
-            model: AutoModel::Modal,
-            modes: Some(modes),
-            ..Self::quasi_static(flank_elements, contact_cells)
-        }
-    }
-
-    /// The same mesh and cells with quasi-static bodies.
-    pub(super) fn without_modes(self) -> Self {
-        Self { model: AutoModel::QuasiStatic, modes: None, ..self }
+    /// The same with the time steps of a level.
+    pub fn with_steps(self, scene: &Scene, level: usize) -> Self {
+        Self { steps_per_cycle: Some(divided(scene, STEPS[level])), ..self }
     }
 
     /// The scene with these settings, its other keys unchanged.
@@ -137,23 +118,14 @@ impl AutoSettings {
         if let (Some(elements), Some(cells)) = (self.flank_elements, self.contact_cells) {
             own.fe_contact.element = ElementFamily::Quadratic;
             own.fe_contact.flank_elements = elements;
-            own.fe_contact.flank_layer = match self.divided_flank_layer {
-                true => FlankLayer::Divided,
-                false => FlankLayer::Whole,
-            };
+            own.fe_contact.flank_layer = FlankLayer::Divided;
             own.fe_contact.contact_cells = cells;
-            own.fe_contact.cell_layout_at_rest = match self.graded_at_rest {
-                true => CellLayout::Graded,
-                false => CellLayout::Even,
-            };
+            own.fe_contact.cell_layout_at_rest = CellLayout::Graded;
             own.fe_contact.matching_depth = None;
-            own.fe_contact.matching_depth_elements = self.matching_depth_elements;
+            own.fe_contact.matching_depth_elements = Some(MATCHING_DEPTH_ELEMENTS);
         }
         own.dynamics.auto = None;
-        own.dynamics.fidelity = match self.modes {
-            Some(modes) => Fidelity::Modal(modes),
-            None => Fidelity::QuasiStatic,
-        };
+        own.dynamics.fidelity = self.modes.map_or(Fidelity::QuasiStatic, Fidelity::Modal);
         if let Some(steps) = self.steps_per_cycle {
             own.dynamics.steps_per_cycle = steps;
         }
@@ -169,17 +141,12 @@ impl std::fmt::Display for AutoSettings {
                     None => f.write_str("quasi_static")?,
                     Some(modes) => write!(f, "modal with {modes} modes")?,
                 }
-                let layer = if self.divided_flank_layer { " divided in three" } else { "" };
-                let layout = if self.graded_at_rest { "graded " } else { "" };
-                write!(f, ", {n} flank elements{layer}, {cells} {layout}contact cells")?;
+                write!(f, ", {n} flank elements, {cells} contact cells")?;
             }
             _ => f.write_str("lumped with parameters in closed form")?,
         }
         if let Some(positions) = self.positions {
             write!(f, ", {positions} positions")?;
-        }
-        if let Some(positions) = self.positions_about_extremes {
-            write!(f, ", about the extremes as close as {positions}")?;
         }
         if let Some(steps) = self.steps_per_cycle {
             write!(f, ", {steps} steps per mesh cycle")?;
@@ -194,42 +161,19 @@ impl std::fmt::Display for AutoSettings {
 /// Most positions or steps into which a mesh cycle is divided evenly so that phases of all planets fall on them.
 const MOST_PARTS: usize = 60;
 
-/// `least` or a little more parts of a mesh cycle, so that all planets pass through the same phases: tables are then
-/// shared. `least` itself for planets whose phases have no such number.
-pub(super) fn divided(scene: &Scene, least: u32) -> u32 {
-    let parts = phase_parts(scene);
+/// `least` or a little more parts of a mesh cycle, so that all planets pass through the same phases and share tables; `least` itself
+/// for planets whose phases have no such number.
+fn divided(scene: &Scene, least: u32) -> u32 {
+    let of_phases = || -> Option<u32> {
+        let geometry = Geometry::from_scene(scene).ok()?;
+        let phasing = Phasing::new(&geometry, &scene.planets)?;
+        let phases = phasing.phases(0.0, Facing::CounterClockwise).sun_planet;
+        let is_whole = |parts: &usize| {
+            let of = |phase: &f64| (phase - phases[0]) * *parts as f64;
+            phases.iter().map(of).all(|x| (x - x.round()).abs() < 1e-9)
+        };
+        (1..=MOST_PARTS).find(is_whole).map(|parts| parts as u32)
+    };
+    let parts = of_phases().unwrap_or(1);
     least.div_ceil(parts) * parts
-}
-
-/// Number of times that the transmission error at rest repeats itself in a mesh cycle.
-///
-/// A set of equal planets that turns into itself by a part 1/m of a turn is there the same set at another position: further on by the
-/// phase Z_s/m by which the planets differ, of which m/gcd(m, Z_s) make whole cycles.
-pub(super) fn repeats(scene: &Scene) -> u32 {
-    let psi = &scene.planets.psi_rad;
-    let Ok(Geometry { sun: Some(sun), .. }) = Geometry::from_scene(scene) else { return 1 };
-    let is_planet_at = |angle: f64| {
-        let off = psi.iter().map(|own| (own - angle).rem_euclid(TAU));
-        off.map(|off| off.min(TAU - off)).any(|off| off < SPACED)
-    };
-    let turns = |m: &u32| psi.iter().all(|own| is_planet_at(own + TAU / f64::from(*m)));
-    let most = if scene.overrides.is_empty() { psi.len() as u32 } else { 1 };
-    let order = (1..=most).rev().find(turns).unwrap_or(1);
-    // m/gcd(m, Z_s)
-    (1..=order).find(|parts| (sun.teeth * parts).is_multiple_of(order)).unwrap_or(1)
-}
-
-/// Planets that are closer than this to where others were stand there, rad.
-const SPACED: f64 = 1e-9;
-
-/// Least number of parts of a mesh cycle of which the phases of all planets are multiples, 1 if there is none.
-pub(super) fn phase_parts(scene: &Scene) -> u32 {
-    let Ok(geometry) = Geometry::from_scene(scene) else { return 1 };
-    let Some(phasing) = Phasing::new(&geometry, &scene.planets) else { return 1 };
-    let phases = phasing.phases(0.0, Facing::CounterClockwise).sun_planet;
-    let is_whole = |parts: &usize| {
-        let of = |phase: &f64| (phase - phases[0]) * *parts as f64;
-        phases.iter().map(of).all(|x| (x - x.round()).abs() < 1e-9)
-    };
-    (1..=MOST_PARTS).find(is_whole).map_or(1, |parts| parts as u32)
 }

@@ -3,6 +3,7 @@
 mod agreement;
 mod band;
 mod beside;
+mod first_order_inertia;
 mod impulse;
 mod kinds;
 mod linear;
@@ -13,6 +14,7 @@ mod settings;
 pub use agreement::{Agreement, agreement, agreement_after, with_rigid_carrier};
 pub use band::{FrequencyBand, ModeBand, Spread, frequency_band};
 pub use beside::beside;
+pub use first_order_inertia::first_order_inertia;
 pub use impulse::{Contents, Decay, ImpulseTest, Pulse, impulse_test, pulses};
 pub use kinds::MotionKinds;
 pub(crate) use kinds::type_of;

@@ -2,9 +2,10 @@
 
 use std::f64::consts::E;
 
+use dynamics::extrapolate;
+
 use super::cost::{interleaved, quartiles};
 use super::efficiency::{Candidate, Doubt, Judged, judge};
-use super::extrapolation::extrapolate;
 use super::result::RouteResult;
 use super::truth::truth;
 

@@ -12,7 +12,6 @@ mod cost;
 mod efficiency;
 mod error;
 mod experiment;
-mod extrapolation;
 mod key_types;
 mod quantity;
 mod result;
@@ -26,7 +25,6 @@ pub use cost::{CpuTime, Quartiles, Stopwatch, Timings, interleaved, quartiles};
 pub use efficiency::{Candidate, Doubt, Judged, judge};
 pub use error::StudyError;
 pub use experiment::Work;
-pub use extrapolation::{Extrapolated, extrapolate};
 pub use quantity::{QuantityKind, WorkKind};
 pub use result::{
     QuantityResult, QuantityTime, RouteResult, Row, RowTime, SettingResult, StudyResult, StudyTime,

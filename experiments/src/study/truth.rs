@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
+use dynamics::extrapolate;
 use serde::Deserialize;
 use toml::{Table, Value};
 
 use super::error::StudyError;
-use super::extrapolation::extrapolate;
 use super::quantity::Quantity;
 use super::result::{RouteResult, TruthResult};
 use super::setting::{Choices, ContactSolver, Setting, StudyIntegrator, StudyModel, number};

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::attraction::{Attraction, multiplier_kind};
 use super::critical_motion::CriticalMotion;
+use super::shifted_vibrations::InertiaError;
 use super::shooting::SMALL;
 use super::state::{Coordinate, Line, Part, SteadyState};
 use super::steady::{CameFrom, Steady, SteadyMethod};
@@ -136,6 +137,10 @@ pub struct SweepPoint {
     /// What the length of the steps may change of a strong harmonic of the sun; absent up to 1 %.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub step_error: Option<StepError>,
+    /// What the inertia of the bodies behind the teeth, which quasi-static bodies lack, may change of a strong harmonic of the
+    /// sun; absent up to 5 %, and of other models.
+    #[serde(skip_serializing_if = "Option::is_none", default)]
+    pub inertia_error: Option<InertiaError>,
     /// Energy between mesh harmonics over all vibration.
     pub between: Option<f64>,
     /// Number of mesh cycles after which the motion repeats within the tolerance: 1 for a steady state, 2 to 8
@@ -345,6 +350,7 @@ impl SweepPoint {
                 && found.transient.is_none_or(|left| left <= MOST_TRANSIENT),
             transient: found.transient,
             step_error: None,
+            inertia_error: None,
             between: found.between,
             repeats_after: found.repeats_after,
             lowest_force_n,

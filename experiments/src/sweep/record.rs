@@ -29,7 +29,7 @@ pub(super) const RING: [usize; 3] = [3, 4, 5];
 pub(super) const CARRIER: [usize; 3] = [0, 1, 2];
 
 /// Displacements of carrier, ring and sun with x and y turned to radial (towards planet 0, at ψ₀) and tangential.
-pub(crate) fn radial(central: [[f64; 3]; 3], first_planet_rad: f64) -> [[f64; 3]; 3] {
+pub(super) fn radial(central: [[f64; 3]; 3], first_planet_rad: f64) -> [[f64; 3]; 3] {
     let (sin, cos) = first_planet_rad.sin_cos();
     central.map(|[x, y, theta]| [cos * x + sin * y, cos * y - sin * x, theta])
 }

@@ -102,26 +102,22 @@ pub fn steps_needed(
     Ok(enough.filter(|steps| *steps > usual))
 }
 
-/// Harmonics in which the sun, or the member that turns where it is held, translates or turns by at least
-/// [`STRONG`] of its largest amplitude of the kind.
-fn strong_harmonics(state: &SteadyState, highest: usize) -> Vec<usize> {
+/// Harmonics, ascending and up to `highest`, in which the sun, or the member that turns where it is held, moves along a coordinate by at least
+/// [`STRONG`] of its largest amplitude.
+pub(super) fn strong_harmonics(
+    state: &SteadyState,
+    coordinate: Coordinate,
+    highest: usize,
+) -> Vec<usize> {
     let (member, all) = (state.turning_member(), state.with_translations());
-    let strong = |coordinate: Coordinate| {
-        let lines = all.iter().filter(move |line| {
-            line.part == member && line.coordinate == coordinate && line.harmonic > 0
-        });
-        let largest = lines.clone().map(|line| line.amplitude).fold(0.0, f64::max);
-        lines
-            .filter(move |line| line.amplitude > STRONG * largest)
-            .map(|line| line.harmonic)
-            .collect::<Vec<_>>()
-    };
-    let mut all = strong(Coordinate::Rotation);
-    all.extend(strong(Coordinate::Translation));
-    all.retain(|harmonic| *harmonic <= highest);
-    all.sort_unstable();
-    all.dedup();
-    all
+    let lines = all
+        .iter()
+        .filter(|line| line.part == member && line.coordinate == coordinate && line.harmonic > 0);
+    let largest = lines.clone().map(|line| line.amplitude).fold(0.0, f64::max);
+    let strong = lines.filter(|line| line.amplitude > STRONG * largest).map(|line| line.harmonic);
+    let mut strong: Vec<usize> = strong.filter(|harmonic| *harmonic <= highest).collect();
+    strong.sort_unstable();
+    strong
 }
 
 impl Vibrations {
@@ -160,6 +156,12 @@ impl Vibrations {
         let slowest = found.get(..1).unwrap_or_default();
         let slowest = CriticalMotion::of(&*cycle.into_set(), &derivative, slowest, 1)?;
         Ok(Some(Self { all, slowest_type: slowest.map(|own| own.mode_type) }))
+    }
+
+    /// Decay rate δ of the vibration whose ω is nearest, 1/s; 0 without any.
+    pub(super) fn decay_near(&self, omega: f64) -> f64 {
+        let off = |v: &&Vibration| (v.omega - omega).abs();
+        self.all.iter().min_by(|a, b| off(a).total_cmp(&off(b))).map_or(0.0, |v| v.decay)
     }
 
     /// Multipliers e^{(−δ ± iω)T} of a mesh cycle at a mesh frequency, Hz, the largest first, with the type of its
@@ -230,7 +232,10 @@ impl Vibrations {
         steps: usize,
         highest: usize,
     ) -> Option<StepError> {
-        let harmonics = strong_harmonics(state, highest);
+        let mut harmonics = strong_harmonics(state, Coordinate::Rotation, highest);
+        harmonics.extend(strong_harmonics(state, Coordinate::Translation, highest));
+        harmonics.sort_unstable();
+        harmonics.dedup();
         let mesh_hz = state.case.mesh_frequency_hz;
         let mut largest = self.largest_error(&harmonics, mesh_hz, steps)?;
         let mut needed = largest;

@@ -218,7 +218,7 @@ pub fn run(
             break;
         }
     }
-    let vibrations = OnceLock::new();
+    let (vibrations, inertia) = (OnceLock::new(), OnceLock::new());
     let chains = plan.chains.par_iter().map(|chain| {
         let (mut points, mut failed) = Chained::default();
         let mut start: (SearchStart, Option<Vec<f64>>) = Default::default();
@@ -235,6 +235,10 @@ pub fn run(
                     if let (Kept::Found { point, .. }, Some(known)) = (&mut kept, known) {
                         let (steps, highest) = (point.steps_per_cycle, plan.steady.harmonics);
                         point.step_error = known.step_error(&point.state, steps, highest);
+                        let shifted = inertia.get_or_init(|| model.body_inertia());
+                        point.inertia_error = shifted
+                            .as_ref()
+                            .and_then(|own| own.error(&point.state, known, highest));
                     }
                     store.save(chain, index, &kept)?;
                     kept

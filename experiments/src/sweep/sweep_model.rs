@@ -8,6 +8,7 @@ use gearset::{Fidelity, LoadCase, Scene};
 
 use super::marching::{FeMarching, Marching};
 use super::set_shape::SetShape;
+use super::shifted_vibrations::ShiftedVibrations;
 use super::varied_key::VariedKey;
 use crate::error::ExperimentError;
 use crate::table_growth::SIZES;
@@ -85,6 +86,12 @@ pub trait SweepModel: Sync {
         size: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
         self.turning_damped(case, damping_factor, size)
+    }
+
+    /// What the inertia of the bodies behind the teeth changes of the vibrations; `None` of a model that has it, or of which nothing is
+    /// known of it.
+    fn body_inertia(&self) -> Option<ShiftedVibrations> {
+        None
     }
 
     /// The set with every damping of the scene multiplied by `damping_factor`.
@@ -193,24 +200,6 @@ impl<'s> FeModel<'s> {
         Self { table_size: size, ..self }
     }
 
-    /// The same model with one in `every` of its steps, on the tables that it has.
-    ///
-    /// # Errors
-    /// If its steps are not a multiple of `every`.
-    pub(crate) fn thinned(&self, every: usize) -> Result<Self, ExperimentError> {
-        let mut scene = self.scene.clone();
-        scene.dynamics.steps_per_cycle /= every as u32;
-        let (imperfections, case) = (self.imperfections.clone(), self.case);
-        let own = Self::new(&scene, self.bodies, imperfections, case).with_tables(self.table_size);
-        for (slot, known) in own.prepared.iter().zip(&self.prepared) {
-            if let Some(prepared) = known.get() {
-                let thinned = prepared.thinned(every)?;
-                slot.get_or_init(|| thinned);
-            }
-        }
-        Ok(own)
-    }
-
     /// The same model with the steps of `scene`, on what this one has found: the mean configuration, and tables at positions that
     /// both have.
     ///
@@ -222,17 +211,6 @@ impl<'s> FeModel<'s> {
         let made = self.shared(0)?.with_steps(scene, own.force(self.table_size)?)?;
         own.prepared[0].get_or_init(|| made);
         Ok(own)
-    }
-
-    /// A set that stands under the torque of the model at position 0 of the mesh cycle, on the model's tables.
-    ///
-    /// # Errors
-    /// If there is no equilibrium, or kinematics are exact at every step: such tables hold no other set.
-    pub(crate) fn standing(&self) -> Result<VibratingSet<'s>, ExperimentError> {
-        let rotation = NominalRotation::Standing { position: 0.0, step: 5e-6 };
-        let mut set = VibratingSet::on(&self.scene, self.shared(0)?, rotation)?;
-        set.rest(self.case.sun_load_nm())?;
-        Ok(set)
     }
 
     /// What sets share whose tables were found too small `size` times.
@@ -258,15 +236,6 @@ impl<'s> FeModel<'s> {
         case: &LoadCase,
         size: usize,
     ) -> Result<Box<dyn Marching + 's>, ExperimentError> {
-        Ok(Box::new(self.marching(scene, case, size)?))
-    }
-
-    fn marching(
-        &self,
-        scene: &Scene,
-        case: &LoadCase,
-        size: usize,
-    ) -> Result<FeMarching<'s>, ExperimentError> {
         check_sense(&self.case, case)?;
         let (steps_per_cycle, mesh_frequency) = (self.steps_per_cycle(), case.mesh_frequency_hz);
         let direction = self.case.direction();
@@ -274,27 +243,7 @@ impl<'s> FeModel<'s> {
         let torque_nm = case.sun_load_nm();
         let set = VibratingSet::on(scene, self.shared(size)?, rotation)?;
         let rate = scaling_rate(mesh_frequency);
-        Ok(FeMarching { set, torque_nm, rate })
-    }
-
-    /// What `each` gives at every step of the mesh cycle that follows a state at the speed of a load case, from step 1 on. `size`: how often
-    /// tables were found too small on the way to the state.
-    ///
-    /// # Errors
-    /// If the state is that of another set, a step fails, and as `each`.
-    pub(crate) fn over_cycle<T>(
-        &self,
-        case: &LoadCase,
-        (state, size): (&[f64], usize),
-        each: impl Fn(&VibratingSet<'s>) -> Result<T, ExperimentError>,
-    ) -> Result<Vec<T>, ExperimentError> {
-        let mut marching = self.marching(&self.scene, case, size)?;
-        marching.restore(state)?;
-        let one = |_| {
-            marching.step()?;
-            each(&marching.set)
-        };
-        (0..self.steps_per_cycle()).map(one).collect()
+        Ok(Box::new(FeMarching { set, torque_nm, rate }))
     }
 
     /// Mesh force that tables of a size are made for, N.
@@ -354,6 +303,11 @@ impl SweepModel for FeModel<'_> {
         size: usize,
     ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
         self.set_of(&damped(&without_gyroscopic(&self.scene), damping_factor), case, size)
+    }
+
+    fn body_inertia(&self) -> Option<ShiftedVibrations> {
+        let is_quasi_static = self.scene.dynamics.fidelity == Fidelity::QuasiStatic;
+        is_quasi_static.then(|| ShiftedVibrations::of(&self.scene, &self.case)).flatten()
     }
 
     fn turning_damped(

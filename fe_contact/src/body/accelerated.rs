@@ -9,12 +9,9 @@
 //!
 //! Teeth are meshed alike, so that w is the same in the frame of every tooth, and one sector has it all.
 
-use std::sync::Arc;
-
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 
 use super::gear_body::GearBody;
-use super::sector_ring::RingOfSectors;
 use crate::element::matrices;
 use crate::error::FeError;
 
@@ -32,8 +29,6 @@ pub struct Accelerated {
     of_sector: Matrix3<f64>,
     /// Consistent mass of each element of a sector, one value for each pair of its functions, kg.
     masses: Vec<(Vec<usize>, DMatrix<f64>)>,
-    /// The gear's sectors.
-    pub(super) ring: Arc<RingOfSectors>,
 }
 
 impl Accelerated {
@@ -62,7 +57,6 @@ impl Accelerated {
             moved: [0.0; 2],
             of_sector: Matrix3::zeros(),
             masses,
-            ring: ring.clone(),
         };
         // Rigid motion of the sector: a translation does not change derivative nodes.
         let mut rigid = DMatrix::zeros(2 * sector.points.len(), 3);

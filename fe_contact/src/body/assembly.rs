@@ -9,7 +9,6 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, Mat, MatMut, Par, Side, get_global_parallelism};
-use nalgebra::DMatrix;
 
 use crate::error::FeError;
 
@@ -152,13 +151,6 @@ impl Factor {
     /// Solves for all columns of `right`, in place.
     pub(crate) fn solve(&self, right: &mut Mat<f64>) {
         self.solve_in_place(right.as_mut());
-    }
-
-    /// The same of a matrix with the order of this one as its rows.
-    pub(crate) fn solve_columns(&self, right: &mut DMatrix<f64>) {
-        let (rows, columns) = right.shape();
-        let right = right.as_mut_slice();
-        self.solve_in_place(MatMut::from_column_major_slice_mut(right, rows, columns));
     }
 
     /// Solves for one right-hand side, in place.

@@ -8,7 +8,6 @@ mod gear_body;
 mod matrices;
 mod responses;
 mod sector_ring;
-mod tooth_gram;
 mod whole_gear;
 
 pub use accelerated::{Accelerated, ToothForce};
@@ -18,4 +17,3 @@ pub use gear_body::{Deep, FlankPoint, GearBody};
 pub use matrices::BodyMatrices;
 pub(crate) use matrices::number_unknowns;
 pub(crate) use responses::kept_teeth;
-pub use tooth_gram::{LoadProducts, ToothGram};

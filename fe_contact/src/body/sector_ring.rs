@@ -99,18 +99,6 @@ impl RingOfSectors {
         self.of([carried, held], offset, None)
     }
 
-    /// Displacements of all nodes of a sector (2 rows each) under the loads of some columns with both cuts held, m/N.
-    pub(super) fn held(&self, loads: &[usize]) -> DMatrix<f64> {
-        self.held.select_columns(loads)
-    }
-
-    /// Displacements v of the first cuts of all sectors below one another, m rows each, under the loads of some columns.
-    pub(super) fn stacked(&self, loads: &[usize]) -> DMatrix<f64> {
-        let (m, list) = (self.sector.cut, &self.cuts.list);
-        let of = |load: &usize| list.rows(load * m, m).iter().copied().collect::<Vec<_>>();
-        DMatrix::from_iterator(m * list.ncols(), loads.len(), loads.iter().flat_map(of))
-    }
-
     fn of(
         &self,
         [carried, held]: [&DMatrix<f64>; 2],

@@ -133,13 +133,6 @@ impl Bodies {
         Ok(Self { geometry, settings, material, sun, planet, ring })
     }
 
-    /// The same bodies with so many contact cells of a tooth pair.
-    pub fn with_cells(&self, contact_cells: u32) -> Self {
-        let mut own = self.clone();
-        own.settings.input.contact_cells = contact_cells;
-        own
-    }
-
     /// The body of one member of a mesh.
     pub fn body(&self, kind: MeshKind, member: MeshMember) -> Option<&GearBody> {
         match (kind, member) {

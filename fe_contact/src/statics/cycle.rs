@@ -2,7 +2,6 @@
 
 use nalgebra::DVector;
 
-use super::bodies::Bodies;
 use super::equilibrium::Equilibrium;
 use super::races::SUN;
 use super::reference::ReferenceConfiguration;
@@ -127,20 +126,6 @@ impl<'s> StaticSet<'s> {
             f += further;
         }
         f
-    }
-
-    /// The same set about the same reference with gears of other finite elements: of the same geometry, so that only their
-    /// flexibility differs. The mean configuration is not found anew.
-    pub fn on_bodies<'t>(&self, bodies: &'t Bodies) -> StaticSet<'t> {
-        StaticSet {
-            bodies,
-            races: self.races.clone(),
-            sign: self.sign,
-            nominal: self.nominal.clone(),
-            start_angle: self.start_angle,
-            imperfections: self.imperfections.clone(),
-            reference: self.reference.clone(),
-        }
     }
 
     /// Equilibrium at `positions` evenly spaced positions of one mesh cycle; `torque_nm` is the

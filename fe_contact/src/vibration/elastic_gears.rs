@@ -38,30 +38,3 @@ impl ElasticGears {
         self.kinds.iter().map(Accelerated::first).fold(f64::INFINITY, f64::min)
     }
 }
-
-#[cfg(test)]
-pub(super) mod tests {
-    use gearset::{Facing, Scene};
-
-    use super::super::prepared::Loading;
-    use super::super::rotation::NominalRotation;
-    use super::*;
-    use crate::statics::{Bodies, Imperfections};
-
-    /// What `work` gives for OH-58 with four planets at rest under its torque, with so many elements along a flank.
-    pub(in super::super) fn oh58_at_rest<T>(
-        flank_elements: u32,
-        work: impl FnOnce(&mut VibratingSet<'_>) -> T,
-    ) -> T {
-        let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
-        let mut scene = Scene::from_file(path.as_ref()).unwrap();
-        scene.fe_contact.flank_elements = flank_elements;
-        let bodies = Bodies::new(&scene).unwrap();
-        let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
-        let rotation = NominalRotation::Standing { position: 0.0, step: 5e-6 };
-        let loading = Loading { torque_nm: 1130.0, mesh_force: 8000.0 };
-        let mut set = VibratingSet::new(&scene, &bodies, sense, none, rotation, loading).unwrap();
-        set.rest(1130.0).unwrap();
-        work(&mut set)
-    }
-}

@@ -97,25 +97,6 @@ impl<'s> Prepared<'s> {
         Ok(Self { statics, tables, leaning, is_exact, patterns, turns })
     }
 
-    /// The same data for one in `every` of the steps, whose positions are among them.
-    ///
-    /// # Errors
-    /// If the steps are not a multiple of `every`.
-    pub fn thinned(&self, every: usize) -> Result<Self, FeError> {
-        let count = self.leaning.len();
-        if every == 0 || !count.is_multiple_of(every) {
-            return Err(FeError::Unfit {
-                key: "steps".into(),
-                value: format!("one in {every} of {count}"),
-                allowed: "a divisor of the number of steps".into(),
-                why: "phases of the mesh cycle are never interpolated".into(),
-            });
-        }
-        let leaning: Arc<[Leaning]> = self.leaning.iter().step_by(every).cloned().collect();
-        let patterns = Arc::new(FramePatterns::new(leaning.len()));
-        Ok(Self { leaning, patterns, ..self.clone() })
-    }
-
     /// Data of the same scene for another number of steps: the mean configuration is not found anew, nor are tables and slopes at
     /// positions that both have.
     ///

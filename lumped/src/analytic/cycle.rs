@@ -21,6 +21,7 @@ use nalgebra::{DMatrix, DVector};
 use super::line::Line;
 use super::mesh::PressedMesh;
 use super::plane::Plane;
+use super::stated_error::{MESHES, SEATS, StatedError};
 use super::{NOT_HELD, SetParts, stand_on_seats};
 use crate::coordinates::{Axis, Body};
 use crate::error::LumpedError;
@@ -50,7 +51,7 @@ pub struct AnalyticCycle {
     /// What the pin seats have of K: half of its quadratic form is their strain energy, N/m.
     of_seats: DMatrix<f64>,
     /// Largest angle by which a line of action turns from unloaded to mean configuration, rad.
-    pub turned: f64,
+    turned: f64,
     /// K + G, N/m.
     stiffness: DMatrix<f64>,
     /// f + G q̄, N.
@@ -173,6 +174,20 @@ impl AnalyticCycle {
             force,
             sun,
         })
+    }
+
+    /// Stated errors of the mean transmission error over evenly spaced positions, shares of it that add: what the stiffness of meshes and pin seats
+    /// may be off, by the work Σ F δ of their forces over that of the torque, and the lines of action of the unloaded set.
+    pub fn mean_errors(&self, rest: &[AnalyticRest]) -> Vec<StatedError> {
+        let sum = |of: &dyn Fn(&AnalyticRest) -> f64| rest.iter().map(of).sum::<f64>();
+        let work = self.load() * sum(&|own| own.transmission_error);
+        let share = |kind: usize| MESHES[kind] * sum(&|own| own.mesh_work[kind]) / work;
+        let seats = SEATS * sum(&|own| own.seat_work) / work;
+        vec![
+            StatedError { source: "mesh stiffness in closed form", share: share(0) + share(1) },
+            StatedError { source: "pin seats in closed form", share: seats },
+            StatedError { source: "lines of action of the unloaded set", share: self.turned },
+        ]
     }
 
     /// The set at some positions (cycles).

@@ -1,184 +1,196 @@
-//! Choices of `auto` on drawn scenes, their true errors and costs: `kept/auto.csv`. An hour on one core.
-//!
-//! `cargo run --release -p validation --example remake -- auto > auto.csv && mv auto.csv kept/`
-//!
-//! `AUTO_SEEDS=1..9` runs other seeds: those of the record served no other purpose. 1 to 249 were used when the estimates were
-//! programmed, and 1001 to 1073, 5001 to 5066, 17001 to 17068 and 18001 to 18166 are those of earlier records, whose misses were
-//! read before inertia was added to frequencies.
+//! The test of `auto`: answers at a loose and a tight tolerance on drawn sets beside a finer calculation.
 
-use validation::{
-    Asked, AutoRow, ResponseRow, auto_row, auto_tables, drawn_response, response_row,
+use experiments::ExperimentError;
+use experiments::auto::{
+    AmplitudeQuestion, AutoError, AutoModel, AutoSettings, BodyInertia, Choice, CycleQuestion,
+    CycleValue, FrequencyQuestion, Question, choose_amplitude, choose_frequency,
+    choose_transmission_error,
 };
+use experiments::study::{CpuTime, Stopwatch};
+use experiments::sweep::SteadySettings;
+use gearset::{AutoResponse, LoadCase, Scene, excitation_of_scene};
+use lumped::ModeType;
+use validation::drawn_set;
 
 use super::Outcome;
 
-/// Seeds of the record, and how many sets it holds: those that FE/contact refuses have no truth and are left out.
-const SEEDS: std::ops::Range<u64> = 18201..19001;
-const SETS: usize = 60;
+/// Seeds of the record, one question each.
+const SEEDS: std::ops::Range<u64> = 41001..41061;
 
-/// Seeds of the record of transmission errors at rest, and of that of amplitudes: each has what is asked of its kind. Lower ones were read
-/// while `auto` was made cheaper, those at rest up to 19980 and those of amplitudes up to 24100 and from 26001 to 26180; these by nobody before the record was made.
-const SEEDS_AT_REST: std::ops::Range<u64> = 26001..26181;
-const SEEDS_IN_MOTION: std::ops::Range<u64> = 25001..25101;
+/// Loose and tight tolerance of natural frequencies, transmission errors at rest and amplitudes, percent.
+const TOLERANCES: [[f64; 2]; 3] = [[5.0, 0.5], [10.0, 2.0], [20.0, 5.0]];
 
-/// Seeds that `AUTO_SEEDS` asks for, if it is set.
-fn asked_seeds() -> Result<Option<std::ops::Range<u64>>, Box<dyn std::error::Error + Send + Sync>> {
-    let Ok(text) = std::env::var("AUTO_SEEDS") else { return Ok(None) };
-    let (from, to) = text.split_once("..").ok_or("AUTO_SEEDS is not of the form 1..9")?;
-    Ok(Some(from.parse()?..to.parse()?))
+/// Harmonics of an amplitude.
+const HARMONICS: usize = 5;
+
+/// Discretisation of the truth, finer than any candidate's.
+const TRUTH: AutoSettings = AutoSettings {
+    model: AutoModel::QuasiStatic,
+    flank_elements: Some(24),
+    contact_cells: Some(100),
+    positions: Some(480),
+    steps_per_cycle: Some(480),
+    ..AutoSettings::LUMPED
+};
+
+/// Modes of each body that give what inertia changes of a true frequency and of a true amplitude, on the coarsest discretisation.
+const MODES: [BodyInertia; 2] = [BodyInertia::Modes(100), BodyInertia::Modes(60)];
+
+/// Kinds of questions, in turn by seed: natural frequency, transmission error at rest, amplitude.
+const KINDS: [usize; 5] = [0, 0, 1, 1, 2];
+
+fn kind(seed: u64) -> usize {
+    KINDS[usize::try_from(seed % 5).unwrap_or(0)]
 }
 
-/// Prints the row of each seed that has a truth, up to `most`; then the seeds without a truth.
-fn print_rows(
-    seeds: impl Iterator<Item = u64> + Clone,
-    most: usize,
-    row: &dyn Fn(u64) -> Result<Row, experiments::ExperimentError>,
-) -> Outcome {
-    let (mut refused, mut done) = (Vec::new(), 0);
-    // A process pays once for its first set, which would be a cost of what is run first.
-    for seed in seeds.clone() {
-        if !matches!(row(seed)?, Row::OtherKind) {
-            break;
-        }
+/// A set with a carrier whose bore is drawn as well: outer over bore diameter from 1.5 to 2.9.
+fn set(seed: u64, random: &mut fastrand::Rng) -> Result<Scene, ExperimentError> {
+    let mut scene = drawn_set(seed)?;
+    if let Some(carrier) = scene.geometry.as_mut().and_then(|g| g.carrier.as_mut()) {
+        carrier.bore_radius = carrier.outer_radius / (1.5 + 1.4 * random.f64());
     }
-    for seed in seeds {
-        if done == most {
-            break;
-        }
-        match row(seed)? {
-            Row::Line(line) => {
-                done += 1;
-                println!("{line}");
-            }
-            Row::NoTruth => refused.push(seed.to_string()),
-            Row::OtherKind => {}
-        }
-    }
-    println!("# without a truth, because FE/contact refuses the set: seeds {}", refused.join(" "));
-    Ok(())
+    Ok(scene)
 }
 
-/// What a seed gives.
-enum Row {
-    Line(String),
-    NoTruth,
-    /// Something is asked of it that this part of the record is not about.
-    OtherKind,
+/// One line of the record.
+struct Row {
+    quantity: String,
+    unit: &'static str,
+    truth: f64,
+    /// At the loose and at the tight tolerance.
+    found: [Result<Choice, AutoError>; 2],
+    /// CPU time of both choices, s.
+    seconds: [f64; 2],
 }
 
-/// `kept/auto_responses.csv`: transmission errors at rest, and amplitudes.
-pub(super) fn remake_responses() -> Outcome {
-    println!(
-        "# What auto chose for transmission errors and amplitudes of drawn sets (docs/auto.md), error and cost."
-    );
-    println!(
-        "# Own computation: validation/src/auto_response_record.rs; cost_ratio is a ratio of CPU times of one run"
-    );
-    println!(
-        "# cargo run --release -p validation --example remake -- auto_responses > r.csv && mv r.csv kept/auto_responses.csv"
-    );
-    println!(
-        "seed,planets,quantity,tolerance_percent,chosen,estimated_percent,value_um,truth_um,error_percent,\
-         cheapest_within_tolerance,cost_ratio,miss"
-    );
-    // One thread, so that CPU times are those of the whole work.
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    let row = |seed: u64| {
-        let row = pool.install(|| response_row(seed))?;
-        let has_truth = !row.truth_um.is_nan();
-        Ok(if has_truth { Row::Line(response_line(&row)) } else { Row::NoTruth })
+/// Answers to a question and the truth, which is `beside` of the finest discretisation and of what modes change on the coarsest.
+fn row<Q: Question>(
+    question: &Q,
+    choose: impl Fn(&Q, f64) -> Result<Choice, AutoError>,
+    tolerances: [f64; 2],
+    modes: BodyInertia,
+) -> Result<Row, ExperimentError> {
+    let mut clock = CpuTime::default();
+    let mut seconds = [0.0; 2];
+    let found = [0, 1].map(|k| {
+        let start = clock.seconds();
+        let found = choose(question, tolerances[k]);
+        seconds[k] = clock.seconds() - start;
+        found
+    });
+    let fine = question.answer(&TRUTH)?;
+    let by_modes = match question.inertias() {
+        [_] => 1.0,
+        _ => {
+            let of = |inertia| question.settings(0, inertia);
+            let without = question.answer(&of(BodyInertia::None))?;
+            let beside = question.answer_beside(&of(BodyInertia::None), &without)?;
+            let modal = question.answer_beside(&of(modes), &without)?;
+            question.value(&modal) / question.value(&beside)
+        }
     };
-    let asked = asked_seeds()?;
-    for (is_at_rest, seeds) in [(true, SEEDS_AT_REST), (false, SEEDS_IN_MOTION)] {
-        print_rows(asked.clone().unwrap_or(seeds), usize::MAX, &|seed| {
-            let (_, asked) = drawn_response(seed)?;
-            match matches!(asked, Asked::Cycle(_)) == is_at_rest {
-                true => row(seed),
-                false => Ok(Row::OtherKind),
-            }
-        })?;
+    let truth = question.value(&fine) * by_modes;
+    Ok(Row { quantity: question.words(), unit: question.unit(), truth, found, seconds })
+}
+
+fn of_seed(seed: u64) -> Result<Row, ExperimentError> {
+    let mut random = fastrand::Rng::with_seed(!seed);
+    let scene = set(seed, &mut random)?;
+    let case = LoadCase::of_scene(&scene)?;
+    match kind(seed) {
+        0 => {
+            let types = [ModeType::Rotational, ModeType::Translational, ModeType::Planet];
+            // Three planets have no planet modes.
+            let mode_type = types[random.usize(0..if scene.planets.count() > 3 { 3 } else { 2 })];
+            let number = random.usize(1..=if mode_type == ModeType::Translational { 6 } else { 3 });
+            let question = FrequencyQuestion { scene: &scene, case: &case, mode_type, number };
+            row(&question, choose_frequency, TOLERANCES[0], MODES[0])
+        }
+        1 => {
+            let value =
+                if random.u32(0..4) == 0 { CycleValue::Mean } else { CycleValue::PeakToPeak };
+            let question = CycleQuestion { scene: &scene, case: &case, value };
+            row(&question, choose_transmission_error, TOLERANCES[1], BodyInertia::None)
+        }
+        _ => {
+            let strengths = excitation_of_scene(&scene, HARMONICS as u32).unwrap_or_default();
+            let is_allowed = |response: &AutoResponse| {
+                let of = |s: &gearset::ExcitationStrengths| match response {
+                    AutoResponse::TransmissionError => s.allowed().rotational,
+                    AutoResponse::SunTranslation => s.allowed().translational,
+                };
+                strengths.iter().any(of)
+            };
+            let mut both = vec![AutoResponse::TransmissionError, AutoResponse::SunTranslation];
+            both.retain(is_allowed);
+            let response = both[random.usize(0..both.len().max(1))];
+            let rpm = scene.operation.map_or(1000.0, |operation| operation.speed_rpm);
+            let shares: &[f64] = if random.bool() { &[0.97, 1.0, 1.03] } else { &[1.0] };
+            let speeds = shares.iter().map(|share| share * rpm).collect();
+            let steady = SteadySettings {
+                harmonics: HARMONICS,
+                between_cycles: 0,
+                ..SteadySettings::default()
+            };
+            let question = AmplitudeQuestion::new((&scene, &case), response, speeds, steady);
+            let choose =
+                |q: &AmplitudeQuestion<'_>, t| choose_amplitude(q, t).map(|found| found.choice);
+            row(&question, choose, TOLERANCES[2], MODES[1])
+        }
     }
-    Ok(())
 }
 
-/// Tables of `docs/auto.md`.
-pub(super) fn remake_tables() -> Outcome {
-    let kept = concat!(env!("CARGO_MANIFEST_DIR"), "/../kept");
-    let [frequencies, responses] = ["auto.csv", "auto_responses.csv"]
-        .map(|name| std::fs::read_to_string(format!("{kept}/{name}")));
-    let tables = auto_tables(&frequencies?, &responses?);
-    print!(
-        "{}",
-        tables.ok_or("a line of kept/auto.csv or kept/auto_responses.csv is not of its form")?
-    );
-    Ok(())
-}
-
-fn number(x: Option<f64>, digits: usize) -> String {
-    x.map_or(String::new(), |x| format!("{x:.digits$}"))
-}
-
-fn settings(s: Option<&experiments::auto::AutoSettings>, none: &str) -> String {
-    s.map_or(none.to_owned(), |s| s.to_string().replace(',', ""))
-}
-
-fn response_line(row: &ResponseRow) -> String {
-    let choice = row.found.as_ref().ok();
-    [
-        row.drawn.seed.to_string(),
-        row.drawn.scene.planets.count().to_string(),
-        row.asked.to_string().replace(',', ""),
-        row.asked.tolerance_percent().to_string(),
-        settings(choice.map(|c| &c.settings), "refused"),
-        number(choice.map(|c| c.estimated_error_percent), 4),
-        number(choice.map(|c| c.value), 6),
-        format!("{:.6}", row.truth_um),
-        number(row.error_percent(), 4),
-        settings(row.cheapest.as_ref(), "none"),
-        number(row.cost_ratio, 2),
-        row.miss().unwrap_or("").to_owned(),
-    ]
-    .join(",")
-}
-
+/// `kept/auto.csv`.
 pub(super) fn remake() -> Outcome {
-    println!("# What auto chose on drawn sets (docs/auto.md), its true error and its cost.");
     println!(
-        "# Own computation: validation/src/auto_record.rs; cost_ratio is a ratio of CPU times of one run"
+        "# What auto chose on drawn sets at two tolerances, beside a finer calculation (docs/auto.md)."
     );
+    println!("# Own computation: validation/examples/remake/auto.rs");
     println!(
         "# cargo run --release -p validation --example remake -- auto > auto.csv && mv auto.csv kept/"
     );
     println!(
-        "seed,planets,quantity,tolerance_percent,chosen,estimated_percent,value_hz,truth_hz,error_percent,\
-         cheapest_within_tolerance,cost_ratio,fe_cost_ratio,miss"
+        "seed,quantity,unit,truth,loose_percent,loose_settings,loose_value,loose_estimate_percent,loose_error_percent,\
+         tight_percent,tight_settings,tight_value,tight_estimate_percent,tight_error_percent,loose_cpu_s,tight_cpu_s"
     );
     // One thread, so that CPU times are those of the whole work.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-    let (seeds, most) = asked_seeds()?.map_or((SEEDS, SETS), |asked| (asked, usize::MAX));
-    print_rows(seeds, most, &|seed| {
-        let row = pool.install(|| auto_row(seed))?;
-        Ok(if row.truth_hz.is_nan() { Row::NoTruth } else { Row::Line(line(&row)) })
-    })
+    let named =
+        std::env::args().skip(2).map(|seed| seed.parse()).collect::<Result<Vec<u64>, _>>()?;
+    let seeds = if named.is_empty() { SEEDS.collect() } else { named };
+    for seed in seeds {
+        match pool.install(|| of_seed(seed)) {
+            Ok(row) => println!("{}", line(seed, &row)),
+            Err(e) => {
+                println!("{seed},no truth: {},,,,,,,,,,,,,,", e.to_string().replace(',', ";"))
+            }
+        }
+    }
+    Ok(())
 }
 
-fn line(row: &AutoRow) -> String {
-    let request = &row.drawn.request;
-    let choice = row.found.as_ref().ok();
-    [
-        row.drawn.seed.to_string(),
-        row.drawn.scene.planets.count().to_string(),
-        request.to_string(),
-        request.tolerance_percent.to_string(),
-        settings(choice.map(|c| &c.settings), "refused"),
-        number(choice.map(|c| c.estimated_error_percent), 4),
-        number(choice.map(|c| c.value), 4),
-        format!("{:.4}", row.truth_hz),
-        number(row.error_percent(), 4),
-        settings(row.cheapest.as_ref(), "none"),
-        number(row.cost_ratio, 2),
-        number(row.fe_cost_ratio, 2),
-        row.miss().unwrap_or("").to_owned(),
-    ]
-    .join(",")
+fn line(seed: u64, row: &Row) -> String {
+    let mut cells = vec![
+        seed.to_string(),
+        row.quantity.replace(',', ""),
+        row.unit.into(),
+        format!("{:.6}", row.truth),
+    ];
+    for (found, tolerance) in row.found.iter().zip(TOLERANCES[kind(seed)]) {
+        cells.push(tolerance.to_string());
+        match found {
+            Ok(choice) => cells.extend([
+                choice.settings.to_string().replace(',', ""),
+                format!("{:.6}", choice.value),
+                format!("{:.4}", choice.estimated_error_percent),
+                format!("{:.4}", 100.0 * (choice.value / row.truth - 1.0).abs()),
+            ]),
+            Err(e) => {
+                eprintln!("{seed}: {e}");
+                cells.extend(["refused".into(), String::new(), String::new(), String::new()]);
+            }
+        }
+    }
+    cells.extend(row.seconds.iter().map(|s| format!("{s:.2}")));
+    cells.join(",")
 }

@@ -25,7 +25,7 @@ type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
 type Remake = fn() -> Outcome;
 
 /// Name, what it makes, how.
-const ALL: [(&str, &str, Remake); 16] = [
+const ALL: [(&str, &str, Remake); 14] = [
     (
         "assumptions",
         "docs/assumptions.md from the ledger and the kept verdict",
@@ -36,17 +36,7 @@ const ALL: [(&str, &str, Remake); 16] = [
         "kept/attraction.csv: motions at drawn operating points, pushed",
         attraction::remake,
     ),
-    ("auto", "kept/auto.csv: choices of auto on drawn sets, their errors and costs", auto::remake),
-    (
-        "auto_responses",
-        "kept/auto_responses.csv: the same for transmission errors at rest and amplitudes",
-        auto::remake_responses,
-    ),
-    (
-        "auto_tables",
-        "tables of docs/auto.md from kept/auto.csv and kept/auto_responses.csv",
-        auto::remake_tables,
-    ),
+    ("auto", "kept/auto.csv: choices of auto on drawn sets and their errors", auto::remake),
     (
         "effects",
         "tables of docs/fe_dynamics_effects.md: what changes the tabled frequencies",

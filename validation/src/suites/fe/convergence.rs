@@ -1,6 +1,6 @@
 //! Sensitivity of the result to matching depth, contact cells, elements and contact solver.
 
-use dynamics::grid_convergence_index;
+use dynamics::extrapolate;
 use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, Lemke};
 use fe_contact::statics::{Bodies, PairCycle, at_phase};
 use gearset::MeshKind;
@@ -88,9 +88,8 @@ fn elements(lab: &Lab<'_>) -> Checks {
     for (k, kind) in MESHES.into_iter().enumerate() {
         let name = kind.name();
         let values = [0, 1, 2].map(|grid| cycles[grid][k].mean_secant_stiffness());
-        let ratio = |a: u32, b: u32| f64::from(b) / f64::from(a);
-        let ratios = [ratio(grids[0], grids[1]), ratio(grids[1], grids[2])];
-        let gci = grid_convergence_index(values, ratios).index;
+        let limit = extrapolate(&values, &grids.map(f64::from), None);
+        let gci = limit.error_of(values[1]) / values[2];
         let id = format!("fe.convergence.gci.{name}");
         let title = format!(
             "{name} mesh: grid convergence index of the mean stiffness at the default mesh, from 10, 14 and 20 flank elements"

@@ -1,4 +1,4 @@
-//! Richardson extrapolation of a refined sequence, with its uncertainty.
+//! Discretisation errors: Richardson extrapolation of a refined sequence, with its uncertainty.
 
 /// Lowest and highest observed order of convergence that is used. Outside, the sequence is not taken to converge with
 /// a power of the refinement.
@@ -23,6 +23,29 @@ pub struct Extrapolated {
     /// Observed order p of convergence; `None` if the sequence does not converge with a power of the refinement, or
     /// no longer changes.
     pub order: Option<f64>,
+}
+
+impl Extrapolated {
+    /// Estimated error of one value of the sequence, in its unit: the grid convergence index 1.25 |v∞ − v| where an order was
+    /// observed (Roache 1994, J. Fluids Eng. 116, 405–413), U elsewhere.
+    pub fn error_of(&self, value: f64) -> f64 {
+        match self.order {
+            Some(_) => self.uncertainty.max(SAFETY[0] * (self.value - value).abs()),
+            None => self.uncertainty,
+        }
+    }
+}
+
+/// Estimated error of the finest of some answers that are no single numbers, as curves or lines of a spectrum are, from the `distances` of
+/// neighbours, coarse to fine, found at `refinements` as in [`extrapolate`]: one distance fewer. As if the answers came to the finest one by
+/// one from the same side, so that neighbours do not agree by chance.
+pub fn error_by_distances(distances: &[f64], refinements: &[f64], formal: Option<f64>) -> f64 {
+    let mut values = vec![0.0];
+    for distance in distances.iter().rev() {
+        values.push(values.last().unwrap_or(&0.0) + distance);
+    }
+    values.reverse();
+    extrapolate(&values, refinements, formal).uncertainty
 }
 
 /// The limit of `values` (any unit), found at `refinements` n (steps, cells, elements: ascending, errors taken to fall
@@ -145,6 +168,25 @@ mod tests {
         assert_eq!((two.order, two.value), (None, 1.1));
         assert!((two.uncertainty - 0.3).abs() < 1e-12);
         assert!(extrapolate(&[f64::NAN, 1.0, 1.1], &[1.0, 2.0, 4.0], None).order.is_none());
+    }
+
+    /// Answers at distances 4 and 1 in ratios of two are of order two: the last is off by 1/3, with the factor 5/12; two answers alone, or
+    /// distances that grow, are doubted by three times the larger.
+    #[test]
+    fn distances_give_the_error_of_the_finest() {
+        let n = [1.0, 2.0, 4.0];
+        assert!((error_by_distances(&[4.0, 1.0], &n, None) - 1.25 / 3.0).abs() < 1e-9);
+        assert!((error_by_distances(&[1.0], &n[1..], None) - 3.0).abs() < 1e-12);
+        assert!((error_by_distances(&[1.0, 2.0], &n, None) - 6.0).abs() < 1e-12);
+    }
+
+    /// First order on a ratio of two, by hand: the middle value is off by 1.25 · |1.0 − 1.2|.
+    #[test]
+    fn the_error_of_a_coarser_value_is_its_distance_to_the_limit() {
+        let found = extrapolate(&[1.4, 1.2, 1.1], &[1.0, 2.0, 4.0], None);
+        assert!((found.order.unwrap() - 1.0).abs() < 1e-9);
+        assert!((found.error_of(1.2) - 0.25).abs() < 1e-9);
+        assert!((found.error_of(1.1) - found.uncertainty).abs() < 1e-12);
     }
 
     /// The last of four values breaks the sequence of the first three.
