@@ -26,7 +26,7 @@ use lumped::{Axis, Body, LumpedModel, ModeGroup, NaturalModes, SpringId, strain_
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+use super::map::{Drawn, Map, MapError, MapOf, Point, StabilityMap, logarithms};
 use super::windup::{Left, WoundUp, of_slopes};
 use crate::error::ExperimentError;
 
@@ -84,7 +84,7 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     scene.dynamics.kinematics = MeshKinematics::AboutMean;
     let bodies = Bodies::new(&scene).map_err(ExperimentError::from)?;
     let axis = "log₁₀ of the windup over the base pitch";
-    let mut map = empty(&MAP, scene.title.clone(), axis);
+    let mut map = StabilityMap::of(&MAP, scene.title.clone(), axis);
     for by in [By::Torque, By::SofterBearings] {
         let one = |factor: f64| at(&scene, &bodies, &case, by, factor);
         let factors = factors(&scene, &case, by)?;
@@ -92,8 +92,7 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
         write(&mut map, by, &loads);
     }
     let quantity = "part of harmonics that the coarser tables for the slopes of flanks change";
-    let slopes = of_slopes(&scene, &bodies, &case)?;
-    map.borders.push(Border::new("the scene's own load", quantity, "", Some(slopes), None));
+    map.measure("the scene's own load", quantity, of_slopes(&scene, &bodies, &case)?);
     Ok(map)
 }
 
@@ -271,13 +270,13 @@ impl<'g> Theory<'g> {
 }
 
 /// (windup, value) of the loads that have one.
-fn over_windup(loads: &[Load], of: impl Fn(&Load) -> Option<f64>) -> Vec<(f64, f64)> {
+fn over_windup(loads: &[Load], of: impl Fn(&Load) -> Option<f64>) -> Vec<Point> {
     loads.iter().filter_map(|l| Some((l.found.windup, of(l)?))).collect()
 }
 
 /// Windup from which on a value stays above 1 %, between two loads in proportion of the logarithms; `None` if it is
 /// above at the least windup or not above at the largest.
-fn crossing(points: &[(f64, f64)]) -> Option<f64> {
+fn crossing(points: &[Point]) -> Option<f64> {
     let last_within = points.iter().rposition(|p| p.1 <= WANTED)?;
     let (a, b) = (points.get(last_within)?, points.get(last_within + 1)?);
     let part = (WANTED / a.1).ln() / (b.1 / a.1).ln();
@@ -288,8 +287,8 @@ fn crossing(points: &[(f64, f64)]) -> Option<f64> {
 struct Curve {
     panel: usize,
     name: &'static str,
-    measured: Vec<(f64, f64)>,
-    theory: Option<Vec<(f64, f64)>>,
+    measured: Vec<Point>,
+    theory: Option<Vec<Point>>,
 }
 
 const PANELS: [&str; 4] = [
@@ -353,7 +352,7 @@ fn write(map: &mut StabilityMap, by: By, loads: &[Load]) {
         if measured.is_none() && theory.is_none() {
             return;
         }
-        map.borders.push(Border::new(of, quantity, "", measured, theory));
+        map.compare(of, quantity, measured, theory);
     };
     if let Some(own) = own {
         let quantity = "windup under the scene's own load, base pitches";
@@ -367,11 +366,11 @@ fn write(map: &mut StabilityMap, by: By, loads: &[Load]) {
             let Curve { panel, name, measured, theory } = curve;
             let quantity =
                 format!("windup from which on the error is above 1 %, base pitches: {name}");
-            let border = |points: &[(f64, f64)]| crossing(points);
+            let border = |points: &[Point]| crossing(points);
             push(map, &of, &quantity, [border(&measured), theory.as_deref().and_then(border)]);
             for (which, found) in [("least", measured.first()), ("largest", measured.last())] {
                 let Some((windup, error)) = found else { continue };
-                let same = |p: &&(f64, f64)| p.0 == *windup;
+                let same = |p: &&Point| p.0 == *windup;
                 let exact = theory.as_ref().and_then(|t| t.iter().find(same)).map(|p| p.1);
                 let quantity =
                     format!("error at the {which} windup, {windup:.4} base pitches: {name}");
@@ -379,14 +378,10 @@ fn write(map: &mut StabilityMap, by: By, loads: &[Load]) {
             }
             let kept = if name == SHIFTED { ", shift of time kept" } else { "" };
             let name = format!("{configuration}{kept}, {words}");
-            let drawn = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
-                let above = points.iter().filter(|p| p.1 > 0.0);
-                above.map(|p| (p.0.log10(), p.1.log10())).collect()
-            };
-            for (points, is_theory) in [(Some(measured), false), (theory, true)] {
+            for (points, drawn) in [(Some(measured), Drawn::Measured), (theory, Drawn::Theory)] {
                 let Some(points) = points else { continue };
-                let (panel, name, points) = (PANELS[panel].into(), name.clone(), drawn(&points));
-                map.curves.push(MapCurve { panel, name, is_theory, is_points: false, points });
+                let above = points.into_iter().filter(|p| p.1 > 0.0);
+                map.draw(drawn, PANELS[panel], &name, logarithms(above, 0.0));
             }
         }
     }
