@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use super::error::BalanceError;
 use super::fourier::FourierSeries;
 use super::problem::HarmonicBalance;
+use crate::continuation::Evaluation;
 use crate::coupled::CouplingForce;
 
 /// Condition number from which a dynamic stiffness counts as singular.
@@ -237,8 +238,22 @@ impl<'a, L: CouplingForce> BalanceEquations<'a, L> {
         out
     }
 
+    /// Residual, and its derivatives by the unknowns and by the frequency.
+    ///
+    /// # Errors
+    /// If the number of unknowns is not [`BalanceEquations::dimension`].
+    pub fn evaluate(&self, y: &[f64]) -> Result<Evaluation, BalanceError> {
+        self.fits(y)?;
+        let answers = self.answers(y);
+        Ok(Evaluation {
+            residual: self.residual(y, &answers),
+            jacobian: self.jacobian(&answers),
+            derivative: self.by_frequency(y, &answers),
+        })
+    }
+
     /// Derivative of the residuals by the frequency, s/rad times their unit.
-    pub(super) fn by_frequency(&self, y: &[f64], answers: &Answers) -> DVector<f64> {
+    fn by_frequency(&self, y: &[f64], answers: &Answers) -> DVector<f64> {
         let (n, count) = (self.problem.count(), self.problem.couplings());
         let linear = &self.problem.linear;
         let mut out = DVector::zeros(self.dimension());

@@ -13,10 +13,10 @@ use fe_contact::statics::Bodies;
 use gearset::{LoadCase, Scene};
 
 use super::map::{Map, MapError, MapOf, Point, StabilityMap, logarithms};
-use super::resonance::slowest;
+use super::resonance::{from_rest, slowest};
 use crate::error::ExperimentError;
 use crate::sweep::{
-    MeshLawModel, Record, SteadyMethod, SteadySettings, SweepModel, left_of_transient, steady,
+    MeshLawModel, Record, SteadyMethod, SteadySettings, SweepModel, left_of_transient,
 };
 
 pub(super) const MAP: Map = Map {
@@ -111,16 +111,13 @@ impl March {
         case: &LoadCase,
         factor: f64,
     ) -> Result<Option<Self>, ExperimentError> {
-        let (steps, first) = (model.steps_per_cycle(), model.first_planet_rad());
         let settings = SteadySettings {
             between_cycles: 0,
             whole_cycles: true,
             tolerance: 1e-11,
             ..SteadySettings::default()
         };
-        let mut set = model.turning_damped(case, factor, 0)?;
-        set.rest()?;
-        let found = steady(set.as_mut(), model.shape(), first, steps, &settings)?;
+        let found = from_rest(model, case, factor, &settings)?;
         if found.method != SteadyMethod::Shooting {
             return Ok(None);
         }
@@ -132,7 +129,7 @@ impl March {
         let mut changes = Vec::new();
         for _ in 0..MOST_CYCLES {
             std::mem::swap(&mut now, &mut before);
-            now.march(set.as_mut(), first, steps)?;
+            now.march(set.as_mut(), model.first_planet_rad(), model.steps_per_cycle())?;
             let change = now.change_from(&before);
             if change.is_finite() {
                 changes.push((change, now.change_from(&found.record)));
