@@ -48,7 +48,11 @@ impl<L: CouplingForce> Family for FrequencyResponse<'_, L> {
     }
 
     fn evaluate(&mut self, y: &[f64], lambda: f64) -> Result<Evaluation, BalanceError> {
-        self.equations(lambda)?.evaluate(y)
+        let (residual, jacobian) = self.equations(lambda)?.evaluate(y)?;
+        let step = 1e-6 * lambda;
+        let beside = |sign: f64| self.equations(lambda + sign * step)?.evaluate(y);
+        let derivative = (beside(1.0)?.0 - beside(-1.0)?.0) / (2.0 * step);
+        Ok(Evaluation { residual, jacobian, derivative })
     }
 }
 
@@ -87,14 +91,14 @@ impl<L: CouplingForce> Family for LoadResponse<'_, L> {
     }
 
     fn evaluate(&mut self, y: &[f64], lambda: f64) -> Result<Evaluation, BalanceError> {
-        let mut found = self.equations.evaluate(y)?;
+        let (mut residual, jacobian) = self.equations.evaluate(y)?;
         // Only the balance of mean forces contains the load.
-        found.derivative = DVector::zeros(y.len());
+        let mut derivative = DVector::zeros(y.len());
         for (i, force) in self.force.iter().enumerate() {
-            found.residual[i] -= lambda * force;
-            found.derivative[i] = -force;
+            residual[i] -= lambda * force;
+            derivative[i] = -force;
         }
-        Ok(found)
+        Ok(Evaluation { residual, jacobian, derivative })
     }
 }
 
