@@ -6,16 +6,16 @@ use super::bisection::bisected;
 use super::map::MapError;
 
 /// The group as it was, the theory of its border, and the modes of the set that is changed by some amount.
-pub(super) struct ChangedGroup<'m> {
+pub(super) struct ChangedGroup<M> {
     pub(super) frequency_hz: f64,
     pub(super) mode_type: ModeType,
     pub(super) multiplicity: usize,
     /// The amount from which on, by theory, a mode is listed as mixed.
     pub(super) pure_up_to: f64,
-    pub(super) modes: &'m dyn Fn(f64) -> Result<NaturalModes, MapError>,
+    pub(super) modes: M,
 }
 
-impl ChangedGroup<'_> {
+impl<M: Fn(f64) -> Result<NaturalModes, MapError>> ChangedGroup<M> {
     /// The modes nearest the group's frequency, as many as it had: share outside the type, and type.
     fn nearest(&self, by: f64) -> Result<Vec<(f64, ModeType)>, MapError> {
         let found = (self.modes)(by)?;

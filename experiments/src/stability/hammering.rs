@@ -58,7 +58,11 @@ fn map() -> Result<StabilityMap, MapError> {
             map.measure(&of, quantity, fine_from(&errors, WANTED));
             map.draw(Drawn::Measured, panel, &of, logarithms(errors, 1e-12));
         }
-        map.compare(of, "order of convergence of the place", order(&worst), Some(2.0));
+        // Slope of the place's error over the last five numbers of steps.
+        let [from, last] = [STEPS.len() - 5, STEPS.len() - 1];
+        let drop = worst[from][1] / worst[last][1];
+        let order = (drop > 0.0).then(|| drop.ln() / (STEPS[last] / STEPS[from]).ln());
+        map.compare(of, "order of convergence of the place", order, Some(2.0));
     }
     Ok(map)
 }
@@ -76,12 +80,4 @@ fn worst(scheme: &Scheme, steps: f64) -> Result<[f64; 2], IntegratorError> {
         [0, 1].map(|i| if a[i].total_cmp(&b[i]).is_lt() { b[i] } else { a[i] })
     };
     (0..CHANCES).into_par_iter().map(chance).try_reduce(|| [0.0; 2], |a, b| Ok(larger(a, b)))
-}
-
-/// Slope of the place's error over the last five numbers of steps.
-fn order(worst: &[[f64; 2]]) -> Option<f64> {
-    let from = STEPS.len() - 5;
-    let last = STEPS.len() - 1;
-    let drop = worst[from][1] / worst[last][1];
-    (drop > 0.0).then(|| drop.ln() / (STEPS[last] / STEPS[from]).ln())
 }

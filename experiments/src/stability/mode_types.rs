@@ -38,7 +38,7 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
             mode_type: t.mode_type,
             multiplicity: count,
             pure_up_to: t.pure_up_to,
-            modes: &|part| Ok(NaturalModes::of(&model.with_heavier_planet(PLANET, part)?)?),
+            modes: |part| Ok(NaturalModes::of(&model.with_heavier_planet(PLANET, part)?)?),
         };
         map.compare(&of, "pure up to a planet heavier by", group.border()?, Some(t.pure_up_to));
         // Leading order ends where a planet is heavier by a tenth.

@@ -63,18 +63,21 @@ fn map() -> Result<StabilityMap, MapError> {
 
     let theory = |share: f64| PI * share / (PI * share).sin() - 1.0;
     let of = "harmonic of a stiffness that switches";
-    let error = |l: u32| sampled(l, STEPS) / wave(0.0).harmonic(l).norm() - 1.0;
+    let [one, other] = [wave(0.0), wave(0.5)];
+    let size = |l: u32| one.harmonic(l).norm();
+    let error = |l: u32| samples(STEPS, l, |t| one.at(t)).norm() / size(l) - 1.0;
     let (found, exact) = (error(TOO_HIGH), theory(f64::from(TOO_HIGH) / f64::from(STEPS)));
     let quantity = "harmonic 11 of 140 steps too high by";
     map.compare_in("%", of, quantity, 100.0 * found, Some(100.0 * exact));
     // Every fifth harmonic of this wave is 0.
-    let measured = (1..).zip(shares()).filter(|(l, _)| wave(0.0).harmonic(*l).norm() > 1e-9);
+    let measured = (1..).zip(shares()).filter(|(l, _)| size(*l) > 1e-9);
     beside(&mut map, of, measured.map(|(l, share)| (share, error(l))).collect(), theory);
 
     for steps in [STEPS, STEPS + 1, 4 * STEPS + 1] {
         let of = format!("two meshes half a cycle apart, {steps} steps");
         let quantity = "harmonic 1 left over, of that of one mesh";
-        map.compare(of, quantity, left_over(steps), Some(aliased(steps)));
+        let sum = samples(steps, 1, |t| one.at(t) + other.at(t)).norm();
+        map.compare(of, quantity, sum / size(1), Some(aliased(steps)));
     }
     Ok(map)
 }
@@ -105,17 +108,6 @@ fn samples(steps: u32, l: u32, at: impl Fn(f64) -> f64) -> c64 {
         c64::from_polar(at(t), -TAU * f64::from(l) * t)
     };
     (0..steps).map(one).sum::<c64>() / f64::from(steps)
-}
-
-fn sampled(l: u32, steps: u32) -> f64 {
-    let own = wave(0.0);
-    samples(steps, l, |t| own.at(t)).norm()
-}
-
-fn left_over(steps: u32) -> f64 {
-    let [a, b] = [wave(0.0), wave(0.5)];
-    let sum = samples(steps, 1, |t| a.at(t) + b.at(t)).norm();
-    sum / a.harmonic(1).norm()
 }
 
 /// Σ_k ŵ_(1+kS) of both meshes over ŵ_1, summed to where its terms are 1e-6.

@@ -122,10 +122,16 @@ fn borders(
     if change.lost > 0.0 && change.pure_up_to < largest {
         let quantity = "amplitude outside its kind over the displacement";
         // There it is a thousandth: of leading order, and splits of second order stand out.
-        let found = displaced.lost(change, change.pure_up_to)?.sqrt() / change.pure_up_to;
+        let found = displaced.group(change).lost(change.pure_up_to)?.sqrt() / change.pure_up_to;
         map.compare_in("1/rad", &of, quantity, found, Some(change.lost));
         let quantity = "listed as mixed from a displacement of";
-        map.compare_in("rad", &of, quantity, displaced.border(change)?, Some(change.pure_up_to));
+        map.compare_in(
+            "rad",
+            &of,
+            quantity,
+            displaced.group(change).border()?,
+            Some(change.pure_up_to),
+        );
         if change.half_up_to < largest {
             let quantity = "half outside its kind by a displacement of";
             map.compare_in("rad", of, quantity, None, Some(change.half_up_to));
@@ -148,7 +154,7 @@ fn curves(
         for by in (0..=count).map(at) {
             let (found, exact) = match panel {
                 SPLIT => (displaced.split(change, by)?, change.split * by.powi(change.split_order)),
-                _ => (displaced.lost(change, by)?, (change.lost * by).powi(2)),
+                _ => (displaced.group(change).lost(by)?, (change.lost * by).powi(2)),
             };
             // Below, splits and shares are rounding.
             measured.extend((found > 1e-12).then_some((by, found)));
@@ -183,20 +189,13 @@ impl Displaced<'_> {
         Ok((high - low) / own)
     }
 
-    fn lost(&self, change: &SpacingChange, by: f64) -> Result<f64, MapError> {
-        self.group(change, &|by| self.modes(by)).lost(by)
-    }
-
-    fn border(&self, change: &SpacingChange) -> Result<Option<f64>, MapError> {
-        self.group(change, &|by| self.modes(by)).border()
-    }
-
-    fn group<'c>(
+    /// A group of modes while the displacement grows.
+    fn group(
         &self,
         change: &SpacingChange,
-        modes: &'c dyn Fn(f64) -> Result<NaturalModes, MapError>,
-    ) -> ChangedGroup<'c> {
+    ) -> ChangedGroup<impl Fn(f64) -> Result<NaturalModes, MapError>> {
         let SpacingChange { frequency_hz, mode_type, multiplicity, pure_up_to, .. } = *change;
+        let modes = |by| self.modes(by);
         ChangedGroup { frequency_hz, mode_type, multiplicity, pure_up_to, modes }
     }
 }
