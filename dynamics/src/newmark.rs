@@ -76,13 +76,6 @@ impl Motion {
         Self { x: vec![0.0; count], v: vec![0.0; count], a: vec![0.0; count] }
     }
 
-    /// a* of all coordinates into `out`.
-    pub fn acceleration_history(&self, rule: &AverageAcceleration, out: &mut [f64]) {
-        for (i, out) in out.iter_mut().enumerate() {
-            *out = rule.acceleration_history(self.x[i], self.v[i], self.a[i]);
-        }
-    }
-
     /// v* of all coordinates into `out`.
     pub fn velocity_history(&self, rule: &AverageAcceleration, out: &mut [f64]) {
         for (i, out) in out.iter_mut().enumerate() {

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use dynamics::continuation::{
     BranchPoint, ContinuationError, ContinuationOptions, Direction, End, Evaluation, Family,
-    Judgement, PointKind, Scales, branch_off, trace, trace_both,
+    Judgement, PointKind, Scales, Unkept, branch_off, trace, trace_both,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -35,7 +35,7 @@ impl<F: Fn(f64, f64) -> [f64; 3], T: Fn(f64, f64) -> f64> Family for Scalar<F, T
 }
 
 fn one() -> Scales {
-    Scales::uniform(1, 1.0, 1.0)
+    Scales { unknowns: vec![1.0], parameter: 1.0 }
 }
 
 #[test]
@@ -129,7 +129,7 @@ fn a_cusp_s_folds_are_found_both_ways_and_bounds_are_met() {
     let mut cusp =
         Scalar(move |y: f64, l: f64| [l + y - y * y * y, slope(y), 1.0], move |y, _| slope(y));
     let options = ContinuationOptions::within([-1.0, 1.5]);
-    let branch = trace_both(&mut cusp, &[0.0], 0.0, &one(), &options).unwrap();
+    let branch = trace_both(&mut cusp, (&[0.0], 0.0), &one(), &options, &mut Unkept).unwrap();
     assert_eq!(branch.ends, [End::Bound, End::Bound]);
     let ends = [branch.points.first().unwrap().lambda, branch.points.last().unwrap().lambda];
     // From the middle λ falls towards y > 0, turns, and rises to the upper bound.
@@ -177,9 +177,9 @@ fn what_cannot_be_followed_is_named() {
     assert!(matches!(error, ContinuationError::Size { got: 2, wanted: 1, .. }));
     let error = run(&mut none, &[0.3], 3.0, &one(), &options);
     assert!(matches!(error, ContinuationError::Option { .. }), "{error}");
-    let error = run(&mut none, &[0.3], 0.1, &Scales::uniform(1, 0.0, 1.0), &options);
+    let error = run(&mut none, &[0.3], 0.1, &Scales { unknowns: vec![0.0], ..one() }, &options);
     assert!(matches!(error, ContinuationError::Option { what: "a scale", .. }));
-    let error = run(&mut none, &[0.3], 0.1, &Scales::uniform(2, 1.0, 1.0), &options);
+    let error = run(&mut none, &[0.3], 0.1, &Scales { unknowns: vec![1.0; 2], ..one() }, &options);
     assert!(matches!(error, ContinuationError::Size { .. }));
     let upside_down = ContinuationOptions::within([1.0, -1.0]);
     let error = run(&mut none, &[0.3], 0.1, &one(), &upside_down);
@@ -190,7 +190,7 @@ fn what_cannot_be_followed_is_named() {
     assert!(branch.points.len() > 10 && branch.points.iter().all(|p| p.lambda > 0.0));
     // A start at a fold is a start.
     let mut fold = Scalar(|y: f64, l: f64| [y * y + l, 2.0 * y, 1.0], |_, _| 1.0);
-    let branch = trace_both(&mut fold, &[0.0], 0.0, &one(), &options).unwrap();
+    let branch = trace_both(&mut fold, (&[0.0], 0.0), &one(), &options, &mut Unkept).unwrap();
     assert_eq!(branch.ends, [End::Bound, End::Bound]);
     let ends = [branch.points.first().unwrap().y[0], branch.points.last().unwrap().y[0]];
     assert!((ends[0] * ends[1] + 2.0).abs() < 1e-12, "{ends:?}");
@@ -206,7 +206,8 @@ fn a_branch_goes_on_beyond_a_kink_at_which_it_turns_back() {
             |_, _| -1.0,
         );
         let options = ContinuationOptions::within([-2.0, 2.0]);
-        let branch = trace_both(&mut tent, &[0.5 / slope], 0.5, &one(), &options).unwrap();
+        let branch =
+            trace_both(&mut tent, (&[0.5 / slope], 0.5), &one(), &options, &mut Unkept).unwrap();
         assert_eq!(branch.ends, [End::Bound, End::Bound], "{slope}");
         let ends = [0, branch.points.len() - 1].map(|i| &branch.points[i]);
         assert!(ends.iter().all(|p| (p.lambda + 2.0).abs() < 1e-12));
@@ -223,11 +224,12 @@ fn a_branch_goes_on_beyond_a_kink_at_which_it_turns_back() {
 fn both_sides_of_a_pitchfork_are_followed_off_its_branch_point() {
     let mut fork = Scalar(|y: f64, l: f64| [y * (l - y * y), l - 3.0 * y * y, y], |_, l| l);
     let options = ContinuationOptions::within([-1.0, 1.0]);
-    let trunk = trace_both(&mut fork, &[0.0], -0.5, &one(), &options).unwrap();
+    let trunk = trace_both(&mut fork, (&[0.0], -0.5), &one(), &options, &mut Unkept).unwrap();
     let found: Vec<BranchPoint> = trunk.bifurcations().cloned().collect();
     assert_eq!(found.len(), 1);
     for side in [1.0, -1.0] {
-        let branch = branch_off(&mut fork, &found[0], &[side], &one(), &options).unwrap();
+        let branch =
+            branch_off(&mut fork, (&found[0], &[side]), &one(), &options, &mut Unkept).unwrap();
         assert_eq!(branch.ends, [End::Start, End::Bound]);
         assert!(branch.points.len() > 3);
         for p in &branch.points {
@@ -236,8 +238,10 @@ fn both_sides_of_a_pitchfork_are_followed_off_its_branch_point() {
         assert!((branch.points[branch.points.len() - 1].lambda - 1.0).abs() < 1e-12);
     }
     // Along the branch itself there is no direction off it; and sizes are checked.
-    let error = branch_off(&mut fork, &found[0], &[0.0], &one(), &options).unwrap_err();
+    let error =
+        branch_off(&mut fork, (&found[0], &[0.0]), &one(), &options, &mut Unkept).unwrap_err();
     assert!(matches!(error, ContinuationError::NoTangent { .. }), "{error}");
-    let error = branch_off(&mut fork, &found[0], &[1.0, 2.0], &one(), &options).unwrap_err();
+    let error =
+        branch_off(&mut fork, (&found[0], &[1.0, 2.0]), &one(), &options, &mut Unkept).unwrap_err();
     assert!(matches!(error, ContinuationError::Size { .. }), "{error}");
 }

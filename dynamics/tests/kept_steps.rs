@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use dynamics::continuation::{
     Branch, ContinuationError, ContinuationOptions, Direction, End, Evaluation, Family, Judgement,
-    KeptStep, Scales, StepStore, branch_off, branch_off_kept, trace_both, trace_both_kept,
+    KeptStep, Scales, StepStore, Unkept, branch_off, trace_both,
 };
 use nalgebra::{DMatrix, DVector};
 
@@ -114,15 +114,16 @@ fn a_branch_interrupted_after_every_step_is_the_same_to_the_last_bit() {
     let cases =
         [(cusp, 0.0, 0.0, [-1.0, 1.5], End::Bound), (circle, 0.8, 0.6, [-2.0, 2.0], End::Closed)];
     // Scales that make scaled and plain unknowns differ by more than a power of two.
-    let scales = Scales::uniform(1, 0.7, 1.3);
+    let scales = Scales { unknowns: vec![0.7], parameter: 1.3 };
     for (equation, y, lambda, bounds, end) in cases {
         let options = ContinuationOptions::within(bounds);
         let mut family = Counted { equation, evaluations: 0 };
-        let whole = trace_both(&mut family, &[y], lambda, &scales, &options).unwrap();
+        let whole =
+            trace_both(&mut family, (&[y], lambda), &scales, &options, &mut Unkept).unwrap();
         assert_eq!(whole.ends, [end.clone(), end]);
         assert_eq!(whole.folds().count(), 2);
         let (found, interruptions, [_, evaluations]) = interrupted(equation, |family, steps| {
-            trace_both_kept(family, (&[y], lambda), &scales, &options, steps)
+            trace_both(family, (&[y], lambda), &scales, &options, steps)
         });
         println!("{interruptions} interruptions of {} points", whole.points.len());
         assert_eq!(found, whole);
@@ -135,7 +136,7 @@ fn a_branch_interrupted_after_every_step_is_the_same_to_the_last_bit() {
 #[test]
 fn a_branch_off_another_one_is_gone_on_with() {
     let fork: Equation = |y, l| [y * (l - y * y), l - 3.0 * y * y, y];
-    let scales = Scales::uniform(1, 0.7, 1.3);
+    let scales = Scales { unknowns: vec![0.7], parameter: 1.3 };
     let most_points = 12;
     for options in [
         ContinuationOptions::within([-1.0, 1.0]),
@@ -144,16 +145,17 @@ fn a_branch_off_another_one_is_gone_on_with() {
         let mut family = Counted { equation: fork, evaluations: 0 };
         let trunk = trace_both(
             &mut family,
-            &[0.0],
-            -0.5,
+            (&[0.0], -0.5),
             &scales,
             &ContinuationOptions::within([-1.0, 1.0]),
+            &mut Unkept,
         )
         .unwrap();
         let from = trunk.bifurcations().next().unwrap();
-        let whole = branch_off(&mut family, from, &[1.0], &scales, &options).unwrap();
+        let whole =
+            branch_off(&mut family, (from, &[1.0]), &scales, &options, &mut Unkept).unwrap();
         let (found, interruptions, _) = interrupted(fork, |family, steps| {
-            branch_off_kept(family, (from, &[1.0]), &scales, &options, steps)
+            branch_off(family, (from, &[1.0]), &scales, &options, steps)
         });
         println!("{interruptions} interruptions of {} points", whole.points.len());
         assert_eq!(found, whole);

@@ -7,7 +7,7 @@ mod shipped;
 use amplitudes::{off, rotation};
 use crossings::{at, speed};
 use dynamics::continuation::{
-    ContinuationError, ContinuationOptions, End, Evaluation, Family, Scales, trace_both,
+    ContinuationError, ContinuationOptions, End, Evaluation, Family, Scales, Unkept, trace_both,
 };
 use experiments::ExperimentError;
 use experiments::branches::{
@@ -245,7 +245,7 @@ fn a_wrong_entry_of_the_jacobian_shows_in_the_iterations() {
         let (own, scales) =
             (PeriodicFamily::new(&model, BranchParameter::Speed, 0, n), scales.clone());
         let mut family = Off { own, share, scales: scales.unknowns.clone(), evaluations: 0 };
-        let found = trace_both(&mut family, &start, 1500.0, &scales, &options)?;
+        let found = trace_both(&mut family, (&start, 1500.0), &scales, &options, &mut Unkept)?;
         assert!(found.ends.iter().all(|end| matches!(end, End::Bound)));
         Ok([family.evaluations, found.points.len()])
     };

@@ -3,9 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use dynamics::harmonic_balance::{
-    BalanceOptions, BalancedMotion, FrequencyResponse, HarmonicBalance,
-};
+use dynamics::harmonic_balance::{BalanceOptions, BalancedMotion, HarmonicBalance};
 use gearset::{Facing, MeshLaw, Scene};
 
 use crate::coordinates::Coordinates;
@@ -58,17 +56,6 @@ impl BalancedSet {
         options: &BalanceOptions,
     ) -> Result<BalancedMotion, LumpedError> {
         Ok(self.balance.solve(TAU * mesh_frequency_hz, start, options)?)
-    }
-
-    /// Steady motions with a fixed number of harmonics as a family over the angular mesh frequency, rad/s.
-    ///
-    /// # Errors
-    /// If the law has too few steps for them.
-    pub fn response(
-        &self,
-        harmonics: usize,
-    ) -> Result<FrequencyResponse<'_, MeshLawCouplings>, LumpedError> {
-        Ok(FrequencyResponse::new(&self.balance, harmonics)?)
     }
 
     /// Free coordinates.

@@ -38,4 +38,4 @@ pub use sensitivity::{Parameter, Sensitivity, sensitivities};
 pub use spacing_tolerance::SpacingChange;
 pub use springs::{Spring, SpringId};
 pub use time_varying::{MeshLawCouplings, TimeVarying};
-pub use type_tolerance::{OPEN_MASS, TypeTolerance, tolerances_to, type_tolerances, type_warnings};
+pub use type_tolerance::{TypeTolerance, tolerances_to, type_warnings};

@@ -24,7 +24,7 @@ use crate::model::LumpedModel;
 use crate::modes::{ModeGroup, NaturalModes};
 
 /// Part of a planet's mass that scenes leave open: half a unit in the third digit.
-pub const OPEN_MASS: f64 = 5e-4;
+const OPEN_MASS: f64 = 5e-4;
 
 /// How much heavier one planet may be before a mode's type is lost.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -68,22 +68,14 @@ impl LumpedModel {
 
 /// The tolerance of each group of modes whose type is pure, over the planets the smallest; modes of a group split, and
 /// the smallest counts. Rigid-body modes and mixed ones are left out.
-pub fn type_tolerances(model: &LumpedModel, modes: &NaturalModes) -> Vec<TypeTolerance> {
-    let of_planet = |planet: usize| tolerances_to(model, modes, planet);
-    let mut all = Vec::new();
-    for planet in 0..model.psi.len() {
-        let own = of_planet(planet);
-        if all.is_empty() {
-            all = own;
-            continue;
-        }
-        for (least, own) in all.iter_mut().zip(own) {
-            if own.pure_up_to < least.pure_up_to {
-                *least = own;
-            }
-        }
-    }
-    all
+fn type_tolerances(model: &LumpedModel, modes: &NaturalModes) -> Vec<TypeTolerance> {
+    let lesser = |(all, own): (TypeTolerance, TypeTolerance)| {
+        if own.pure_up_to < all.pure_up_to { own } else { all }
+    };
+    (0..model.psi.len())
+        .map(|planet| tolerances_to(model, modes, planet))
+        .reduce(|all, own| all.into_iter().zip(own).map(lesser).collect())
+        .unwrap_or_default()
 }
 
 /// The same for one planet.

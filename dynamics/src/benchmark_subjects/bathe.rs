@@ -69,10 +69,6 @@ impl Integrator for Bathe {
         NAME
     }
 
-    fn step_length(&self) -> f64 {
-        self.h
-    }
-
     fn step_under(
         &self,
         state: &mut StepState,

@@ -71,10 +71,6 @@ impl Integrator for CentralDifference {
         NAME
     }
 
-    fn step_length(&self) -> f64 {
-        self.h
-    }
-
     fn step_under(
         &self,
         state: &mut StepState,

@@ -48,10 +48,6 @@ impl Integrator for ContactStabilised {
         NAME
     }
 
-    fn step_length(&self) -> f64 {
-        self.h
-    }
-
     fn step_under(
         &self,
         state: &mut StepState,

@@ -85,10 +85,6 @@ impl Integrator for GeneralizedAlpha {
         self.name
     }
 
-    fn step_length(&self) -> f64 {
-        self.h
-    }
-
     fn step_under(
         &self,
         state: &mut StepState,

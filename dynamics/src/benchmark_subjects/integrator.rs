@@ -31,9 +31,6 @@ pub trait Integrator: Debug {
     /// Name of the scheme in words.
     fn name(&self) -> &'static str;
 
-    /// Δt, s.
-    fn step_length(&self) -> f64;
-
     /// Replaces the state by that one step later under further forces; returns displacements in the middle of the step (n,
     /// m) of a scheme that balances forces there.
     ///
@@ -51,13 +48,5 @@ pub trait Integrator: Debug {
     /// If the contact problem of the step is not solved.
     fn step(&self, state: &mut StepState) -> Result<(), IntegratorError> {
         self.step_under(state, &StepForces::none(state.x.len())).map(|_| ())
-    }
-
-    /// So many steps.
-    ///
-    /// # Errors
-    /// At the first that fails.
-    fn march(&self, state: &mut StepState, steps: usize) -> Result<(), IntegratorError> {
-        (0..steps).try_for_each(|_| self.step(state))
     }
 }

@@ -55,10 +55,6 @@ impl Integrator for MoreauJean {
         NAME
     }
 
-    fn step_length(&self) -> f64 {
-        self.h
-    }
-
     fn step_under(
         &self,
         state: &mut StepState,

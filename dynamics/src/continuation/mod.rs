@@ -20,7 +20,6 @@
 mod branch;
 mod error;
 mod family;
-mod judged;
 mod kept_step;
 mod kink;
 mod locate;
@@ -31,7 +30,6 @@ mod trace;
 pub use branch::{Branch, BranchPoint, End, PointKind};
 pub use error::ContinuationError;
 pub use family::{Evaluation, Family, Judgement};
-pub use judged::JudgedBy;
 pub use kept_step::{KeptStep, StepEnd, StepStore, Unkept};
 pub use options::{ContinuationOptions, Scales};
-pub use trace::{Direction, branch_off, branch_off_kept, trace, trace_both, trace_both_kept};
+pub use trace::{Direction, branch_off, trace, trace_both};

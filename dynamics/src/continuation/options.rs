@@ -11,13 +11,6 @@ pub struct Scales {
     pub parameter: f64,
 }
 
-impl Scales {
-    /// One scale for all unknowns.
-    pub fn uniform(dimension: usize, unknowns: f64, parameter: f64) -> Self {
-        Self { unknowns: vec![unknowns; dimension], parameter }
-    }
-}
-
 /// Steps, tolerances and bounds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContinuationOptions {

@@ -56,27 +56,13 @@ pub fn trace<F: Family>(
     Ok(Branch { points, ends: [End::Start, end] })
 }
 
-/// Follows a branch both ways from a solution near `start`. Points are in order from the end reached downwards to that
-/// reached upwards, with tangents and arc lengths (negative below the start) in that sense.
-///
-/// # Errors
-/// As [`trace`].
-pub fn trace_both<F: Family>(
-    family: &mut F,
-    start: &[f64],
-    lambda: f64,
-    scales: &Scales,
-    options: &ContinuationOptions,
-) -> Result<Branch<F::Error>, ContinuationError<F::Error>> {
-    trace_both_kept(family, (start, lambda), scales, options, &mut Unkept)
-}
-
-/// The same from `start` = (y, λ), with every step kept in `store` and those found there not taken again: the same start,
-/// scales and options must have been used.
+/// Follows a branch both ways from a solution near `start` = (y, λ), with every step kept in `store` and those found there
+/// not taken again: the same start, scales and options must have been used. Points are in order from the end reached
+/// downwards to that reached upwards, with tangents and arc lengths (negative below the start) in that sense.
 ///
 /// # Errors
 /// As [`trace`], or if the store fails.
-pub fn trace_both_kept<F: Family>(
+pub fn trace_both<F: Family>(
     family: &mut F,
     start: (&[f64], f64),
     scales: &Scales,
@@ -109,25 +95,12 @@ pub fn trace_both_kept<F: Family>(
 const BESIDE: [f64; 6] = [1.0, 0.3, 0.1, 0.03, 0.01, 0.003];
 
 /// Follows the branch that crosses another one at `from`, one way: to the side of `direction`, a null vector of ∂F/∂y
-/// there (n entries). Its first point is the first step away from `from`.
+/// there (n entries), with every step kept in `store`, as by [`trace_both`]; its direction is [`Direction::Up`]. Its first
+/// point is the first step away from `from`.
 ///
 /// # Errors
-/// As [`trace`], if there is no solution off the known branch to that side.
+/// As [`trace`], if there is no solution off the known branch to that side, or if the store fails.
 pub fn branch_off<F: Family>(
-    family: &mut F,
-    from: &BranchPoint,
-    direction: &[f64],
-    scales: &Scales,
-    options: &ContinuationOptions,
-) -> Result<Branch<F::Error>, ContinuationError<F::Error>> {
-    branch_off_kept(family, (from, direction), scales, options, &mut Unkept)
-}
-
-/// The same with every step kept in `store`, as by [`trace_both_kept`]; its direction is [`Direction::Up`].
-///
-/// # Errors
-/// As [`branch_off`], or if the store fails.
-pub fn branch_off_kept<F: Family>(
     family: &mut F,
     (from, direction): (&BranchPoint, &[f64]),
     scales: &Scales,

@@ -237,52 +237,14 @@ impl<'a, L: CouplingForce> BalanceEquations<'a, L> {
         out
     }
 
-    /// Derivative of the residuals by the frequency, s/rad times their unit.
-    pub(super) fn by_frequency(&self, y: &[f64], answers: &Answers) -> DVector<f64> {
-        let (n, count) = (self.problem.count(), self.problem.couplings());
-        let linear = &self.problem.linear;
-        let mut out = DVector::zeros(self.dimension());
-        // ∂P/∂ω through the lag: ∂z/∂ω = lτ (b, −a)
-        let mut through_lag = vec![vec![0.0; 2 * self.harmonics + 1]; count];
-        for (k, own) in self.problem.couplings.iter().enumerate().filter(|(_, c)| c.lag != 0.0) {
-            let delta = self.deflection(y, k);
-            let mut turned = DVector::zeros(delta.len());
-            for l in 1..=self.harmonics {
-                let part = l as f64 * own.lag;
-                (turned[2 * l - 1], turned[2 * l]) =
-                    (part * delta[2 * l], -part * delta[2 * l - 1]);
-            }
-            let t = self.problem.transform.product(&answers.tangents[k], self.harmonics);
-            through_lag[k].copy_from_slice((t * turned).as_slice());
-            for (i, r) in own.row.iter().enumerate() {
-                out[i] += r * through_lag[k][0];
-            }
-        }
-        for l in 1..=self.harmonics {
-            let x = self.amplitudes(l, answers);
-            // Z' = −2l²ω M + i l C
-            let turned: Vec<c64> = (0..n)
-                .map(|i| {
-                    let spin: c64 = (0..n).map(|j| x[j] * linear.damping[(i, j)]).sum();
-                    let spin = spin + x[i] * (self.added_damping * linear.mass[i]);
-                    let l = l as f64;
-                    x[i] * (-2.0 * l * l * self.frequency * linear.mass[i])
-                        + spin * c64::new(0.0, l)
-                })
-                .collect();
-            let moved = times(&self.receptance[l - 1], &turned);
-            for m in 0..count {
-                // R Z⁻¹ Z' X_l + Y ∂P_l/∂ω
-                let own = &self.problem.couplings[m].row;
-                let mut sum: c64 = own.iter().zip(&moved).map(|(r, x)| *x * *r).sum();
-                for (k, p) in through_lag.iter().enumerate() {
-                    sum += self.coupled[l - 1][(m, k)] * c64::new(p[2 * l - 1], -p[2 * l]);
-                }
-                let at = self.place(l, m);
-                (out[at], out[at + 1]) = (sum.re, -sum.im);
-            }
-        }
-        out
+    /// Residual and its derivative by the unknowns.
+    ///
+    /// # Errors
+    /// If the number of unknowns is not [`BalanceEquations::dimension`].
+    pub fn evaluate(&self, y: &[f64]) -> Result<(DVector<f64>, DMatrix<f64>), BalanceError> {
+        self.fits(y)?;
+        let answers = self.answers(y);
+        Ok((self.residual(y, &answers), self.jacobian(&answers)))
     }
 
     /// X_l = Z_l⁻¹ (f_l − Rᵀ P_l) of the coordinates, l ≥ 1, m.

@@ -36,7 +36,6 @@ mod motion;
 mod newton;
 mod options;
 mod problem;
-mod response;
 mod solve;
 
 pub use equations::BalanceEquations;
@@ -45,4 +44,3 @@ pub use fourier::FourierSeries;
 pub use motion::BalancedMotion;
 pub use options::BalanceOptions;
 pub use problem::HarmonicBalance;
-pub use response::{FrequencyResponse, LoadResponse};

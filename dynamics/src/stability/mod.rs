@@ -4,6 +4,6 @@ mod bouncing_bar;
 mod explicit_step;
 mod hammering;
 
-pub use bouncing_bar::{BarError, Bounces, BouncingBar};
+pub use bouncing_bar::{Bounces, BouncingBar};
 pub use explicit_step::explicit_limit;
 pub use hammering::{Hammering, HammeringPair};

@@ -2,15 +2,14 @@
 
 use std::f64::consts::{PI, TAU};
 
+use crate::families::{FrequencyResponse, JudgedBy, LoadResponse};
 use crate::oscillator::{Law, Oscillator, duffing, duffing_fold};
 use crate::shooting::Shooting;
 use dynamics::continuation::{
-    Branch, BranchPoint, ContinuationOptions, Direction, End, Evaluation, Family, JudgedBy,
-    PointKind, Scales, trace,
+    Branch, BranchPoint, ContinuationOptions, Direction, End, Evaluation, Family, PointKind,
+    Scales, trace,
 };
-use dynamics::harmonic_balance::{
-    BalanceError, BalanceOptions, FrequencyResponse, HarmonicBalance, LoadResponse,
-};
+use dynamics::harmonic_balance::{BalanceError, BalanceOptions, HarmonicBalance};
 
 fn response(
     problem: &HarmonicBalance<Law>,
@@ -34,7 +33,7 @@ fn response(
         ..BalanceOptions::default()
     };
     let start = problem.solve(from, Some(guess), &balance).unwrap().unknowns;
-    let scales = Scales::uniform(family.dimension(), scale, 1.0);
+    let scales = Scales { unknowns: vec![scale; family.dimension()], parameter: 1.0 };
     let direction = if to > from { Direction::Up } else { Direction::Down };
     trace(&mut family, &start, from, direction, &scales, &options).unwrap()
 }
@@ -85,7 +84,7 @@ fn a_wrong_jacobian_misses_the_folds() {
         ..ContinuationOptions::within([0.5, 3.0])
     };
     let start = &sound.points[0].y;
-    let scales = Scales::uniform(3, 1e-3, 1.0);
+    let scales = Scales { unknowns: vec![1e-3; 3], parameter: 1.0 };
     let branch = trace(&mut spoilt, start, 0.5, Direction::Up, &scales, &options).unwrap();
     let iterations = |b: &Branch<BalanceError>| b.points.iter().map(|p| p.iterations).max();
     assert!(iterations(&branch) > iterations(&sound));
@@ -176,7 +175,7 @@ fn folds_peaks_and_stability_of_duffing_by_two_routes() {
             Ok(judgement)
         },
     };
-    let scales = Scales::uniform(judged.dimension(), 1e-3, 1.0);
+    let scales = Scales { unknowns: vec![1e-3; judged.dimension()], parameter: 1.0 };
     let again = trace(&mut judged, &first.y, 0.6, Direction::Up, &scales, &options).unwrap();
     let ones: Vec<f64> = again.bifurcations().map(|p| p.lambda).collect();
     assert_eq!(ones.len(), 2);
@@ -224,7 +223,7 @@ fn a_branch_over_load_ends_in_the_linear_motion() {
     let pressed = Oscillator { steady: 0.3e-3, ..own }.balance(512);
     let start = pressed.solve(omega, None, &balance).unwrap().unknowns;
     let options = ContinuationOptions::within([0.3, 4.0]);
-    let scales = Scales::uniform(family.dimension(), 1e-3, 1.0);
+    let scales = Scales { unknowns: vec![1e-3; family.dimension()], parameter: 1.0 };
     let branch = trace(&mut family, &start, 0.3, Direction::Up, &scales, &options).unwrap();
     assert_eq!(branch.ends[1], End::Bound);
     // X = f₁ / (k − ω² + iωc), mean λ f / k, with k of both springs.

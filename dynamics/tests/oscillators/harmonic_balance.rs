@@ -200,7 +200,7 @@ fn several_couplings_are_those_of_marching() {
     assert!(least < 0.0, "contact is not lost: {least}");
 }
 
-/// Every column of the tangent, and the derivative by frequency, by central differences.
+/// Every column of the tangent by central differences.
 #[test]
 fn tangents_are_those_of_finite_differences() {
     let (linear, couplings, _) = chain(32);
@@ -213,24 +213,18 @@ fn tangents_are_those_of_finite_differences() {
     let y: Vec<f64> = (0..equations.dimension())
         .map(|i| 1e-3 * (1.0 + i as f64).sin() / (1.0 + i as f64))
         .collect();
-    let found = equations.evaluate(&y).unwrap();
-    let scale = found.jacobian.amax();
+    let (_, jacobian) = equations.evaluate(&y).unwrap();
+    let scale = jacobian.amax();
     for j in 0..y.len() {
         let side = |sign: f64| {
             let mut moved = y.clone();
             moved[j] += sign * h;
-            equations.evaluate(&moved).unwrap().residual
+            equations.evaluate(&moved).unwrap().0
         };
         let slope = (side(1.0) - side(-1.0)) / (2.0 * h);
-        let difference = (slope - found.jacobian.column(j)).amax();
+        let difference = (slope - jacobian.column(j)).amax();
         assert!(difference < 1e-7 * scale, "column {j}: {difference:e} of {scale:e}");
     }
-    let side = |sign: f64| {
-        problem.equations(omega + sign * 1e-6, 5).unwrap().evaluate(&y).unwrap().residual
-    };
-    let slope = (side(1.0) - side(-1.0)) / 2e-6;
-    let difference = (&slope - &found.derivative).amax() / found.derivative.amax();
-    assert!(difference < 1e-8, "by frequency: {difference:e}");
 }
 
 /// A law whose tangent is wrong by a factor.

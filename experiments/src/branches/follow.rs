@@ -1,7 +1,7 @@
 //! Follows branches of periodic motions over speed, torque, damping or a number of the scene.
 
 use dynamics::continuation::{
-    self, ContinuationError, ContinuationOptions, End, Scales, branch_off_kept, trace_both_kept,
+    self, ContinuationError, ContinuationOptions, End, Scales, branch_off, trace_both,
 };
 
 use super::branch::{Branch, BranchEnd, BranchOrigin, Branches, NotFollowed};
@@ -156,7 +156,7 @@ impl<'a> Follower<'a> {
         let Self { settings, start, scales, options, .. } = self;
         let (mut family, mut steps) = (self.family(1), self.steps("first".into(), 1));
         let start = (start.as_slice(), settings.start);
-        let found = trace_both_kept(&mut family, start, scales, options, &mut steps);
+        let found = trace_both(&mut family, start, scales, options, &mut steps);
         let found = found.map_err(|error| match error {
             ContinuationError::Family { cause, .. } => cause,
             other => no_start(settings, other.to_string()),
@@ -188,7 +188,7 @@ impl<'a> Follower<'a> {
         let which = if side > 0.0 { "a" } else { "b" };
         let mut steps = self.steps(format!("off_{number:04}{which}"), repeats_after);
         let (from, Self { scales, options, .. }) = ((raw, direction.as_slice()), self);
-        match branch_off_kept(&mut family, from, scales, options, &mut steps) {
+        match branch_off(&mut family, from, scales, options, &mut steps) {
             Ok(found) => self.kept(steps, found, origin).map(Ok),
             Err(ContinuationError::Family { cause, .. }) if ends_all(&cause) => Err(cause),
             Err(error) => Ok(Err(error.to_string())),

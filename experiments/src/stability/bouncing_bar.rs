@@ -3,7 +3,7 @@
 use dynamics::benchmark_subjects::Scheme;
 use dynamics::stability::BouncingBar;
 
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+use super::map::{Drawn, Map, MapError, MapOf, StabilityMap};
 
 pub(super) const MAP: Map = Map {
     name: "bouncing-bar",
@@ -19,7 +19,8 @@ const BOUNCES: usize = 100;
 fn map() -> Result<StabilityMap, MapError> {
     let system =
         format!("elastic bar, {ELEMENTS} elements, {COURANT} passages of an element a step");
-    let mut map = empty(&MAP, system, "bounce");
+    let mut map = StabilityMap::of(&MAP, system, "bounce");
+    let panel = "log₁₀ of energy over the first";
     let inelastic = Scheme::MoreauJean { theta: 0.5, restitution: 0.0 };
     let plain = Scheme::ALL.into_iter().chain([inelastic]).map(|s| (s, false));
     for (scheme, massless) in plain.chain([(Scheme::AverageAcceleration, true)]) {
@@ -31,30 +32,17 @@ fn map() -> Result<StabilityMap, MapError> {
         };
         // Acary (2016): the energy is kept by this scheme, for the others no value is known.
         let is_sound = scheme == Scheme::MoreauJean { theta: 0.5, restitution: 1.0 };
-        let last = found.energy.last().copied();
         let kept = is_sound.then_some(1.0);
         let quantity = format!("energy after {BOUNCES} bounces over the first");
-        map.borders.push(Border::new(of.clone(), quantity, "", last, kept));
-        let largest = Some(found.largest_energy);
-        map.borders.push(Border::new(
-            of.clone(),
-            "largest energy over the first",
-            "",
-            largest,
-            kept,
-        ));
-        let place = Some(100.0 * found.place_error);
+        map.compare(&of, quantity, found.energy.last().copied(), kept);
+        map.compare(&of, "largest energy over the first", found.largest_energy, kept);
         let quantity = "lower end off the closed form in two bounces, of the height of fall";
-        map.borders.push(Border::new(of.clone(), quantity, "%", place, Some(0.0)));
+        map.compare_in("%", &of, quantity, 100.0 * found.place_error, Some(0.0));
         let points = found.energy.iter().enumerate();
         // On the ground, where the bar comes to rest, the energy is slightly negative (weight).
-        let points = points.map(|(i, e)| ((i + 1) as f64, e.max(1e-3).log10())).collect();
-        let panel = "log₁₀ of energy over the first".into();
-        map.curves.push(MapCurve { panel, name: of, is_theory: false, is_points: false, points });
+        let points = points.map(|(i, e)| ((i + 1) as f64, e.max(1e-3).log10()));
+        map.draw(Drawn::Measured, panel, &of, points);
     }
-    let points = vec![(1.0, 0.0), (BOUNCES as f64, 0.0)];
-    let panel = "log₁₀ of energy over the first".into();
-    let name = "closed form".into();
-    map.curves.push(MapCurve { panel, name, is_theory: true, is_points: false, points });
+    map.draw(Drawn::Theory, panel, "closed form", [(1.0, 0.0), (BOUNCES as f64, 0.0)]);
     Ok(map)
 }

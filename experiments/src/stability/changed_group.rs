@@ -2,19 +2,20 @@
 
 use lumped::{ModeGroup, ModeType, NaturalModes};
 
+use super::bisection::bisected;
 use super::map::MapError;
 
 /// The group as it was, the theory of its border, and the modes of the set that is changed by some amount.
-pub(super) struct ChangedGroup<'m> {
+pub(super) struct ChangedGroup<M> {
     pub(super) frequency_hz: f64,
     pub(super) mode_type: ModeType,
     pub(super) multiplicity: usize,
     /// The amount from which on, by theory, a mode is listed as mixed.
     pub(super) pure_up_to: f64,
-    pub(super) modes: &'m dyn Fn(f64) -> Result<NaturalModes, MapError>,
+    pub(super) modes: M,
 }
 
-impl ChangedGroup<'_> {
+impl<M: Fn(f64) -> Result<NaturalModes, MapError>> ChangedGroup<M> {
     /// The modes nearest the group's frequency, as many as it had: share outside the type, and type.
     fn nearest(&self, by: f64) -> Result<Vec<(f64, ModeType)>, MapError> {
         let found = (self.modes)(by)?;
@@ -42,18 +43,11 @@ impl ChangedGroup<'_> {
     /// The amount from which on the program lists a mode of the group as another type; `None` if not within a factor of
     /// four of theory.
     pub(super) fn border(&self) -> Result<Option<f64>, MapError> {
-        let keeps = |by: f64| {
-            let near = self.nearest(by)?;
-            Ok::<_, MapError>(near.iter().all(|(_, kind)| *kind == self.mode_type))
+        let is_mixed = |by: f64| -> Result<bool, MapError> {
+            Ok(self.nearest(by)?.iter().any(|(_, kind)| *kind != self.mode_type))
         };
-        let (mut low, mut high) = (0.25 * self.pure_up_to, 4.0 * self.pure_up_to);
-        if !keeps(low)? || keeps(high)? {
-            return Ok(None);
-        }
-        while high - low > 1e-5 * high {
-            let middle = 0.5 * (low + high);
-            if keeps(middle)? { low = middle } else { high = middle }
-        }
-        Ok(Some(low))
+        let (bounds, middle) = ([0.25, 4.0].map(|part| part * self.pure_up_to), f64::midpoint);
+        let is_found = |low: f64, high: f64| high - low <= 1e-5 * high;
+        Ok(bisected(bounds, middle, is_found, is_mixed)?.map(|[low, _]| low))
     }
 }

@@ -8,7 +8,7 @@ use fe_contact::{Elastic, FeError};
 use gearset::PlaneState;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+use super::map::{Drawn, Map, MapError, MapOf, StabilityMap, fine_from, logarithms};
 use crate::error::ExperimentError;
 
 pub(super) const MAP: Map = Map {
@@ -40,7 +40,7 @@ const DEGENERATE: usize = 40;
 
 fn map() -> Result<StabilityMap, MapError> {
     let system = "two steel cylinders pressed together, half-planes with Hertz's closed form";
-    let mut map = empty(&MAP, system, "log₁₀ of cells in the loaded half-width");
+    let mut map = StabilityMap::of(&MAP, system, "log₁₀ of cells in the loaded half-width");
     accuracy(&mut map)?;
     definiteness(&mut map);
     solvers(&mut map)?;
@@ -51,7 +51,7 @@ fn map() -> Result<StabilityMap, MapError> {
 fn accuracy(map: &mut StabilityMap) -> Result<(), MapError> {
     let hertz = Hertz::new(LINE_LOAD, RADIUS, &STEEL);
     let depth = 5.0 * hertz.half_width;
-    let mut errors = Vec::new();
+    let mut errors = [Vec::new(), Vec::new()];
     for cells in CELLS {
         let pressed = press(cells, &ActiveSet)?;
         let peak = pressed.pressures().into_iter().fold(0.0, f64::max);
@@ -61,23 +61,15 @@ fn accuracy(map: &mut StabilityMap) -> Result<(), MapError> {
             100.0 * (peak / hertz.peak_pressure - 1.0).abs(),
             100.0 * (compression / hertz.compression(depth, &STEEL) - 1.0).abs(),
         ];
-        errors.push((per_half_width, off));
+        errors.iter_mut().zip(off).for_each(|(list, off)| list.push((per_half_width, off)));
     }
     for (k, what) in ["peak pressure", "compression down to five half-widths"].iter().enumerate() {
         for wanted in [1.0, 0.1] {
-            let fine = errors.iter().rev().take_while(|(_, off)| off[k] <= wanted).last();
             let quantity = format!("fewest cells in the half-width: {what} within {wanted} %");
-            map.borders.push(Border::new(
-                "cells of equal width",
-                quantity,
-                "",
-                fine.map(|(n, _)| *n),
-                None,
-            ));
+            map.measure("cells of equal width", quantity, fine_from(&errors[k], wanted));
         }
-        let points = errors.iter().map(|(n, off)| (n.log10(), off[k].max(1e-6).log10())).collect();
-        let (panel, name) = ("log₁₀ of the error against Hertz, %".into(), (*what).into());
-        map.curves.push(MapCurve { panel, name, is_theory: false, is_points: false, points });
+        let panel = "log₁₀ of the error against Hertz, %";
+        map.draw(Drawn::Measured, panel, what, logarithms(errors[k].iter().copied(), 1e-6));
     }
     Ok(())
 }
@@ -112,15 +104,13 @@ fn definiteness(map: &mut StabilityMap) {
         let order = (coarse / fine).ln() / (n / m).ln();
         let of = "flexibility matrix of the half-plane";
         let quantity = "order at which least over largest eigenvalue falls with the cells";
-        map.borders.push(Border::new(of, quantity, "", Some(order), Some(1.0)));
+        map.compare(of, quantity, order, Some(1.0));
         let quantity = "cells in the half-width at which rounding would cost definiteness";
         let lost = n * (fine / f64::EPSILON).powf(1.0 / order);
-        map.borders.push(Border::new(of, quantity, "", Some(lost), None));
+        map.measure(of, quantity, lost);
     }
-    let points = ratios.iter().map(|(n, r)| (n.log10(), r.log10())).collect();
-    let panel = "log₁₀ of least over largest eigenvalue".into();
-    let name = "flexibility matrix".into();
-    map.curves.push(MapCurve { panel, name, is_theory: false, is_points: false, points });
+    let panel = "log₁₀ of least over largest eigenvalue";
+    map.draw(Drawn::Measured, panel, "flexibility matrix", logarithms(ratios, 0.0));
 }
 
 /// Forces of each solver beside those of the active set, and what degenerate problems cost.
@@ -138,8 +128,7 @@ fn solvers(map: &mut StabilityMap) -> Result<(), MapError> {
         let forces = press(COMPARED, *solver)?.forces;
         let off = truth.iter().zip(&forces).fold(0.0f64, |a, (p, q)| a.max((p - q).abs()));
         let quantity = "largest difference from the active set's forces, of the largest force";
-        let (of, off) = (solver.name().to_owned(), Some(off / largest));
-        map.borders.push(Border::new(of, quantity, "", off, Some(0.0)));
+        map.compare(solver.name(), quantity, off / largest, Some(0.0));
     }
     let matrix = compliance(COMPARED);
     let all = [&ActiveSet as &dyn ComplementaritySolver].into_iter().chain(others);
@@ -159,10 +148,8 @@ fn solvers(map: &mut StabilityMap) -> Result<(), MapError> {
             }
         }
         let of = format!("{}, {DEGENERATE} degenerate problems of {COMPARED} cells", solver.name());
-        let count = Some(most as f64);
-        map.borders.push(Border::new(of.clone(), "most iterations", "", count, None));
-        let quantity = "largest error of a force or of its conditions";
-        map.borders.push(Border::new(of, quantity, "", Some(worst), Some(0.0)));
+        map.measure(&of, "most iterations", most as f64);
+        map.compare(of, "largest error of a force or of its conditions", worst, Some(0.0));
     }
     Ok(())
 }

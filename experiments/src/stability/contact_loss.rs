@@ -12,7 +12,7 @@ use fe_contact::statics::Bodies;
 use gearset::{LoadCase, Scene};
 use rayon::prelude::*;
 
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+use super::map::{Drawn, Map, MapError, MapOf, StabilityMap};
 use super::resonance::strongest;
 use crate::branches::{
     Branch, BranchEnd, BranchError, BranchPoint, BranchSettings, Branches, branch,
@@ -27,6 +27,10 @@ pub(super) const MAP: Map = Map {
          then the backside flanks touch",
     of: MapOf::Scene(map),
 };
+
+const LOST: &str = "contact is lost below";
+const COEXIST: &str = "more than one motion is stable below";
+const BACKSIDE: &str = "backside flanks touch below";
 
 /// Torques as shares of the operating one.
 const SHARES: [f64; 4] = [0.05, 0.2, 0.5, 1.0];
@@ -45,7 +49,7 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let resonance = strongest(&model)?;
     let frequency = case.at_speed(resonance).mesh_frequency_hz;
     let system = format!("{}, {frequency:.0} Hz", scene.title);
-    let mut map = empty(&MAP, system, "torque on the sun, N·m");
+    let mut map = StabilityMap::of(&MAP, system, "torque on the sun, N·m");
     let range = [(1.0 - REACH) * resonance, (1.0 + REACH) * resonance];
     let range = [range[0].min(range[1]), range[0].max(range[1])];
     let at = |share: &f64| -> Result<Borders, MapError> {
@@ -59,32 +63,28 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
         let of = format!("{torque:.1} N·m on the sun");
         for (quantity, measured, theory) in [
             ("contact is lost below a factor on the damping of", own.lost, own.lost_by_scaling),
-            ("more than one motion is stable below", own.coexist, None),
-            ("backside flanks touch below", own.backside, None),
+            (COEXIST, own.coexist, None),
+            (BACKSIDE, own.backside, None),
         ] {
-            map.borders.push(Border::new(of.clone(), quantity, "", measured, theory));
+            map.compare(&of, quantity, measured, theory);
         }
         if own.lowest.is_some() {
-            let quantity = "no periodic motion was found to begin with at";
-            map.borders.push(Border::new(of.clone(), quantity, "", own.lowest, None));
+            map.measure(&of, "no periodic motion was found to begin with at", own.lowest);
         }
         if own.stuck > 0 {
             let quantity = "branches that could not be followed to both ends of the speed range";
-            let count = Some(own.stuck as f64);
-            map.borders.push(Border::new(of, quantity, "", count, None));
+            map.measure(of, quantity, own.stuck as f64);
         }
     }
-    for (name, is_theory, of) in [
-        ("contact is lost below", false, (|b: &Borders| b.lost) as fn(&Borders) -> Option<f64>),
-        ("contact is lost below", true, |b| b.lost_by_scaling),
-        ("more than one motion is stable below", false, |b| b.coexist),
-        ("backside flanks touch below", false, |b| b.backside),
+    for (name, drawn, of) in [
+        (LOST, Drawn::Measured, (|b| b.lost) as fn(&Borders) -> Option<f64>),
+        (LOST, Drawn::Theory, |b| b.lost_by_scaling),
+        (COEXIST, Drawn::Measured, |b| b.coexist),
+        (BACKSIDE, Drawn::Measured, |b| b.backside),
     ] {
         let points = torques.iter().zip(&all);
-        let points: Vec<_> = points.filter_map(|(t, b)| Some((*t, of(b)?.log10()))).collect();
-        let panel = "log₁₀ of the factor on every damping of the scene".into();
-        let name = name.into();
-        map.curves.push(MapCurve { panel, name, is_theory, is_points: false, points });
+        let points = points.filter_map(|(t, b)| Some((*t, of(b)?.log10())));
+        map.draw(drawn, "log₁₀ of the factor on every damping of the scene", name, points);
     }
     Ok(map)
 }

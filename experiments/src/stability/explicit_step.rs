@@ -6,7 +6,7 @@ use gearset::{LoadCase, Scene};
 use lumped::LumpedModel;
 use nalgebra::{DMatrix, DVector};
 
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+use super::map::{Map, MapError, MapOf, StabilityMap};
 
 pub(super) const MAP: Map = Map {
     name: "explicit-step",
@@ -17,52 +17,24 @@ pub(super) const MAP: Map = Map {
 };
 
 fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
-    let mut map = empty(&MAP, scene.title.clone(), "ω Δt");
+    let mut map = StabilityMap::of(&MAP, scene.title.clone(), "ω Δt");
     for ratio in [0.0, 0.02, 0.3] {
-        let limit = explicit_limit(ratio)?;
         let of = format!("central difference, damping ratio {ratio}");
-        map.borders.push(Border::new(of, "largest stable ω Δt", "", Some(limit), Some(2.0)));
+        map.compare(of, "largest stable ω Δt", explicit_limit(ratio)?, Some(2.0));
     }
-    for (is_theory, of) in [(false, amplification as Of), (true, exact as Of)] {
-        let at = |k: i32| {
-            let omega_h = 1.8 + 0.005 * f64::from(k);
-            Ok::<_, MapError>((
-                omega_h,
-                of(&Scheme::CentralDifference, omega_h, 0.0)?.spectral_radius,
-            ))
-        };
-        let points = (0..=80).map(at).collect::<Result<_, _>>()?;
-        let (panel, name) = ("spectral radius".into(), "central difference".into());
-        let is_points = !is_theory;
-        map.curves.push(MapCurve { panel, name, is_theory, is_points, points });
-    }
-    map.borders.push(steps_per_cycle(scene)?);
+    let steps = || (0..=80).map(|k| 1.8 + 0.005 * f64::from(k));
+    let scheme = Scheme::CentralDifference;
+    let measured = steps().map(|x| Ok((x, amplification(&scheme, x, 0.0)?.spectral_radius)));
+    let measured = measured.collect::<Result<Vec<_>, MapError>>()?;
+    let theory = steps().map(|x| (x, closed_form(&scheme, x, 0.0).spectral_radius));
+    map.draw_beside("spectral radius", "central difference", measured, theory);
+    steps_per_cycle(&mut map, scene)?;
     Ok(map)
-}
-
-type Of = fn(
-    &Scheme,
-    f64,
-    f64,
-) -> Result<
-    dynamics::benchmark_subjects::Amplification,
-    dynamics::benchmark_subjects::IntegratorError,
->;
-
-fn exact(
-    scheme: &Scheme,
-    omega_h: f64,
-    ratio: f64,
-) -> Result<
-    dynamics::benchmark_subjects::Amplification,
-    dynamics::benchmark_subjects::IntegratorError,
-> {
-    Ok(closed_form(scheme, omega_h, ratio))
 }
 
 /// The least number of steps per mesh cycle that the program's guard admits for the lumped set, against
 /// ω_max/(2 f_m).
-fn steps_per_cycle(scene: &Scene) -> Result<Border, MapError> {
+fn steps_per_cycle(map: &mut StabilityMap, scene: &Scene) -> Result<(), MapError> {
     let model = LumpedModel::from_scene(scene)?;
     let case = LoadCase::of_scene(scene).map_err(|_| MapError::NoOperation)?;
     let n = model.mass.len();
@@ -75,6 +47,7 @@ fn steps_per_cycle(scene: &Scene) -> Result<Border, MapError> {
     };
     let least = (1..=1_000_000u32).find(|steps| f64::from(*steps) > 0.5 * theory && admits(*steps));
     let quantity = format!("steps per mesh cycle at {:.0} Hz", case.mesh_frequency_hz);
-    let measured = least.map(f64::from);
-    Ok(Border::new("central difference, lumped set", quantity, "", measured, Some(theory.ceil())))
+    let of = "central difference, lumped set";
+    map.compare(of, quantity, least.map(f64::from), Some(theory.ceil()));
+    Ok(())
 }

@@ -11,12 +11,10 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::map::MapError;
-use super::resonance::slowest;
+use super::resonance::{from_rest, slowest};
 use crate::branches::{BranchParameter, BranchSettings};
 use crate::error::ExperimentError;
-use crate::sweep::{
-    MeshLawModel, SteadyMethod, SteadySettings, SweepModel, SweepPoint, left_of_transient, steady,
-};
+use crate::sweep::{MeshLawModel, SteadyMethod, SteadySettings, SweepPoint, left_of_transient};
 
 /// A guard of the program at a border of a method or of a model.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -303,17 +301,13 @@ fn transient(beyond: bool) -> Said {
     let bodies = Bodies::new(&scene).map_err(ExperimentError::from)?;
     let model = MeshLawModel::new(&scene, &bodies, case)?;
     let case = case.at_speed(slowest(&model)?);
-    let (steps, first) = (model.steps_per_cycle(), model.first_planet_rad());
-    let at = |settings: &SteadySettings| -> Result<_, ExperimentError> {
-        let mut set = model.turning(&case, 0)?;
-        set.rest()?;
-        steady(set.as_mut(), model.shape(), first, steps, settings)
-    };
     let shooting = SteadySettings { between_cycles: 0, ..SteadySettings::default() };
-    let border = 0.01 / left_of_transient(&at(&shooting)?.multipliers);
+    let found = from_rest(&model, &case, 1.0, &shooting)?;
+    let border = 0.01 / left_of_transient(&found.multipliers);
     let tolerance = if beyond { 3.0 } else { 1.0 } * border;
     let marching = SteadySettings { method: SteadyMethod::Marching, tolerance, ..shooting };
-    Ok(SweepPoint::new(case, &at(&marching)?, &marching, 0)?.caution())
+    let found = from_rest(&model, &case, 1.0, &marching)?;
+    Ok(SweepPoint::new(case, &found, &marching, 0)?.caution())
 }
 
 fn damping(beyond: bool) -> Said {

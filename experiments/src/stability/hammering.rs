@@ -4,7 +4,7 @@ use dynamics::benchmark_subjects::{IntegratorError, Scheme};
 use dynamics::stability::{Hammering, HammeringPair};
 use rayon::prelude::*;
 
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+use super::map::{Drawn, Map, MapError, MapOf, StabilityMap, fine_from, logarithms};
 
 pub(super) const MAP: Map = Map {
     name: "hammering",
@@ -29,14 +29,17 @@ const WANTED: f64 = 0.01;
 
 fn map() -> Result<StabilityMap, MapError> {
     let system = format!("mass on a tooth spring, {BOUNCES} bounces, no damping");
-    let mut map = empty(&MAP, system, "log₁₀ of the number of steps in a contact");
+    let mut map = StabilityMap::of(&MAP, system, "log₁₀ of the number of steps in a contact");
     for scheme in Scheme::ALL {
         let of = scheme.label();
         let found = STEPS.iter().map(|steps| worst(&scheme, *steps)).collect();
-        let Some(worst): Option<Vec<[f64; 2]>> = takes_no_mass(found)? else {
-            let quantity = "steps in a contact; it needs mass at the flank";
-            map.borders.push(Border::new(of, quantity, "", None, None));
-            continue;
+        let worst: Vec<[f64; 2]> = match found {
+            // The scheme refuses a coordinate without mass.
+            Err(IntegratorError::Indefinite { .. }) => {
+                map.measure(of, "steps in a contact; it needs mass at the flank", None);
+                continue;
+            }
+            found => found?,
         };
         for (which, what, panel) in [
             (
@@ -51,17 +54,15 @@ fn map() -> Result<StabilityMap, MapError> {
             ),
         ] {
             let quantity = format!("fewest steps in a contact: {what}");
-            let least = fewest(worst.iter().map(|w| w[which]));
-            map.borders.push(Border::new(of.clone(), quantity, "", least, None));
-            let points = STEPS.iter().zip(&worst);
-            let points =
-                points.map(|(n, w)| (n.log10(), w[which].max(1e-12).log10())).collect::<Vec<_>>();
-            let (panel, name) = (panel.into(), of.clone());
-            map.curves.push(MapCurve { panel, name, is_theory: false, is_points: false, points });
+            let errors: Vec<_> = STEPS.into_iter().zip(worst.iter().map(|w| w[which])).collect();
+            map.measure(&of, quantity, fine_from(&errors, WANTED));
+            map.draw(Drawn::Measured, panel, &of, logarithms(errors, 1e-12));
         }
-        let order = order(&worst);
-        let quantity = "order of convergence of the place";
-        map.borders.push(Border::new(of, quantity, "", order, Some(2.0)));
+        // Slope of the place's error over the last five numbers of steps.
+        let [from, last] = [STEPS.len() - 5, STEPS.len() - 1];
+        let drop = worst[from][1] / worst[last][1];
+        let order = (drop > 0.0).then(|| drop.ln() / (STEPS[last] / STEPS[from]).ln());
+        map.compare(of, "order of convergence of the place", order, Some(2.0));
     }
     Ok(map)
 }
@@ -79,27 +80,4 @@ fn worst(scheme: &Scheme, steps: f64) -> Result<[f64; 2], IntegratorError> {
         [0, 1].map(|i| if a[i].total_cmp(&b[i]).is_lt() { b[i] } else { a[i] })
     };
     (0..CHANCES).into_par_iter().map(chance).try_reduce(|| [0.0; 2], |a, b| Ok(larger(a, b)))
-}
-
-/// `None` for a scheme that refuses a coordinate without mass.
-fn takes_no_mass<T>(found: Result<T, IntegratorError>) -> Result<Option<T>, IntegratorError> {
-    match found {
-        Ok(found) => Ok(Some(found)),
-        Err(IntegratorError::Indefinite { .. }) => Ok(None),
-        Err(other) => Err(other),
-    }
-}
-
-/// The fewest steps from which on all errors are within what is wanted; `None` if the finest are not.
-fn fewest(errors: impl DoubleEndedIterator<Item = f64>) -> Option<f64> {
-    let fine = errors.rev().take_while(|e| *e <= WANTED).count();
-    (fine > 0).then(|| STEPS[STEPS.len() - fine])
-}
-
-/// Slope of the place's error over the last five numbers of steps.
-fn order(worst: &[[f64; 2]]) -> Option<f64> {
-    let from = STEPS.len() - 5;
-    let last = STEPS.len() - 1;
-    let drop = worst[from][1] / worst[last][1];
-    (drop > 0.0).then(|| drop.ln() / (STEPS[last] / STEPS[from]).ln())
 }

@@ -2,7 +2,7 @@
 
 use dynamics::benchmark_subjects::{Amplification, Scheme, amplification, closed_form};
 
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+use super::map::{Map, MapError, MapOf, StabilityMap};
 
 pub(super) const MAP: Map = Map {
     name: "integrators",
@@ -27,39 +27,31 @@ const QUANTITIES: [Quantity; 3] = [
 ];
 
 fn map() -> Result<StabilityMap, MapError> {
-    let mut map = empty(&MAP, "one undamped oscillator", "ω Δt");
+    let mut map = StabilityMap::of(&MAP, "one undamped oscillator", "log₁₀ ω Δt");
     for scheme in Scheme::ALL {
         for (name, of) in QUANTITIES {
+            let both = |omega_h: f64| -> Result<[Option<f64>; 2], MapError> {
+                let measured = amplification(&scheme, omega_h, 0.0)?;
+                Ok([of(&measured), of(&closed_form(&scheme, omega_h, 0.0))])
+            };
             let mut curves = [Vec::new(), Vec::new()];
             for k in 0..=POINTS {
                 let omega_h = 10f64.powf(-1.5 + 3.0 * f64::from(k) / f64::from(POINTS));
-                let both =
-                    [amplification(&scheme, omega_h, 0.0)?, closed_form(&scheme, omega_h, 0.0)];
-                for (curve, at) in curves.iter_mut().zip(&both) {
+                for (curve, value) in curves.iter_mut().zip(both(omega_h)?) {
                     // Beyond its limit the explicit scheme leaves the figure.
-                    let value = of(at).filter(|y| y.abs() < 2.0);
+                    let value = value.filter(|y| y.abs() < 2.0);
                     curve.extend(value.map(|y| (omega_h.log10(), y)));
                 }
             }
-            for (points, is_theory) in curves.into_iter().zip([false, true]) {
-                map.curves.push(MapCurve {
-                    panel: name.into(),
-                    name: scheme.label(),
-                    is_theory,
-                    is_points: !is_theory,
-                    points,
-                });
-            }
+            let [measured, theory] = curves;
+            map.draw_beside(name, &scheme.label(), measured, theory);
             for omega_h in TABLED {
-                let measured = of(&amplification(&scheme, omega_h, 0.0)?);
-                let theory = of(&closed_form(&scheme, omega_h, 0.0));
                 let tiny = |x: f64| if x.abs() < 1e-12 { 0.0 } else { x };
+                let [measured, theory] = both(omega_h)?.map(|x| x.map(tiny));
                 let quantity = format!("{name} at ω Δt = {omega_h}");
-                let [measured, theory] = [measured, theory].map(|x| x.map(tiny));
-                map.borders.push(Border::new(scheme.label(), quantity, "", measured, theory));
+                map.compare(scheme.label(), quantity, measured, theory);
             }
         }
     }
-    map.x_axis = "log₁₀ ω Δt".into();
     Ok(map)
 }

@@ -15,7 +15,8 @@ use std::f64::consts::TAU;
 use dynamics::c64;
 use fe_contact::vibration::lagged;
 
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+use super::bisection::bisected;
+use super::map::{Drawn, Map, MapError, MapOf, StabilityMap, logarithms};
 use crate::error::ExperimentError;
 
 pub(super) const MAP: Map = Map {
@@ -88,8 +89,9 @@ impl Rule {
 }
 
 fn map() -> Result<StabilityMap, MapError> {
-    let system = "lag of one tooth pair";
-    let mut map = empty(&MAP, system, "log₁₀ of the step over β");
+    let mut map = StabilityMap::of(&MAP, "lag of one tooth pair", "log₁₀ of the step over β");
+    let panel = "log₁₀ of what is left of a jump after ten steps";
+    let steps = || (0..COUNT).map(|k| SHORTEST * 2f64.powf(0.5 * f64::from(k)));
     for rule in [Rule::Trapezoidal, Rule::Parabola] {
         let of = rule.name();
         let rings = |z: f64| -> Result<bool, ExperimentError> {
@@ -97,54 +99,31 @@ fn map() -> Result<StabilityMap, MapError> {
             // The parabola passes the jump for two steps; after these, changes of sign are ringing.
             Ok(left[2..].windows(2).any(|pair| pair[0] * pair[1] < -1e-24))
         };
-        let quantity = "step over β above which a jump rings";
-        let theory = (rule == Rule::Trapezoidal).then_some(2.0);
-        map.borders.push(Border::new(of, quantity, "", border(rings)?, theory));
-        let ten = rule.left_of_jump(10.0)?.get(9).map(|p| p.abs());
-        let theory = match rule {
-            // 1/(1 + z/2) in the step of the jump, then nine times (1 − z/2)/(1 + z/2)
-            Rule::Trapezoidal => Some((2.0f64 / 3.0).powi(9) / 6.0),
-            Rule::Parabola => None,
+        // 1/(1 + z/2) in the step of the jump, then nine times (1 − z/2)/(1 + z/2)
+        let ten = (2.0f64 / 3.0).powi(9) / 6.0;
+        let theory = |value: f64| (rule == Rule::Trapezoidal).then_some(value);
+        let middle = |low: f64, high: f64| (low * high).sqrt();
+        let is_found = |low: f64, high: f64| high / low <= 1.0 + 1e-9;
+        let border = bisected([SHORTEST, 1000.0], middle, is_found, rings)?;
+        let border = border.map(|[low, high]| middle(low, high));
+        map.compare(of, "step over β above which a jump rings", border, theory(2.0));
+        let left = |z: f64| -> Result<f64, ExperimentError> {
+            Ok(rule.left_of_jump(z)?.get(9).map_or(f64::NAN, |p| p.abs()))
         };
-        let quantity = "left of a jump after ten steps of 10 β";
-        map.borders.push(Border::new(of, quantity, "", ten, theory));
-        let steps = || (0..COUNT).map(|k| SHORTEST * 2f64.powf(0.5 * f64::from(k)));
-        let left = |z: f64| {
-            let found = rule.left_of_jump(z)?;
-            Ok::<_, ExperimentError>(found.get(9).map_or(f64::NAN, |p| p.abs()))
-        };
+        map.compare(of, "left of a jump after ten steps of 10 β", left(10.0)?, theory(ten));
         for (panel, of_step) in [
-            ("log₁₀ of what is left of a jump after ten steps", &left as &dyn Fn(f64) -> _),
+            (panel, &left as &dyn Fn(f64) -> _),
             ("log₁₀ of the error of a sine of 14 steps", &|z| rule.error_of_sine(z)),
         ] {
-            let points = steps().map(|z| Ok((z.log10(), of_step(z)?.max(1e-16).log10())));
+            let points = steps().map(|z| Ok((z, of_step(z)?)));
             let points = points.collect::<Result<Vec<_>, ExperimentError>>()?;
-            let (panel, name) = (panel.into(), of.into());
-            map.curves.push(MapCurve { panel, name, is_theory: false, is_points: false, points });
+            map.draw(Drawn::Measured, panel, of, logarithms(points, 1e-16));
         }
     }
-    let exact = (0..COUNT).map(|k| SHORTEST * 2f64.powf(0.5 * f64::from(k)));
     // (1 − e^(−z))/z at the end of the step in which the force falls, then e^(−z) in each of nine
     let left = |z: f64| (-(-z).exp_m1() / z).log10() - 9.0 * z * std::f64::consts::LOG10_E;
-    let points = exact.map(|z| (z.log10(), left(z).max(-16.0)));
-    let panel = "log₁₀ of what is left of a jump after ten steps".into();
-    let (name, points) =
-        ("exact, for a force that falls evenly over one step".into(), points.collect());
-    map.curves.push(MapCurve { panel, name, is_theory: true, is_points: false, points });
+    let points = steps().map(|z| (z.log10(), left(z).max(-16.0)));
+    let name = "exact, for a force that falls evenly over one step";
+    map.draw(Drawn::Theory, panel, name, points);
     Ok(map)
-}
-
-/// Where a property of the step first holds, by bisection between the shortest step and 1000 β; `None` if not there.
-fn border(
-    holds: impl Fn(f64) -> Result<bool, ExperimentError>,
-) -> Result<Option<f64>, ExperimentError> {
-    let (mut low, mut high) = (SHORTEST, 1000.0);
-    if holds(low)? || !holds(high)? {
-        return Ok(None);
-    }
-    while high / low > 1.0 + 1e-9 {
-        let middle = (low * high).sqrt();
-        if holds(middle)? { high = middle } else { low = middle }
-    }
-    Ok(Some((low * high).sqrt()))
 }

@@ -26,7 +26,7 @@ use lumped::{Axis, Body, LumpedModel, ModeGroup, NaturalModes, SpringId, strain_
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+use super::map::{Drawn, Map, MapError, MapOf, Point, StabilityMap, logarithms};
 use super::windup::{Left, WoundUp, of_slopes};
 use crate::error::ExperimentError;
 
@@ -56,15 +56,6 @@ enum By {
     SofterBearings,
 }
 
-impl By {
-    fn words(self) -> &'static str {
-        match self {
-            Self::Torque => "by torque",
-            Self::SofterBearings => "by soft bearings",
-        }
-    }
-}
-
 /// A set under one load, with theory.
 struct Load {
     factor: f64,
@@ -84,7 +75,7 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     scene.dynamics.kinematics = MeshKinematics::AboutMean;
     let bodies = Bodies::new(&scene).map_err(ExperimentError::from)?;
     let axis = "log₁₀ of the windup over the base pitch";
-    let mut map = empty(&MAP, scene.title.clone(), axis);
+    let mut map = StabilityMap::of(&MAP, scene.title.clone(), axis);
     for by in [By::Torque, By::SofterBearings] {
         let one = |factor: f64| at(&scene, &bodies, &case, by, factor);
         let factors = factors(&scene, &case, by)?;
@@ -92,8 +83,7 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
         write(&mut map, by, &loads);
     }
     let quantity = "part of harmonics that the coarser tables for the slopes of flanks change";
-    let slopes = of_slopes(&scene, &bodies, &case)?;
-    map.borders.push(Border::new("the scene's own load", quantity, "", Some(slopes), None));
+    map.measure("the scene's own load", quantity, of_slopes(&scene, &bodies, &case)?);
     Ok(map)
 }
 
@@ -270,132 +260,118 @@ impl<'g> Theory<'g> {
     }
 }
 
-/// (windup, value) of the loads that have one.
-fn over_windup(loads: &[Load], of: impl Fn(&Load) -> Option<f64>) -> Vec<(f64, f64)> {
-    loads.iter().filter_map(|l| Some((l.found.windup, of(l)?))).collect()
-}
-
 /// Windup from which on a value stays above 1 %, between two loads in proportion of the logarithms; `None` if it is
 /// above at the least windup or not above at the largest.
-fn crossing(points: &[(f64, f64)]) -> Option<f64> {
+fn crossing(points: &[Point]) -> Option<f64> {
     let last_within = points.iter().rposition(|p| p.1 <= WANTED)?;
     let (a, b) = (points.get(last_within)?, points.get(last_within + 1)?);
     let part = (WANTED / a.1).ln() / (b.1 / a.1).ln();
     Some(a.0 * (b.0 / a.0).powf(part))
 }
 
-/// A quantity over the loads: what was measured, and theory where there is one.
-struct Curve {
-    panel: usize,
+/// An error of kinematics that are linear about one configuration.
+struct Quantity {
+    panel: &'static str,
     name: &'static str,
-    measured: Vec<(f64, f64)>,
-    theory: Option<Vec<(f64, f64)>>,
+    measured: fn(&Left, &Load) -> f64,
+    /// Of kinematics about the unloaded configuration; `None` without.
+    theory: fn(&Load) -> Option<f64>,
 }
 
-const PANELS: [&str; 4] = [
-    "log₁₀ of the error of harmonics at rest",
-    "log₁₀ of the error of natural frequencies of bearings and supports",
-    "log₁₀ of the error of natural frequencies of the meshes",
-    "log₁₀ of the error of an approach, over the mean approach",
+const AT_REST: &str = "log₁₀ of the error of harmonics at rest";
+
+/// With the shift of time, which kinematics about the loaded configuration do not have.
+const SHIFTED: Quantity = Quantity {
+    panel: AT_REST,
+    name: "largest harmonic of the sun's rotation, with its phase",
+    measured: |own, _| own.shifted,
+    // |1 − e^(2πi l w)|
+    theory: |l| Some(2.0 * (PI * l.found.strongest as f64 * l.found.windup).sin().abs()),
+};
+
+const QUANTITIES: [Quantity; 4] = [
+    Quantity {
+        panel: AT_REST,
+        name: "harmonics, the shift of time taken out",
+        measured: |own, _| own.harmonics,
+        theory: |_| None,
+    },
+    Quantity {
+        panel: "log₁₀ of the error of natural frequencies of bearings and supports",
+        name: "natural frequencies of bearings and supports",
+        measured: |own, _| own.frequencies.supports,
+        theory: |l| l.frequency,
+    },
+    Quantity {
+        panel: "log₁₀ of the error of natural frequencies of the meshes",
+        name: "natural frequencies of the meshes",
+        measured: |own, _| own.frequencies.meshes,
+        theory: |_| None,
+    },
+    Quantity {
+        panel: "log₁₀ of the error of an approach, over the mean approach",
+        name: "approaches of tooth pairs, of the mean approach",
+        measured: |own, l| own.approach / l.found.deflection,
+        theory: |l| Some(l.corner / l.found.deflection),
+    },
 ];
 
-const SHIFTED: &str = "largest harmonic of the sun's rotation, with its phase";
-const HARMONICS: &str = "harmonics, the shift of time taken out";
-const SUPPORTS: &str = "natural frequencies of bearings and supports";
-const MESHES: &str = "natural frequencies of the meshes";
-const APPROACHES: &str = "approaches of tooth pairs, of the mean approach";
-
-/// Curves of the kinematics about one configuration.
-fn curves(loads: &[Load], is_about_unloaded: bool) -> Vec<Curve> {
-    let own = |l: &Load| match is_about_unloaded {
-        true => l.found.about_unloaded,
-        false => Some(l.found.about_loaded),
-    };
-    let left = |of: fn(&Left) -> f64| over_windup(loads, |l| own(l).as_ref().map(of));
-    let approaches = over_windup(loads, |l| Some(own(l)?.approach / l.found.deflection));
-    // Theory is that of kinematics about the unloaded configuration.
-    let theory = |of: &dyn Fn(&Load) -> Option<f64>| {
-        let points = over_windup(loads, of);
-        (is_about_unloaded && !points.is_empty()).then_some(points)
-    };
-    // |1 − e^(2πi l w)|
-    let shift = |l: &Load| Some(2.0 * (PI * l.found.strongest as f64 * l.found.windup).sin().abs());
-    let mut all = vec![
-        Curve { panel: 0, name: HARMONICS, measured: left(|l| l.harmonics), theory: None },
-        Curve {
-            panel: 1,
-            name: SUPPORTS,
-            measured: left(|l| l.frequencies.supports),
-            theory: theory(&|l| l.frequency),
-        },
-        Curve { panel: 2, name: MESHES, measured: left(|l| l.frequencies.meshes), theory: None },
-        Curve {
-            panel: 3,
-            name: APPROACHES,
-            measured: approaches,
-            theory: theory(&|l| Some(l.corner / l.found.deflection)),
-        },
-    ];
-    if is_about_unloaded {
-        let measured = left(|l| l.shifted);
-        all.insert(0, Curve { panel: 0, name: SHIFTED, measured, theory: theory(&shift) });
-    }
-    all
-}
-
 fn write(map: &mut StabilityMap, by: By, loads: &[Load]) {
-    let words = by.words();
-    let windups = || loads.iter().map(|l| l.found.windup);
-    let own = loads.iter().find(|l| l.factor == 1.0);
-    // What is not reached between the least and the largest windup is not listed.
-    let push = |map: &mut StabilityMap, of: &str, quantity: &str, values: [Option<f64>; 2]| {
-        let [measured, theory] = values;
-        if measured.is_none() && theory.is_none() {
-            return;
-        }
-        map.borders.push(Border::new(of, quantity, "", measured, theory));
+    let words = match by {
+        By::Torque => "by torque",
+        By::SofterBearings => "by soft bearings",
     };
-    if let Some(own) = own {
+    if let Some(own) = loads.iter().find(|l| l.factor == 1.0) {
         let quantity = "windup under the scene's own load, base pitches";
-        push(map, words, quantity, [Some(own.found.windup), own.windup]);
+        map.compare(words, quantity, own.found.windup, own.windup);
     }
-    let quantity = "largest windup that the accepted deflection allows, base pitches";
-    push(map, words, quantity, [Some(windups().fold(0.0, f64::max)), None]);
-    for (is_about_unloaded, configuration) in [(true, "unloaded"), (false, "loaded")] {
-        let of = format!("{words}, linear about the {configuration} configuration");
-        for curve in curves(loads, is_about_unloaded) {
-            let Curve { panel, name, measured, theory } = curve;
-            let quantity =
-                format!("windup from which on the error is above 1 %, base pitches: {name}");
-            let border = |points: &[(f64, f64)]| crossing(points);
-            push(map, &of, &quantity, [border(&measured), theory.as_deref().and_then(border)]);
+    let most = loads.iter().map(|l| l.found.windup).fold(0.0, f64::max);
+    map.measure(words, "largest windup that the accepted deflection allows, base pitches", most);
+    let about =
+        |configuration: &str| format!("{words}, linear about the {configuration} configuration");
+    for configuration in ["unloaded", "loaded"] {
+        let (of, is_unloaded) = (about(configuration), configuration == "unloaded");
+        let shifted = is_unloaded.then_some((SHIFTED, ", shift of time kept"));
+        let others = QUANTITIES.into_iter().map(|quantity| (quantity, ""));
+        for (Quantity { panel, name, measured, theory }, kept) in shifted.into_iter().chain(others)
+        {
+            let own = |l: &Load| match is_unloaded {
+                true => l.found.about_unloaded,
+                false => Some(l.found.about_loaded),
+            };
+            let over_windup = |of: &dyn Fn(&Load) -> Option<f64>| -> Vec<Point> {
+                loads.iter().filter_map(|l| Some((l.found.windup, of(l)?))).collect()
+            };
+            let measured = over_windup(&|l| Some(measured(&own(l)?, l)));
+            let theory = over_windup(&|l| theory(l).filter(|_| is_unloaded));
+            let borders = [crossing(&measured), crossing(&theory)];
+            // What is not reached between the least and the largest windup is not listed.
+            if borders != [None, None] {
+                let quantity =
+                    format!("windup from which on the error is above 1 %, base pitches: {name}");
+                map.compare(&of, quantity, borders[0], borders[1]);
+            }
             for (which, found) in [("least", measured.first()), ("largest", measured.last())] {
                 let Some((windup, error)) = found else { continue };
-                let same = |p: &&(f64, f64)| p.0 == *windup;
-                let exact = theory.as_ref().and_then(|t| t.iter().find(same)).map(|p| p.1);
+                let exact = theory.iter().find(|p| p.0 == *windup).map(|p| p.1);
                 let quantity =
                     format!("error at the {which} windup, {windup:.4} base pitches: {name}");
-                push(map, &of, &quantity, [Some(*error), exact]);
+                map.compare(&of, quantity, *error, exact);
             }
-            let kept = if name == SHIFTED { ", shift of time kept" } else { "" };
             let name = format!("{configuration}{kept}, {words}");
-            let drawn = |points: &[(f64, f64)]| -> Vec<(f64, f64)> {
-                let above = points.iter().filter(|p| p.1 > 0.0);
-                above.map(|p| (p.0.log10(), p.1.log10())).collect()
-            };
-            for (points, is_theory) in [(Some(measured), false), (theory, true)] {
-                let Some(points) = points else { continue };
-                let (panel, name, points) = (PANELS[panel].into(), name.clone(), drawn(&points));
-                map.curves.push(MapCurve { panel, name, is_theory, is_points: false, points });
+            let above = |points: Vec<Point>| points.into_iter().filter(|p| p.1 > 0.0);
+            let is_known = !theory.is_empty();
+            map.draw(Drawn::Measured, panel, &name, logarithms(above(measured), 0.0));
+            if is_known {
+                map.draw(Drawn::Theory, panel, &name, logarithms(above(theory), 0.0));
             }
         }
     }
-    let lost = loads.iter().find(|l| l.found.about_unloaded.is_none());
-    let of = format!("{words}, linear about the unloaded configuration");
-    let quantity = "windup at which no equilibrium is found, base pitches";
-    push(map, &of, quantity, [lost.map(|l| l.found.windup), None]);
+    if let Some(lost) = loads.iter().find(|l| l.found.about_unloaded.is_none()) {
+        let quantity = "windup at which no equilibrium is found, base pitches";
+        map.measure(about("unloaded"), quantity, lost.found.windup);
+    }
     let rest = loads.iter().map(|l| l.found.rest).fold(0.0, f64::max);
-    let of = format!("{words}, linear about the loaded configuration");
     let quantity = "largest kinematic rest over the transmission error (warned of above 0.01)";
-    push(map, &of, quantity, [Some(rest), None]);
+    map.measure(about("loaded"), quantity, rest);
 }

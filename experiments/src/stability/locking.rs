@@ -10,12 +10,13 @@
 //!
 //! without bound as elements get longer. Incompatible modes and eight nodes contain the exact field: 1.
 
-use fe_contact::Elastic;
 use fe_contact::element::{Shape, matrices};
+use fe_contact::{Elastic, FeError};
 use gearset::PlaneState;
 use nalgebra::DVector;
 
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+use super::map::{Map, MapError, MapOf, StabilityMap};
+use crate::error::ExperimentError;
 
 pub(super) const MAP: Map = Map {
     name: "locking",
@@ -36,7 +37,7 @@ const HALF_HEIGHT: f64 = 1e-3;
 
 fn map() -> Result<StabilityMap, MapError> {
     let system = "one element bent with the curvature of a beam, plane stress, ν = 0.3";
-    let mut map = empty(&MAP, system, "length over height of the element");
+    let mut map = StabilityMap::of(&MAP, system, "length over height of the element");
     for (name, shape, incompatible) in [
         ("linear", Shape::LINEAR, false),
         ("incompatible", Shape::LINEAR, true),
@@ -50,15 +51,11 @@ fn map() -> Result<StabilityMap, MapError> {
         for ratio in RATIOS {
             let found = energy_ratio(&shape, incompatible, ratio)?;
             let quantity = format!("bending stiffness over exact at {ratio} times its height");
-            let border = Border::new(name, quantity, "", Some(found), Some(theory(ratio)));
-            map.borders.push(border);
+            map.compare(name, quantity, found, Some(theory(ratio)));
             points.push((ratio, found));
         }
-        let curves = [(false, points), (true, RATIOS.map(|r| (r, theory(r))).to_vec())];
-        for (is_theory, points) in curves {
-            let (panel, name) = ("bending stiffness over exact".into(), name.into());
-            map.curves.push(MapCurve { panel, name, is_theory, is_points: !is_theory, points });
-        }
+        let exact = RATIOS.map(|r| (r, theory(r)));
+        map.draw_beside("bending stiffness over exact", name, points, exact);
     }
     Ok(map)
 }
@@ -81,14 +78,11 @@ fn energy_ratio(shape: &Shape, incompatible: bool, ratio: f64) -> Result<f64, Ma
         .iter()
         .flat_map(|[x, y]| [curvature * x * y, -0.5 * curvature * (x * x + nu * y * y)]);
     let bent = DVector::from_iterator(2 * points.len(), bent);
-    let own = matrices(shape, &points, &STEEL, thickness, incompatible)
-        .map_err(|cause| crate::error::ExperimentError::Fe(distorted(cause)))?;
+    let own = matrices(shape, &points, &STEEL, thickness, incompatible).map_err(|cause| {
+        ExperimentError::Fe(FeError::Distorted { body: "bent element", element: 0, cause })
+    })?;
     let energy = 0.5 * bent.dot(&(&own.stiffness * &bent));
     // ½ κ² E t (4ab) b²/3
     let exact = 0.5 * curvature * curvature * STEEL.young * thickness * 4.0 * a * b * b * b / 3.0;
     Ok(energy / exact)
-}
-
-fn distorted(cause: fe_contact::element::DistortedElement) -> fe_contact::FeError {
-    fe_contact::FeError::Distorted { body: "bent element", element: 0, cause }
 }

@@ -82,21 +82,6 @@ pub struct Border {
     pub difference_percent: Option<f64>,
 }
 
-impl Border {
-    pub(super) fn new(
-        of: impl Into<String>,
-        quantity: impl Into<String>,
-        unit: &str,
-        measured: Option<f64>,
-        theory: Option<f64>,
-    ) -> Self {
-        let difference_percent =
-            measured.zip(theory).filter(|(_, t)| *t != 0.0).map(|(m, t)| 100.0 * (m - t) / t);
-        let (of, quantity, unit) = (of.into(), quantity.into(), unit.into());
-        Self { of, quantity, unit, measured, theory, difference_percent }
-    }
-}
-
 /// A curve of the map's figure.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MapCurve {
@@ -127,6 +112,104 @@ pub struct StabilityMap {
     pub borders: Vec<Border>,
     /// Curves.
     pub curves: Vec<MapCurve>,
+}
+
+impl StabilityMap {
+    /// A map without borders and curves.
+    pub(super) fn of(which: &Map, system: impl Into<String>, x_axis: &str) -> Self {
+        Self {
+            map: which.name.into(),
+            meaning: which.meaning.into(),
+            system: system.into(),
+            x_axis: x_axis.into(),
+            borders: Vec::new(),
+            curves: Vec::new(),
+        }
+    }
+
+    /// Adds a border, or one number along it, of no unit, for which there is no theory.
+    pub(super) fn measure(
+        &mut self,
+        of: impl Into<String>,
+        quantity: impl Into<String>,
+        measured: impl Into<Option<f64>>,
+    ) {
+        self.compare(of, quantity, measured, None);
+    }
+
+    /// The same with theory beside it.
+    pub(super) fn compare(
+        &mut self,
+        of: impl Into<String>,
+        quantity: impl Into<String>,
+        measured: impl Into<Option<f64>>,
+        theory: Option<f64>,
+    ) {
+        self.compare_in("", of, quantity, measured, theory);
+    }
+
+    /// The same in a unit.
+    pub(super) fn compare_in(
+        &mut self,
+        unit: &str,
+        of: impl Into<String>,
+        quantity: impl Into<String>,
+        measured: impl Into<Option<f64>>,
+        theory: Option<f64>,
+    ) {
+        let measured = measured.into();
+        let difference_percent =
+            measured.zip(theory).filter(|(_, t)| *t != 0.0).map(|(m, t)| 100.0 * (m - t) / t);
+        let (of, quantity, unit) = (of.into(), quantity.into(), unit.into());
+        self.borders.push(Border { of, quantity, unit, measured, theory, difference_percent });
+    }
+
+    /// Draws what was measured as unconnected points, and theory as a line.
+    pub(super) fn draw_beside(
+        &mut self,
+        panel: &str,
+        name: &str,
+        measured: impl IntoIterator<Item = Point>,
+        theory: impl IntoIterator<Item = Point>,
+    ) {
+        self.draw(Drawn::Points, panel, name, measured);
+        self.draw(Drawn::Theory, panel, name, theory);
+    }
+
+    /// Draws one curve.
+    pub(super) fn draw(
+        &mut self,
+        drawn: Drawn,
+        panel: &str,
+        name: &str,
+        points: impl IntoIterator<Item = Point>,
+    ) {
+        let (is_theory, is_points) = (drawn == Drawn::Theory, drawn == Drawn::Points);
+        let (panel, name, points) = (panel.into(), name.into(), points.into_iter().collect());
+        self.curves.push(MapCurve { panel, name, is_theory, is_points, points });
+    }
+}
+
+/// What a curve shows, and how.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Drawn {
+    /// What was measured, as a line.
+    Measured,
+    /// What was measured, as unconnected points.
+    Points,
+    /// Theory, as a line.
+    Theory,
+}
+
+/// (x, y) of a curve.
+pub(super) type Point = (f64, f64);
+
+/// Points by the logarithms of both numbers, y at least `least`.
+pub(super) fn logarithms(
+    points: impl IntoIterator<Item = Point>,
+    least: f64,
+) -> impl Iterator<Item = Point> {
+    points.into_iter().map(move |(x, y)| (x.log10(), y.max(least).log10()))
 }
 
 /// Why a map cannot be drawn.
@@ -174,14 +257,7 @@ pub fn stability_maps(which: &[&Map], scene: &Scene) -> Result<Vec<StabilityMap>
     which.par_iter().map(|own| stability_map(own, scene)).collect()
 }
 
-/// A map without borders and curves.
-pub(super) fn empty(which: &Map, system: impl Into<String>, x_axis: &str) -> StabilityMap {
-    StabilityMap {
-        map: which.name.into(),
-        meaning: which.meaning.into(),
-        system: system.into(),
-        x_axis: x_axis.into(),
-        borders: Vec::new(),
-        curves: Vec::new(),
-    }
+/// The least x from which on all errors y, listed coarse to fine, are within what is wanted; `None` if the finest is not.
+pub(super) fn fine_from(errors: &[Point], wanted: f64) -> Option<f64> {
+    errors.iter().rev().take_while(|(_, off)| *off <= wanted).last().map(|(x, _)| *x)
 }

@@ -1,5 +1,6 @@
 //! Stability maps: a method or a set pushed until it fails, the border found from the program itself, theory beside it.
 
+mod bisection;
 mod bouncing_bar;
 mod changed_group;
 mod contact_cells;

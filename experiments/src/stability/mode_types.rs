@@ -4,7 +4,7 @@ use gearset::Scene;
 use lumped::{LumpedModel, ModeGroup, NaturalModes, tolerances_to};
 
 use super::changed_group::ChangedGroup;
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+use super::map::{Map, MapError, MapOf, StabilityMap, logarithms};
 
 pub(super) const MAP: Map = Map {
     name: "mode-types",
@@ -18,7 +18,7 @@ pub(super) const MAP: Map = Map {
 const PLANET: usize = 0;
 
 fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
-    let mut map = empty(
+    let mut map = StabilityMap::of(
         &MAP,
         format!("{}, planet {PLANET} heavier", scene.title),
         "log₁₀ of the part by which a planet is heavier",
@@ -38,36 +38,24 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
             mode_type: t.mode_type,
             multiplicity: count,
             pure_up_to: t.pure_up_to,
-            modes: &|part| Ok(NaturalModes::of(&model.with_heavier_planet(PLANET, part)?)?),
+            modes: |part| Ok(NaturalModes::of(&model.with_heavier_planet(PLANET, part)?)?),
         };
-        let border = group.border()?;
-        let quantity = "pure up to a planet heavier by";
-        map.borders.push(Border::new(of.clone(), quantity, "", border, Some(t.pure_up_to)));
+        map.compare(&of, "pure up to a planet heavier by", group.border()?, Some(t.pure_up_to));
         // Leading order ends where a planet is heavier by a tenth.
         if t.half_up_to <= 0.1 {
             let quantity =
                 format!("half shared with {:.1} Hz by a planet heavier by", t.nearest_hz);
-            map.borders.push(Border::new(of.clone(), quantity, "", None, Some(t.half_up_to)));
+            map.compare(&of, quantity, None, Some(t.half_up_to));
         }
-        let mut measured = Vec::new();
-        for k in 0..=20 {
-            let part = 10f64.powf(-6.0 + 0.25 * f64::from(k));
-            let lost = group.lost(part)?;
-            // Below, a share of 1 is rounding.
-            if lost > 1e-12 {
-                measured.push((part.log10(), lost.log10()));
-            }
-        }
-        let theory = |k: i32| {
-            let part = 10f64.powf(-6.0 + 0.25 * f64::from(k));
-            (part.log10(), (0.5 * (part / t.half_up_to).powi(2)).log10())
-        };
-        let theory: Vec<_> = (0..=20).map(theory).filter(|p| p.1 < 0.0 && p.1 > -12.0).collect();
-        for (points, is_theory) in [(measured, false), (theory, true)] {
-            let panel = "log₁₀ of the share outside the mode's kind".into();
-            let (name, is_points) = (of.clone(), !is_theory);
-            map.curves.push(MapCurve { panel, name, is_theory, is_points, points });
-        }
+        let parts = || (0..=20).map(|k| 10f64.powf(-6.0 + 0.25 * f64::from(k)));
+        let measured = parts().map(|part| Ok((part, group.lost(part)?)));
+        let measured = measured.collect::<Result<Vec<_>, MapError>>()?;
+        // Below, a share of 1 is rounding.
+        let measured = measured.into_iter().filter(|(_, lost)| *lost > 1e-12);
+        let theory = parts().map(|part| (part, 0.5 * (part / t.half_up_to).powi(2)));
+        let theory = logarithms(theory, 0.0).filter(|(_, lost)| *lost < 0.0 && *lost > -12.0);
+        let panel = "log₁₀ of the share outside the mode's kind";
+        map.draw_beside(panel, &of, logarithms(measured, 0.0), theory);
     }
     Ok(map)
 }

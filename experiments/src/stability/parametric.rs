@@ -3,7 +3,7 @@
 use gearset::Scene;
 use lumped::{ParametricSet, Tongue, TongueEdges, tongues};
 
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+use super::map::{Drawn, Map, MapError, MapOf, StabilityMap};
 
 pub(super) const MAP: Map = Map {
     name: "parametric",
@@ -26,14 +26,19 @@ const CLOSED: usize = 6;
 /// A tongue weaker than this, beside what it would be without phasing, is closed.
 const NOTHING: f64 = 1e-9;
 
+/// Title of the figure's panel.
+const PANEL: &str = "ε, half the peak-to-peak variation over the mean stiffness";
+
 fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let set = ParametricSet::from_scene(scene, TABLED)?;
-    let mut map = empty(
+    let mut map = StabilityMap::of(
         &MAP,
         scene.title.clone(),
         "detuning of the mesh frequency over the first-order half-width at ε = 0.04",
     );
-    wedge(&mut map);
+    // The wedge of first order, in which all tongues are of one width.
+    let top = DRAWN[DRAWN.len() - 1];
+    map.draw(Drawn::Theory, PANEL, "first order", [(-1.0, top), (0.0, 0.0), (1.0, top)]);
     let mut all = tongues(&set, HARMONICS)?;
     all.sort_by(|a, b| b.half_width_hz.total_cmp(&a.half_width_hz));
     let open: Vec<Tongue> = all.iter().filter(|t| t.strength() > NOTHING).cloned().collect();
@@ -49,9 +54,21 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
             ("growth", "1/s", at(|e| e.growth_per_s), TABLED * tongue.growth_per_s),
         ] {
             let quantity = format!("{quantity} at ε = {TABLED}");
-            map.borders.push(Border::new(of.clone(), quantity, unit, measured, Some(theory)));
+            map.compare_in(unit, &of, quantity, measured, Some(theory));
         }
-        draw(&mut map, &set, tongue)?;
+        // The borders found, in ε over detuning as part of the first-order half-width at the largest ε.
+        let mut points = Vec::new();
+        for epsilon in DRAWN {
+            if let Some(found) = set.with_variation(epsilon)?.edges(tongue)? {
+                for border in [found.low_hz, found.high_hz] {
+                    let detuning = border - tongue.mesh_frequency_hz;
+                    points.push((detuning / (top * tongue.half_width_hz), epsilon));
+                }
+            }
+        }
+        let [p, q] = tongue.frequency_hz;
+        let name = format!("l = {}, {p:.0} + {q:.0} Hz", tongue.harmonic);
+        map.draw(Drawn::Points, PANEL, &name, points);
     }
     // Of the closed ones those that would be the widest.
     all.sort_by(|a, b| b.bound_hz.total_cmp(&a.bound_hz));
@@ -64,7 +81,7 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     for tongue in closed.filter(is_apart).take(CLOSED) {
         let growth = set.growth_per_s(tongue.mesh_frequency_hz)?;
         let of = format!("{}, closed by phasing or contact ratio", named(tongue));
-        map.borders.push(Border::new(of, "growth at its centre", "1/s", Some(growth), Some(0.0)));
+        map.compare_in("1/s", of, "growth at its centre", growth, Some(0.0));
     }
     Ok(map)
 }
@@ -86,33 +103,4 @@ fn named(tongue: &Tongue) -> String {
         true => format!("l = {}, twice {p:.1} Hz ({a})", tongue.harmonic),
         false => format!("l = {}, {p:.1} Hz ({a}) + {q:.1} Hz ({b})", tongue.harmonic),
     }
-}
-
-/// Title of the figure's panel.
-const PANEL: &str = "ε, half the peak-to-peak variation over the mean stiffness";
-
-/// The wedge of first order, in which all tongues are of one width.
-fn wedge(map: &mut StabilityMap) {
-    let top = DRAWN[DRAWN.len() - 1];
-    let points = vec![(-1.0, top), (0.0, 0.0), (1.0, top)];
-    let (panel, name) = (PANEL.into(), "first order".into());
-    map.curves.push(MapCurve { panel, name, is_theory: true, is_points: false, points });
-}
-
-/// The borders found, in ε over detuning as part of the first-order half-width at the largest ε.
-fn draw(map: &mut StabilityMap, set: &ParametricSet, tongue: &Tongue) -> Result<(), MapError> {
-    let half = DRAWN[DRAWN.len() - 1] * tongue.half_width_hz;
-    let mut points = Vec::new();
-    for epsilon in DRAWN {
-        if let Some(found) = set.with_variation(epsilon)?.edges(tongue)? {
-            for border in [found.low_hz, found.high_hz] {
-                points.push(((border - tongue.mesh_frequency_hz) / half, epsilon));
-            }
-        }
-    }
-    let [p, q] = tongue.frequency_hz;
-    let name = format!("l = {}, {p:.0} + {q:.0} Hz", tongue.harmonic);
-    let panel = PANEL.into();
-    map.curves.push(MapCurve { panel, name, is_theory: false, is_points: true, points });
-    Ok(())
 }

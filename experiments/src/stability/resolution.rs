@@ -17,7 +17,8 @@ use dynamics::benchmark_subjects::{Scheme, amplification};
 use dynamics::c64;
 use lumped::MeshWave;
 
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+use super::bisection::bisected;
+use super::map::{Map, MapError, MapOf, Point, StabilityMap};
 
 pub(super) const MAP: Map = Map {
     name: "resolution",
@@ -44,53 +45,39 @@ const SHARES: [f64; 2] = [1e-3, 0.25];
 
 fn map() -> Result<StabilityMap, MapError> {
     let system = "one mesh of rectangular stiffness and one mode at a harmonic of it";
-    let mut map = empty(&MAP, system, "harmonic over steps in a mesh cycle");
-    let harmonics = || (1..=STEPS / 4).map(|l| (l, f64::from(l) / f64::from(STEPS)));
-    let mut measured = [Vec::new(), Vec::new()];
-    for (l, share) in harmonics() {
-        measured[0].push((share, place(share)?));
-        let exact = wave(0.0).harmonic(l).norm();
-        // Every fifth harmonic of this wave is 0.
-        if exact > 1e-9 {
-            measured[1].push((share, sampled(l, STEPS) / exact - 1.0));
-        }
-    }
-    let theory: [fn(f64) -> f64; 2] = [
-        |share| 1.0 - PI * share / (PI * share).tan(),
-        |share| PI * share / (PI * share).sin() - 1.0,
-    ];
-    for (k, (of, quantity)) in [
-        ("resonance of a harmonic", "harmonic over steps at which it is 1 % low"),
-        ("harmonic of a stiffness that switches", "harmonic 11 of 140 steps too high by"),
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        let (border, exact, unit) = match k {
-            0 => (
-                root(|share| place(share).map(|off| off - WANTED), SHARES)?,
-                root(|share| Ok(theory[k](share) - WANTED), SHARES)?,
-                "",
-            ),
-            _ => {
-                let share = f64::from(TOO_HIGH) / f64::from(STEPS);
-                let own = measured[k].iter().find(|(x, _)| *x == share);
-                (own.map(|(_, y)| 100.0 * y), Some(100.0 * theory[k](share)), "%")
-            }
-        };
-        map.borders.push(Border::new(of, quantity, unit, border, exact));
-        let percent = |points: &[(f64, f64)]| points.iter().map(|(x, y)| (*x, 100.0 * y)).collect();
-        let exact: Vec<(f64, f64)> = harmonics().map(|(_, x)| (x, theory[k](x))).collect();
-        for (is_theory, points) in [(false, percent(&measured[k])), (true, percent(&exact))] {
-            let (panel, name) = ("error, %".into(), of.into());
-            map.curves.push(MapCurve { panel, name, is_theory, is_points: !is_theory, points });
-        }
-    }
+    let mut map = StabilityMap::of(&MAP, system, "harmonic over steps in a mesh cycle");
+    let shares = || (1..=STEPS / 4).map(|l| f64::from(l) / f64::from(STEPS));
+    let percent = |(x, y): Point| (x, 100.0 * y);
+    let beside = |map: &mut StabilityMap, of, measured: Vec<Point>, theory: fn(f64) -> f64| {
+        let theory = shares().map(|x| (x, theory(x))).map(percent);
+        map.draw_beside("error, %", of, measured.into_iter().map(percent), theory);
+    };
+
+    let theory = |share: f64| 1.0 - PI * share / (PI * share).tan();
+    let of = "resonance of a harmonic";
+    let found = root(|share| Ok(place(share)? - WANTED), SHARES)?;
+    let exact = root(|share| Ok(theory(share) - WANTED), SHARES)?;
+    map.compare(of, "harmonic over steps at which it is 1 % low", found, exact);
+    let measured = shares().map(|share| Ok((share, place(share)?)));
+    beside(&mut map, of, measured.collect::<Result<_, MapError>>()?, theory);
+
+    let theory = |share: f64| PI * share / (PI * share).sin() - 1.0;
+    let of = "harmonic of a stiffness that switches";
+    let [one, other] = [wave(0.0), wave(0.5)];
+    let size = |l: u32| one.harmonic(l).norm();
+    let error = |l: u32| samples(STEPS, l, |t| one.at(t)).norm() / size(l) - 1.0;
+    let (found, exact) = (error(TOO_HIGH), theory(f64::from(TOO_HIGH) / f64::from(STEPS)));
+    let quantity = "harmonic 11 of 140 steps too high by";
+    map.compare_in("%", of, quantity, 100.0 * found, Some(100.0 * exact));
+    // Every fifth harmonic of this wave is 0.
+    let measured = (1..).zip(shares()).filter(|(l, _)| size(*l) > 1e-9);
+    beside(&mut map, of, measured.map(|(l, share)| (share, error(l))).collect(), theory);
+
     for steps in [STEPS, STEPS + 1, 4 * STEPS + 1] {
-        let found = left_over(steps);
         let of = format!("two meshes half a cycle apart, {steps} steps");
         let quantity = "harmonic 1 left over, of that of one mesh";
-        map.borders.push(Border::new(of, quantity, "", Some(found), Some(aliased(steps))));
+        let sum = samples(steps, 1, |t| one.at(t) + other.at(t)).norm();
+        map.compare(of, quantity, sum / size(1), Some(aliased(steps)));
     }
     Ok(map)
 }
@@ -123,17 +110,6 @@ fn samples(steps: u32, l: u32, at: impl Fn(f64) -> f64) -> c64 {
     (0..steps).map(one).sum::<c64>() / f64::from(steps)
 }
 
-fn sampled(l: u32, steps: u32) -> f64 {
-    let own = wave(0.0);
-    samples(steps, l, |t| own.at(t)).norm()
-}
-
-fn left_over(steps: u32) -> f64 {
-    let [a, b] = [wave(0.0), wave(0.5)];
-    let sum = samples(steps, 1, |t| a.at(t) + b.at(t)).norm();
-    sum / a.harmonic(1).norm()
-}
-
 /// Σ_k ŵ_(1+kS) of both meshes over ŵ_1, summed to where its terms are 1e-6.
 fn aliased(steps: u32) -> f64 {
     let (own, s) = (wave(0.0), i64::from(steps));
@@ -152,14 +128,9 @@ fn aliased(steps: u32) -> f64 {
 /// Where a function that grows from below 0 crosses 0 within bounds, by bisection; `None` if it does not.
 fn root(
     of: impl Fn(f64) -> Result<f64, MapError>,
-    [mut low, mut high]: [f64; 2],
+    bounds: [f64; 2],
 ) -> Result<Option<f64>, MapError> {
-    if of(low)? > 0.0 || of(high)? < 0.0 {
-        return Ok(None);
-    }
-    while high - low > 1e-12 {
-        let middle = 0.5 * (low + high);
-        if of(middle)? > 0.0 { high = middle } else { low = middle }
-    }
-    Ok(Some(0.5 * (low + high)))
+    let is_found = |low: f64, high: f64| high - low <= 1e-12;
+    let found = bisected(bounds, f64::midpoint, is_found, |x| Ok::<_, MapError>(of(x)? > 0.0))?;
+    Ok(found.map(|[low, high]| f64::midpoint(low, high)))
 }

@@ -2,11 +2,13 @@
 //! is slowest.
 
 use dynamics::Multiplier;
+use gearset::LoadCase;
 
 use super::map::MapError;
 use crate::error::ExperimentError;
 use crate::sweep::{
-    Direction, Memory, Plan, SteadySettings, SweepModel, SweepPoint, left_of_transient, run, steady,
+    Direction, Memory, Plan, Steady, SteadySettings, SweepModel, SweepPoint, left_of_transient,
+    run, steady,
 };
 
 /// Mesh frequencies among which resonances are sought, Hz, and the step between them as a part.
@@ -29,11 +31,8 @@ pub(super) fn slowest(model: &dyn SweepModel) -> Result<f64, MapError> {
         -left_of_transient(last.as_slice())
     })?;
     let left = |rpm: f64| -> Result<f64, ExperimentError> {
-        let mut set = model.turning(&model.case().at_speed(rpm), 0)?;
-        set.rest()?;
-        let (steps, first) = (model.steps_per_cycle(), model.first_planet_rad());
         let settings = SteadySettings { between_cycles: 0, ..SteadySettings::default() };
-        let found = steady(set.as_mut(), model.shape(), first, steps, &settings)?;
+        let found = from_rest(model, &model.case().at_speed(rpm), 1.0, &settings)?;
         Ok(left_of_transient(found.multipliers.get(..1).unwrap_or_default()))
     };
     // The multiplier turns by 2π l for a change of the speed by the whole: one maximum within two of the steps above.
@@ -43,6 +42,19 @@ pub(super) fn slowest(model: &dyn SweepModel) -> Result<f64, MapError> {
         if left(low + third)? < left(high - third)? { low += third } else { high -= third }
     }
     Ok(0.5 * (low + high))
+}
+
+/// The steady motion to which a set at rest comes with every damping times a factor.
+pub(super) fn from_rest(
+    model: &dyn SweepModel,
+    case: &LoadCase,
+    factor: f64,
+    settings: &SteadySettings,
+) -> Result<Steady, ExperimentError> {
+    let mut set = model.turning_damped(case, factor, 0)?;
+    set.rest()?;
+    let (steps, first) = (model.steps_per_cycle(), model.first_planet_rad());
+    steady(set.as_mut(), model.shape(), first, steps, settings)
 }
 
 /// Speed (rpm) of the motion that attracts with the least of something.

@@ -9,7 +9,7 @@ use gearset::{Geometry, Scene};
 use lumped::{LumpedModel, ModeType, NaturalModes, SpacingChange};
 
 use super::changed_group::ChangedGroup;
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+use super::map::{Map, MapError, MapOf, StabilityMap, logarithms};
 
 pub(super) const MAP: Map = Map {
     name: "spacing",
@@ -57,7 +57,7 @@ fn patterns(model: &LumpedModel) -> Vec<(&'static str, Vec<f64>)> {
 
 fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let axis = "log₁₀ of the displacement in angle, rad";
-    let mut map = empty(&MAP, scene.title.clone(), axis);
+    let mut map = StabilityMap::of(&MAP, scene.title.clone(), axis);
     let model = LumpedModel::from_scene(scene)?;
     let modes = NaturalModes::of(&model)?;
     let geometry = Geometry::from_scene(scene).ok();
@@ -66,7 +66,7 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let largest = teeth.map_or(LARGEST, |teeth| TAU / teeth);
     if teeth.is_some() {
         let quantity = "least angle between places where a planet can be assembled";
-        map.borders.push(Border::new("planets", quantity, "rad", Some(largest), None));
+        map.compare_in("rad", "planets", quantity, largest, None);
     }
     for (words, pattern) in patterns(&model) {
         let displaced = Displaced { model: &model, pattern: &pattern };
@@ -85,7 +85,7 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
             let of = format!("{words}: planet modes");
             let quantity =
                 format!("largest split (λ₂ − λ₁)/λ at a displacement of {largest:.4} rad");
-            map.borders.push(Border::new(of, quantity, "", Some(most), Some(0.0)));
+            map.compare(of, quantity, most, Some(0.0));
         }
         changes.sort_by(|a, b| b.split.total_cmp(&a.split));
         let split: Vec<_> = changes.iter().filter(|c| c.split > 0.0).take(SPLITS_DRAWN).collect();
@@ -115,34 +115,26 @@ fn borders(
         let [at_near, at_far] = [displaced.split(change, near)?, displaced.split(change, far)?];
         let found = (at_far / at_near).ln() / (far / near).ln();
         let quantity = "order of the split in the displacement";
-        map.borders.push(Border::new(
-            of.clone(),
-            quantity,
-            "",
-            Some(found),
-            Some(f64::from(order)),
-        ));
+        map.compare(&of, quantity, found, Some(f64::from(order)));
         let quantity = format!("split (λ₂ − λ₁)/λ over the displacement to the power {order}");
-        let found = at_near / near.powi(order);
-        map.borders.push(Border::new(of.clone(), quantity, "", Some(found), Some(change.split)));
+        map.compare(&of, quantity, at_near / near.powi(order), Some(change.split));
     }
     if change.lost > 0.0 && change.pure_up_to < largest {
         let quantity = "amplitude outside its kind over the displacement";
         // There it is a thousandth: of leading order, and splits of second order stand out.
-        let found = displaced.lost(change, change.pure_up_to)?.sqrt() / change.pure_up_to;
-        map.borders.push(Border::new(
-            of.clone(),
+        let found = displaced.group(change).lost(change.pure_up_to)?.sqrt() / change.pure_up_to;
+        map.compare_in("1/rad", &of, quantity, found, Some(change.lost));
+        let quantity = "listed as mixed from a displacement of";
+        map.compare_in(
+            "rad",
+            &of,
             quantity,
-            "1/rad",
-            Some(found),
-            Some(change.lost),
-        ));
-        let (quantity, found) =
-            ("listed as mixed from a displacement of", displaced.border(change)?);
-        map.borders.push(Border::new(of.clone(), quantity, "rad", found, Some(change.pure_up_to)));
+            displaced.group(change).border()?,
+            Some(change.pure_up_to),
+        );
         if change.half_up_to < largest {
             let quantity = "half outside its kind by a displacement of";
-            map.borders.push(Border::new(of, quantity, "rad", None, Some(change.half_up_to)));
+            map.compare_in("rad", of, quantity, None, Some(change.half_up_to));
         }
     }
     Ok(())
@@ -162,20 +154,14 @@ fn curves(
         for by in (0..=count).map(at) {
             let (found, exact) = match panel {
                 SPLIT => (displaced.split(change, by)?, change.split * by.powi(change.split_order)),
-                _ => (displaced.lost(change, by)?, (change.lost * by).powi(2)),
+                _ => (displaced.group(change).lost(by)?, (change.lost * by).powi(2)),
             };
             // Below, splits and shares are rounding.
-            if found > 1e-12 {
-                measured.push((by.log10(), found.log10()));
-            }
-            if exact > 1e-12 && exact < 1.0 {
-                theory.push((by.log10(), exact.log10()));
-            }
+            measured.extend((found > 1e-12).then_some((by, found)));
+            theory.extend((exact > 1e-12 && exact < 1.0).then_some((by, exact)));
         }
-        for (points, is_theory) in [(measured, false), (theory, true)] {
-            let (panel, name, is_points) = (panel.into(), of(words, change), !is_theory);
-            map.curves.push(MapCurve { panel, name, is_theory, is_points, points });
-        }
+        let [measured, theory] = [measured, theory].map(|points| logarithms(points, 0.0));
+        map.draw_beside(panel, &of(words, change), measured, theory);
     }
     Ok(())
 }
@@ -203,20 +189,13 @@ impl Displaced<'_> {
         Ok((high - low) / own)
     }
 
-    fn lost(&self, change: &SpacingChange, by: f64) -> Result<f64, MapError> {
-        self.group(change, &|by| self.modes(by)).lost(by)
-    }
-
-    fn border(&self, change: &SpacingChange) -> Result<Option<f64>, MapError> {
-        self.group(change, &|by| self.modes(by)).border()
-    }
-
-    fn group<'c>(
+    /// A group of modes while the displacement grows.
+    fn group(
         &self,
         change: &SpacingChange,
-        modes: &'c dyn Fn(f64) -> Result<NaturalModes, MapError>,
-    ) -> ChangedGroup<'c> {
+    ) -> ChangedGroup<impl Fn(f64) -> Result<NaturalModes, MapError>> {
         let SpacingChange { frequency_hz, mode_type, multiplicity, pure_up_to, .. } = *change;
+        let modes = |by| self.modes(by);
         ChangedGroup { frequency_hz, mode_type, multiplicity, pure_up_to, modes }
     }
 }

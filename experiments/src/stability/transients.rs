@@ -12,11 +12,11 @@
 use fe_contact::statics::Bodies;
 use gearset::{LoadCase, Scene};
 
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
-use super::resonance::slowest;
+use super::map::{Map, MapError, MapOf, Point, StabilityMap, logarithms};
+use super::resonance::{from_rest, slowest};
 use crate::error::ExperimentError;
 use crate::sweep::{
-    MeshLawModel, Record, SteadyMethod, SteadySettings, SweepModel, left_of_transient, steady,
+    MeshLawModel, Record, SteadyMethod, SteadySettings, SweepModel, left_of_transient,
 };
 
 pub(super) const MAP: Map = Map {
@@ -51,20 +51,17 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let system =
         format!("{}, mesh_law, {:.0} Hz, marched from rest", scene.title, case.mesh_frequency_hz);
     let axis = "log₁₀ of the change from cycle to cycle, of the vibration";
-    let mut map = empty(&MAP, system, axis);
+    let mut map = StabilityMap::of(&MAP, system, axis);
     for factor in FACTORS {
         let of = format!("damping times {factor}");
-        let March { changes, factor_left, last_left } = match March::of(&model, &case, factor)? {
-            Some(found) => found,
-            None => {
-                let quantity = "no stable periodic motion was found";
-                map.borders.push(Border::new(of, quantity, "", None, None));
-                continue;
-            }
+        let Some(March { changes, factor_left, last_left }) = March::of(&model, &case, factor)?
+        else {
+            map.measure(of, "no stable periodic motion was found", None);
+            continue;
         };
         if changes.last().is_some_and(|(change, off)| *off > OTHER * last_left * change) {
             let quantity = "the march ended on another motion than the one shooting found";
-            map.borders.push(Border::new(of, quantity, "", None, None));
+            map.measure(of, quantity, None);
             continue;
         }
         // Below the least change with which a cycle is off by more than what counts, none is.
@@ -78,32 +75,23 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
             ("largest deviation at a change of 0.001 or less", largest),
             ("deviation that its multipliers let expect", CHANGE * factor_left),
         ] {
-            map.borders.push(Border::new(of.clone(), quantity, "", Some(found), None));
+            map.measure(&of, quantity, found);
         }
         let at_end = changes.last().map(|(change, off)| off / change);
         let quantity = "deviation over change when only the slowest part is left";
-        map.borders.push(Border::new(of.clone(), quantity, "", at_end, Some(last_left)));
-        let changes = thinned(changes);
-        let theory: Vec<_> = changes.iter().map(|(c, _)| (*c, c * factor_left)).collect();
-        for (points, is_theory) in [(changes, false), (theory, true)] {
-            let panel = "log₁₀ of the deviation from the steady motion, of the vibration".into();
-            let points = points.into_iter().map(|(x, y)| (x.log10(), y.log10())).collect();
-            let (name, is_points) = (of.clone(), !is_theory);
-            map.curves.push(MapCurve { panel, name, is_theory, is_points, points });
+        map.compare(&of, quantity, at_end, Some(last_left));
+        // Drawn is each with a change less than nine tenths of the one before.
+        let mut drawn: Vec<Point> = Vec::new();
+        for point in changes {
+            if drawn.last().is_none_or(|last| point.0 < 0.9 * last.0) {
+                drawn.push(point);
+            }
         }
+        let theory: Vec<_> = drawn.iter().map(|(c, _)| (*c, c * factor_left)).collect();
+        let panel = "log₁₀ of the deviation from the steady motion, of the vibration";
+        map.draw_beside(panel, &of, logarithms(drawn, 0.0), logarithms(theory, 0.0));
     }
     Ok(map)
-}
-
-/// Those of a figure: each with a change less than nine tenths of the one before.
-fn thinned(all: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
-    let mut kept: Vec<(f64, f64)> = Vec::new();
-    for point in all {
-        if kept.last().is_none_or(|last| point.0 < 0.9 * last.0) {
-            kept.push(point);
-        }
-    }
-    kept
 }
 
 /// Cycles marched from rest.
@@ -123,16 +111,13 @@ impl March {
         case: &LoadCase,
         factor: f64,
     ) -> Result<Option<Self>, ExperimentError> {
-        let (steps, first) = (model.steps_per_cycle(), model.first_planet_rad());
         let settings = SteadySettings {
             between_cycles: 0,
             whole_cycles: true,
             tolerance: 1e-11,
             ..SteadySettings::default()
         };
-        let mut set = model.turning_damped(case, factor, 0)?;
-        set.rest()?;
-        let found = steady(set.as_mut(), model.shape(), first, steps, &settings)?;
+        let found = from_rest(model, case, factor, &settings)?;
         if found.method != SteadyMethod::Shooting {
             return Ok(None);
         }
@@ -144,7 +129,7 @@ impl March {
         let mut changes = Vec::new();
         for _ in 0..MOST_CYCLES {
             std::mem::swap(&mut now, &mut before);
-            now.march(set.as_mut(), first, steps)?;
+            now.march(set.as_mut(), model.first_planet_rad(), model.steps_per_cycle())?;
             let change = now.change_from(&before);
             if change.is_finite() {
                 changes.push((change, now.change_from(&found.record)));

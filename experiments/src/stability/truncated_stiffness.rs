@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 use dynamics::c64;
 use lumped::MeshWave;
 
-use super::map::{Border, Map, MapCurve, MapError, MapOf, StabilityMap, empty};
+use super::map::{Drawn, Map, MapError, MapOf, StabilityMap, fine_from};
 
 pub(super) const MAP: Map = Map {
     name: "truncated-stiffness",
@@ -48,25 +48,23 @@ fn map() -> Result<StabilityMap, MapError> {
         WAVE.contact_ratio
     );
     let axis = "harmonics of the stiffness that are kept";
-    let mut map = empty(&MAP, system, axis);
+    let mut map = StabilityMap::of(&MAP, system, axis);
     for l in OF_DEFLECTION {
         let of = format!("harmonic {l} of the deflection");
-        let errors: Vec<(u32, f64)> = (0..=MOST).map(|h| (h, error(l, h, VARIATION))).collect();
-        let enough = errors.iter().rev().take_while(|(_, off)| *off <= WANTED).last();
+        let errors = (0..=MOST).map(|h| (f64::from(h), error(l, h, VARIATION)));
+        let errors: Vec<_> = errors.collect();
         let quantity = "harmonics of the stiffness from which on it is within 1 %";
-        let enough = enough.map(|(h, _)| f64::from(*h));
-        map.borders.push(Border::new(of.clone(), quantity, "", enough, None));
+        map.measure(&of, quantity, fine_from(&errors, WANTED));
         for (kept, what) in [(l - 1, "one fewer than it"), (l, "as many")] {
             let quantity = format!("part of it that is missing with {what}, ε = {SMALL}");
-            let (found, theory) = (error(l, kept, SMALL), first_order(l, kept, SMALL));
-            map.borders.push(Border::new(of.clone(), quantity, "", Some(found), Some(theory)));
+            map.compare(&of, quantity, error(l, kept, SMALL), Some(first_order(l, kept, SMALL)));
         }
-        let points = errors.iter().map(|(h, off)| (f64::from(*h), off.max(1e-8).log10())).collect();
-        let panel = "log₁₀ of the part of a harmonic of the deflection that is wrong".into();
-        map.curves.push(MapCurve { panel, name: of, is_theory: false, is_points: false, points });
+        let points = errors.into_iter().map(|(h, off)| (h, off.max(1e-8).log10()));
+        let panel = "log₁₀ of the part of a harmonic of the deflection that is wrong";
+        map.draw(Drawn::Measured, panel, &of, points);
     }
     let (of, quantity) = ("hand-over between pairs", "overshoot of the stiffness, of its jump");
-    map.borders.push(Border::new(of, quantity, "", Some(overshoot()), Some(GIBBS)));
+    map.compare(of, quantity, overshoot(), Some(GIBBS));
     Ok(map)
 }
 

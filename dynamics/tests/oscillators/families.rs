@@ -1,17 +1,14 @@
-//! Balanced motions as a family over frequency.
+//! Balanced motions as families over frequency and load, and a family judged by somebody else.
 
+use dynamics::CouplingForce;
+use dynamics::continuation::{Evaluation, Family, Judgement};
+use dynamics::harmonic_balance::{BalanceEquations, BalanceError, HarmonicBalance};
 use nalgebra::DVector;
-
-use super::equations::BalanceEquations;
-use super::error::BalanceError;
-use super::problem::HarmonicBalance;
-use crate::continuation::{Evaluation, Family};
-use crate::coupled::CouplingForce;
 
 /// Periodic motions with a fixed number of harmonics as a family over the fundamental frequency (λ in rad/s), for
 /// continuation. Unknowns are those of [`BalanceEquations`].
 #[derive(Debug)]
-pub struct FrequencyResponse<'a, L> {
+pub(crate) struct FrequencyResponse<'a, L> {
     problem: &'a HarmonicBalance<L>,
     harmonics: usize,
 }
@@ -21,7 +18,10 @@ impl<'a, L: CouplingForce> FrequencyResponse<'a, L> {
     ///
     /// # Errors
     /// If the cycle has too few steps for them.
-    pub fn new(problem: &'a HarmonicBalance<L>, harmonics: usize) -> Result<Self, BalanceError> {
+    pub(crate) fn new(
+        problem: &'a HarmonicBalance<L>,
+        harmonics: usize,
+    ) -> Result<Self, BalanceError> {
         match harmonics <= problem.most_harmonics() {
             true => Ok(Self { problem, harmonics }),
             false => Err(BalanceError::Samples { harmonics, samples: problem.steps_per_cycle() }),
@@ -32,7 +32,10 @@ impl<'a, L: CouplingForce> FrequencyResponse<'a, L> {
     ///
     /// # Errors
     /// As [`HarmonicBalance::equations`].
-    pub fn equations(&self, frequency: f64) -> Result<BalanceEquations<'a, L>, BalanceError> {
+    pub(crate) fn equations(
+        &self,
+        frequency: f64,
+    ) -> Result<BalanceEquations<'a, L>, BalanceError> {
         self.problem.equations(frequency, self.harmonics)
     }
 }
@@ -45,14 +48,18 @@ impl<L: CouplingForce> Family for FrequencyResponse<'_, L> {
     }
 
     fn evaluate(&mut self, y: &[f64], lambda: f64) -> Result<Evaluation, BalanceError> {
-        self.equations(lambda)?.evaluate(y)
+        let (residual, jacobian) = self.equations(lambda)?.evaluate(y)?;
+        let step = 1e-6 * lambda;
+        let beside = |sign: f64| self.equations(lambda + sign * step)?.evaluate(y);
+        let derivative = (beside(1.0)?.0 - beside(-1.0)?.0) / (2.0 * step);
+        Ok(Evaluation { residual, jacobian, derivative })
     }
 }
 
 /// Periodic motions at one frequency as a family over a steady load: λ times the forces given is added to those of the
 /// problem.
 #[derive(Debug)]
-pub struct LoadResponse<'a, L> {
+pub(crate) struct LoadResponse<'a, L> {
     equations: BalanceEquations<'a, L>,
     force: Vec<f64>,
 }
@@ -62,7 +69,7 @@ impl<'a, L: CouplingForce> LoadResponse<'a, L> {
     ///
     /// # Errors
     /// As [`HarmonicBalance::equations`], or if there is not one force for each coordinate.
-    pub fn new(
+    pub(crate) fn new(
         problem: &'a HarmonicBalance<L>,
         frequency: f64,
         harmonics: usize,
@@ -74,11 +81,6 @@ impl<'a, L: CouplingForce> LoadResponse<'a, L> {
         }
         Ok(Self { equations: problem.equations(frequency, harmonics)?, force: force.to_vec() })
     }
-
-    /// The equations without the load; the motion they give for unknowns y is that of any load.
-    pub fn equations(&self) -> &BalanceEquations<'a, L> {
-        &self.equations
-    }
 }
 
 impl<L: CouplingForce> Family for LoadResponse<'_, L> {
@@ -89,29 +91,42 @@ impl<L: CouplingForce> Family for LoadResponse<'_, L> {
     }
 
     fn evaluate(&mut self, y: &[f64], lambda: f64) -> Result<Evaluation, BalanceError> {
-        let mut found = self.equations.evaluate(y)?;
+        let (mut residual, jacobian) = self.equations.evaluate(y)?;
         // Only the balance of mean forces contains the load.
-        found.derivative = DVector::zeros(y.len());
+        let mut derivative = DVector::zeros(y.len());
         for (i, force) in self.force.iter().enumerate() {
-            found.residual[i] -= lambda * force;
-            found.derivative[i] = -force;
+            residual[i] -= lambda * force;
+            derivative[i] = -force;
         }
-        Ok(found)
+        Ok(Evaluation { residual, jacobian, derivative })
     }
 }
 
-impl<L: CouplingForce> BalanceEquations<'_, L> {
-    /// Residual, and its derivatives by the unknowns and by the frequency.
-    ///
-    /// # Errors
-    /// If the number of unknowns is not [`BalanceEquations::dimension`].
-    pub fn evaluate(&self, y: &[f64]) -> Result<Evaluation, BalanceError> {
-        self.fits(y)?;
-        let answers = self.answers(y);
-        Ok(Evaluation {
-            residual: self.residual(y, &answers),
-            jacobian: self.jacobian(&answers),
-            derivative: self.by_frequency(y, &answers),
-        })
+/// A family whose solutions are judged by a function: multipliers of a motion, say, that harmonic balance found.
+#[derive(Debug, Clone)]
+pub(crate) struct JudgedBy<F, J> {
+    /// The family.
+    pub(crate) family: F,
+    /// Stability and test functions at (y, λ).
+    pub(crate) judge: J,
+}
+
+impl<F, J> Family for JudgedBy<F, J>
+where
+    F: Family,
+    J: FnMut(&mut F, &[f64], f64) -> Result<Judgement, F::Error>,
+{
+    type Error = F::Error;
+
+    fn dimension(&self) -> usize {
+        self.family.dimension()
+    }
+
+    fn evaluate(&mut self, y: &[f64], lambda: f64) -> Result<Evaluation, F::Error> {
+        self.family.evaluate(y, lambda)
+    }
+
+    fn judge(&mut self, y: &[f64], lambda: f64) -> Result<Judgement, F::Error> {
+        (self.judge)(&mut self.family, y, lambda)
     }
 }
