@@ -22,7 +22,7 @@ const DEPTH_IN_BASE_PITCHES: f64 = 0.07;
 
 /// Least matching depth of the default in flank elements, unless the scene names another, and of any setting: nearer to
 /// the load the FE field depends on the elements. The check `fe.convergence.depth` shows that results do not depend on the
-/// depth in the allowed range. On six and ten elements amplitudes are 0.8 % too small with 0.85 (`docs/auto.md`).
+/// depth in the allowed range. On six and ten elements amplitudes are 0.8 % too small with 0.85.
 const DEPTH_IN_ELEMENTS: [f64; 2] = [0.85, 0.7];
 
 /// Greatest depth of a matching point in tooth thicknesses at mid-flank: beyond the middle of the

@@ -1,7 +1,7 @@
 //! What the inertia of elastic displacements changes of a natural frequency, to first order and in closed form.
 //!
 //! Bodies yield under their own inertial forces by λw (`accelerated.rs`), which the forces F of springs on them feel. With the
-//! rigid motion q of a body in a mode of unit modal mass (as `docs/auto.md` derives for FE/contact),
+//! rigid motion q of a body in a mode of unit modal mass (as `docs/fe_dynamics.md` derives for FE/contact),
 //!
 //! ```text
 //! δm = Σ_bodies (2 Σ F·w + λ qᵀM w),      f'/f = 1/√(1 + δm)

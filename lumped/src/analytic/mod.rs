@@ -7,7 +7,7 @@
 //! turns with the displacement across it of the one centre against the other, which adds −F/L of a strut pressed by F to sun
 //! meshes and +F/L to ring meshes, whose force pulls the two points together.
 //!
-//! Which approximations that makes, and how good they are, is on `docs/auto.md`.
+//! Which approximations that makes, and how good they are, is on `docs/closed_forms.md`.
 
 mod accelerated;
 mod carrier;
