@@ -23,7 +23,7 @@ mod springs;
 mod time_varying;
 mod type_tolerance;
 
-pub use analytic::{AnalyticCycle, AnalyticRest, AnalyticSet};
+pub use analytic::{AnalyticCycle, AnalyticRest, AnalyticSet, StatedError};
 pub use balanced::BalancedSet;
 pub use coordinates::{Axis, Body, Coordinates};
 pub use energy::{EnergyShare, kinetic_energy, strain_energy};

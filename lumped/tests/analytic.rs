@@ -226,3 +226,37 @@ fn shares_of_meshes_and_seats_are_parts_of_the_work() {
         }
     }
 }
+
+/// Stated errors are finite up to the first mode of a body; without a flexible carrier its parts are nothing, and a more slender carrier
+/// has more of them.
+#[test]
+fn stated_errors_follow_the_carrier() {
+    let with = |change: fn(&mut gearset::CarrierInput)| {
+        let mut scene = oh58();
+        change(scene.geometry.as_mut().unwrap().carrier.as_mut().unwrap());
+        let case = LoadCase::of_scene(&scene).unwrap();
+        let set = AnalyticSet::new(&scene, &case, 0.0).unwrap();
+        let groups = set.modes().unwrap().groups;
+        let errors: Vec<_> = groups.iter().map(|group| set.frequency_errors(group)).collect();
+        (groups, errors)
+    };
+    let carrier = |errors: &[lumped::StatedError]| errors.last().unwrap().share;
+    let (groups, own) = with(|_| ());
+    for (group, errors) in groups.iter().zip(&own).filter(|(group, _)| group.lambda > 0.0) {
+        let shares: Vec<f64> = errors.iter().map(|error| error.share).collect();
+        println!("{:.1} {} {shares:.5?}", group.frequency_hz, group.mode_type.name());
+        assert!(shares.iter().all(|share| *share >= 0.0), "{shares:?}");
+        let total: f64 = shares.iter().sum();
+        // The first torsion of the carrier is at 11.7 kHz, that of the sun higher.
+        assert_eq!(total.is_finite(), group.frequency_hz < 11_700.0, "{}", group.frequency_hz);
+    }
+    let (_, rigid) = with(|carrier| carrier.is_rigid = true);
+    for errors in rigid.iter().filter(|errors| !errors.is_empty()) {
+        let seats = errors.iter().find(|error| error.source == "pin seats").unwrap();
+        assert_eq!([seats.share, carrier(errors)], [0.0, 0.0]);
+    }
+    let (_, slender) = with(|carrier| carrier.bore_radius *= 0.8);
+    for (less, more) in own.iter().zip(&slender).take(6) {
+        assert!(less.is_empty() && more.is_empty() || carrier(less) < carrier(more));
+    }
+}

@@ -27,11 +27,11 @@ use super::plane::Plane;
 /// An annulus with its race at `race` (m) and a free edge at `free` (m), accelerated by its race.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Accelerated {
-    race: f64,
-    free: f64,
-    density: f64,
+    pub(super) race: f64,
+    pub(super) free: f64,
+    pub(super) density: f64,
     kappa: f64,
-    shear: f64,
+    pub(super) shear: f64,
     width: f64,
     /// A, A₂, B and D.
     terms: [f64; 4],

@@ -76,6 +76,17 @@ impl ElasticBodies {
             Body::Planet(_) => self.planet.as_ref(),
         }
     }
+
+    /// Least λ of a gear with its race held, (rad/s)².
+    pub(super) fn first_gear(&self) -> f64 {
+        let gears = [&self.ring, &self.sun, &self.planet].into_iter().flatten();
+        gears.map(|own| own.body.first_eigenvalue()).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Least λ of the carrier with its bore held, (rad/s)²; infinite if it is rigid.
+    pub(super) fn first_carrier(&self) -> f64 {
+        self.carrier.as_ref().map_or(f64::INFINITY, |own| own.body.first_eigenvalue())
+    }
 }
 
 impl OnRadius {

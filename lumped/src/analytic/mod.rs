@@ -16,11 +16,13 @@ mod inertia;
 mod line;
 mod mesh;
 mod plane;
+mod stated_error;
 mod tooth;
+mod torsion;
 
 use gearset::{
-    Freedom, Geometry, LoadCase, LumpedInput, Mesh, MeshPhases, PerBody, PerMesh, Phasing, Scene,
-    SceneKind,
+    Freedom, Geometry, LoadCase, LumpedInput, Mesh, MeshMember, MeshPhases, PerBody, PerMesh,
+    Phasing, Scene, SceneKind,
 };
 use nalgebra::DMatrix;
 
@@ -34,6 +36,7 @@ use inertia::ElasticBodies;
 use line::Line;
 use mesh::{MeshTangent, mesh_tangent};
 use plane::Plane;
+pub use stated_error::StatedError;
 
 /// A planetary set with parameters from its geometry, linearised about the operating torque.
 #[derive(Debug, Clone)]
@@ -49,6 +52,12 @@ pub struct AnalyticSet {
     /// Flexibility of the pin seats, 2N×2N, m/N: radial and tangential of each planet in turn; empty if the carrier is rigid.
     pub seats: DMatrix<f64>,
     bodies: ElasticBodies,
+    /// What the pin seats have of K: half of its quadratic form is their strain energy, n×n, N/m.
+    seat_stiffness: DMatrix<f64>,
+    /// Mean force of a mesh over the sun's base radius, N/m.
+    turning: f64,
+    /// Mean deflection of a mesh over the base pitch.
+    slope: f64,
 }
 
 impl AnalyticSet {
@@ -90,13 +99,25 @@ impl AnalyticSet {
             line.lean(&mut model, mesh.slopes);
         }
         let mut stiffness = model.stiffness();
-        stand_on_seats(&mut stiffness, &model, &seats, scene.supports.planet_bearing)?;
+        let seat_stiffness =
+            stand_on_seats(&mut stiffness, &model, &seats, scene.supports.planet_bearing)?;
         for (line, mesh) in lines.iter().zip(suns.iter().chain(&rings)) {
             line.turn(&mut stiffness, force, mesh.rolling);
         }
         let hand_overs = suns.iter().chain(&rings).map(|mesh| mesh.hand_over).collect();
         let bodies = ElasticBodies::new(scene, &geometry.of_scene, &plane, &seats);
-        Ok(Self { model, stiffness, hand_overs, seats, bodies })
+        let deflections = suns.iter().chain(&rings).map(|mesh| force / mesh.stiffness);
+        let deflection = deflections.sum::<f64>() / (2 * count) as f64;
+        Ok(Self {
+            model,
+            stiffness,
+            hand_overs,
+            seats,
+            bodies,
+            seat_stiffness,
+            turning: force / sun_mesh.gear(MeshMember::Driver).base_radius,
+            slope: deflection / sun_mesh.base_pitch,
+        })
     }
 
     /// Share of the stretch of planet n's bearing and pin seat that is the seat's.
