@@ -57,8 +57,8 @@ fn parameters_follow_from_the_geometry_without_numbers() {
     assert_eq!((code, err.matches("lumped.mass_kg").count()), (2, 1), "{err}");
 }
 
-/// A pasted table leaves what its comment says, and no more than is stated of the frequencies that bearings govern but for the
-/// flexibility between seats, which no table holds.
+/// A pasted table leaves what its comment says, and little of the frequencies that bearings govern: most of it is the flexibility
+/// between seats, which no table holds.
 #[test]
 fn a_pasted_table_leaves_what_it_says() {
     for name in ["oh58_4p.toml", "oh58_3p.toml", "five_planets.toml"] {
@@ -82,7 +82,7 @@ fn a_pasted_table_leaves_what_it_says() {
             let Some(stated) = stated else { continue };
             let off = 100.0 * (pasted_hz / hz - 1.0).abs();
             assert!(off < left + 0.01, "{name}: {hz} {pasted_hz}");
-            assert!(hz > 5000.0 || off < stated + 0.2, "{name}: {hz} {pasted_hz} {stated}");
+            assert!(hz > 5000.0 || off < 0.6, "{name}: {hz} {pasted_hz} {stated}");
         }
     }
 }
