@@ -254,9 +254,11 @@ Editors that use taplo (VS Code with Even Better TOML, Helix, Neovim, Zed) then 
 ones and wrong types; `taplo check scene.toml` does so in a shell. In this repository the same schema is
 `schemas/scene.json`.
 
-`[lumped]` is optional: FE/contact needs nothing of it but the carrier's mass where `[geometry.carrier]` is left out.
-To fill it in, `epicyclic mesh` prints masses and moments of inertia of the meshed bodies, and `epicyclic static` the
-mean mesh stiffnesses.
+`[lumped]` is optional. FE/contact needs nothing of it but the carrier's mass where `[geometry.carrier]` is left out.
+Without it, or with `from = \"geometry\"` alone in it, `epicyclic modes` and `epicyclic compare` take masses, inertias and
+stiffnesses of a planetary set from its geometry in closed form (`docs/closed_forms.md`); `epicyclic modes --parameters`
+prints them as this table. `epicyclic mesh` prints masses and moments of inertia of the meshed bodies, and
+`epicyclic static` the mean mesh stiffnesses.
 
 A key *needed by* a verb must be there for it to run, as far as the column *left out* says so; `–` is a key that changes
 results and is never needed.

@@ -118,11 +118,14 @@ impl Scene {
             }
         }
         match verb {
+            Verb::Modes | Verb::Compare if self.has_closed_forms() => {
+                self.lacks_closed_forms(&mut lacks);
+            }
             Verb::Modes | Verb::Compare => {
                 if self.lumped.is_none() {
                     lacks.push(lack(
                         "lumped",
-                        "masses, inertias and mesh stiffnesses of the lumped model; the table is optional, and `epicyclic mesh` computes masses and inertias for it, `epicyclic static` mesh stiffnesses",
+                        "masses, inertias and mesh stiffnesses of the lumped model; of a planetary set with [geometry] they follow from it, and of one mesh `epicyclic mesh` computes masses and inertias, `epicyclic static` the mesh stiffness",
                     ));
                 }
             }
@@ -271,6 +274,19 @@ impl Scene {
         self.lacks_turning_sun(lacks);
         self.lacks_carrier_mass(lacks);
         lacks.iter_mut().for_each(|lack| lack.argument = None);
+    }
+
+    /// Bodies and a torque by keys, from which parameters in closed form follow.
+    fn lacks_closed_forms(&self, lacks: &mut Vec<Lack>) {
+        let before = lacks.len();
+        self.lacks_bodies(lacks);
+        self.lacks_torque(lacks);
+        self.lacks_torque_path(lacks);
+        self.lacks_carrier_mass(lacks);
+        for lack in &mut lacks[before..] {
+            lack.argument = None;
+            lack.why += "; or numbers in [lumped], which are then taken from there";
+        }
     }
 
     /// No gyroscopic terms, which no estimate of an error covers.

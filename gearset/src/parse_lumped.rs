@@ -1,4 +1,4 @@
-//! The `[lumped]` table: given values, completed from the geometry.
+//! The `[lumped]` table: given values, completed from the geometry; or the word that all follow from it.
 
 use crate::bound::Bound;
 use crate::geometry::Geometry;
@@ -32,6 +32,10 @@ pub(crate) fn lumped(
     supports: &Supports,
 ) -> Option<LumpedInput> {
     let is_pair = supports.pair.is_some();
+    if follows_geometry(&s, document, is_pair) {
+        s.finish();
+        return None;
+    }
     // A geometry at fault would give angles and radii once it is mended.
     let has_geometry = document.may_hold("geometry");
     let mass = per_body(s.section("mass_kg"), "mass", 1.0);
@@ -136,6 +140,41 @@ pub(crate) fn lumped(
         mesh: mesh?,
         pressure_angle: pressure_angle?,
     })
+}
+
+/// Keys that hold numbers.
+const NUMBERS: [&str; 6] = [
+    "mass_kg",
+    "inertia_kg_m2",
+    "inertia_over_r2_kg",
+    "radius_mm",
+    "mesh_n_per_m",
+    "pressure_angle_deg",
+];
+
+/// Whether the table says that the parameters follow from the geometry, as they do without the table; it then holds no numbers.
+fn follows_geometry(s: &Section<'_, '_>, document: &Document<'_>, is_pair: bool) -> bool {
+    let why = "parameters in closed form from the geometry";
+    let is_read = s.choice("from", &[("geometry", ())], why).is_some();
+    if !s.has("from") {
+        return false;
+    }
+    for key in NUMBERS {
+        s.skip(key);
+        if is_read && s.has(key) {
+            s.fault(
+                key,
+                "nothing beside `from`",
+                "`lumped.from` = \"geometry\" gives every parameter",
+            );
+        }
+    }
+    if is_read && is_pair {
+        s.fault("from", "nothing here", "parameters in closed form are those of planetary sets");
+    } else if is_read && !document.may_hold("geometry") {
+        s.fault("from", "nothing, or [geometry] in the scene", "there is no geometry to follow");
+    }
+    true
 }
 
 /// A value of the ring–planet meshes; of a gear pair, which has none, 0.

@@ -465,6 +465,11 @@ impl Scene {
         pair.is_some_and(|pair| pair.planet.turns_freely() && self.supports.sun.turns_freely())
     }
 
+    /// Whether parameters of the lumped model follow from the geometry: those of a planetary set that gives none.
+    pub fn has_closed_forms(&self) -> bool {
+        self.kind == SceneKind::Planetary && self.lumped.is_none() && self.geometry.is_some()
+    }
+
     /// What the scene lacks and what therefore cannot be computed, one entry each.
     pub fn limits(&self) -> Vec<String> {
         let mut limits = Vec::new();
@@ -484,7 +489,7 @@ impl Scene {
             if self.teeth.is_none() {
                 limits.push("no [teeth]: no mesh phases, excitation rules or speeds".to_owned());
             }
-            if self.lumped.is_none() {
+            if self.lumped.is_none() && self.geometry.is_none() {
                 limits.push("no [lumped]: no lumped natural modes".to_owned());
             }
             if self.operation.is_none() {

@@ -58,7 +58,8 @@ fn a_rigid_carrier_needs_a_mass_from_somewhere() {
     assert_eq!(lacks(&no_shape, Verb::Branches(Fidelity::Full)), ["dynamics.fidelity"]);
     assert_eq!(lacks(&bare, Verb::Impulse), ["geometry.carrier"]);
     assert!(lacks(&bare, Verb::Static).is_empty());
-    assert_eq!(lacks(&bare, Verb::Modes), ["lumped"]);
+    // Closed forms need the shape as well.
+    assert_eq!(lacks(&bare, Verb::Modes), ["geometry.carrier"]);
     let held =
         bare.replace("motion = \"rotation_held\"\nbearing_n_per_m = 87.6e6", "motion = \"held\"");
     assert!(lacks(&held, Verb::Impulse).is_empty());

@@ -189,6 +189,7 @@ fn each_kind_of_fault_names_its_key_and_says_why() {
         (&[("planet_base_diameter_mm = 91.26", "")], "geometry.base_pitch_mm", "exactly one of"),
         (&[("mass_kg = { sun = 0.40, ", "mass_kg = { ")], "lumped.mass_kg.sun", "can move"),
         (&[("planet = 1.27e-3, ", "")], "lumped.inertia_kg_m2.planet", "can rotate"),
+        (&[("# from = \"geometry\"", "from = \"teeth\"")], "lumped.from", "\"geometry\""),
         (
             &[("young_modulus_pa = 207e9", "young_modulus_pa = inf")],
             "material.young_modulus_pa",
@@ -208,6 +209,33 @@ fn each_kind_of_fault_names_its_key_and_says_why() {
     for (changes, key, words) in cases {
         assert_fault(changes, key, words);
     }
+}
+
+/// Parameters follow from the geometry or are given, and from nothing they do not follow.
+#[test]
+fn parameters_from_the_geometry_stand_alone_in_their_table() {
+    let text = gearset::template(gearset::SceneKind::Planetary);
+    let text = text.replace("# from = \"geometry\"", "from = \"geometry\"");
+    assert_eq!(
+        faulty_keys(&text),
+        ["lumped.mass_kg", "lumped.inertia_kg_m2", "lumped.mesh_n_per_m"]
+    );
+    let without = |table: &str, text: &str| {
+        let (head, tail) = text.split_once(&format!("\n[{table}]")).unwrap();
+        format!("{head}\n{}", &tail[tail.find("\n[").unwrap()..])
+    };
+    let bare = without("lumped", &text);
+    let from = format!("{bare}\n[lumped]\nfrom = \"geometry\"\n");
+    let [bare, from] = [bare, from].map(|text| Scene::from_toml(&text).unwrap());
+    assert!(bare.has_closed_forms() && from.has_closed_forms());
+    assert!(bare.limits().is_empty(), "{:?}", bare.limits());
+    let keys = faulty_keys(
+        "format = 1\nkind = \"planetary\"\n[planets]\ncount = 3\n[planet]\nbearing_n_per_m = 1e8\n\
+         [ring]\nmotion = \"held\"\n[lumped]\nfrom = \"geometry\"\n",
+    );
+    assert_eq!(keys, ["lumped.from"]);
+    let pair = gearset::template(gearset::SceneKind::GearPair);
+    assert_eq!(faulty_keys(&format!("{pair}\n[lumped]\nfrom = \"geometry\"\n")), ["lumped.from"]);
 }
 
 #[test]

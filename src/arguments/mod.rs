@@ -97,6 +97,10 @@ pub(crate) struct Modes {
     /// Also list each mode's energy shares and the sensitivities of its frequency.
     #[arg(long)]
     pub details: bool,
+    /// The `[lumped]` table of parameters in closed form, to paste into a scene, whatever the scene has there; in JSON
+    /// beside the modes that they give.
+    #[arg(long, conflicts_with_all = ["details", "carrier_speeds_rpm"])]
+    pub parameters: bool,
     /// Frequencies with gyroscopic terms at these carrier speeds, rpm (Campbell data).
     #[arg(long, value_name = "RPM,…", value_delimiter = ',', allow_negative_numbers = true)]
     pub carrier_speeds_rpm: Vec<f64>,

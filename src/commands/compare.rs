@@ -3,14 +3,14 @@
 use std::io::Write;
 use std::path::Path;
 
-use gearset::Verb;
+use gearset::{Scene, Verb};
 use validation::{Comparison, ListedMode, ModelMode, compare};
 
 use crate::arguments::{Compare, Format};
 use crate::error::CommandError;
 use crate::output;
 
-use super::{modes, read_scene, unfit};
+use super::{closed_form, modes, needs, read_scene, unfit};
 
 /// Longest list that is read, bytes.
 const MOST_BYTES: u64 = 1_000_000;
@@ -20,9 +20,14 @@ const TYPES: [&str; 4] = ["rotational", "translational", "planet", "mixed"];
 pub(crate) fn run(arguments: &Compare, out: &mut dyn Write) -> Result<bool, CommandError> {
     let listed = read_modes(&arguments.modes)?;
     let scene = read_scene(&arguments.scene)?;
-    let of_kind = scene.lacks(Verb::Compare).into_iter().find(|lack| lack.key == "kind");
-    if let Some(lack) = of_kind {
-        return Err(unfit(&arguments.scene, format!("`{}`: {}", lack.key, lack.why)));
+    match scene.has_closed_forms() {
+        true => needs::require(&arguments.scene, &scene, Verb::Compare, |_| false)?,
+        false => {
+            let of_kind = scene.lacks(Verb::Compare).into_iter().find(|lack| lack.key == "kind");
+            if let Some(lack) = of_kind {
+                return Err(unfit(&arguments.scene, format!("`{}`: {}", lack.key, lack.why)));
+            }
+        }
     }
     let (_, found) = modes::solve(&scene).map_err(|reason| unfit(&arguments.scene, reason))?;
     let model: Vec<ModelMode> = found
@@ -37,13 +42,19 @@ pub(crate) fn run(arguments: &Compare, out: &mut dyn Write) -> Result<bool, Comm
     let result = compare(&listed, &model, arguments.tolerance_percent, arguments.whole);
     match arguments.format {
         Format::Json => output::json(out, &result)?,
-        Format::Text => write_text(&result, &scene.title, out)?,
+        Format::Text => write_text(&result, &scene, out)?,
     }
     Ok(result.disagreed == 0)
 }
 
-fn write_text(result: &Comparison, title: &str, out: &mut dyn Write) -> std::io::Result<()> {
-    writeln!(out, "against the lumped model of: {title}")?;
+fn write_text(result: &Comparison, scene: &Scene, out: &mut dyn Write) -> std::io::Result<()> {
+    let title = &scene.title;
+    match scene.has_closed_forms() {
+        true => {
+            writeln!(out, "against the lumped model, {}, of: {title}", closed_form::PARAMETERS)?
+        }
+        false => writeln!(out, "against the lumped model of: {title}")?,
+    }
     let header = ["model Hz", "type", "times", "listed Hz", "difference %", ""];
     let mut table = output::table(&header, &[0, 2, 3, 4]);
     for m in &result.matches {

@@ -4,6 +4,7 @@ mod auto_choice;
 mod branches;
 mod branches_manifest;
 mod branches_output;
+mod closed_form;
 mod compare;
 mod files;
 mod impulse;

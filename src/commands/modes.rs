@@ -5,7 +5,6 @@ use std::f64::consts::TAU;
 use std::io::Write;
 
 use experiments::auto::{AutoModel, Choice, FrequencyQuestion, choose_frequency};
-use experiments::modal::majority;
 use gearset::{AutoQuantity, LoadCase, Scene, SceneKind, Verb};
 use lumped::{
     AnalyticSet, LumpedError, LumpedModel, ModeGroup, NaturalModes, Parameter, campbell,
@@ -18,6 +17,7 @@ use crate::arguments::{Format, Modes};
 use crate::error::CommandError;
 use crate::output::{self, share};
 
+use super::closed_form::{self, ClosedForm, ClosedParameters, StatedErrorEntry};
 use super::working::Working;
 use super::{auto_choice, needs, read_scene, refused, unfit};
 
@@ -33,6 +33,9 @@ pub(crate) struct ModesOutput {
     /// With `fidelity = "auto"`: the settings chosen, why, and the frequency with its estimated error.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     auto: Option<Choice>,
+    /// Of a set with parameters in closed form from its geometry: these parameters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    parameters: Option<ClosedParameters>,
 }
 
 /// One distinct frequency.
@@ -41,6 +44,9 @@ pub(crate) struct ModeEntry {
     pub(crate) frequency_hz: f64,
     /// What rounding may have changed of it, Hz; above 0.005 Hz the text output shows it.
     uncertainty_hz: f64,
+    /// With parameters in closed form: stated error beside FE/contact; absent for given parameters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    stated_error: Option<StatedErrorEntry>,
     /// rotational, translational, planet or mixed.
     pub(crate) mode_type: String,
     pub(crate) multiplicity: usize,
@@ -101,6 +107,10 @@ pub(crate) fn run(
         let reason = "a gear pair has no carrier: leave it out".into();
         return Err(CommandError::Argument { argument: "--carrier-speeds-rpm", reason });
     }
+    if arguments.parameters {
+        let bare = closed_form::without_numbers(&scene);
+        return in_closed_form(arguments, &bare, out);
+    }
     if let Some(wanted) = scene.dynamics.auto {
         needs::require(&arguments.scene, &scene, Verb::Modes, |_| false)?;
         // No other quantity is given by this verb, which the line above refuses.
@@ -110,6 +120,9 @@ pub(crate) fn run(
             let question = FrequencyQuestion::new(&scene, &case, mode_type, number);
             return chosen(arguments, &question, wanted.tolerance_percent, out);
         }
+    }
+    if scene.has_closed_forms() {
+        return in_closed_form(arguments, &scene, out);
     }
     let (model, modes) = solve(&scene).map_err(|reason| unfit(&arguments.scene, reason))?;
     for warning in lumped::type_warnings(&model, &modes) {
@@ -143,6 +156,9 @@ pub(crate) fn solve(scene: &Scene) -> Result<(LumpedModel, NaturalModes), String
     if let Some(lack) = scene.lacks(Verb::Modes).first().filter(|lack| lack.key == "mesh") {
         return Err(format!("`{}`: {}", lack.key, lack.why));
     }
+    if scene.has_closed_forms() {
+        return ClosedForm::of(scene).map(|closed| (closed.set.model, closed.modes));
+    }
     let model = LumpedModel::from_scene(scene).map_err(|e| e.to_string())?;
     let modes = NaturalModes::of(&model).map_err(|e| e.to_string())?;
     Ok((model, modes))
@@ -154,6 +170,7 @@ pub(crate) fn describe(model: &LumpedModel, modes: &NaturalModes) -> ModesOutput
         modes: modes.groups.iter().map(|group| entry(model, group)).collect(),
         campbell: Vec::new(),
         auto: None,
+        parameters: None,
     }
 }
 
@@ -175,11 +192,13 @@ fn chosen(
         .map_err(|e| unfit(path, format!("`dynamics.fidelity` = \"auto\": {e}")))?;
     drop(working);
     let is_lumped = choice.settings.model == AutoModel::Lumped;
-    let listed = is_lumped.then(|| in_closed_form(scene, question.case)).transpose();
+    let listed = is_lumped.then(|| of_auto(scene, question.case)).transpose();
     let listed = listed.map_err(|e| unfit(path, e.to_string()))?;
     let mut result = match &listed {
         Some((model, modes)) => describe(model, modes),
-        None => ModesOutput { modes: Vec::new(), campbell: Vec::new(), auto: None },
+        None => {
+            ModesOutput { modes: Vec::new(), campbell: Vec::new(), auto: None, parameters: None }
+        }
     };
     if arguments.format == Format::Json {
         result.auto = Some(choice);
@@ -193,18 +212,47 @@ fn chosen(
     }
 }
 
-/// The set whose parameters `auto` takes from the geometry, its modes with the inertia of the bodies behind the teeth.
+/// Modes of a set with parameters in closed form, or these parameters.
 fn in_closed_form(
+    arguments: &Modes,
     scene: &Scene,
-    case: &LoadCase,
-) -> Result<(LumpedModel, NaturalModes), LumpedError> {
+    out: &mut dyn Write,
+) -> Result<(), CommandError> {
+    if !arguments.carrier_speeds_rpm.is_empty() {
+        let reason = "with parameters in closed form there are no gyroscopic terms: leave it out, or give numbers in [lumped], which \
+                      --parameters prints";
+        return Err(refused("--carrier-speeds-rpm", reason));
+    }
+    needs::require(&arguments.scene, scene, Verb::Modes, |_| false)?;
+    let closed = ClosedForm::of(scene).map_err(|reason| unfit(&arguments.scene, reason))?;
+    let parameters = closed.parameters();
+    let is_text = arguments.format == Format::Text;
+    if is_text && arguments.parameters {
+        return Ok(parameters.write(&scene.title, out)?);
+    }
+    let mut result = describe(&closed.set.model, &closed.modes);
+    for (mode, errors) in result.modes.iter_mut().zip(&closed.errors) {
+        mode.stated_error = StatedErrorEntry::of(errors);
+    }
+    result.parameters = Some(parameters);
+    if !is_text {
+        return output::json(out, &result);
+    }
+    let count = closed.set.model.mass.len();
+    let title = &scene.title;
+    writeln!(out, "{title}: lumped model, {}, {count} coordinates", closed_form::PARAMETERS)?;
+    write_text(&result, arguments.details, out)?;
+    Ok(writeln!(
+        out,
+        "error: stated beside FE/contact with the inertia of the bodies, at most; – where there is no bound"
+    )?)
+}
+
+/// The set whose parameters `auto` takes from the geometry, its modes with the inertia of the bodies behind the teeth.
+fn of_auto(scene: &Scene, case: &LoadCase) -> Result<(LumpedModel, NaturalModes), LumpedError> {
     let set = AnalyticSet::new(scene, case, 0.0)?;
     let mut modes = set.modes()?;
-    for group in &mut modes.groups {
-        group.frequency_hz *= 1.0 + set.inertia_change(group);
-        // Meshes of different phases mix the types a little; modes are numbered by the largest share.
-        group.mode_type = majority(&group.participation);
-    }
+    modes.groups.iter_mut().for_each(|group| closed_form::complete(&set, group));
     Ok((set.model, modes))
 }
 
@@ -227,6 +275,7 @@ fn entry(model: &LumpedModel, group: &ModeGroup) -> ModeEntry {
     ModeEntry {
         frequency_hz: group.frequency_hz,
         uncertainty_hz: group.uncertainty * group.frequency_hz,
+        stated_error: None,
         mode_type: group.mode_type.name().to_owned(),
         multiplicity: group.multiplicity,
         participation: Shares {
@@ -242,16 +291,25 @@ fn entry(model: &LumpedModel, group: &ModeGroup) -> ModeEntry {
 
 fn write_text(result: &ModesOutput, details: bool, out: &mut dyn Write) -> std::io::Result<()> {
     let is_mixed = result.modes.iter().any(|m| m.mode_type == "mixed");
+    let is_stated = result.modes.iter().any(|m| m.stated_error.is_some());
     let mut header = vec!["Hz", "type", "times"];
     let mut right = vec![0, 2];
+    if is_stated {
+        header.insert(1, "error %");
+        right = vec![0, 1, 3];
+    }
     if is_mixed {
+        right.extend(header.len()..header.len() + 3);
         header.extend(["rotational", "translational", "planet"]);
-        right.extend([3, 4, 5]);
     }
     header.extend(["moves most", "strained most"]);
     let mut table = output::table(&header, &right);
     for m in &result.modes {
         let mut row = vec![frequency(m), m.mode_type.clone(), m.multiplicity.to_string()];
+        if is_stated {
+            let percent = m.stated_error.as_ref().and_then(|stated| stated.percent);
+            row.insert(1, percent.map_or("–".into(), |percent| format!("{percent:.2}")));
+        }
         if is_mixed {
             let p = &m.participation;
             row.extend([p.rotational, p.translational, p.planet].map(share));

@@ -10,6 +10,8 @@ use gearset::{
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::closed_form::ClosedForm;
+
 /// What a scene describes, with the quantities that follow from it: `scene check --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
 pub(crate) struct SceneSummary {
@@ -221,6 +223,11 @@ fn needs(scene: &Scene, verb: Verb, refusal: Option<&FeError>) -> VerbSummary {
             why: refusal.to_string(),
             argument: None,
         });
+    }
+    let is_on_closed_forms =
+        matches!(verb, Verb::Modes | Verb::Compare) && scene.has_closed_forms();
+    if let (true, true, Err(why)) = (is_on_closed_forms, lacks.is_empty(), ClosedForm::of(scene)) {
+        lacks.push(gearset::Lack { key: "lumped".into(), why, argument: None });
     }
     let summary = |lack: &gearset::Lack| LackSummary {
         key: lack.key.clone(),

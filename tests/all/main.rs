@@ -4,6 +4,7 @@
 
 mod branch_input;
 mod branches_command;
+mod closed_forms;
 mod command;
 mod compare_command;
 mod figures;

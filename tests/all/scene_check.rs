@@ -177,8 +177,8 @@ fn it_says_verb_by_verb_what_is_lacking() {
     assert_eq!(code, 0);
     for words in [
         "verbs that run: rules, mesh, static\n",
-        "modes, compare cannot run:\n  `lumped`: ",
-        "the table is optional, and `epicyclic mesh` computes masses and inertias for it",
+        "modes, compare cannot run:\n  `geometry.carrier`: ",
+        "; or numbers in [lumped], which are then taken from there",
         "branches (modal) cannot run:\n  `geometry.carrier`: ",
     ] {
         assert!(out.contains(words), "{words}: {out}");

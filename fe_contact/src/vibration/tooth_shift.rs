@@ -119,3 +119,41 @@ impl ToothShift {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use gearset::{Facing, Fidelity, Scene};
+
+    use super::super::prepared::Loading;
+    use super::super::rotation::NominalRotation;
+    use super::super::set::VibratingSet;
+    use super::*;
+    use crate::statics::{Bodies, Imperfections};
+
+    /// Modes of equal teeth are their own after a turn by one tooth of either sense, and a turn forward and one back is none. Teeth that are renumbered
+    /// one way while shapes turn the other are those of no gear, and are refused.
+    #[test]
+    fn a_turn_forward_and_one_back_leave_the_modes() {
+        let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));
+        let mut scene = Scene::from_file(path.as_ref()).unwrap();
+        scene.fe_contact.flank_elements = 6;
+        scene.dynamics.fidelity = Fidelity::Modal(4);
+        let bodies = Bodies::new(&scene).unwrap();
+        let rotation = NominalRotation::Standing { position: 0.0, step: 5e-6 };
+        let loading = Loading { torque_nm: 1130.0, mesh_force: 8000.0 };
+        let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
+        let set = VibratingSet::new(&scene, &bodies, sense, none, rotation, loading).unwrap();
+        let both = [PathDirection::Forward, PathDirection::Backward]
+            .map(|direction| ToothShift::of_set(&set.bodies, direction).unwrap());
+        let mut turned = 0.0f64;
+        for (forward, back) in both[0].iter().zip(&both[1]) {
+            let (Some(forward), Some(back)) = (forward, back) else { continue };
+            let count = forward.0.nrows();
+            let identity = DMatrix::identity(count, count);
+            assert!((&forward.0 * &back.0 - &identity).amax() < 1e-4);
+            turned = turned.max((&forward.0 - &identity).amax());
+        }
+        // Modes along x and y turn into each other.
+        assert!(turned > 0.05, "{turned}");
+    }
+}

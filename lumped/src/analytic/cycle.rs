@@ -90,7 +90,7 @@ impl AnalyticCycle {
     /// # Errors
     /// [`LumpedError::NotAnalytic`] for scenes and teeth that the closed forms do not hold for, or sets that nothing holds.
     pub fn new(scene: &Scene, case: &LoadCase) -> Result<Self, LumpedError> {
-        let SetParts { geometry, plane, mut model, seats, load, force, phases } =
+        let SetParts { geometry, plane, mut model, seats, load, force, phases, .. } =
             SetParts::new(scene, case)?;
         let meshes = geometry.meshes;
         let sun = model.coordinates.of(Body::Sun, Axis::Rotation);

@@ -51,6 +51,9 @@ pub struct AnalyticSet {
     pub hand_overs: Vec<f64>,
     /// Flexibility of the pin seats, 2N×2N, m/N: radial and tangential of each planet in turn; empty if the carrier is rigid.
     pub seats: DMatrix<f64>,
+    /// Masses, I/r², radii and pressure angles of a `[lumped]` table, and of the stiffness of sun and of ring meshes the mean over the
+    /// planets at this position: to first order the frequencies of modes that planets share alike are those of their own stiffnesses.
+    pub parameters: LumpedInput,
     bodies: ElasticBodies,
     /// What the pin seats have of K: half of its quadratic form is their strain energy, n×n, N/m.
     seat_stiffness: DMatrix<f64>,
@@ -66,7 +69,7 @@ impl AnalyticSet {
     /// # Errors
     /// [`LumpedError::NotAnalytic`] for scenes and teeth that the closed forms do not hold for.
     pub fn new(scene: &Scene, case: &LoadCase, position: f64) -> Result<Self, LumpedError> {
-        let SetParts { geometry, plane, mut model, seats, force, phases, .. } =
+        let SetParts { geometry, plane, mut parameters, mut model, seats, force, phases, .. } =
             SetParts::new(scene, case)?;
         let [sun_mesh, ring_mesh] = &geometry.meshes;
         let count = phases.sun_planet.len();
@@ -104,6 +107,10 @@ impl AnalyticSet {
         for (line, mesh) in lines.iter().zip(suns.iter().chain(&rings)) {
             line.turn(&mut stiffness, force, mesh.rolling);
         }
+        let mean = |meshes: &[MeshTangent]| {
+            meshes.iter().map(|mesh| mesh.stiffness).sum::<f64>() / meshes.len() as f64
+        };
+        parameters.mesh = PerMesh { sun_planet: mean(&suns), ring_planet: mean(&rings) };
         let hand_overs = suns.iter().chain(&rings).map(|mesh| mesh.hand_over).collect();
         let bodies = ElasticBodies::new(scene, &geometry.of_scene, &plane, &seats);
         let deflections = suns.iter().chain(&rings).map(|mesh| force / mesh.stiffness);
@@ -113,6 +120,7 @@ impl AnalyticSet {
             stiffness,
             hand_overs,
             seats,
+            parameters,
             bodies,
             seat_stiffness,
             turning: force / sun_mesh.gear(MeshMember::Driver).base_radius,
@@ -154,6 +162,8 @@ struct SetGeometry {
 struct SetParts {
     geometry: SetGeometry,
     plane: Plane,
+    /// Without stiffness of the meshes.
+    parameters: LumpedInput,
     /// Springs without the stiffness of the meshes; a planet bearing has that of itself and its own pin seat in series. The
     /// set is mirrored if the torque on the sun is clockwise.
     model: LumpedModel,
@@ -204,8 +214,8 @@ impl SetParts {
                 .ok_or(none("a pin seat of the carrier is too near an edge or another seat"))?,
             None => DMatrix::zeros(0, 0),
         };
-        let parameters = parameters(scene, &geometry);
-        seen.lumped = Some(parameters.ok_or(none("a bore or rim is missing"))?);
+        let parameters = parameters(scene, &geometry).ok_or(none("a bore or rim is missing"))?;
+        seen.lumped = Some(parameters.clone());
         let mut model = LumpedModel::from_scene(&seen)?;
         for spring in &mut model.springs {
             if let (SpringId::PlanetBearing(n), false) = (spring.id, seats.is_empty()) {
@@ -213,7 +223,7 @@ impl SetParts {
             }
         }
         let geometry = SetGeometry { of_scene: geometry, meshes };
-        Ok(Self { geometry, plane, model, seats, load, force, phases })
+        Ok(Self { geometry, plane, parameters, model, seats, load, force, phases })
     }
 }
 

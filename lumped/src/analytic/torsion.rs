@@ -75,7 +75,7 @@ mod tests {
         Accelerated::new(1.0, free, 1.0, &plane).first_eigenvalue().sqrt()
     }
 
-    /// The same with n waves around the circumference, from below converged: Ritz's method with u_r = U(r) cos nϑ,
+    /// The same with n waves around the circumference, converged from above: Ritz's method with u_r = U(r) cos nϑ,
     /// u_ϑ = V(r) sin nϑ (n = 0: both alone), U and V of eight powers of r − 1.
     fn by_ritz(free: f64, poisson: f64, waves: f64) -> f64 {
         const POWERS: usize = 8;
