@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 
 use dynamics::c64;
 use dynamics::identify::{
-    Decimation, Identification, Mode, Options, Scaling, identify, share_in_span,
+    Decimation, Identification, Method, Mode, Options, Scaling, identify, share_in_span,
 };
 use synthetic::{Damped, Numbers, decays, disturb};
 
@@ -111,10 +111,13 @@ fn noise_of_a_ten_thousandth_of_the_peak_moves_little() {
             let made = set(inputs, outputs, seed);
             let mut records = decays(&made, samples, INTERVAL);
             disturb(&mut records, 1e-4, 7 * seed);
-            let found = run(&records, &Options::new(BAND, 20));
-            assert_poles(&found.modes, &wanted(), 5e-5, 3e-3);
-            assert_shapes(&found.modes, &made, 1e-4);
-            assert!(found.modes.iter().all(|m| m.coherence > 0.999));
+            for method in [Method::Hankel, Method::Correlation] {
+                let options = Options { method, ..Options::new(BAND, 20) };
+                let found = run(&records, &options);
+                assert_poles(&found.modes, &wanted(), 5e-5, 3e-3);
+                assert_shapes(&found.modes, &made, 1e-4);
+                assert!(found.modes.iter().all(|m| m.coherence > 0.999));
+            }
         }
     }
 }

@@ -1,9 +1,9 @@
 //! The block Hankel matrix, compressed.
 
-use faer::Mat;
 use faer::linalg::solvers::Qr;
+use faer::{Mat, MatRef};
 
-use super::options::Options;
+use super::options::{Method, Options};
 use super::records::Records;
 
 /// Rows put through one QR step at a time: bounds the memory.
@@ -25,13 +25,17 @@ pub(super) struct Compressed {
 pub(super) fn compressed(records: &Records, options: &Options) -> Compressed {
     let (p, r, m) = (options.block_rows, records.outputs, records.inputs);
     let stride = options.decimation.stride();
+    let blocks = match options.method {
+        Method::Hankel => p + 1,
+        Method::Correlation => 2 * p + 1,
+    };
     let sample =
         |t: usize, input: usize, row: usize| records.values[input][row % r][t + (row / r) * stride];
     // Starts from the first sample to the last that leaves room for all rows.
-    let last = records.samples - 1 - p * stride;
+    let last = records.samples - 1 - (blocks - 1) * stride;
     let count = options.block_columns.min(last + 1);
     let start = |c: usize| if count > 1 { c * last / (count - 1) } else { 0 };
-    let (columns, size) = (count * m, (p + 1) * r);
+    let (columns, size) = (count * m, blocks * r);
     let mut triangle: Mat<f64> = Mat::zeros(0, size);
     let mut done = 0;
     while done < columns {
@@ -45,11 +49,17 @@ pub(super) fn compressed(records: &Records, options: &Options) -> Compressed {
         triangle = Qr::new(stacked.as_ref()).thin_R().to_owned();
         done += fresh;
     }
-    // H = Rᵀ Qᵀ
-    let part = |from: usize| {
-        triangle.as_ref().submatrix(0, from, triangle.nrows(), p * r).transpose().to_owned()
+    let rank = triangle.nrows();
+    let part = |rows: usize, from: usize| -> MatRef<'_, f64> {
+        triangle.as_ref().submatrix(0, from, rows.min(rank), p * r)
     };
-    let (now, next) = (part(0), part(r));
+    let (now, next) = match options.method {
+        // H = Rᵀ Qᵀ
+        Method::Hankel => (part(rank, 0), part(rank, r)),
+        // The rows of the past are R[..pr]ᵀ Q[..pr]ᵀ, so that H Q[..pr] projects H onto them.
+        Method::Correlation => (part(p * r, p * r), part(p * r, p * r + r)),
+    };
+    let (now, next) = (now.transpose().to_owned(), next.transpose().to_owned());
     let first = Mat::from_fn(p * r, m, |i, j| sample(0, j, i));
     Compressed { now, next, first }
 }

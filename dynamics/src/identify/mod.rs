@@ -17,5 +17,5 @@ pub use chart::{ChartOrder, Pole, Stability};
 pub use error::IdentifyError;
 pub use identification::{Identification, identify};
 pub use modes::Mode;
-pub use options::{Decimation, Options, Scaling, Tolerances};
+pub use options::{Decimation, Method, Options, Scaling, Tolerances};
 pub use shape::share_in_span;

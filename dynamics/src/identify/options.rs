@@ -30,6 +30,16 @@ impl Decimation {
     }
 }
 
+/// The matrix whose singular vectors span the states.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// The block Hankel matrix itself.
+    Hankel,
+    /// Its correlation with the block rows before it, whose noise is independent (ERA/DC: Juang, Cooper &
+    /// Wright 1988). Needs twice as many samples per column.
+    Correlation,
+}
+
 /// Scales by which the outputs are divided, so that those with small numbers count as much as others.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Scaling {
@@ -65,6 +75,8 @@ pub struct Options {
     pub block_columns: usize,
     /// Highest number of states of the chart, two per mode; modes outside the band count as well.
     pub highest_order: usize,
+    /// Which matrix.
+    pub method: Method,
     /// Scaling of the outputs.
     pub scaling: Scaling,
     /// Tolerances of the chart.
@@ -89,6 +101,7 @@ impl Options {
             block_rows: 40,
             block_columns: 1000,
             highest_order: 60,
+            method: Method::Hankel,
             scaling: Scaling::Rms,
             tolerances: Tolerances { frequency: 0.01, damping: 0.05, shape: 0.02, repeated: 1e-3 },
             persistence: 4,
@@ -101,8 +114,12 @@ impl Options {
     /// Number of samples, `interval` s apart, that each record of a test with `inputs` inputs must have: for
     /// the filter, the block rows, and one column per state, the fewest that can distinguish the states.
     pub fn samples_needed(&self, interval: f64, inputs: usize) -> usize {
+        let blocks = match self.method {
+            Method::Hankel => self.block_rows,
+            Method::Correlation => self.block_rows.saturating_mul(2),
+        };
         let columns = self.highest_order.div_ceil(inputs.max(1));
-        let rows = self.block_rows.saturating_mul(self.decimation.stride());
+        let rows = blocks.saturating_mul(self.decimation.stride());
         let filter = self.filter_half_length(interval).saturating_mul(2);
         filter.saturating_add(rows).saturating_add(columns)
     }
