@@ -26,8 +26,8 @@ pub struct Extrapolated {
 }
 
 impl Extrapolated {
-    /// Estimated error of one value of the sequence, in its unit: the grid convergence index 1.25 |v∞ − v| where an order was
-    /// observed (Roache 1994, J. Fluids Eng. 116, 405–413), U elsewhere.
+    /// Estimated error of one value of the sequence, in its unit: the grid convergence index 1.25 |v∞ − v| where an
+    /// order was observed (Roache 1994, J. Fluids Eng. 116, 405–413), U elsewhere.
     pub fn error_of(&self, value: f64) -> f64 {
         match self.order {
             Some(_) => self.uncertainty.max(SAFETY[0] * (self.value - value).abs()),
@@ -36,9 +36,10 @@ impl Extrapolated {
     }
 }
 
-/// Estimated error of the finest of some answers that are no single numbers, as curves or lines of a spectrum are, from the `distances` of
-/// neighbours, coarse to fine, found at `refinements` as in [`extrapolate`]: one distance fewer. As if the answers came to the finest one by
-/// one from the same side, so that neighbours do not agree by chance.
+/// Estimated error of the finest of some answers that are no single numbers, as curves or lines of a spectrum are,
+/// from the `distances` of neighbours, coarse to fine, found at `refinements` as in [`extrapolate`]: one distance
+/// fewer. As if the answers came to the finest one by one from the same side, so that neighbours do not agree by
+/// chance.
 pub fn error_by_distances(distances: &[f64], refinements: &[f64], formal: Option<f64>) -> f64 {
     let mut values = vec![0.0];
     for distance in distances.iter().rev() {
@@ -170,8 +171,8 @@ mod tests {
         assert!(extrapolate(&[f64::NAN, 1.0, 1.1], &[1.0, 2.0, 4.0], None).order.is_none());
     }
 
-    /// Answers at distances 4 and 1 in ratios of two are of order two: the last is off by 1/3, with the factor 5/12; two answers alone, or
-    /// distances that grow, are doubted by three times the larger.
+    /// Answers at distances 4 and 1 in ratios of two are of order two: the last is off by 1/3, with the factor 5/12;
+    /// two answers alone, or distances that grow, are doubted by three times the larger.
     #[test]
     fn distances_give_the_error_of_the_finest() {
         let n = [1.0, 2.0, 4.0];

@@ -15,8 +15,8 @@ fn set(name: &str) -> (Scene, LoadCase) {
     (scene, case)
 }
 
-/// A mode that bearings govern is answered in closed form, and at a small tolerance by FE/contact; both are within their estimates of a
-/// finer discretisation with modes of the bodies.
+/// A mode that bearings govern is answered in closed form, and at a small tolerance by FE/contact; both are within
+/// their estimates of a finer discretisation with modes of the bodies.
 #[test]
 fn frequencies_are_within_their_estimates() {
     let (scene, case) = set("oh58_4p");

@@ -17,7 +17,8 @@ fn error_at(name: &str, change: impl Fn(&mut Scene), rpm: f64) -> Option<Inertia
     sweep.points()[0].inertia_error
 }
 
-/// OH-58 at moderate speed has stiff bodies; a carrier three times as wide as its bore has its first mode below the strong harmonics of fast rotation.
+/// OH-58 at moderate speed has stiff bodies; a carrier three times as wide as its bore has its first mode below the
+/// strong harmonics of fast rotation.
 #[test]
 fn a_slender_carrier_is_told_and_stiff_bodies_are_not() {
     assert_eq!(error_at("oh58_4p", |_| (), 1500.0), None);

@@ -152,7 +152,8 @@ const NUMBERS: [&str; 6] = [
     "pressure_angle_deg",
 ];
 
-/// Whether the table says that the parameters follow from the geometry, as they do without the table; it then holds no numbers.
+/// Whether the table says that the parameters follow from the geometry, as they do without the table; it then holds
+/// no numbers.
 fn follows_geometry(s: &Section<'_, '_>, document: &Document<'_>, is_pair: bool) -> bool {
     let why = "parameters in closed form from the geometry";
     let is_read = s.choice("from", &[("geometry", ())], why).is_some();

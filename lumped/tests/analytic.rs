@@ -227,8 +227,8 @@ fn shares_of_meshes_and_seats_are_parts_of_the_work() {
     }
 }
 
-/// Stated errors are finite up to the first mode of a body; without a flexible carrier its parts are nothing, and a more slender carrier
-/// has more of them.
+/// Stated errors are finite up to the first mode of a body; without a flexible carrier its parts are nothing, and a
+/// more slender carrier has more of them.
 #[test]
 fn stated_errors_follow_the_carrier() {
     let with = |change: fn(&mut gearset::CarrierInput)| {

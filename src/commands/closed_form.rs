@@ -84,7 +84,8 @@ impl ClosedForm {
         }
     }
 
-    /// Largest difference of a frequency with a stated error from that of a scene with these parameters and this bearing (N/m), percent.
+    /// Largest difference of a frequency with a stated error from that of a scene with these parameters and this
+    /// bearing (N/m), percent.
     fn largest_difference(&self, bearing: f64) -> Option<f64> {
         let mut pasted = self.scene.clone();
         pasted.lumped = Some(self.set.parameters.clone());
@@ -104,8 +105,8 @@ impl ClosedForm {
     }
 }
 
-/// Gives a group the inertia of elastic displacements, and the type that it is by the largest share: meshes of different phases mix
-/// the types a little.
+/// Gives a group the inertia of elastic displacements, and the type that it is by the largest share: meshes of
+/// different phases mix the types a little.
 pub(super) fn complete(set: &AnalyticSet, group: &mut ModeGroup) {
     group.frequency_hz *= 1.0 + set.inertia_change(group);
     group.mode_type = majority(&group.participation);
@@ -161,11 +162,12 @@ pub(super) struct ClosedParameters {
     pressure_angle_deg: BTreeMap<String, f64>,
     /// Mean over the planets where planet 0's sun mesh starts its path.
     mesh_n_per_m: BTreeMap<String, f64>,
-    /// Bearing of a planet in series with its own pin seat, mean over planets and directions; absent if the carrier is rigid.
+    /// Bearing of a planet in series with its own pin seat, mean over planets and directions; absent if the carrier
+    /// is rigid.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     bearing_with_seat_n_per_m: Option<f64>,
-    /// Largest difference of a natural frequency of a scene with these parameters and this bearing from that in closed form, percent,
-    /// of frequencies that have a stated error; absent if none has.
+    /// Largest difference of a natural frequency of a scene with these parameters and this bearing from that in
+    /// closed form, percent, of frequencies that have a stated error; absent if none has.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     largest_difference_percent: Option<f64>,
 }

@@ -57,8 +57,8 @@ fn parameters_follow_from_the_geometry_without_numbers() {
     assert_eq!((code, err.matches("lumped.mass_kg").count()), (2, 1), "{err}");
 }
 
-/// A pasted table leaves what its comment says, and little of the frequencies that bearings govern: most of it is the flexibility
-/// between seats, which no table holds.
+/// A pasted table leaves what its comment says, and little of the frequencies that bearings govern: most of it is the
+/// flexibility between seats, which no table holds.
 #[test]
 fn a_pasted_table_leaves_what_it_says() {
     for name in ["oh58_4p.toml", "oh58_3p.toml", "five_planets.toml"] {

@@ -117,8 +117,8 @@ fn with_bore(ratio: f64) -> Scene {
     scene
 }
 
-/// The first frequencies of each type, Hz, that are wanted: in closed form with their stated error, and of FE/contact with modes of
-/// each body.
+/// The first frequencies of each type, Hz, that are wanted: in closed form with their stated error, and of FE/contact
+/// with modes of each body.
 fn beside_modes_of_bodies(scene: &Scene, modes: u32, wanted: usize) -> Vec<[f64; 3]> {
     let load = LoadCase::of_scene(scene).unwrap();
     let own = AutoSettings::fe_contact(0, BodyInertia::Modes(modes)).applied_to(scene);
@@ -151,7 +151,8 @@ fn within_what_is_stated(ratios: &[f64], modes: u32, wanted: usize) {
     }
 }
 
-/// Frequencies of a set with a slender carrier, which moves between its bore and the pins, are within what is stated of them.
+/// Frequencies of a set with a slender carrier, which moves between its bore and the pins, are within what is stated
+/// of them.
 #[test]
 fn stated_errors_hold_with_a_slender_carrier() {
     within_what_is_stated(&[2.9], 20, 2);

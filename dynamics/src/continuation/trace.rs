@@ -56,9 +56,9 @@ pub fn trace<F: Family>(
     Ok(Branch { points, ends: [End::Start, end] })
 }
 
-/// Follows a branch both ways from a solution near `start` = (y, λ), with every step kept in `store` and those found there
-/// not taken again: the same start, scales and options must have been used. Points are in order from the end reached
-/// downwards to that reached upwards, with tangents and arc lengths (negative below the start) in that sense.
+/// Follows a branch both ways from a solution near `start` = (y, λ), with every step kept in `store` and those found
+/// there not taken again: the same start, scales and options must have been used. Points are in order from the end
+/// reached downwards to that reached upwards, with tangents and arc lengths (negative below the start) in that sense.
 ///
 /// # Errors
 /// As [`trace`], or if the store fails.
@@ -95,8 +95,8 @@ pub fn trace_both<F: Family>(
 const BESIDE: [f64; 6] = [1.0, 0.3, 0.1, 0.03, 0.01, 0.003];
 
 /// Follows the branch that crosses another one at `from`, one way: to the side of `direction`, a null vector of ∂F/∂y
-/// there (n entries), with every step kept in `store`, as by [`trace_both`]; its direction is [`Direction::Up`]. Its first
-/// point is the first step away from `from`.
+/// there (n entries), with every step kept in `store`, as by [`trace_both`]; its direction is [`Direction::Up`]. Its
+/// first point is the first step away from `from`.
 ///
 /// # Errors
 /// As [`trace`], if there is no solution off the known branch to that side, or if the store fails.

@@ -7,8 +7,8 @@ use faer::{Mat, c64};
 const DEPENDENT: f64 = 1e-8;
 
 /// Squared cosine of the angle between a shape and the span of others, all over the same outputs:
-/// the modal assurance criterion |φ̄·ψ|² / (|φ|²|ψ|²) generalised to repeated poles, which have a space of shapes. NaN for a
-/// shape of zeros.
+/// the modal assurance criterion |φ̄·ψ|² / (|φ|²|ψ|²) generalised to repeated poles, which have a space of shapes.
+/// NaN for a shape of zeros.
 pub fn share_in_span(shape: &[c64], span: &[&[c64]]) -> f64 {
     let at = |j: usize, i: usize| span[j].get(i).copied().unwrap_or(c64::new(0.0, 0.0));
     let qr = Mat::from_fn(shape.len(), span.len(), |i, j| at(j, i)).col_piv_qr();

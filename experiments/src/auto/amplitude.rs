@@ -142,7 +142,8 @@ impl<'s> AmplitudeQuestion<'s> {
         Ok(Motions { at: sweep.points().into_iter().map(of).collect(), sweep })
     }
 
-    /// Why two settings may show different motions, if they may: teeth part, or several motions attract, which is asked once.
+    /// Why two settings may show different motions, if they may: teeth part, or several motions attract, which is
+    /// asked once.
     ///
     /// # Errors
     /// If the search from random starts cannot be begun.
@@ -222,8 +223,9 @@ impl Question for AmplitudeQuestion<'_> {
         answer.largest()
     }
 
-    /// Over the speeds that both have: the difference of the amplitudes, at least 1/√2 of the root mean square of the difference of the complex
-    /// harmonics, which is what a difference of random phase changes of an amplitude (root mean square), so that amplitudes do not agree by chance.
+    /// Over the speeds that both have: the difference of the amplitudes, at least 1/√2 of the root mean square of the
+    /// difference of the complex harmonics, which is what a difference of random phase changes of an amplitude (root
+    /// mean square), so that amplitudes do not agree by chance.
     fn distance(&self, coarse: &Motions, fine: &Motions) -> f64 {
         let at = |(rpm, own): &(f64, Vec<[f64; 2]>)| {
             let (_, other) = coarse.at.iter().find(|(speed, _)| speed == rpm)?;

@@ -17,8 +17,8 @@ use crate::modal::{
 const INERTIAS: [BodyInertia; 4] =
     [BodyInertia::None, BodyInertia::FirstOrder, BodyInertia::Modes(12), BodyInertia::Modes(40)];
 
-/// A mode with a share of the asked type between these may be counted among them or not: shares change with the model by as
-/// much as a coupling of its type does.
+/// A mode with a share of the asked type between these may be counted among them or not: shares change with the model
+/// by as much as a coupling of its type does.
 const MIXED: std::ops::RangeInclusive<f64> = 0.35..=0.65;
 
 /// Modes up to this ratio above the asked one may change places with it.
@@ -54,8 +54,8 @@ impl<'s> FrequencyQuestion<'s> {
         ExperimentError::Model(format!("it has {count} modes of type {name}").into())
     }
 
-    /// Refuses a mode at `own_hz` that cannot be told by type and number: one up to it, or close above it, is of the asked type about as much as
-    /// of others. `modes`: frequency (Hz) and share in motion of that type.
+    /// Refuses a mode at `own_hz` that cannot be told by type and number: one up to it, or close above it, is of the
+    /// asked type about as much as of others. `modes`: frequency (Hz) and share in motion of that type.
     fn check_types(
         &self,
         own_hz: f64,

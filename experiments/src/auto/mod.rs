@@ -1,8 +1,8 @@
 //! The cheapest settings that give one quantity within a tolerance, with the estimated error of the answer.
 //!
-//! Settings are refined along two axes, each until two successive settings agree: discretisation (elements, contact cells, positions or
-//! time steps, all by one ratio) and the inertia of the bodies behind the teeth. The estimated error is the sum of what both leave.
-//! Equations, limits and the test of the estimates: `docs/auto.md`.
+//! Settings are refined along two axes, each until two successive settings agree: discretisation (elements, contact
+//! cells, positions or time steps, all by one ratio) and the inertia of the bodies behind the teeth. The estimated
+//! error is the sum of what both leave. Equations, limits and the test of the estimates: `docs/auto.md`.
 
 mod amplitude;
 mod choice;

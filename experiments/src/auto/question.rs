@@ -18,13 +18,15 @@ pub trait Question {
     /// Unit of its value.
     fn unit(&self) -> &'static str;
 
-    /// Settings with the discretisation of a level (0 is the coarsest) and a way to take the inertia of the bodies into account.
+    /// Settings with the discretisation of a level (0 is the coarsest) and a way to take the inertia of the bodies
+    /// into account.
     fn settings(&self, level: usize, inertia: BodyInertia) -> AutoSettings;
 
     /// Ways to take the inertia of the bodies into account, from cheap to dear; one alone where it has no part.
     fn inertias(&self) -> &'static [BodyInertia];
 
-    /// The answer of the lumped model with parameters in closed form; `None` where these give the quantity without a stated error.
+    /// The answer of the lumped model with parameters in closed form; `None` where these give the quantity without a
+    /// stated error.
     ///
     /// # Errors
     /// If the closed forms do not hold for the scene.
@@ -36,7 +38,8 @@ pub trait Question {
     /// If the settings are refused, or the set has no such quantity.
     fn answer(&self, settings: &AutoSettings) -> Result<Self::Answer, ExperimentError>;
 
-    /// The same, for a comparison of two ways to take the inertia of the bodies into account: `known` is the answer of another way on the same discretisation.
+    /// The same, for a comparison of two ways to take the inertia of the bodies into account: `known` is the answer
+    /// of another way on the same discretisation.
     ///
     /// # Errors
     /// As [`answer`](Self::answer).

@@ -6,18 +6,19 @@ use super::choice::{AutoError, Choice, ErrorPart, PassedOver, total};
 use super::question::Question;
 use super::settings::{AutoSettings, BodyInertia, FLANK_ELEMENTS, LEVELS};
 
-/// Order of convergence that is believed at most: that of positions and steps at the corners of a curve, where tooth pairs begin and end to
-/// touch, the lowest of all that are refined together.
+/// Order of convergence that is believed at most: that of positions and steps at the corners of a curve, where tooth
+/// pairs begin and end to touch, the lowest of all that are refined together.
 const FORMAL_ORDER: f64 = 1.0;
 
-/// Refinements of two ways to take inertia into account, which have no order of convergence: their difference is taken three times.
+/// Refinements of two ways to take inertia into account, which have no order of convergence: their difference is
+/// taken three times.
 const WITHOUT_ORDER: [f64; 2] = [1.0, 2.0];
 
 const DISCRETISATION: &str = "finite elements, contact cells and steps";
 const INERTIA: &str = "inertia of the bodies behind the teeth";
 
-/// The cheapest settings whose estimated error is within the tolerance, percent, with the answer; no answer of FE/contact where closed forms
-/// are enough.
+/// The cheapest settings whose estimated error is within the tolerance, percent, with the answer; no answer of
+/// FE/contact where closed forms are enough.
 ///
 /// # Errors
 /// If no settings give the quantity, or none is estimated to be within the tolerance.
@@ -160,7 +161,8 @@ impl<Q: Question> Search<'_, Q> {
     }
 }
 
-/// Answers with each way to take the inertia of the bodies into account, on the coarsest discretisation that has an answer.
+/// Answers with each way to take the inertia of the bodies into account, on the coarsest discretisation that has an
+/// answer.
 struct InertiaAxis<A> {
     /// By way from the second on, as far as it was asked for: the first is on the axis of discretisations.
     answers: Vec<Result<A, String>>,
@@ -211,7 +213,8 @@ mod tests {
     use super::*;
     use crate::error::ExperimentError;
 
-    /// 1 + ε/n² on n elements, times 1 + c of the inertia that quasi-static bodies lack, of which first order leaves a tenth.
+    /// 1 + ε/n² on n elements, times 1 + c of the inertia that quasi-static bodies lack, of which first order leaves
+    /// a tenth.
     struct Known {
         discretised: f64,
         inertia: f64,

@@ -42,8 +42,9 @@ const POSITIONS: [u32; LEVELS] = [60, 100, 160];
 /// Time steps in a mesh cycle, at least.
 const STEPS: [u32; LEVELS] = [90, 150, 240];
 
-/// Least depth, in elements, at which half-planes and finite elements are matched (`fe_contact.matching_depth_elements`). At the default of 0.85 both
-/// points of the match lie in the first two elements on every mesh, and meshes agree on a stiffness that is too high.
+/// Least depth, in elements, at which half-planes and finite elements are matched
+/// (`fe_contact.matching_depth_elements`). At the default of 0.85 both points of the match lie in the first two
+/// elements on every mesh, and meshes agree on a stiffness that is too high.
 const MATCHING_DEPTH_ELEMENTS: f64 = 1.3;
 
 /// Scene keys that every FE/contact candidate has besides the numbers it differs by.
@@ -57,7 +58,8 @@ pub struct AutoSettings {
     /// Modes of each body with its race held.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub modes: Option<u32>,
-    /// Whether what the inertia of elastic displacements changes of a frequency to first order, which quasi-static bodies lack, is added.
+    /// Whether what the inertia of elastic displacements changes of a frequency to first order, which quasi-static
+    /// bodies lack, is added.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub elastic_inertia: bool,
     /// Elements along one flank, of eight nodes, those next to the flank divided in three along and across it.
@@ -161,8 +163,8 @@ impl std::fmt::Display for AutoSettings {
 /// Most positions or steps into which a mesh cycle is divided evenly so that phases of all planets fall on them.
 const MOST_PARTS: usize = 60;
 
-/// `least` or a little more parts of a mesh cycle, so that all planets pass through the same phases and share tables; `least` itself
-/// for planets whose phases have no such number.
+/// `least` or a little more parts of a mesh cycle, so that all planets pass through the same phases and share tables;
+/// `least` itself for planets whose phases have no such number.
 fn divided(scene: &Scene, least: u32) -> u32 {
     let of_phases = || -> Option<u32> {
         let geometry = Geometry::from_scene(scene).ok()?;

@@ -5,19 +5,19 @@ use fe_contact::vibration::{ElasticInertia, LinearSet, VibratingSet};
 use super::mode::FeMode;
 use crate::error::ExperimentError;
 
-/// Largest λ/λ_1 at which the change is known to first order: there the next term of the series is half as large, and beyond it modes of the
-/// bodies come among those of the set.
+/// Largest λ/λ_1 at which the change is known to first order: there the next term of the series is half as large, and
+/// beyond it modes of the bodies come among those of the set.
 const SLOW: f64 = 0.5;
 
-/// What the inertia of elastic displacements and the flexibility between meshes, which quasi-static bodies lack, change of the frequencies of a set
-/// to first order, relative; by mode, in the order of `modes`.
+/// What the inertia of elastic displacements and the flexibility between meshes, which quasi-static bodies lack,
+/// change of the frequencies of a set to first order, relative; by mode, in the order of `modes`.
 ///
 /// ```text
 /// (f'/f)² = (1 + δλ/λ of the flexibility)/(1 + δm)
 /// ```
 ///
-/// `None` for a mode near or above the first eigenvalue λ_1 of a body with its race held, and for all modes if the teeth of a gear are
-/// not meshed alike. Derived in `docs/fe_dynamics.md`.
+/// `None` for a mode near or above the first eigenvalue λ_1 of a body with its race held, and for all modes if the
+/// teeth of a gear are not meshed alike. Derived in `docs/fe_dynamics.md`.
 ///
 /// # Errors
 /// If a gear cannot be solved, or the set has no pairs.

@@ -257,7 +257,8 @@ pub fn stability_maps(which: &[&Map], scene: &Scene) -> Result<Vec<StabilityMap>
     which.par_iter().map(|own| stability_map(own, scene)).collect()
 }
 
-/// The least x from which on all errors y, listed coarse to fine, are within what is wanted; `None` if the finest is not.
+/// The least x from which on all errors y, listed coarse to fine, are within what is wanted; `None` if the finest is
+/// not.
 pub(super) fn fine_from(errors: &[Point], wanted: f64) -> Option<f64> {
     errors.iter().rev().take_while(|(_, off)| *off <= wanted).last().map(|(x, _)| *x)
 }

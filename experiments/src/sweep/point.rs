@@ -137,8 +137,8 @@ pub struct SweepPoint {
     /// What the length of the steps may change of a strong harmonic of the sun; absent up to 1 %.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub step_error: Option<StepError>,
-    /// What the inertia of the bodies behind the teeth, which quasi-static bodies lack, may change of a strong harmonic of the
-    /// sun; absent up to 5 %, and of other models.
+    /// What the inertia of the bodies behind the teeth, which quasi-static bodies lack, may change of a strong
+    /// harmonic of the sun; absent up to 5 %, and of other models.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub inertia_error: Option<InertiaError>,
     /// Energy between mesh harmonics over all vibration.

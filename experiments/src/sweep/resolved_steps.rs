@@ -102,8 +102,8 @@ pub fn steps_needed(
     Ok(enough.filter(|steps| *steps > usual))
 }
 
-/// Harmonics, ascending and up to `highest`, in which the sun, or the member that turns where it is held, moves along a coordinate by at least
-/// [`STRONG`] of its largest amplitude.
+/// Harmonics, ascending and up to `highest`, in which the sun, or the member that turns where it is held, moves along
+/// a coordinate by at least [`STRONG`] of its largest amplitude.
 pub(super) fn strong_harmonics(
     state: &SteadyState,
     coordinate: Coordinate,

@@ -34,7 +34,8 @@ pub struct InertiaError {
     pub harmonic: usize,
     /// Natural frequency of the set that is near it or, where no share is known, that of a body with its race held, Hz.
     pub natural_hz: f64,
-    /// Change of the amplitude if that vibration alone made it, share; absent where the harmonic is above 0.7 of the first frequency of a body.
+    /// Change of the amplitude if that vibration alone made it, share; absent where the harmonic is above 0.7 of the
+    /// first frequency of a body.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub share: Option<f64>,
 }
@@ -61,8 +62,9 @@ impl ShiftedVibrations {
         Some(Self { modes: known.map(mode).collect(), first })
     }
 
-    /// The most that inertia may change of a strong motion of the sun in any harmonic up to `highest`, by a vibration of the kind that moves
-    /// it, each with the decay rate of the one of the set that is nearest in frequency; `None` up to 5 %.
+    /// The most that inertia may change of a strong motion of the sun in any harmonic up to `highest`, by a vibration
+    /// of the kind that moves it, each with the decay rate of the one of the set that is nearest in frequency; `None`
+    /// up to 5 %.
     pub(super) fn error(
         &self,
         state: &SteadyState,

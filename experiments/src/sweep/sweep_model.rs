@@ -88,8 +88,8 @@ pub trait SweepModel: Sync {
         self.turning_damped(case, damping_factor, size)
     }
 
-    /// What the inertia of the bodies behind the teeth changes of the vibrations; `None` of a model that has it, or of which nothing is
-    /// known of it.
+    /// What the inertia of the bodies behind the teeth changes of the vibrations; `None` of a model that has it, or
+    /// of which nothing is known of it.
     fn body_inertia(&self) -> Option<ShiftedVibrations> {
         None
     }

@@ -130,8 +130,8 @@ mod tests {
     use super::*;
     use crate::statics::{Bodies, Imperfections};
 
-    /// Modes of equal teeth are their own after a turn by one tooth of either sense, and a turn forward and one back is none. Teeth that are renumbered
-    /// one way while shapes turn the other are those of no gear, and are refused.
+    /// Modes of equal teeth are their own after a turn by one tooth of either sense, and a turn forward and one back
+    /// is none. Teeth that are renumbered one way while shapes turn the other are those of no gear, and are refused.
     #[test]
     fn a_turn_forward_and_one_back_leave_the_modes() {
         let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));

@@ -176,8 +176,9 @@ impl AnalyticCycle {
         })
     }
 
-    /// Stated errors of the mean transmission error over evenly spaced positions, shares of it that add: what the stiffness of meshes and pin seats
-    /// may be off, by the work Σ F δ of their forces over that of the torque, and the lines of action of the unloaded set.
+    /// Stated errors of the mean transmission error over evenly spaced positions, shares of it that add: what the
+    /// stiffness of meshes and pin seats may be off, by the work Σ F δ of their forces over that of the torque, and
+    /// the lines of action of the unloaded set.
     pub fn mean_errors(&self, rest: &[AnalyticRest]) -> Vec<StatedError> {
         let sum = |of: &dyn Fn(&AnalyticRest) -> f64| rest.iter().map(of).sum::<f64>();
         let work = self.load() * sum(&|own| own.transmission_error);

@@ -51,8 +51,9 @@ pub struct AnalyticSet {
     pub hand_overs: Vec<f64>,
     /// Flexibility of the pin seats, 2N×2N, m/N: radial and tangential of each planet in turn; empty if the carrier is rigid.
     pub seats: DMatrix<f64>,
-    /// Masses, I/r², radii and pressure angles of a `[lumped]` table, and of the stiffness of sun and of ring meshes the mean over the
-    /// planets at this position: to first order the frequencies of modes that planets share alike are those of their own stiffnesses.
+    /// Masses, I/r², radii and pressure angles of a `[lumped]` table, and of the stiffness of sun and of ring meshes
+    /// the mean over the planets at this position: to first order the frequencies of modes that planets share alike
+    /// are those of their own stiffnesses.
     pub parameters: LumpedInput,
     bodies: ElasticBodies,
     /// What the pin seats have of K: half of its quadratic form is their strain energy, n×n, N/m.

@@ -11,20 +11,21 @@
 //! carrier     ½ FᵀA F/(λ_1 − λ)                               λ < λ_1 of the carrier, else infinite
 //! ```
 //!
-//! Lines: forces that turn with their lines of action, corners and flanks that lean. F: mean force of a mesh, r: base radius of the sun,
-//! n_b: meshes of one body of kind b, τ_b: share of the kinetic energy of all of this kind, M_b: the least of its mass and I/r²; d: mean
-//! deflection of a mesh, p: base pitch.
+//! Lines: forces that turn with their lines of action, corners and flanks that lean. F: mean force of a mesh, r: base
+//! radius of the sun, n_b: meshes of one body of kind b, τ_b: share of the kinetic energy of all of this kind, M_b:
+//! the least of its mass and I/r²; d: mean deflection of a mesh, p: base pitch.
 //!
 //! Carrier: under the forces F of the pins its annulus moves by u = AF against its bore. Quasi-static seats have this
-//! displacement, and [`AnalyticSet::inertia_change`] what it adds to the modal mass with the rigid motion. Its own is missing:
+//! displacement, and [`AnalyticSet::inertia_change`] what it adds to the modal mass with the rigid motion. Its own is
+//! missing:
 //!
 //! ```text
 //! R = uᵀM u ≤ uᵀK u/λ_1 = FᵀA F/λ_1,    δf/f ≤ ½ R/(1 − λ/λ_1)
 //! ```
 //!
-//! with λ_1 of the first mode of the annulus with its bore held (`torsion.rs`), because λ_1 is the least Rayleigh quotient of any
-//! displacement that leaves the bore at rest. The denominator is what a displacement in the shape of that mode grows by at the
-//! frequency of the set. Rigid seats raise λ_1, which the bound does without.
+//! with λ_1 of the first mode of the annulus with its bore held (`torsion.rs`), because λ_1 is the least Rayleigh
+//! quotient of any displacement that leaves the bore at rest. The denominator is what a displacement in the shape of
+//! that mode grows by at the frequency of the set. Rigid seats raise λ_1, which the bound does without.
 //!
 //! The same of the gears under mesh forces is in the half of the change.
 
@@ -57,9 +58,9 @@ pub struct StatedError {
 }
 
 impl AnalyticSet {
-    /// Stated errors of the frequency of a group of modes of this set beside FE/contact with the inertia of every body, the
-    /// frequency being f (1 + [`inertia_change`](Self::inertia_change)). They are to be added as if all had one sign.
-    /// Empty for a rigid-body mode.
+    /// Stated errors of the frequency of a group of modes of this set beside FE/contact with the inertia of every
+    /// body, the frequency being f (1 + [`inertia_change`](Self::inertia_change)). They are to be added as if all had
+    /// one sign. Empty for a rigid-body mode.
     pub fn frequency_errors(&self, group: &ModeGroup) -> Vec<StatedError> {
         if group.lambda <= 0.0 {
             return Vec::new();

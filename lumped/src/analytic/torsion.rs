@@ -7,10 +7,11 @@
 //! φ_{j+1}(r) = ∫_race^r s⁻³ ∫_s^free t³ φ_j dt ds,     λ ≈ G/ρ ∫ r³ φ_j φ_{j+1} dr / ∫ r³ φ_{j+1}² dr
 //! ```
 //!
-//! Inverse iteration with Schwarz's quotient, from above (Courant & Hilbert, Methods of Mathematical Physics I, 1953, chapter VI). A
-//! quarter of a sine wave in Rayleigh's quotient is too high: by 4 % in frequency where the edges are as 1.7, by 22 % where they are as
-//! 2.9. Modes with one and two waves around the circumference are higher where the race is inside, for every ratio of the edges
-//! from 1.1 to 3 and ν of 0.23 and 0.3 (a test below); ratio of their frequencies to that of torsion with ν = 0.3:
+//! Inverse iteration with Schwarz's quotient, from above (Courant & Hilbert, Methods of Mathematical Physics I, 1953,
+//! chapter VI). A quarter of a sine wave in Rayleigh's quotient is too high: by 4 % in frequency where the edges are
+//! as 1.7, by 22 % where they are as 2.9. Modes with one and two waves around the circumference are higher where the
+//! race is inside, for every ratio of the edges from 1.1 to 3 and ν of 0.23 and 0.3 (a test below); ratio of their
+//! frequencies to that of torsion with ν = 0.3:
 //!
 //! | free edge over race | one wave | two waves |
 //! |---:|---:|---:|
@@ -110,7 +111,8 @@ mod tests {
         values.min().sqrt()
     }
 
-    /// A thin annulus is a bar in shear: ω = π/2 √(G/ρ)/h. Thicker ones have the zeros of J₂(kb) Y₁(ka) − Y₂(kb) J₁(ka).
+    /// A thin annulus is a bar in shear: ω = π/2 √(G/ρ)/h. Thicker ones have the zeros of J₂(kb) Y₁(ka) − Y₂(kb)
+    /// J₁(ka).
     #[test]
     fn torsion_has_its_limit_and_the_zeros_of_bessel_functions() {
         let thin = reduced(1.0 + 1e-4, 0.3) * 1e-4 / std::f64::consts::FRAC_PI_2 - 1.0;

@@ -33,7 +33,8 @@ const TRUTH: AutoSettings = AutoSettings {
     ..AutoSettings::LUMPED
 };
 
-/// Modes of each body that give what inertia changes of a true frequency and of a true amplitude, on the coarsest discretisation.
+/// Modes of each body that give what inertia changes of a true frequency and of a true amplitude, on the coarsest
+/// discretisation.
 const MODES: [BodyInertia; 2] = [BodyInertia::Modes(100), BodyInertia::Modes(60)];
 
 /// Kinds of questions, in turn by seed: natural frequency, transmission error at rest, amplitude.
@@ -63,7 +64,8 @@ struct Row {
     seconds: [f64; 2],
 }
 
-/// Answers to a question and the truth, which is `beside` of the finest discretisation and of what modes change on the coarsest.
+/// Answers to a question and the truth, which is `beside` of the finest discretisation and of what modes change on
+/// the coarsest.
 fn row<Q: Question>(
     question: &Q,
     choose: impl Fn(&Q, f64) -> Result<Choice, AutoError>,
