@@ -27,11 +27,12 @@ pub struct Extrapolated {
 
 impl Extrapolated {
     /// Estimated error of one value of the sequence, in its unit: the grid convergence index 1.25 |v∞ − v| where an
-    /// order was observed (Roache 1994, J. Fluids Eng. 116, 405–413), U elsewhere.
+    /// order was observed (Roache 1994, J. Fluids Eng. 116, 405–413), elsewhere U and the distance to the finest
+    /// value.
     pub fn error_of(&self, value: f64) -> f64 {
         match self.order {
             Some(_) => self.uncertainty.max(SAFETY[0] * (self.value - value).abs()),
-            None => self.uncertainty,
+            None => self.uncertainty + (self.value - value).abs(),
         }
     }
 }

@@ -51,9 +51,9 @@ fn transmission_errors_at_rest_are_within_their_estimates() {
     assert!(error <= choice.estimated_error_percent && error < 2.0, "{error}");
 }
 
-/// An amplitude away from resonances, beside twice the steps; where teeth part there is no answer.
+/// An amplitude away from resonances, beside twice the steps; where several motions attract there is no answer.
 #[test]
-fn amplitudes_are_answered_where_teeth_touch() {
+fn amplitudes_are_answered_where_one_motion_attracts() {
     let (scene, case) = set("oh58_4p");
     let response = AutoResponse::TransmissionError;
     let steady = || SteadySettings { between_cycles: 0, ..SteadySettings::default() };
@@ -66,10 +66,10 @@ fn amplitudes_are_answered_where_teeth_touch() {
     let estimate = found.choice.estimated_error_percent;
     println!("{chosen}: {error:.3} of {estimate:.3} %");
     assert!(error <= estimate, "{error} {estimate}");
-    // Under a twentieth of its torque the set with three planets parts at this resonance.
+    // Under a twentieth of its torque the set with three planets has motions with and without contact loss there.
     let (scene, case) = set("oh58_3p");
     let case = case.with_sun_torque(60.0);
     let question = AmplitudeQuestion::new((&scene, &case), response, vec![3500.0], steady());
     let refusal = choose_amplitude(&question, 50.0).map(|found| found.choice).unwrap_err();
-    assert!(refusal.to_string().contains("teeth part"), "{refusal}");
+    assert!(refusal.to_string().contains("several motions attract"), "{refusal}");
 }
