@@ -74,9 +74,16 @@ fn main() {
             (ModeType::Planet, 2),
         ] {
             let asked = question(mode_type, number);
-            let (own, fe) = (closed(&asked), asked.answer(&coarse).expect("a mode"));
-            let (words, off) = (asked.words(), 100.0 * (own / fe - 1.0));
-            println!("  {words}: {own:.1} Hz, {off:+.2} % of {fe:.1} Hz");
+            let words = asked.words();
+            match (asked.in_closed_form(), asked.answer(&coarse)) {
+                (Ok(Some((own, _))), Ok(fe)) => {
+                    let off = 100.0 * (own / fe - 1.0);
+                    println!("  {words}: {own:.1} Hz, {off:+.2} % of {fe:.1} Hz");
+                }
+                // A mode that is of two types by nearly halves has no number.
+                (Err(e), _) | (_, Err(e)) => println!("  {words}: {e}"),
+                _ => (),
+            }
         }
     }
 }

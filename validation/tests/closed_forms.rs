@@ -8,7 +8,7 @@ use experiments::auto::{
 use experiments::modal::{Preload, linear_modes, majority, preloaded};
 use fe_contact::body::CarrierBody;
 use fe_contact::statics::Bodies;
-use gearset::{AutoModeType, LoadCase, Scene};
+use gearset::{AutoModeType, CellLayout, FlankLayer, LoadCase, Scene};
 use lumped::{AnalyticCycle, AnalyticSet, ModeType, SpringId};
 use validation::drawn_set;
 
@@ -28,7 +28,11 @@ struct Ratios {
 }
 
 fn ratios(scene: &Scene, positions: &[f64]) -> Option<Ratios> {
-    let own = AutoSettings::fe_contact(1, BodyInertia::None).applied_to(scene);
+    // What the closed forms were fitted beside: 10 whole elements, 30 even cells.
+    let mut own = AutoSettings::fe_contact(1, BodyInertia::None).applied_to(scene);
+    own.fe_contact.flank_layer = FlankLayer::Whole;
+    own.fe_contact.contact_cells = 30;
+    own.fe_contact.cell_layout_at_rest = CellLayout::Even;
     let (bodies, load) = (Bodies::new(&own).ok()?, LoadCase::of_scene(scene).ok()?);
     let mut all = Ratios { mass: 1.0, ..Ratios::default() };
     for &position in positions {

@@ -52,8 +52,8 @@ fn the_second_system_has_its_printed_frequencies() {
     assert!((rotational / 782.0 - 1.0).abs() < 0.02, "{rotational}");
 }
 
-/// `kept/auto.csv`: errors are those of the values beside the truth, `docs/auto.md` has the counts of the answers that are
-/// within their estimates, and names every one that is not.
+/// `kept/auto.csv`: errors are those of the values beside the truth. `docs/auto.md` has the counts of the answers that
+/// are within their estimates, and names every one that is not.
 #[test]
 fn the_page_of_auto_counts_the_answers_on_drawn_sets() {
     let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");

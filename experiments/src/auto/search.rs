@@ -79,12 +79,15 @@ impl<Q: Question> Search<'_, Q> {
             }
             let discretised = self.of_discretisation(&answers);
             let part = ErrorPart::new(DISCRETISATION, discretised);
-            let (coarsest, first) = &answers[0];
-            inertia.level = *coarsest;
+            inertia.level = answers[0].0;
             for way in 0..self.question.inertias().len() {
                 // Bodies with modes cost much: not where elements and steps alone are too coarse.
                 let is_fine = part.percent <= self.tolerance_percent;
-                let left = if is_fine { inertia.error(self.question, first, way) } else { Ok(0.0) };
+                let left = if is_fine {
+                    inertia.error(self.question, &answers[0].1, way)
+                } else {
+                    Ok(0.0)
+                };
                 let settings = self.question.settings(level, self.question.inertias()[way]);
                 let parts = match left {
                     Ok(left) => vec![part.clone(), ErrorPart::new(INERTIA, left)],
@@ -98,12 +101,21 @@ impl<Q: Question> Search<'_, Q> {
                 let Some(mut choice) = self.judged(settings, value, parts) else {
                     if is_fine { continue } else { break }
                 };
-                let answer = match (way, answers.pop()) {
-                    (0, Some((_, answer))) => answer,
-                    _ => self.question.answer(&settings)?,
-                };
-                choice.value = self.question.value(&answer);
-                return Ok((choice, answer));
+                if way == 0
+                    && let Some((_, answer)) = answers.pop()
+                {
+                    return Ok((choice, answer));
+                }
+                match self.question.answer(&settings) {
+                    Ok(answer) => {
+                        choice.value = self.question.value(&answer);
+                        return Ok((choice, answer));
+                    }
+                    Err(e) => {
+                        self.passed_over = choice.passed_over;
+                        self.pass(settings, None, e.to_string());
+                    }
+                }
             }
         }
         Err(self.refusal())

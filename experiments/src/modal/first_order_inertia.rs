@@ -7,7 +7,7 @@ use crate::error::ExperimentError;
 
 /// Largest λ/λ_1 at which the change is known to first order: there the next term of the series is half as large, and
 /// beyond it modes of the bodies come among those of the set.
-const SLOW: f64 = 0.5;
+pub(crate) const SLOW: f64 = 0.5;
 
 /// What the inertia of elastic displacements and the flexibility between meshes, which quasi-static bodies lack,
 /// change of the frequencies of a set to first order, relative; by mode, in the order of `modes`.

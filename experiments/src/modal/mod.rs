@@ -14,6 +14,7 @@ mod settings;
 pub use agreement::{Agreement, agreement, agreement_after, with_rigid_carrier};
 pub use band::{FrequencyBand, ModeBand, Spread, frequency_band};
 pub use beside::beside;
+pub(crate) use first_order_inertia::SLOW;
 pub use first_order_inertia::first_order_inertia;
 pub use impulse::{Contents, Decay, ImpulseTest, Pulse, impulse_test, pulses};
 pub use kinds::MotionKinds;

@@ -19,13 +19,10 @@ use serde::{Deserialize, Serialize};
 
 use super::resolved_steps::{Vibrations, strong_harmonics};
 use super::state::{Coordinate, SteadyState};
-use crate::modal::majority;
+use crate::modal::{SLOW, majority};
 
 /// Largest part of an amplitude that inertia may change without a word.
 const MOST_CHANGED: f64 = 0.05;
-
-/// Largest part of λ_1 up to which Ω² or ω² is known to first order.
-const SLOW: f64 = 0.5;
 
 /// What the inertia of the bodies behind the teeth may change of an amplitude.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
