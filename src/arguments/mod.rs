@@ -5,12 +5,15 @@ mod values;
 
 use std::path::PathBuf;
 
+use clap::builder::TypedValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use experiments::stability::Map;
+use gearset::SceneKind;
+use validation::Profile;
 
-pub(crate) use steady::{Branches, Model, SteadyMethod, Sweep};
+pub(crate) use steady::{Branches, Model, Sweep};
 pub(crate) use values::DAMPING_FACTORS;
-use values::{elements, map, tolerance, two, whole};
+use values::{elements, map, one_of, tolerance, two, whole};
 
 /// Verification and benchmark suite for planetary gear dynamics (2-D, spur, single stage).
 #[derive(Debug, Parser)]
@@ -73,7 +76,7 @@ pub(crate) struct Validate {
     #[arg(long, value_name = "DIR", conflicts_with = "profile")]
     pub recorded: Option<PathBuf>,
     /// How much to run; checks left out are listed as not run.
-    #[arg(long, value_enum, default_value_t = Profile::Quick)]
+    #[arg(long, default_value = "quick", value_parser = profiles())]
     pub profile: Profile,
     /// Only checks whose id starts with this prefix, e.g. `table3.` or `fe.hertz`.
     #[arg(long, value_name = "PREFIX", default_value = "", hide_default_value = true)]
@@ -82,12 +85,11 @@ pub(crate) struct Validate {
     pub format: Format,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Profile {
-    /// The checks that run within minutes.
-    Quick,
-    /// Every check.
-    Full,
+fn profiles() -> impl TypedValueParser<Value = Profile> {
+    one_of([
+        ("quick", "The checks that run within minutes", Profile::Quick),
+        ("full", "Every check", Profile::Full),
+    ])
 }
 
 #[derive(Debug, Args)]
@@ -302,8 +304,8 @@ pub(crate) enum SceneVerb {
         /// File to write; `-` for standard output. An existing file is never overwritten.
         path: PathBuf,
         /// What the scene describes.
-        #[arg(long, value_enum, default_value_t = Kind::Planetary)]
-        kind: Kind,
+        #[arg(long, default_value = "planetary", value_parser = kinds())]
+        kind: SceneKind,
     },
     /// Read a scene, report every fault, explain what it says, warn of unlikely values, list what verbs lack.
     Check {
@@ -316,12 +318,11 @@ pub(crate) enum SceneVerb {
     Schema,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Kind {
-    /// A whole planetary set.
-    Planetary,
-    /// One mesh alone.
-    GearPair,
+fn kinds() -> impl TypedValueParser<Value = SceneKind> {
+    one_of([
+        ("planetary", "A whole planetary set", SceneKind::Planetary),
+        ("gear-pair", "One mesh alone", SceneKind::GearPair),
+    ])
 }
 
 #[derive(Debug, Args)]

@@ -2,11 +2,13 @@
 
 use std::path::PathBuf;
 
+use clap::builder::TypedValueParser;
 use clap::{Args, ValueEnum};
 use experiments::branches::BranchParameter;
+use experiments::sweep::SteadyMethod;
 
 use super::TableFormat;
-use super::values::{damping_factor, over, range, small, span, whole};
+use super::values::{damping_factor, one_of, over, range, small, span, whole};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Model {
@@ -16,12 +18,20 @@ pub(crate) enum Model {
     Lumped,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SteadyMethod {
-    /// Newton's method for the periodic motion, with its stability; marched where none is found or it is unstable.
-    Shooting,
-    /// Time integration until mesh cycles repeat, with the multipliers of the motion at its end.
-    Marching,
+/// Both methods with their help.
+fn methods() -> impl TypedValueParser<Value = SteadyMethod> {
+    one_of([
+        (
+            "shooting",
+            "Newton's method for the periodic motion, with its stability; marched where none is found or it is unstable",
+            SteadyMethod::Shooting,
+        ),
+        (
+            "marching",
+            "Time integration until mesh cycles repeat, with the multipliers of the motion at its end",
+            SteadyMethod::Marching,
+        ),
+    ])
 }
 
 #[derive(Debug, Args)]
@@ -51,7 +61,7 @@ pub(crate) struct Sweep {
           value_parser = whole::<0, 1000>, allow_negative_numbers = true)]
     pub refine: u32,
     /// How steady states are found.
-    #[arg(long, value_enum, default_value_t = SteadyMethod::Shooting)]
+    #[arg(long, value_name = "METHOD", default_value = "shooting", value_parser = methods())]
     pub method: SteadyMethod,
     /// Shoot over whole mesh cycles also where a set is itself again, with its planets renumbered, after a part of one:
     /// motions that break this symmetry are then found, and what planet phasing forbids is computed, not put in.

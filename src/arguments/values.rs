@@ -5,6 +5,20 @@ use experiments::branches::BranchParameter;
 use experiments::stability::{MAPS, Map};
 use experiments::sweep::VariedKey;
 
+/// One of some words, each with its help and the value that it stands for.
+pub(super) fn one_of<T, const N: usize>(
+    words: [(&'static str, &'static str, T); N],
+) -> impl TypedValueParser<Value = T>
+where
+    T: Copy + Send + Sync + 'static,
+{
+    let shown = words.map(|(word, help, _)| PossibleValue::new(word).help(help));
+    PossibleValuesParser::new(shown).try_map(move |name| {
+        let found = words.iter().find(|(word, ..)| *word == name);
+        found.map(|(.., value)| *value).ok_or("no such word")
+    })
+}
+
 /// A stability map by its name.
 pub(super) fn map() -> impl TypedValueParser<Value = &'static Map> {
     let value = |map: &'static Map| PossibleValue::new(map.name).help(map.about);

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use gearset::{PlanetPositions, SceneKind, template};
 
-use crate::arguments::{Format, Kind, SceneVerb};
+use crate::arguments::{Format, SceneVerb};
 use crate::error::CommandError;
 use crate::output;
 
@@ -26,11 +26,8 @@ pub(crate) fn run(verb: &SceneVerb, out: &mut dyn Write) -> Result<(), CommandEr
     }
 }
 
-fn new(path: &Path, kind: Kind, out: &mut dyn Write) -> Result<(), CommandError> {
-    let text = template(match kind {
-        Kind::Planetary => SceneKind::Planetary,
-        Kind::GearPair => SceneKind::GearPair,
-    });
+fn new(path: &Path, kind: SceneKind, out: &mut dyn Write) -> Result<(), CommandError> {
+    let text = template(kind);
     if path == Path::new("-") {
         return Ok(out.write_all(text.as_bytes())?);
     }

@@ -168,12 +168,8 @@ impl<'a> Task<'a> {
         let [from, to, step] = arguments.speeds_rpm;
         let refuse = |argument| move |e: PlanError| refused(argument, e.to_string());
         let speeds = even_speeds(from, to, step).map_err(refuse("--speeds-rpm"))?;
-        let method = match arguments.method {
-            crate::arguments::SteadyMethod::Shooting => SteadyMethod::Shooting,
-            crate::arguments::SteadyMethod::Marching => SteadyMethod::Marching,
-        };
         let steady = SteadySettings {
-            method,
+            method: arguments.method,
             tolerance: arguments.tolerance,
             most_cycles: arguments.most_cycles as usize,
             harmonics: arguments.harmonics as usize,
@@ -181,7 +177,7 @@ impl<'a> Task<'a> {
             whole_cycles: arguments.whole_cycles,
             keeps_steps: false,
         };
-        if steady.whole_cycles && method == SteadyMethod::Marching {
+        if steady.whole_cycles && steady.method == SteadyMethod::Marching {
             let reason = "is of --method shooting: marching passes through every step of a mesh cycle anyway: leave it out";
             return Err(refused("--whole-cycles", reason));
         }

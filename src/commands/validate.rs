@@ -12,7 +12,7 @@ use validation::{
 
 use experiments::models::Recorded;
 
-use crate::arguments::{Format, Profile, Validate};
+use crate::arguments::{Format, Validate};
 use crate::error::CommandError;
 use crate::output;
 
@@ -24,10 +24,6 @@ pub(crate) fn run(
     out: &mut dyn Write,
     err: &mut (dyn Write + Send),
 ) -> Result<bool, CommandError> {
-    let profile = match arguments.profile {
-        Profile::Quick => validation::Profile::Quick,
-        Profile::Full => validation::Profile::Full,
-    };
     if arguments.details && matches!(arguments.format, Format::Json) {
         let reason = "JSON lists every check anyway: leave it out, or take --format text".into();
         return Err(CommandError::Argument { argument: "--details", reason });
@@ -40,7 +36,8 @@ pub(crate) fn run(
         Some(folder) => recorded(folder, &arguments.only)?,
         None => {
             let shown = SuiteProgress::new(err);
-            let verdict = validate_with(profile, &arguments.only, &|progress| shown.tell(progress));
+            let verdict =
+                validate_with(arguments.profile, &arguments.only, &|progress| shown.tell(progress));
             shown.finish();
             verdict?
         }

@@ -50,7 +50,7 @@ impl Ledger {
     /// said to run in the full profile.
     pub fn page(&self, figure: &dyn Fn(&str) -> Option<Figure>) -> String {
         let mut page = String::from(
-            "# Assumptions, and how large each is\n\nEvery approximation of model and method, the checks that measure its size on the shipped scenes\n(`epicyclic validate --only ID`), what the kept verdict has, and the range in which it holds. Made from\n`checks/assumptions.toml` and `snapshots/verdict.snap` by\n`cargo run --release -p validation --example remake -- assumptions > docs/assumptions.md`.\n",
+            "# Assumptions, and how large each is\n\nEvery approximation of model and method, the checks that measure its size on the shipped scenes\n(`epicyclic validate --only ID`), what the kept verdict has, and the range in which it holds. Made from\n`checks/assumptions.toml` and `snapshots/verdict.snap` by\n`cargo run --release -p remake -- assumptions > docs/assumptions.md`.\n",
         );
         for own in &self.assumption {
             page += &format!("\n## {}\n\n{}\n", own.name, own.says);

@@ -41,6 +41,7 @@ pub use reference_file::ReferenceError;
 pub use registry::{Asks, CheckEntry, ControlEntry, Registry, SuiteEntry};
 pub use suites::Models;
 pub use suites::explained::{Step, steps};
+pub use suites::fe::iso6336::iso6336_mean_stiffness;
 pub use suites::statements::{Statement, judge};
 pub use verdict::Verdict;
 pub use worst::{paired, peak_to_peak, worst};

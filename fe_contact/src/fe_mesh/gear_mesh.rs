@@ -22,17 +22,6 @@ pub struct Element {
     pub local: usize,
 }
 
-/// A stretch of flank between two nodes, with its element in the whole mesh.
-#[derive(Debug, Clone, Copy)]
-pub struct FlankEdge {
-    /// Element of the mesh.
-    pub element: usize,
-    /// Arc lengths ℓ at its ends, m.
-    pub from: f64,
-    /// See `from`.
-    pub to: f64,
-}
-
 /// A tooth, and the function that changes the even refinement into that of the tooth.
 pub type RefinedTooth<'r> = (usize, &'r dyn Fn(&Outline, &mut Refinement));
 

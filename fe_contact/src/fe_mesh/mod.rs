@@ -8,7 +8,7 @@ mod quality;
 mod sector;
 
 pub use carrier::{FeCarrierMesh, Hold};
-pub use gear_mesh::{Element, Elements, FeGearMesh, FlankEdge, RefinedTooth, hermite, rotated};
+pub use gear_mesh::{Element, Elements, FeGearMesh, RefinedTooth, hermite, rotated};
 pub use outline::{Outline, Side, polar};
 pub use quality::Quality;
 pub use sector::{Refinement, Sector, SectorElement};

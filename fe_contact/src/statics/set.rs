@@ -106,21 +106,6 @@ impl<'s> StaticSet<'s> {
         Ok(Self { bodies, races, sign, nominal, start_angle, imperfections, reference })
     }
 
-    /// The same set linearised about given displacements q (n, m) of its races; `forces` (N; sun
-    /// meshes, then ring meshes) are the mean forces of the meshes.
-    ///
-    /// # Errors
-    /// If gears displaced by so much do not mesh.
-    pub fn about(
-        mut self,
-        torque_nm: f64,
-        q: DVector<f64>,
-        forces: &[f64],
-    ) -> Result<Self, FeError> {
-        self.reference = self.reference_at(torque_nm, q, forces)?;
-        Ok(self)
-    }
-
     pub(super) fn reference_at(
         &self,
         torque_nm: f64,

@@ -24,19 +24,19 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use super::body::into_frame;
-use super::elastic_gears::ElasticGears;
 use super::frame::Frame;
 use super::linear::LinearSet;
 use super::set::VibratingSet;
 use super::teeth::ToothPoint;
-use crate::body::{CarrierBody, Factor, GearBody, ToothForce};
+use crate::body::{Accelerated, CarrierBody, Factor, GearBody, ToothForce};
 use crate::error::FeError;
 use crate::statics::{CARRIER, PLANETS};
 
 /// Static displacements of the bodies of a set under accelerations of their races.
 #[derive(Debug)]
 pub struct ElasticInertia {
-    gears: ElasticGears,
+    /// Ring, sun, planet: planets are alike in what is elastic.
+    gears: Vec<Accelerated>,
     carrier: Option<AcceleratedCarrier>,
 }
 
@@ -102,7 +102,9 @@ impl ElasticInertia {
     /// # Errors
     /// If a body cannot be solved.
     pub fn new(set: &VibratingSet<'_>) -> Result<Option<Self>, FeError> {
-        let Some(gears) = ElasticGears::new(set)? else { return Ok(None) };
+        let gears = set.bodies.gears.iter().take(PLANETS);
+        let gears = gears.map(|gear| Accelerated::new(gear.body)).collect::<Result<Vec<_>, _>>()?;
+        let Some(gears) = gears.into_iter().collect() else { return Ok(None) };
         let carrier = set.races().carrier.as_ref().filter(|body| !body.is_rigid);
         let carrier = carrier.map(|body| AcceleratedCarrier::new(body));
         Ok(Some(Self { gears, carrier }))
@@ -110,7 +112,8 @@ impl ElasticInertia {
 
     /// Least Rayleigh quotient of the displacements, close to the first eigenvalue λ_1 of a body with its race held, (rad/s)².
     pub fn first(&self) -> f64 {
-        self.carrier.as_ref().map_or(f64::INFINITY, |own| own.first).min(self.gears.first())
+        let carrier = self.carrier.as_ref().map_or(f64::INFINITY, |own| own.first);
+        self.gears.iter().map(Accelerated::first).fold(carrier, f64::min)
     }
 
     /// The change of a mode of unit modal mass (`shape`, on the races' coordinates) at `lambda` (rad/s)² of the set of
@@ -153,7 +156,8 @@ impl ElasticInertia {
         lambda: f64,
         sum: &mut ElasticShift,
     ) {
-        let (gear, own) = (set.bodies.gears[k].body, self.gears.of(k));
+        let gear = set.bodies.gears[k].body;
+        let own = &self.gears[k.min(self.gears.len() - 1)];
         let mut q = set.races().displaced(z, k + 1);
         q[2] /= set.races().radii[(k + 1).min(PLANETS)];
         let [translated, turned] = [q[0] * q[0] + q[1] * q[1], q[2] * q[2]];
@@ -172,7 +176,7 @@ impl ElasticInertia {
         sum.remainder += bounded(energy, lambda, own.first());
     }
 
-    pub(super) fn add_carrier(
+    fn add_carrier(
         &self,
         set: &VibratingSet<'_>,
         z: &DVector<f64>,
@@ -199,9 +203,9 @@ impl ElasticInertia {
     }
 }
 
-/// The forces of a frame's pairs on the teeth of gear k, with the angles of the teeth's axes in the frame of its race, rad. Tooth 0 of the gear is taken to be the one of the
-/// first force.
-pub(super) fn pressing<'f>(
+/// The forces of a frame's pairs on the teeth of gear k, with the angles of the teeth's axes in the frame of its race,
+/// rad. Tooth 0 of the gear is taken to be the one of the first force.
+fn pressing<'f>(
     frame: &'f Frame,
     k: usize,
     gear: &GearBody,

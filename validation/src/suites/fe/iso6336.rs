@@ -14,8 +14,8 @@ const SOURCE: &str = "ISO 6336-1:2006, clause 9, method B: c'_th, C_B, c_γ; wit
 /// (`reference/parker_2000.toml`).
 const OH58: BasicRack = BasicRack { module: 25.4e-3 / 9.0, pressure_angle_deg: 22.5 };
 
-/// c_γ of a mesh of OH-58 gears per face width, N/(mm µm).
-pub(crate) fn mean_stiffness(scene: &Scene, kind: MeshKind) -> Option<f64> {
+/// Stiffness c_γ of a mesh of OH-58 gears per face width by ISO 6336-1, N/(mm µm); `None` without geometry or mesh.
+pub fn iso6336_mean_stiffness(scene: &Scene, kind: MeshKind) -> Option<f64> {
     Some(mean_mesh_stiffness(Geometry::from_scene(scene).ok()?.mesh(kind)?, &OH58))
 }
 
@@ -33,7 +33,7 @@ fn judged(lab: &Lab<'_>, bodies: &Bodies) -> Checks {
     let mut checks = Vec::new();
     let incomplete = || ValidationError::Incomplete("geometry");
     for kind in MESHES {
-        let expected = mean_stiffness(&lab.four, kind).ok_or_else(incomplete)?;
+        let expected = iso6336_mean_stiffness(&lab.four, kind).ok_or_else(incomplete)?;
         let cycle = lab.pair(bodies, kind, 28)?;
         let per_width = cycle.mean_secant_stiffness() / bodies.geometry.face_width * 1e-9;
         let name = kind.name();

@@ -1,7 +1,7 @@
 //! Origin of the growth with torque: harmonics of the loaded transmission error of one sun mesh and one ring
 //! mesh alone, their sum at the mesh phases of the set, and those of the whole set at rest, four planets.
 //!
-//! `cargo run --release -p validation --example remake -- loaded_te`
+//! `cargo run --release -p remake -- loaded_te`
 //!
 //! With every planet under the same force and nothing but rotation, the sun's base circle follows
 //!

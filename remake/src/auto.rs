@@ -147,10 +147,8 @@ pub(super) fn remake() -> Outcome {
     println!(
         "# What auto chose on drawn sets at two tolerances, beside a finer calculation (docs/auto.md)."
     );
-    println!("# Own computation: validation/examples/remake/auto.rs");
-    println!(
-        "# cargo run --release -p validation --example remake -- auto > auto.csv && mv auto.csv kept/"
-    );
+    println!("# Own computation: remake/src/auto.rs");
+    println!("# cargo run --release -p remake -- auto > auto.csv && mv auto.csv kept/");
     println!(
         "seed,quantity,unit,truth,loose_percent,loose_settings,loose_value,loose_estimate_percent,loose_error_percent,\
          tight_percent,tight_settings,tight_value,tight_estimate_percent,tight_error_percent,loose_cpu_s,tight_cpu_s"

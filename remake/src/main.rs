@@ -1,5 +1,5 @@
 //! Recomputes one kept file or table of the pages and writes it to standard output:
-//! `cargo run --release -p validation --example remake -- NAME`; without a name it lists them.
+//! `cargo run --release -p remake -- NAME`; without a name it lists them.
 
 mod assumptions;
 mod attraction;

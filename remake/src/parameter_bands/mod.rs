@@ -2,9 +2,14 @@
 //! fillets, pin seats, plane state) move tabled frequencies, masses and mesh stiffnesses.
 
 use validation::Reference;
-use validation::parameter_bands::study;
 
-const COMMAND: &str = "cargo run --release -p validation --example remake -- parameter_bands > kept/parameter_bands.toml";
+use self::study::study;
+
+mod intervals;
+mod study;
+
+const COMMAND: &str =
+    "cargo run --release -p remake -- parameter_bands > kept/parameter_bands.toml";
 
 pub(crate) fn remake() -> crate::Outcome {
     let reference = Reference::load()?;

@@ -1,7 +1,7 @@
 //! Error and cost of the fidelities by steps per cycle and contact cells: `kept/ladder.toml`. Needs
 //! `kept/full_sweep.toml`; twenty minutes on two cores, most of them for modes of the bodies.
 //!
-//! `cargo run --release -p validation --example remake -- ladder > ladder.toml && mv ladder.toml kept/`
+//! `cargo run --release -p remake -- ladder > ladder.toml && mv ladder.toml kept/`
 //!
 //! Error: speed and height of the peak of the sun's rotation in the second harmonic, four planets under
 //! 1413 N·m, against `full` without the error of the time step. Cost: time of a step of the steady set over
@@ -111,9 +111,9 @@ pub(crate) fn remake() -> crate::Outcome {
     let at_timed = LoadCase::of_scene(&scene)?.with_sun_torque(torque).at_speed(TIMED_RPM);
     let peak = truth.rotational_peak().ok_or("the truth has no peak")?;
     println!("# Fidelities of the ladder by error and cost, four planets.");
-    println!("# Remade by: cargo run --release -p validation --example remake -- ladder");
+    println!("# Remade by: cargo run --release -p remake -- ladder");
     println!("source = \"own computation; truth: fidelity full, steps extrapolated\"");
-    println!("command = \"cargo run --release -p validation --example remake -- ladder\"");
+    println!("command = \"cargo run --release -p remake -- ladder\"");
     println!(
         "torque_nm = {torque:.1}\npeak_rpm = {:.3}\npeak_rad = {:.6e}",
         peak.speed_rpm, peak.height_rad

@@ -10,12 +10,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::reference_file::{ReferenceError, parse};
 
-mod intervals;
-mod study;
-
-pub use intervals::{full_fillet, generated_fillet, intervals, share_of_tip_lands};
-pub use study::study;
-
 /// A parameter that the paper leaves open, with its interval.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -129,7 +123,7 @@ impl ParameterBands {
     /// # Errors
     /// If the file does not hold what the code expects.
     pub fn load() -> Result<Self, ReferenceError> {
-        parse("kept/parameter_bands.toml", include_str!("../../kept/parameter_bands.toml"))
+        parse("kept/parameter_bands.toml", include_str!("../kept/parameter_bands.toml"))
     }
 
     /// The row of a check.

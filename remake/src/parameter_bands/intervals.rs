@@ -1,9 +1,8 @@
 //! Intervals of the parameters that the paper leaves open, from geometry and design practice alone.
 
 use gearset::{Gear, Geometry, Scene, ThicknessInput, ToothSide};
-
-use super::Interval;
-use crate::error::ValidationError;
+use validation::ValidationError;
+use validation::parameter_bands::Interval;
 
 /// Module of the generating rack that reproduces every diameter of Table 1 (9 DP, 22.5°), m.
 const MODULE: f64 = 25.4e-3 / 9.0;
@@ -74,7 +73,7 @@ pub(super) fn with_backlash(scene: &Scene, backlash: f64) -> Scene {
 ///
 /// # Errors
 /// If the scene has no whole tooth geometry.
-pub fn share_of_tip_lands(scene: &Scene) -> Result<[f64; 2], ValidationError> {
+pub(super) fn share_of_tip_lands(scene: &Scene) -> Result<[f64; 2], ValidationError> {
     let lands = |share: f64| -> Option<[f64; 2]> {
         let geometry = Geometry::from_scene(&with_share(scene, share)).ok()?;
         let land = |gear: &Gear| gear.tooth_thickness(gear.tip_radius);
@@ -88,7 +87,7 @@ pub fn share_of_tip_lands(scene: &Scene) -> Result<[f64; 2], ValidationError> {
 }
 
 /// Largest fillet radius that fits twice into a tooth space of the gear, m: no root land is left.
-pub fn full_fillet(gear: &Gear) -> f64 {
+pub(super) fn full_fillet(gear: &Gear) -> f64 {
     let land = |radius: f64| {
         let gear = Gear { fillet_radius: radius, ..gear.clone() };
         gear.root_land_angle()
@@ -101,7 +100,7 @@ pub fn full_fillet(gear: &Gear) -> f64 {
 /// the radius of curvature of the path of the rounding's centre at its deepest point (Euler–Savary), and the
 /// fillet runs parallel to that path at the distance ρ. For a ring, the least radius is that of the cutter's
 /// tip.
-pub fn generated_fillet(gear: &Gear, tip: f64) -> f64 {
+pub(super) fn generated_fillet(gear: &Gear, tip: f64) -> f64 {
     match gear.side {
         ToothSide::Internal => tip,
         ToothSide::External => {
@@ -203,7 +202,7 @@ fn recommended_backlash(geometry: &Geometry) -> Option<f64> {
 ///
 /// # Errors
 /// If the scene has no whole tooth geometry or no carrier.
-pub fn intervals(scene: &Scene) -> Result<Vec<Interval>, ValidationError> {
+pub(super) fn intervals(scene: &Scene) -> Result<Vec<Interval>, ValidationError> {
     let own = geometry(scene)?;
     let input = scene.geometry.as_ref().ok_or_else(incomplete)?;
     let (share, backlash) = match input.thickness {
@@ -283,7 +282,7 @@ pub fn intervals(scene: &Scene) -> Result<Vec<Interval>, ValidationError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::catalogue::{PublishedScene, scene};
+    use validation::{PublishedScene, scene};
 
     #[test]
     fn ends_are_where_geometry_has_them() {

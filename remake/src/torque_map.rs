@@ -1,7 +1,7 @@
 //! The map of section 4.2's statements over mesh compliance and γ, four planets, as TOML for
 //! `kept/torque_map.toml`. Some twenty minutes on two cores.
 //!
-//! `cargo run --release -p validation --example remake -- torque_map > kept/torque_map.toml`
+//! `cargo run --release -p remake -- torque_map > kept/torque_map.toml`
 //!
 //! Compliance: `softening` s makes the factors on the FE flexibility 1 + s (f − 1), f being those of
 //! `scenes/oh58_4p_published_stiffness.toml`, so that s = 0 is the default scene and s = 1 the paper's
@@ -133,9 +133,9 @@ pub(crate) fn remake() -> crate::Outcome {
     let soft =
         scene(PublishedScene::Oh58FourPlanetsPublishedStiffness)?.fe_contact.flexibility_factor;
     println!("# Statements on growth with torque over mesh compliance and γ, four planets.");
-    println!("# Remade by: cargo run --release -p validation --example remake -- torque_map");
+    println!("# Remade by: cargo run --release -p remake -- torque_map");
     println!("source = \"own computation, quasi-static fidelity, 84 steps a cycle\"");
-    println!("command = \"cargo run --release -p validation --example remake -- torque_map\"");
+    println!("command = \"cargo run --release -p remake -- torque_map\"");
     println!("torques_nm = {TORQUES:?}");
     // Two at a time, so that results are printed in order as they are found.
     for two in choices().chunks(2) {

@@ -2,7 +2,7 @@
 //! `kept/torque_peaks.toml`: heights over those at 565 N·m of the sun and of planet 0, and the growth
 //! of the same harmonics of the sun at rest. About five minutes on two cores.
 //!
-//! `cargo run --release -p validation --example remake -- torque > kept/torque_peaks.toml`
+//! `cargo run --release -p remake -- torque > kept/torque_peaks.toml`
 
 use experiments::models::FeContact;
 use experiments::sweep::{Part, naturals};
@@ -13,7 +13,7 @@ use validation::{PublishedScene, scene};
 const TORQUES: [f64; 4] = [565.0, 1130.0, 1695.0, 2260.0];
 
 pub(crate) fn remake() -> crate::Outcome {
-    let command = "cargo run --release -p validation --example remake -- torque";
+    let command = "cargo run --release -p remake -- torque";
     println!("# Resonant peaks over torque, four planets: heights over those at the first torque.");
     println!("source = \"own computation: quasi-static fidelity, 140 steps a cycle\"");
     println!("command = \"{command}\"");

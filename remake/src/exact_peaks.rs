@@ -2,7 +2,7 @@
 //! with four planets at the torques and places of `kept/torque_peaks.toml`, sun's translation in the
 //! first harmonic and its rotation in the second. A quarter of an hour on two cores.
 //!
-//! `cargo run --release -p validation --example remake -- exact_peaks > p.toml && mv p.toml kept/exact_peaks.toml`
+//! `cargo run --release -p remake -- exact_peaks > p.toml && mv p.toml kept/exact_peaks.toml`
 //!
 //! Every march starts from the steady state of kinematics that are linear about the loaded configuration,
 //! and goes on until its own cycles repeat.
@@ -98,7 +98,7 @@ pub(crate) fn remake() -> crate::Outcome {
         "# Resonant peaks with exact kinematics at every step, four planets, 140 steps a cycle."
     );
     println!("source = \"own computation: dynamics.kinematics = exact, fidelity quasi_static\"");
-    println!("command = \"cargo run --release -p validation --example remake -- exact_peaks\"");
+    println!("command = \"cargo run --release -p remake -- exact_peaks\"");
     for (case, found) in cases.iter().zip(&found) {
         let list = |of: &dyn Fn(&(f64, usize)) -> String| {
             found.iter().map(of).collect::<Vec<_>>().join(", ")

@@ -1,6 +1,6 @@
 //! Prints `docs/assumptions.md` from the ledger and the kept verdict.
 //!
-//! `cargo run --release -p validation --example remake -- assumptions > docs/assumptions.md`
+//! `cargo run --release -p remake -- assumptions > docs/assumptions.md`
 
 use serde_json::Value;
 use validation::{Figure, Ledger};

@@ -1,7 +1,7 @@
 //! Finds the factors of `scenes/oh58_*_published_stiffness.toml`: by how much the FE part of each
 //! mesh's flexibility must grow for the mean secant stiffness at 1130 N·m to be the printed 350e6 N/m.
 //!
-//! `cargo run --release -p validation --example remake -- published_stiffness`
+//! `cargo run --release -p remake -- published_stiffness`
 
 use fe_contact::FeError;
 use fe_contact::complementarity::ActiveSet;

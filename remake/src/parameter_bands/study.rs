@@ -5,18 +5,14 @@ use experiments::modal::{Preload, linear_modes, lumped_frequencies, lumped_from_
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, pair_cycle};
 use gearset::{MeshKind, PlaneState, Scene};
+use validation::effects::{TabledFrequency, tabled};
+use validation::parameter_bands::{BandRow, Interval, ParameterBands, ParameterEffect, band_of};
+use validation::{Reference, Table, ValidationError, iso6336_mean_stiffness, scene};
 
 use super::intervals::{
     POSITIONS, TORQUES, Wheel, intervals, with_backlash, with_fillet, with_fitting_fillets,
     with_share,
 };
-use super::{BandRow, Interval, ParameterBands, ParameterEffect, band_of};
-use crate::catalogue::scene;
-use crate::effects::{TabledFrequency, tabled};
-use crate::error::ValidationError;
-use crate::published_table::Table;
-use crate::reference::Reference;
-use crate::suites::fe::iso6336;
 
 /// Torque of the tables, N m.
 const TORQUE: f64 = 1130.0;
@@ -139,7 +135,7 @@ fn bodies_and_meshes(set: &Scene, bodies: &Bodies) -> Result<Values, ValidationE
     }
     let width = bodies.geometry.face_width;
     for (kind, secant) in &secants {
-        let formula = iso6336::mean_stiffness(set, *kind).ok_or_else(missing)?;
+        let formula = iso6336_mean_stiffness(set, *kind).ok_or_else(missing)?;
         // The formula uses the same gears, so that the ratio of the two is judged.
         values.push(Value {
             id: format!("fe.iso_6336.{}", kind.name()),
@@ -273,7 +269,7 @@ fn digits(x: f64) -> f64 {
 ///
 /// # Errors
 /// If a scene cannot be used, or an equilibrium or an eigenproblem cannot be solved.
-pub fn study(
+pub(super) fn study(
     reference: &Reference,
     command: &str,
     heard: &dyn Fn(&str),

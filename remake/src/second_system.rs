@@ -2,7 +2,7 @@
 //! the inertia fixed to each planet with which the lumped model's lowest translational and rotational
 //! modes have the 622 and 782 Hz that section 4.2 of the paper prints.
 //!
-//! `cargo run --release -p validation --example remake -- second_system`
+//! `cargo run --release -p remake -- second_system`
 
 use experiments::modal::lumped_frequencies;
 use gearset::Scene;

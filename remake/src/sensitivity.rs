@@ -1,7 +1,7 @@
 //! Effect of damping, plane state and fillets on the growth of the first peaks with torque: heights at
 //! 2260 N·m over those at 565 N·m, four planets.
 //!
-//! `cargo run --release -p validation --example remake -- sensitivity`
+//! `cargo run --release -p remake -- sensitivity`
 
 use experiments::models::FeContact;
 use experiments::sweep::{Part, naturals};

@@ -2,7 +2,7 @@
 //! about the peak of the sun's rotation in the second harmonic, off resonance, and at the lowest
 //! translational mode's first harmonic. Half an hour on two cores.
 //!
-//! `cargo run --release -p validation --example remake -- truth > kept/full_sweep.toml`
+//! `cargo run --release -p remake -- truth > kept/full_sweep.toml`
 //!
 //! Flanks have eight elements, as at every fidelity that is compared with these results. A cycle has
 //! 140 steps; the error of the time step, which is of second order and alike at all fidelities, follows from
@@ -114,9 +114,9 @@ pub(crate) fn remake() -> crate::Outcome {
     let bodies = Bodies::new(&scene)?;
     let case = LoadCase::of_scene(&scene)?.with_sun_torque(TORQUE_NM);
     println!("# Harmonics 1 to 5 of steady states with every degree of freedom, four planets.");
-    println!("# Remade by: cargo run --release -p validation --example remake -- truth");
+    println!("# Remade by: cargo run --release -p remake -- truth");
     println!("source = \"own computation, fidelity full\"");
-    println!("command = \"cargo run --release -p validation --example remake -- truth\"");
+    println!("command = \"cargo run --release -p remake -- truth\"");
     println!("torque_nm = {TORQUE_NM:.1}\nflank_elements = {FLANK_ELEMENTS}");
     // Even cells cost as much and leave 1.3 % in the height of the peak (docs/studies.md).
     println!("cell_layout = \"graded\"\ntable_size = {TABLES}");
