@@ -1,6 +1,6 @@
-//! CPU time of a natural frequency from the scene to the number: lumped model with the parameters of the scene, the same with
-//! parameters in closed form, and FE/contact on the coarsest mesh that `auto` tries. Medians of interleaved runs, as ratios
-//! to the first, and what the last two differ by.
+//! CPU time of a natural frequency from the scene to the number: lumped model with the parameters of the scene, the
+//! same with parameters in closed form, and FE/contact on the coarsest mesh that `auto` tries. Medians of interleaved
+//! runs, as ratios to the first, and what the last two differ by.
 //!
 //! `RAYON_NUM_THREADS=1 cargo bench --bench natural_frequency`
 

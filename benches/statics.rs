@@ -1,4 +1,5 @@
-//! Time of static solutions: the bodies of a whole set, one mesh cycle of 140 positions, also with tip relief, one position.
+//! Time of static solutions: the bodies of a whole set, one mesh cycle of 140 positions, also with tip relief, one
+//! position.
 //!
 //! `RAYON_NUM_THREADS=1 cargo bench --bench statics`; counts of iterations are printed by
 //! `epicyclic static`.

@@ -1,13 +1,15 @@
 //! Steady states by shooting against marching to the same residual.
 //!
 //! - **Two resonances** of l = 1, 586 Hz, at which teeth stay in contact, and 780 Hz, at which they part below 1 % of
-//!   damping, with 2, 0.5 and 0.2 %, from the steady state 1 % below: cycles, derivatives and CPU time of shooting and of
-//!   marching alone, in turns in one process; the ratios are those of the times, and of the steps of marching to those of
-//!   shooting. Shooting computes the stability of the motion as well: the ratio of the motion alone leaves out the time of
-//!   the eigenvalues of the last derivative, which shows the change of the next cycle too, and of the eigenvector of the
-//!   largest.
-//! - **The default sweep** of 97 speeds, four planets, set-up shared: shooting against marching with the multipliers of its end.
-//! - **Prices**: the first cycle at a new speed, a later one, a derivative, and one for corrections (in single precision).
+//!   damping, with 2, 0.5 and 0.2 %, from the steady state 1 % below: cycles, derivatives and CPU time of shooting and
+//!   of marching alone, in turns in one process; the ratios are those of the times, and of the steps of marching to
+//!   those of shooting. Shooting computes the stability of the motion as well: the ratio of the motion alone leaves out
+//!   the time of the eigenvalues of the last derivative, which shows the change of the next cycle too, and of the
+//!   eigenvector of the largest.
+//! - **The default sweep** of 97 speeds, four planets, set-up shared: shooting against marching with the multipliers of
+//!   its end.
+//! - **Prices**: the first cycle at a new speed, a later one, a derivative, and one for corrections (in single
+//!   precision).
 //!
 //! `RAYON_NUM_THREADS=1 cargo bench --bench steady_states`; arguments `resonance`, `sweep`, `prices` choose parts.
 
@@ -67,7 +69,8 @@ struct Taken {
     of_stability: f64,
 }
 
-/// What one of some steady states found by shooting from the same other one took, set-up of the speed's frames included.
+/// What one of some steady states found by shooting from the same other one took, set-up of the speed's frames
+/// included.
 fn shot(model: &dyn SweepModel, rpm: f64, start: &[f64]) -> Option<Taken> {
     let settings =
         SteadySettings { between_cycles: 0, most_cycles: MOST_CYCLES, ..SteadySettings::default() };

@@ -99,8 +99,9 @@ fn limit(values: &[f64], refinements: &[f64], formal: Option<f64>) -> Extrapolat
     Extrapolated { value: v3 + step, uncertainty, order: Some(p) }
 }
 
-/// The order p at which (v₂ − v₁)/(v₃ − v₂) = s for refinement ratios r and q from the coarse to the middle and from the
-/// middle to the fine grid: s = qᵖ (rᵖ − 1)/(qᵖ − 1). The right side grows with p; `None` outside the usable orders.
+/// The order p at which (v₂ − v₁)/(v₃ − v₂) = s for refinement ratios r and q from the coarse to the middle and from
+/// the middle to the fine grid: s = qᵖ (rᵖ − 1)/(qᵖ − 1). The right side grows with p; `None` outside the usable
+/// orders.
 fn order(s: f64, r: f64, q: f64) -> Option<f64> {
     let excess = |p: f64| q.powf(p) * (r.powf(p) - 1.0) / (q.powf(p) - 1.0) - s;
     let [mut low, mut high] = USABLE;

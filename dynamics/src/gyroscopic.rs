@@ -57,7 +57,8 @@ pub fn gyroscopic_modes(
     let im = |j: usize| if values[j].im.abs() < REAL { 0.0 } else { values[j].im };
     let mut all: Vec<(f64, f64, usize)> =
         (0..2 * n).map(|j| (im(j) * reference, values[j].re * reference, j)).collect();
-    // Conjugate pairs s, s̄ describe one motion: of 2n values, the n with the larger Im are kept, of real ones the larger.
+    // Conjugate pairs s, s̄ describe one motion: of 2n values, the n with the larger Im are kept, of real ones the
+    // larger.
     all.sort_by(|a, b| b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1)));
     let mut modes = Vec::with_capacity(n);
     let mut residuals = Vec::with_capacity(n);

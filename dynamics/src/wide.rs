@@ -6,7 +6,8 @@ pub use pulp::Simd;
 
 /// A computation that is compiled once for each kind of processor.
 ///
-/// Loops that the compiler would leave in scalars or shuffles name the vectors of `simd` themselves. A sum of products written with
+/// Loops that the compiler would leave in scalars or shuffles name the vectors of `simd` themselves. A sum of products
+/// written with
 /// `mul_add_f64s` is fused on every processor, where it has no such instruction by a library function.
 pub trait Computation {
     /// What it gives.

@@ -1,8 +1,8 @@
 //! The bouncing bar by standard and by contact-sound schemes, against its closed form.
 //!
-//! Doyen, Ern & Piperno, SIAM J. Sci. Comput. 33 (2011), find that the average acceleration gains energy at contacts and that
-//! dissipative or energy-keeping treatments do not; Acary, Z. Angew. Math. Mech. 96 (2016), proves that Moreau–Jean with
-//! θ = ½ keeps it for e = 1 and never gains for e < 1.
+//! Doyen, Ern & Piperno, SIAM J. Sci. Comput. 33 (2011), find that the average acceleration gains energy at contacts
+//! and that dissipative or energy-keeping treatments do not; Acary, Z. Angew. Math. Mech. 96 (2016), proves that
+//! Moreau–Jean with θ = ½ keeps it for e = 1 and never gains for e < 1.
 
 use dynamics::benchmark_subjects::{IntegratorError, Scheme, VibratingSystem};
 use dynamics::stability::{BouncingBar, HammeringPair};
@@ -46,8 +46,8 @@ fn dissipative_contact_never_gains() {
     }
 }
 
-/// The guard from both sides: schemes that are cautioned of gain energy on the bar, the others do not. Central difference
-/// does so at the largest step that is stable without contact.
+/// The guard from both sides: schemes that are cautioned of gain energy on the bar, the others do not. Central
+/// difference does so at the largest step that is stable without contact.
 #[test]
 fn schemes_that_gain_energy_at_contacts_are_cautioned_of() {
     let bar = BouncingBar::PUBLISHED;
@@ -94,9 +94,9 @@ fn impulses_on_an_end_without_mass_are_refused() {
     assert!(matches!(refused, IntegratorError::Indefinite { .. }), "{refused}");
 }
 
-/// A pair that hammers has the inertia behind the compliance of the teeth. Average acceleration converges to the closed form
-/// with the square of the step, and neither gains nor loses energy in the mean; schemes that damp, and schemes that ask for
-/// mass at the flank, do not do for it.
+/// A pair that hammers has the inertia behind the compliance of the teeth. Average acceleration converges to the closed
+/// form with the square of the step, and neither gains nor loses energy in the mean; schemes that damp, and schemes
+/// that ask for mass at the flank, do not do for it.
 #[test]
 fn average_acceleration_keeps_the_energy_of_a_pair_that_hammers() {
     let pair = HammeringPair { landing_speed: 3.0 };

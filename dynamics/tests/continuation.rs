@@ -58,8 +58,8 @@ fn a_circle_closes_and_has_two_folds() {
     assert!(whole > 0.98 * TAU && whole < TAU + 0.5, "{whole}");
 }
 
-/// λ = 0.05 (y³ − 3a²y)/(2a³), a = 0.03: folds at λ = ∓0.05. The tangents before the first and beyond the second are parallel, and the
-/// sense of the branch is the same again: only the chord tells that a long step would skip both.
+/// λ = 0.05 (y³ − 3a²y)/(2a³), a = 0.03: folds at λ = ∓0.05. The tangents before the first and beyond the second are
+/// parallel, and the sense of the branch is the same again: only the chord tells that a long step would skip both.
 #[test]
 fn two_folds_near_each_other_are_not_skipped() {
     let a: f64 = 0.03;
@@ -94,8 +94,9 @@ fn rounding_does_not_shorten_steps() {
     assert!(branch.points.iter().all(|p| (p.y[0] - p.lambda.tanh()).abs() < 1e-8));
 }
 
-/// Two branches side by side, w = 0 and w = δ with w = y − A tanh(kλ). Beyond a bend the long step along the tangent ends nearer
-/// to the other branch, of the other sign of ∂F/∂w: steps are shortened until the branch followed is the one started on.
+/// Two branches side by side, w = 0 and w = δ with w = y − A tanh(kλ). Beyond a bend the long step along the tangent
+/// ends nearer to the other branch, of the other sign of ∂F/∂w: steps are shortened until the branch followed is the
+/// one started on.
 #[test]
 fn a_step_that_leads_to_a_neighbouring_branch_is_shortened() {
     let (a, k, delta) = (0.5, 6.0, 0.02);

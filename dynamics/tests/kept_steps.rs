@@ -105,8 +105,8 @@ fn interrupted(
     }
 }
 
-/// λ = y³ − y with two folds between its bounds, and a circle, which closes: the branch that was interrupted after each of
-/// its steps has the points of one that was not, to the last bit, and what is finished is not evaluated again.
+/// λ = y³ − y with two folds between its bounds, and a circle, which closes: the branch that was interrupted after each
+/// of its steps has the points of one that was not, to the last bit, and what is finished is not evaluated again.
 #[test]
 fn a_branch_interrupted_after_every_step_is_the_same_to_the_last_bit() {
     let cusp: Equation = |y, l| [l + y - y * y * y, 1.0 - 3.0 * y * y, 1.0];

@@ -282,8 +282,8 @@ fn shooting_lands_where_marching_does() {
     }
 }
 
-/// A rough derivative with an error of 1e-4 leads to the solution in the same number of periods, one more at most. One that
-/// is wrong is used for one correction only, and exact ones after it.
+/// A rough derivative with an error of 1e-4 leads to the solution in the same number of periods, one more at most. One
+/// that is wrong is used for one correction only, and exact ones after it.
 #[test]
 fn corrections_by_rough_derivatives_lead_to_the_solution() {
     let law = Springs { stiffness: 800.0, variation: 0.2, gap: 2e-4 };
@@ -305,9 +305,9 @@ fn corrections_by_rough_derivatives_lead_to_the_solution() {
     }
 }
 
-/// A correction from the end of the first period is kept where it contracts. Where it does not, because a derivative is wrong
-/// or because it leads to where no step can be taken, shooting goes on from that end as if the period had been marched only to
-/// settle.
+/// A correction from the end of the first period is kept where it contracts. Where it does not, because a derivative is
+/// wrong or because it leads to where no step can be taken, shooting goes on from that end as if the period had been
+/// marched only to settle.
 #[test]
 fn periods_are_marched_to_settle_only_where_the_first_correction_is_early() {
     let shot = |gap: f64, settling: usize, rough: f64, failing: Option<usize>| {
@@ -317,8 +317,8 @@ fn periods_are_marched_to_settle_only_where_the_first_correction_is_early() {
         let found = shoot(&mut cycles, &ShootingSettings { settling, ..SETTINGS }).unwrap();
         (found.periods, cycles.system.displacements())
     };
-    // Linear springs: one correction is enough. By a rough derivative of zero every end is the solution, which the next period
-    // shows to be wrong.
+    // Linear springs: one correction is enough. By a rough derivative of zero every end is the solution, which the next
+    // period shows to be wrong.
     let (at_once, exact) = shot(0.0, 0, 1.0, None);
     assert_eq!(shot(0.0, 1, 1.0, None), (at_once, exact));
     assert_eq!(shot(0.0, 1, 0.0, None).0, at_once + 1);
@@ -332,8 +332,8 @@ fn periods_are_marched_to_settle_only_where_the_first_correction_is_early() {
     }
 }
 
-/// One number that a period multiplies by μ, with a derivative off by δ: a correction leaves δ/(1 − μ + δ) of the error. Its
-/// periodic solution is 0.
+/// One number that a period multiplies by μ, with a derivative off by δ: a correction leaves δ/(1 − μ + δ) of the
+/// error. Its periodic solution is 0.
 struct Decay {
     y: f64,
     factor: f64,
@@ -374,8 +374,8 @@ impl PeriodMap for Decay {
     }
 }
 
-/// Shooting ends, as marching does, where a period changes little, with an error of up to ten tolerances: here one correction
-/// before the error is within the tolerance.
+/// Shooting ends, as marching does, where a period changes little, with an error of up to ten tolerances: here one
+/// correction before the error is within the tolerance.
 #[test]
 fn shooting_ends_with_the_change_that_is_asked_for() {
     let settings = ShootingSettings { tolerance: 1e-9, settling: 0, most_periods: 60 };
@@ -387,8 +387,8 @@ fn shooting_ends_with_the_change_that_is_asked_for() {
     assert!(found.residual <= 0.3e-9 && decay.y > 4e-9 && decay.y < 6e-9, "{found:?} {}", decay.y);
 }
 
-/// Where a period takes 1e-4 of an error, the change is within the tolerance at errors 10,000 times as large: it does not
-/// suffice.
+/// Where a period takes 1e-4 of an error, the change is within the tolerance at errors 10,000 times as large: it does
+/// not suffice.
 #[test]
 fn where_perturbations_hardly_decay_a_small_change_is_not_enough() {
     let settings = ShootingSettings { tolerance: 1e-9, settling: 0, most_periods: 60 };

@@ -24,7 +24,8 @@ fn shot(model: &dyn SweepModel, case: &LoadCase) -> Vec<f64> {
     found.record.channel(8).into_iter().step_by(steps / SAMPLES).collect()
 }
 
-/// 0.1 % of the vibration at two speeds; the steps as they are would be off by more. The balance samples the law of 1120
+/// 0.1 % of the vibration at two speeds; the steps as they are would be off by more. The balance samples the law of
+///   1120
 /// steps: that of 560 has the corners of the force, where pairs come into contact, to 0.1 % only (four unevenly spaced
 /// planets whose meshes have two classes of curves; 1.3e-3 at 1100 rpm, 0.8e-3 from the motion of 1120 and 2240 steps).
 #[test]

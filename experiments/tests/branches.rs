@@ -26,9 +26,9 @@ fn law<'b>(scene: &Scene, bodies: &'b Bodies, torque_nm: f64) -> MeshLawModel<'b
     MeshLawModel::new(scene, bodies, case).unwrap()
 }
 
-/// OH-58 with three planets under a twenty-fourth of its torque and with a fifth of its damping: where teeth begin to part
-/// the response softens and bends over, with an unstable part between two folds. Marching upwards and downwards jumps
-/// within one speed step of the folds and is never on the unstable part.
+/// OH-58 with three planets under a twenty-fourth of its torque and with a fifth of its damping: where teeth begin to
+/// part the response softens and bends over, with an unstable part between two folds. Marching upwards and downwards
+/// jumps within one speed step of the folds and is never on the unstable part.
 #[test]
 fn both_folds_are_traced_and_marching_jumps_there() {
     let scene = shipped::scene("oh58_3p", 70, 0.2);
@@ -154,9 +154,9 @@ fn motions_of_sweeps_lie_on_the_branch() {
     }
 }
 
-/// A period doubling by a multiplier that passes −1: below it no motion repeats with the mesh cycle that marching could find,
-/// and the branch goes on unstable. (That of `subharmonic.rs`, under a quarter more torque, is at a kink of the branch, over
-/// which a multiplier jumps.)
+/// A period doubling by a multiplier that passes −1: below it no motion repeats with the mesh cycle that marching could
+/// find, and the branch goes on unstable. (That of `subharmonic.rs`, under a quarter more torque, is at a kink of the
+/// branch, over which a multiplier jumps.)
 #[test]
 fn a_period_doubling_is_located_where_marching_doubles_its_period() {
     let scene = shipped::scene("oh58_3p", 70, 0.1);

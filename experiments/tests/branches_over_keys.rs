@@ -119,7 +119,8 @@ fn points_of_a_branch_over_a_key_are_steady_states_of_scenes_with_its_values() {
     }
 }
 
-/// Where damping is proportional to stiffness alone, the factor on the damping and the key of this damping say the same.
+/// Where damping is proportional to stiffness alone, the factor on the damping and the key of this damping say the
+/// same.
 #[test]
 fn a_branch_over_the_key_of_damping_is_that_over_damping() {
     let own = text("mesh_law");
@@ -144,8 +145,8 @@ fn a_branch_over_the_key_of_damping_is_that_over_damping() {
 }
 
 /// The derivative in the key is a central difference: halving its share of the key divides its error by four; with the
-/// share that is used it is that of a tenth of it. (A share of 1e-4 stands for the derivative itself: within it no cell begins
-/// or ceases to touch. From there to 1e-3 cells do, which moves the difference by 1e-4 of its size.)
+/// share that is used it is that of a tenth of it. (A share of 1e-4 stands for the derivative itself: within it no cell
+/// begins or ceases to touch. From there to 1e-3 cells do, which moves the difference by 1e-4 of its size.)
 #[test]
 fn the_difference_in_the_key_is_of_second_order() {
     let own = text("quasi_static");

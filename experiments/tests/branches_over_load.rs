@@ -50,9 +50,9 @@ fn three(points: &[BranchPoint], start: f64) -> [&BranchPoint; 3] {
     [&points[0], middle, &points[points.len() - 1]]
 }
 
-/// Along a branch over torque the law of the meshes stays that of the middle torque. Under each torque the motion is that
-/// which the same model marches to from rest; a model made under that torque differs, the less the nearer the torques of
-/// both models: the difference is due to what is held fixed and to nothing else.
+/// Along a branch over torque the law of the meshes stays that of the middle torque. Under each torque the motion is
+/// that which the same model marches to from rest; a model made under that torque differs, the less the nearer the
+/// torques of both models: the difference is due to what is held fixed and to nothing else.
 #[test]
 fn a_branch_over_torque_is_that_of_steady_states_about_one_reference() {
     let scene = scene(1.0);
@@ -144,8 +144,8 @@ fn derivatives_in_the_parameter_are_the_same_over_two_steps() {
     }
 }
 
-/// Off the period doubling of `branches.rs` leaves a branch of motions that repeat after two mesh cycles. Below it marching
-/// arrives at these.
+/// Off the period doubling of `branches.rs` leaves a branch of motions that repeat after two mesh cycles. Below it
+/// marching arrives at these.
 #[test]
 fn motions_that_repeat_after_two_cycles_are_followed_off_a_period_doubling() {
     let scene = scene(0.1);
@@ -168,8 +168,9 @@ fn motions_that_repeat_after_two_cycles_are_followed_off_a_period_doubling() {
         assert!(p.residual < 1e-8, "{:e}", p.residual);
         assert!(p.between.is_some_and(|share| share > 0.0), "{:?}", p.between);
     }
-    // It ends at the bound of the speeds, with more energy between harmonics than anywhere before. (Before steps on which the sense of
-    // the branch changes were refused, it fell back onto itself at 4108 rpm and returned to the doubling.)
+    // It ends at the bound of the speeds, with more energy between harmonics than anywhere before. (Before steps on
+    // which the sense of the branch changes were refused, it fell back onto itself at 4108 rpm and returned to the
+    // doubling.)
     assert_eq!(all[0].ends, [BranchEnd::Origin, BranchEnd::Bound]);
     let share = |p: &BranchPoint| p.between.unwrap();
     let most = all[0].points.iter().map(share).fold(0.0f64, f64::max);
@@ -245,8 +246,9 @@ fn torques_and_factors_that_make_no_branch_are_refused() {
     assert!(matches!(error, ExperimentError::OtherFlanks { .. }), "{error}");
 }
 
-/// The catalogue's pair at a speed at which it has two stable motions between two torques a seventh apart: both folds are found
-/// whatever the range of torques is. With the whole vibration as unit of arc the branch from 100 to 180 N·m falls onto itself.
+/// The catalogue's pair at a speed at which it has two stable motions between two torques a seventh apart: both folds
+/// are found whatever the range of torques is. With the whole vibration as unit of arc the branch from 100 to 180 N·m
+/// falls onto itself.
 #[test]
 fn folds_over_torque_do_not_depend_on_the_range() {
     let scene = shipped::scene("pair_50_50", 140, 2.0);

@@ -70,8 +70,9 @@ fn rows(name: &str, modes: u32) -> Vec<Row> {
     rows
 }
 
-/// Twelve modes of each body keep the sign and most of the size of the change of every mode that meshes govern (7 to 12 kHz),
-/// and leave inertia out, so that they change it by more; modes that bearings govern change by less than 0.1 % either way.
+/// Twelve modes of each body keep the sign and most of the size of the change of every mode that meshes govern (7 to 12
+/// kHz), and leave inertia out, so that they change it by more; modes that bearings govern change by less than 0.1 %
+/// either way.
 #[test]
 fn first_order_changes_have_sign_and_size_of_those_by_twelve_modes() {
     let rows = rows("oh58_4p", 12);
@@ -86,8 +87,8 @@ fn first_order_changes_have_sign_and_size_of_those_by_twelve_modes() {
     }
 }
 
-/// With a hundred modes of each body every change is that of first order, sign included, within 3 % of the change, which is as
-/// large as its square. Six minutes.
+/// With a hundred modes of each body every change is that of first order, sign included, within 3 % of the change,
+/// which is as large as its square. Six minutes.
 #[test]
 #[ignore = "six minutes"]
 fn first_order_changes_are_those_by_a_hundred_modes() {

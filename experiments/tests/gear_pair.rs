@@ -67,7 +67,8 @@ fn at_share(share: f64) -> f64 {
 }
 
 /// Traces the branch through the primary resonance and marches along it in both directions; checks that a softening
-/// jump is where theory has it. Returns the speeds of jump-up (upper fold) and jump-down (lower fold). Where contact is not
+/// jump is where theory has it. Returns the speeds of jump-up (upper fold) and jump-down (lower fold). Where contact is
+/// not
 /// `is_smooth`, each of the `steps` of a mesh cycle in which teeth begin to part is a corner, at which a fold may be.
 fn softening_jump(
     model: &dyn SweepModel,
@@ -303,9 +304,9 @@ fn damped(factor: f64) -> (Scene, Bodies, LoadCase) {
     (scene, bodies, case)
 }
 
-/// The branch of the pair with meshed teeth, on its mesh law, at twice the scene's damping. The fold at the lower amplitude is
-/// where teeth part in seven steps of a cycle instead of six, and a multiplier jumps over 1 instead of passing it. The other
-/// fold is smooth, as it is from 1.9 to 2.05 times the damping; from 2.1 times on there is none.
+/// The branch of the pair with meshed teeth, on its mesh law, at twice the scene's damping. The fold at the lower
+/// amplitude is where teeth part in seven steps of a cycle instead of six, and a multiplier jumps over 1 instead of
+/// passing it. The other fold is smooth, as it is from 1.9 to 2.05 times the damping; from 2.1 times on there is none.
 #[test]
 fn a_finite_element_pair_jumps_where_the_folds_of_its_branch_are() {
     let (scene, bodies, case) = damped(2.0);
@@ -316,8 +317,8 @@ fn a_finite_element_pair_jumps_where_the_folds_of_its_branch_are() {
     println!("folds at {} and {} of f_n", up / natural, down / natural);
 }
 
-/// Contact solved in every step and the mesh law made from it have two motions over the same range of speeds, of which one
-/// loses contact.
+/// Contact solved in every step and the mesh law made from it have two motions over the same range of speeds, of which
+/// one loses contact.
 #[test]
 fn contact_in_every_step_has_the_coexisting_motions_of_the_mesh_law() {
     let (scene, bodies, case) = damped(1.5);
@@ -363,8 +364,8 @@ fn contact_in_every_step_has_the_coexisting_motions_of_the_mesh_law() {
     }
 }
 
-/// Superharmonic resonances: the harmonics 2 and 3 of the transmission error have a local maximum where the harmonic is at
-/// the natural frequency. Where teeth part the peak is bent to lower speeds.
+/// Superharmonic resonances: the harmonics 2 and 3 of the transmission error have a local maximum where the harmonic is
+/// at the natural frequency. Where teeth part the peak is bent to lower speeds.
 #[test]
 fn superharmonic_resonances_of_the_finite_element_pair() {
     let (scene, bodies) = meshed();
@@ -394,11 +395,11 @@ fn superharmonic_resonances_of_the_finite_element_pair() {
     }
 }
 
-/// FE/contact inside and outside a tongue of parametric instability: about twice the natural frequency the motion that repeats
-/// with the mesh cycle is unstable, and its period doubles at the borders. They are those of Hill's equation with the
-/// mesh stiffness along the motion. (With the stiffness under a constant load, as at rest, the tongue would be a fifth
-/// narrower.) Of the lower border the mesh law with 70, 140 and 280 steps, and as many positions of its table, is 1.0e-3, 4.5e-4
-/// and 4e-5 off.
+/// FE/contact inside and outside a tongue of parametric instability: about twice the natural frequency the motion that
+/// repeats with the mesh cycle is unstable, and its period doubles at the borders. They are those of Hill's equation
+/// with the mesh stiffness along the motion. (With the stiffness under a constant load, as at rest, the tongue would be
+/// a fifth narrower.) Of the lower border the mesh law with 70, 140 and 280 steps, and as many positions of its table,
+/// is 1.0e-3, 4.5e-4 and 4e-5 off.
 #[test]
 fn a_finite_element_pair_is_unstable_inside_its_tongue_only() {
     let (mut scene, bodies) = meshed();
@@ -436,7 +437,8 @@ fn a_finite_element_pair_is_unstable_inside_its_tongue_only() {
     });
     let [exact_low, exact_high] = [hill[0].borders()[0], hill[1].borders()[1]];
     println!("{low} {high}, Hill along the motion {exact_low} {exact_high}");
-    // 140 steps lower a frequency of half the mesh frequency by (π/140)²/12 = 4e-5; the table of the law adds its own part.
+    // 140 steps lower a frequency of half the mesh frequency by (π/140)²/12 = 4e-5; the table of the law adds its own
+    // part.
     let (half, exact_half) = (0.5 * (high - low), 0.5 * (exact_high - exact_low));
     assert!((low / exact_low - 1.0).abs() < 1e-3 && (high / exact_high - 1.0).abs() < 1e-3);
     assert!((half / exact_half - 1.0).abs() < 0.03, "{half} {exact_half}");

@@ -90,8 +90,9 @@ fn the_motion_of_opposed_pairs_does_not_depend_on_which_planet_is_counted_first(
     compare(OPPOSED, 140, &[1, 2, 3], 1e-6);
 }
 
-/// Loaded phases differ from planet to planet, so that time steps lie elsewhere in the mesh cycle if counted from another
-/// planet. That makes 1.3e-3 (quasi-static) to 2.3e-3 (lumped) with 140 steps, a sixteenth of which is allowed with 560.
+/// Loaded phases differ from planet to planet, so that time steps lie elsewhere in the mesh cycle if counted from
+/// another planet. That makes 1.3e-3 (quasi-static) to 2.3e-3 (lumped) with 140 steps, a sixteenth of which is allowed
+/// with 560.
 #[test]
 fn the_motion_of_unequal_planets_does_not_depend_on_which_is_counted_first() {
     compare(UNEQUAL, 560, &[1], 8e-5);

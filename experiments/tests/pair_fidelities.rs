@@ -52,10 +52,10 @@ fn shooting_and_marching_agree_on_a_pair_with_modes() {
     }
 }
 
-/// With every degree of freedom of the gears: quasi-static gears lack the inertia of their own deflection, and modes of each
-/// gear leave at most a third of that error. Damped so much, with so
-/// few steps, that the march is short; with the damping of the other test and 60 steps six modes left a fiftieth of it at
-/// 600 rpm and a thirtieth at 1500 rpm, in four minutes each.
+/// With every degree of freedom of the gears: quasi-static gears lack the inertia of their own deflection, and modes of
+/// each gear leave at most a third of that error. Damped so much, with so few steps, that the march is short; with the
+/// damping of the other test and 60 steps six modes left a fiftieth of it at 600 rpm and a thirtieth at 1500 rpm, in
+/// four minutes each.
 #[test]
 fn modes_bring_a_pair_near_to_full_bodies() {
     let marching = SteadySettings {

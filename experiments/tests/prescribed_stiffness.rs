@@ -1,4 +1,5 @@
-//! The lumped model with prescribed mesh stiffness: a linear model as long as teeth touch, and at rest the tabulated one.
+//! The lumped model with prescribed mesh stiffness: a linear model as long as teeth touch, and at rest the tabulated
+//! one.
 
 mod shipped;
 
@@ -27,12 +28,12 @@ fn mean_and_range(samples: &[f64]) -> (f64, f64) {
     (samples.iter().sum::<f64>() / samples.len() as f64, ends[1] - ends[0])
 }
 
-/// With one law, twice the torque gives twice the motion, to the tolerance of steady states: there is no excitation but the
-/// torque on a stiffness that changes. Of tabulated forces it does not (teeth in contact all the time, both).
+/// With one law, twice the torque gives twice the motion, to the tolerance of steady states: there is no excitation but
+/// the torque on a stiffness that changes. Of tabulated forces it does not (teeth in contact all the time, both).
 ///
-/// Slowly turned, every mesh carries nearly its even share, under which both laws deflect alike: mean transmission errors agree to
-/// second order: load sharing swings by some 3 %, the tangent differs from the secant by a tenth, and the meshes have a twentieth
-/// of the deflection, which makes 1.5e-4.
+/// Slowly turned, every mesh carries nearly its even share, under which both laws deflect alike: mean transmission
+/// errors agree to second order: load sharing swings by some 3 %, the tangent differs from the secant by a tenth, and
+/// the meshes have a twentieth of the deflection, which makes 1.5e-4.
 #[test]
 fn it_is_linear_and_deflects_at_rest_as_the_tabulated_one() {
     let scene = shipped::scene("oh58_4p", 140, 1.0);

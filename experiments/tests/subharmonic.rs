@@ -25,9 +25,9 @@ fn period(rows: &[Vec<f64>]) -> Option<usize> {
     (1..=8).find(|apart| rows.iter().zip(&rows[*apart..]).all(|(a, b)| repeats(a, b)))
 }
 
-/// OH-58 with three planets under a twelfth of its torque and with a tenth of its damping: at 4,300 rpm the motion repeats
-/// with the mesh cycle, at 4,140 to 4,150 rpm, where teeth part, after two cycles, and at 4,100 rpm after none up to 8.
-/// The flag of a sweep is compared with displacements at the starts of the mesh cycles that follow.
+/// OH-58 with three planets under a twelfth of its torque and with a tenth of its damping: at 4,300 rpm the motion
+/// repeats with the mesh cycle, at 4,140 to 4,150 rpm, where teeth part, after two cycles, and at 4,100 rpm after none
+/// up to 8. The flag of a sweep is compared with displacements at the starts of the mesh cycles that follow.
 ///
 /// Searched were both OH-58 sets with this damping under 100 and 1,130 N·m from 1,000 to 7,000 rpm in steps of 100 rpm:
 /// whatever did not settle had parting teeth or decayed slowly. With three times the damping all motions of the

@@ -333,8 +333,8 @@ fn likeness(a: &[C], b: &[C]) -> f64 {
 ///
 /// With five equally spaced planets and 42 sun teeth planet n is 2n/5 of a mesh cycle ahead, so that harmonic 2 turns
 /// backward (2·42 = −1 mod 5) through the carrier frame and harmonic 3 forward (+1), and each can excite one half of a
-/// translational pair only. In a frame turning at Ω > 0 the forward half is lower and the backward half higher than both
-/// are without gyroscopic terms.
+/// translational pair only. In a frame turning at Ω > 0 the forward half is lower and the backward half higher than
+/// both are without gyroscopic terms.
 ///
 /// Frequencies are compared with and without the terms, so that what the linearisation leaves out (stiffness that
 /// varies with the mesh, curves of mesh force that are not straight) matters only where it changes the shift: 2 %.

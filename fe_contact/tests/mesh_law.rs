@@ -137,10 +137,10 @@ fn harmonics_are_those_of_the_quasi_static_fidelity() {
             );
             assert!(apart / scale < if h == 0 { 2e-3 } else { 0.15 }, "{name}, harmonic {h}");
             // The second harmonic is near a resonance, and the mesh law gives it 8.3 % low, with 140 and 280 steps
-            // and with 40 and 80 contact cells alike: an error of the law itself, between 7.5 and 9.5 % until that changes.
-            // About half of this is due to the side loads, which depend on the vibration with
-            // contact but on the position only with the mesh law; half to the lag of βK, which acts
-            // on each pair with contact but on the mesh as a whole with the mesh law.
+            // and with 40 and 80 contact cells alike: an error of the law itself, between 7.5 and 9.5 % until that
+            // changes. About half of this is due to the side loads, which depend on the vibration with contact but on
+            // the position only with the mesh law; half to the lag of βK, which acts on each pair with contact but on
+            // the mesh as a whole with the mesh law.
             if k == 0 {
                 let low = (size(two[h]) - size(one[h])) / largest.max(size(two[h]));
                 assert!(

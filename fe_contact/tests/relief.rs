@@ -2,9 +2,9 @@
 //!
 //! What is compared: places and amounts with closed forms (the vertex of the relieved gap, Hertz's pressure); static
 //! transmission errors and shares of load, from 60 to 6,000 N, with the same contact problem laid out in another way
-//! (grids of unrelieved flanks, longer, with gaps to which relief is added from its definition), to 0.5 %. The flexibility
-//! of the FE bodies is the same on both sides; `resolved_pair` holds relieved teeth to a calculation without this
-//! program's bodies, contact and relief.
+//! (grids of unrelieved flanks, longer, with gaps to which relief is added from its definition), to 0.5 %. The
+//! flexibility of the FE bodies is the same on both sides; `resolved_pair` holds relieved teeth to a calculation
+//! without this program's bodies, contact and relief.
 
 use std::sync::OnceLock;
 
@@ -271,8 +271,8 @@ fn a_micrometre_of_relief_brings_no_far_pair_into_contact() {
     }
 }
 
-/// Largest distance of a loaded cell from the unrelieved flanks' contact point, over half the length of the grid that they
-/// would have there, over a mesh cycle.
+/// Largest distance of a loaded cell from the unrelieved flanks' contact point, over half the length of the grid that
+/// they would have there, over a mesh cycle.
 fn farthest_over_reach(bodies: &Bodies, force: f64) -> f64 {
     let (mesh, pair) = bodies.joined(KIND).unwrap();
     let at = |i: u32| {
@@ -292,8 +292,9 @@ fn farthest_over_reach(bodies: &Bodies, force: f64) -> f64 {
     (0..24).map(at).fold(0.0, f64::max)
 }
 
-/// On grids about the contact point of the unrelieved flanks, relieved flanks touch beyond the end; unrelieved flanks do
-/// not. Relief of the slope g′ moves contact by R g′, whatever the load, and the grid's length follows from the load.
+/// On grids about the contact point of the unrelieved flanks, relieved flanks touch beyond the end; unrelieved flanks
+/// do not. Relief of the slope g′ moves contact by R g′, whatever the load, and the grid's length follows from the
+/// load.
 #[test]
 fn relieved_flanks_touch_beyond_the_grid_of_unrelieved_ones() {
     let third = |amount| Some(relief(151.5, amount, ReliefShape::Linear));

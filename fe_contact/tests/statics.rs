@@ -389,8 +389,8 @@ fn ranges_over_the_cycle_of_a_set_hold_its_positions() {
     assert!(tangent.least > 0.0 && tangent.mean > cycle.mesh_secant_stiffness(0).mean);
 }
 
-/// Mean forces over T/r_b: corners and the slopes of the deformed flanks press beside the line of action, so that the sum of
-/// the pair forces is a little larger than that along it.
+/// Mean forces over T/r_b: corners and the slopes of the deformed flanks press beside the line of action, so that the
+/// sum of the pair forces is a little larger than that along it.
 #[test]
 fn mean_mesh_forces_exceed_those_along_the_line_of_action_by_less_than_a_thousandth() {
     let scene = scene("oh58_4p.toml");
@@ -405,8 +405,8 @@ fn mean_mesh_forces_exceed_those_along_the_line_of_action_by_less_than_a_thousan
     }
 }
 
-/// Graded contact cells at rest (`fe_contact.cell_layout_at_rest`): twenty are nearer to many even ones than twenty even ones are, position by
-/// position over the mesh cycle, on the same bodies.
+/// Graded contact cells at rest (`fe_contact.cell_layout_at_rest`): twenty are nearer to many even ones than twenty
+/// even ones are, position by position over the mesh cycle, on the same bodies.
 #[test]
 fn twenty_graded_cells_at_rest_are_nearer_than_twenty_even_ones() {
     let with = |cells: u32, layout: CellLayout| {

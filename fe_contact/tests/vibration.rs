@@ -182,7 +182,8 @@ fn linear_damping_is_near_that_of_proportional_damping() {
     }
 }
 
-/// In a mode φ of unit modal mass slow damping gives 2ζω = φᵀ C φ, which the first eight modes of the damped set have with the state of its lag.
+/// In a mode φ of unit modal mass slow damping gives 2ζω = φᵀ C φ, which the first eight modes of the damped set have
+/// with the state of its lag.
 #[test]
 fn slow_damping_is_that_of_the_lagging_set() {
     let scene = scene("oh58_4p", Fidelity::QuasiStatic);

@@ -29,7 +29,8 @@ pub struct DynamicsInput {
     pub gyroscopic: bool,
     /// How approaches of tooth pairs follow from displacements of the gears in a sweep.
     pub kinematics: MeshKinematics,
-    /// With `fidelity = "auto"`: what the settings are to be chosen for. `fidelity` is then `QuasiStatic` until they are.
+    /// With `fidelity = "auto"`: what the settings are to be chosen for. `fidelity` is then `QuasiStatic` until they
+    /// are.
     pub auto: Option<AutoInput>,
 }
 
@@ -50,7 +51,8 @@ pub enum AutoQuantity {
     NaturalFrequency {
         /// Type of the mode.
         mode_type: AutoModeType,
-        /// Number among the modes of that type by ascending frequency, from 1; a frequency that occurs twice counts twice.
+        /// Number among the modes of that type by ascending frequency, from 1; a frequency that occurs twice counts
+        /// twice.
         number: u32,
     },
     /// Largest less smallest loaded transmission error r_b θ of the sun over a mesh cycle at rest.
@@ -144,8 +146,8 @@ pub enum ElementFamily {
     Quadratic,
 }
 
-/// Contact cells of a tooth pair: in tables of which forces and their slopes are asked, in time and beside a position for the
-/// slopes of the flanks, and in those of a set at rest.
+/// Contact cells of a tooth pair: in tables of which forces and their slopes are asked, in time and beside a position
+/// for the slopes of the flanks, and in those of a set at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CellLayout {

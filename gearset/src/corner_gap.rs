@@ -7,9 +7,9 @@ impl Mesh {
     /// G'', 1/m: the gap of the tip corner of `corner` grows as ½ G'' e² with its distance e beyond its end of the
     /// path, e in roll length of the corner's own gear.
     ///
-    /// At the end of the path the flanks touch at the corner, with radii of curvature equal to their roll lengths s₁, s₂.
-    /// Rolled on by e, they would touch s₁ e/r₁ of the corner's own flank beyond the corner, so that the corner is away
-    /// from the mating flank by
+    /// At the end of the path the flanks touch at the corner, with radii of curvature equal to their roll lengths s₁,
+    /// s₂. Rolled on by e, they would touch s₁ e/r₁ of the corner's own flank beyond the corner, so that the corner is
+    /// away from the mating flank by
     ///
     /// ```text
     /// ½ (s₁ e/r₁)² (1/s₁ ± 1/s₂),   + external, − internal (the larger radius is the ring's)

@@ -127,8 +127,8 @@ impl Gear {
         self.relief_and_slope_at(roll_length)[0]
     }
 
-    /// Tip relief (m) and its derivative with respect to the roll length (m/m); where relief starts the derivative is that
-    /// of the side without relief.
+    /// Tip relief (m) and its derivative with respect to the roll length (m/m); where relief starts the derivative is
+    /// that of the side without relief.
     pub fn relief_and_slope_at(&self, roll_length: f64) -> [f64; 2] {
         let Some(relief) = self.tip_relief else { return [0.0; 2] };
         let start = roll_length_at(self.base_radius, relief.start_radius);
@@ -212,8 +212,8 @@ impl<'g> Flank<'g> {
         self.point_and_radial(roll_length).0
     }
 
-    /// Point P of the unrelieved flank at roll length s, m, and the unit radial direction e where its base tangent leaves
-    /// the base circle, so that dP/ds = (s/r_b) e:
+    /// Point P of the unrelieved flank at roll length s, m, and the unit radial direction e where its base tangent
+    /// leaves the base circle, so that dP/ds = (s/r_b) e:
     ///
     /// ```text
     /// P = c + r_b e(φ) ± s e'(φ),   φ = θ₀ ∓ s/r_b   (upper sign: counter-clockwise end of the lobe)

@@ -11,12 +11,13 @@ pub(crate) const MOST_MODULES: f64 = 1.0;
 /// Deflection, in modules, from which a load is warned of: OH-58's published loads and bearings give 0.13 at most.
 pub(crate) const LARGE_MODULES: f64 = 0.25;
 
-/// Smallest deflection, in modules, that is accepted. Equilibria of sets resolve approaches to some 1e-13 m at a module of 3 mm;
-/// teeth behind bearings twenty times as soft as they are take a twentieth of this deflection, and keep three digits.
+/// Smallest deflection, in modules, that is accepted. Equilibria of sets resolve approaches to some 1e-13 m at a module
+/// of 3 mm; teeth behind bearings twenty times as soft as they are take a twentieth of this deflection, and keep three
+/// digits.
 pub(crate) const LEAST_MODULES: f64 = 1e-6;
 
-/// Lowest and highest speeds of a shaft that a model is asked for, rpm: slower is rest, and the fastest turbines of all reach
-/// a tenth of the other.
+/// Lowest and highest speeds of a shaft that a model is asked for, rpm: slower is rest, and the fastest turbines of all
+/// reach a tenth of the other.
 pub const SPEEDS_RPM: [f64; 2] = [1e-3, 1e7];
 
 /// Whether a speed that is to be swept, rpm, lies between these.
@@ -91,8 +92,8 @@ impl LoadSize {
 }
 
 impl Scene {
-    /// Deflection of the teeth of a set or a sun–planet pair under a torque on the sun, N·m. `None` without tooth geometry and
-    /// where the torque has no path through the meshes.
+    /// Deflection of the teeth of a set or a sun–planet pair under a torque on the sun, N·m. `None` without tooth
+    /// geometry and where the torque has no path through the meshes.
     pub fn size_of_sun_torque(&self, torque_nm: f64) -> Option<LoadSize> {
         let geometry = Geometry::from_scene(self).ok()?;
         let radius = geometry.sun.as_ref()?.base_radius;

@@ -179,8 +179,8 @@ impl MeshCurve {
         }
     }
 
-    /// Deflection (m) under a force (N): the least one, where several have this force. `None` unless the force is positive and
-    /// finite, or where no deflection has it.
+    /// Deflection (m) under a force (N): the least one, where several have this force. `None` unless the force is
+    /// positive and finite, or where no deflection has it.
     pub fn deflection(&self, force_n: f64) -> Option<f64> {
         if !(force_n > 0.0 && force_n.is_finite()) {
             return None;

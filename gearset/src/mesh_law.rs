@@ -466,7 +466,8 @@ mod tests {
         plan.law(curves).unwrap()
     }
 
-    /// Hand calculation: curves from first contact at their phase φ on with 1 N/m, so that 0.5 N deflect them by φ + 0.5 m.
+    /// Hand calculation: curves from first contact at their phase φ on with 1 N/m, so that 0.5 N deflect them by φ +
+    /// 0.5 m.
     #[test]
     fn prescribed_stiffness_is_the_secant_under_the_given_force() {
         let tabulated = law(MeshLawPlan::new(&starts(true), 14).unwrap())

@@ -213,8 +213,8 @@ pub struct Material {
 }
 
 impl Material {
-    /// E (Pa) and ν of the plane-strain body that behaves as this one does in a state of the plane: plane stress is plane
-    /// strain with E (1+2ν)/(1+ν)² and ν/(1+ν).
+    /// E (Pa) and ν of the plane-strain body that behaves as this one does in a state of the plane: plane stress is
+    /// plane strain with E (1+2ν)/(1+ν)² and ν/(1+ν).
     pub fn plane_strain_equivalent(&self, plane: PlaneState) -> (f64, f64) {
         let (e, nu) = (self.young_modulus_pa, self.poisson_ratio);
         match plane {

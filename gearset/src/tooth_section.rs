@@ -21,9 +21,9 @@ pub fn gauss_points(from: f64, to: f64) -> impl Iterator<Item = (f64, f64)> {
 }
 
 impl Gear {
-    /// Half the angle that the material of one tooth fills at `radius` (rad), from its axis: involute flank, root fillet and,
-    /// of an external tooth whose fillet ends below the base circle, the radial line between them. π/Z on the root circle
-    /// only where the fillets of one tooth space meet.
+    /// Half the angle that the material of one tooth fills at `radius` (rad), from its axis: involute flank, root
+    /// fillet and, of an external tooth whose fillet ends below the base circle, the radial line between them. π/Z on
+    /// the root circle only where the fillets of one tooth space meet.
     ///
     /// The fillet is a circle of radius ρ about a centre on r_c = r_f ± ρ, at the angle ϑ_c from the axis of the tooth:
     /// cos(ϑ_c − ϑ) = (r² + r_c² − ρ²)/(2 r r_c).
@@ -103,8 +103,8 @@ mod tests {
         [geometry.sun.unwrap(), geometry.planet, geometry.ring.unwrap()]
     }
 
-    /// At the form circle the fillet passes into the flank with the same angle and the same tangent; on the root circle it
-    /// leaves the land that the geometry states.
+    /// At the form circle the fillet passes into the flank with the same angle and the same tangent; on the root circle
+    /// it leaves the land that the geometry states.
     #[test]
     fn fillets_pass_smoothly_from_flank_to_root_circle() {
         let [sun, planet, ring] = gears();

@@ -355,8 +355,8 @@ fn linear_kinematics_misses_the_corners_of_a_wound_up_mesh() {
     }
 }
 
-/// The gap of a tip corner grows by the closed form: exact kinematics at a distance e beyond the path give ½ G'' e² but for a
-/// part of the order of e over the radii of curvature, which halves with e.
+/// The gap of a tip corner grows by the closed form: exact kinematics at a distance e beyond the path give ½ G'' e² but
+/// for a part of the order of e over the radii of curvature, which halves with e.
 #[test]
 fn corner_gaps_start_with_the_curvature_of_the_closed_form() {
     let geometry = oh58();

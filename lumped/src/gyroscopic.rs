@@ -9,10 +9,10 @@
 //! for the central members and, in ζ and η, for the planets. Bearings are isotropic, so that a spring to
 //! ground has the same stiffness matrix in the rotating frame.
 //!
-//! The equations are those of bodies without steady centrifugal load. Planets that turn with the carrier load their bearings
-//! by m Ω² r, which turns with the carrier and so resists what K_Ω does to a common rotation: a set that nothing holds is
-//! the same set at every angle. Without that preload its common rotation grows, to first order in Ω over the natural
-//! frequencies, as e^{at}, a² = Ω² N m_p r_c²/I, with I the inertia of the whole set about it.
+//! The equations are those of bodies without steady centrifugal load. Planets that turn with the carrier load their
+//! bearings by m Ω² r, which turns with the carrier and so resists what K_Ω does to a common rotation: a set that
+//! nothing holds is the same set at every angle. Without that preload its common rotation grows, to first order in Ω
+//! over the natural frequencies, as e^{at}, a² = Ω² N m_p r_c²/I, with I the inertia of the whole set about it.
 
 use std::f64::consts::TAU;
 
@@ -60,8 +60,8 @@ impl SpeedModes {
         self.modes.iter().fold(0.0, |a, m| a.max(m.growth_per_s))
     }
 
-    /// Frequency of the mode that grows fastest, Hz, 0 where it grows without oscillating; `None` if no mode grows faster than
-    /// rounding explains.
+    /// Frequency of the mode that grows fastest, Hz, 0 where it grows without oscillating; `None` if no mode grows
+    /// faster than rounding explains.
     pub fn growing_hz(&self) -> Option<f64> {
         let fastest = |a: &&SpeedMode, b: &&SpeedMode| a.growth_per_s.total_cmp(&b.growth_per_s);
         self.modes.iter().max_by(fastest).filter(|_| self.is_unstable()).map(|m| m.frequency_hz)

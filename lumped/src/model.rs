@@ -8,7 +8,8 @@ use crate::coordinates::{Axis, Body, Coordinates};
 use crate::error::LumpedError;
 use crate::springs::{Rows, Spring, SpringId};
 
-/// The Lin–Parker model, or that of a gear pair (six coordinates at most): a diagonal mass matrix and a list of springs on the free coordinates.
+/// The Lin–Parker model, or that of a gear pair (six coordinates at most): a diagonal mass matrix and a list of springs
+/// on the free coordinates.
 #[derive(Debug, Clone)]
 pub struct LumpedModel {
     /// ψ_n, rad.

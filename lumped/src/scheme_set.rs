@@ -5,9 +5,9 @@
 //! M q̈ + C q̇ + (K_s + Σ k̄ b bᵀ) q = f − Σ b (P − k̄ δ),   P = F(phase, δ),   δ = bᵀ q
 //! ```
 //!
-//! k̄ is the mean tangent of each mesh over the cycle at rest, so that the forces on the right, which each step is iterated
-//! for, stay small beside those on the left. The law has two steps for each step of the scheme: Bathe's scheme balances
-//! forces in the middle, too.
+//! k̄ is the mean tangent of each mesh over the cycle at rest, so that the forces on the right, which each step is
+//! iterated for, stay small beside those on the left. The law has two steps for each step of the scheme: Bathe's scheme
+//! balances forces in the middle, too.
 
 use std::sync::Arc;
 
@@ -74,12 +74,12 @@ fn deflection(coupling: &Coupling, x: &DVector<f64>) -> f64 {
 }
 
 impl SchemeSet {
-    /// A set at rest under a torque on the sun (N m, magnitude) of the given sense at step 0 of a mesh cycle; it makes one
-    /// step for every two of the law.
+    /// A set at rest under a torque on the sun (N m, magnitude) of the given sense at step 0 of a mesh cycle; it makes
+    /// one step for every two of the law.
     ///
     /// # Errors
-    /// As [`TimeVarying::new`]; if the meshes are damped, the law has an odd number of steps, there is no equilibrium, or
-    /// the scheme refuses the step.
+    /// As [`TimeVarying::new`]; if the meshes are damped, the law has an odd number of steps, there is no equilibrium,
+    /// or the scheme refuses the step.
     pub fn new(
         scene: &Scene,
         sense: Facing,
@@ -166,8 +166,8 @@ impl SchemeSet {
         (self.state.x.len(), self.solutions as f64 / (self.steps.max(1)) as f64)
     }
 
-    /// Displacements, velocities, accelerations and forces: what the next step continues from, after a whole number of mesh
-    /// cycles.
+    /// Displacements, velocities, accelerations and forces: what the next step continues from, after a whole number of
+    /// mesh cycles.
     pub fn continuous(&self) -> Vec<f64> {
         let StepState { x, v, a, .. } = &self.state;
         [x, v, a, &self.force].into_iter().flat_map(|list| list.iter().copied()).collect()

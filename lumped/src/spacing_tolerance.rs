@@ -1,9 +1,9 @@
 //! How unequal the spacing of planets may be before modes of equal frequency split and the types of modes stop meaning
 //! anything.
 //!
-//! The planets are displaced in angle by ε a_n. Their coordinates are in frames of their own, so that M does not change; only
-//! the rows b of meshes and planet bearings turn, and of these only the entries on translations of central members. With J
-//! the turn by a right angle of these entries,
+//! The planets are displaced in angle by ε a_n. Their coordinates are in frames of their own, so that M does not
+//! change; only the rows b of meshes and planet bearings turn, and of these only the entries on translations of central
+//! members. With J the turn by a right angle of these entries,
 //!
 //! ```text
 //! b(ε) = b + ε a_n J b − …,   K' = Σ k a_n (J b bᵀ + b (J b)ᵀ),   K'' = Σ k a_n² (J²b bᵀ + 2 J b (J b)ᵀ + b (J²b)ᵀ)
@@ -12,12 +12,12 @@
 //! ```
 //!
 //! φ are the M-orthonormal modes of a group that diagonalise the first of these matrices that is not a multiple of the
-//! identity; j runs over the other groups. With equal spacing φ_jᵀ K' φ_i has the factor Σ_n a_n e^(imψ_n) with m = 1 between
-//! rotational and translational modes, 2 within and between translational ones: a pattern a_n without that component changes
-//! them to second order only.
+//! identity; j runs over the other groups. With equal spacing φ_jᵀ K' φ_i has the factor Σ_n a_n e^(imψ_n) with m = 1
+//! between rotational and translational modes, 2 within and between translational ones: a pattern a_n without that
+//! component changes them to second order only.
 //!
-//! A kind of modes is a space that follows the planets: patterns cos ψ_n and sin ψ_n turn by ε a_n, too. With T the basis of the
-//! translational kind at equal spacing and T' its change, the part of a mode outside its kind is
+//! A kind of modes is a space that follows the planets: patterns cos ψ_n and sin ψ_n turn by ε a_n, too. With T the
+//! basis of the translational kind at equal spacing and T' its change, the part of a mode outside its kind is
 //!
 //! ```text
 //! rotational     ε φ'_⊥                       φ' = Σ_j …, ⊥ outside the kind
@@ -91,8 +91,8 @@ impl LumpedModel {
         Ok(changed)
     }
 
-    /// What displacing planets by ε `pattern` rad does to each group of modes whose type is pure, to leading order in ε.
-    /// Rigid-body modes and mixed ones are left out.
+    /// What displacing planets by ε `pattern` rad does to each group of modes whose type is pure, to leading order in
+    /// ε. Rigid-body modes and mixed ones are left out.
     ///
     /// # Errors
     /// If there is not one finite number for each planet.
@@ -191,7 +191,8 @@ impl KindsBySpacing {
             basis
         };
         let (rotational, translational) = (plain(rotational), plain(translational));
-        // A column of T moves planet n along an axis by c cos ψ_n + s sin ψ_n, with ψ_n + ε a_n for ψ_n once it is displaced.
+        // A column of T moves planet n along an axis by c cos ψ_n + s sin ψ_n, with ψ_n + ε a_n for ψ_n once it is
+        // displaced.
         let mut change = DMatrix::zeros(model.mass.len(), translational.ncols());
         for (i, (body, axis)) in model.coordinates.free().iter().enumerate() {
             let Body::Planet(n) = body else { continue };

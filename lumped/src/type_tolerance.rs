@@ -33,7 +33,8 @@ pub struct TypeTolerance {
     pub frequency_hz: f64,
     /// Type in the set as it is.
     pub mode_type: ModeType,
-    /// Part by which a planet may be heavier with at most 1e-6 of the mode outside its kind: beyond, it is listed as mixed.
+    /// Part by which a planet may be heavier with at most 1e-6 of the mode outside its kind: beyond, it is listed as
+    /// mixed.
     pub pure_up_to: f64,
     /// Part at which half of the mode would be outside its kind, by the same formula: beyond, the type means nothing.
     pub half_up_to: f64,

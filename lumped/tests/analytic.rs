@@ -102,8 +102,8 @@ fn a_rigid_carrier_is_the_limit_of_small_seats_flexibility() {
     }
 }
 
-/// Without load lines of action do not turn, and what they do grows with the load: it is F times the second derivatives of the
-/// approach, which the kinematics of displaced meshes know from elsewhere.
+/// Without load lines of action do not turn, and what they do grows with the load: it is F times the second derivatives
+/// of the approach, which the kinematics of displaced meshes know from elsewhere.
 #[test]
 fn turning_lines_of_action_have_the_second_derivatives_of_the_approach() {
     let geometry = Geometry::from_scene(&oh58()).unwrap();
@@ -211,8 +211,8 @@ fn a_set_of_twice_the_width_yields_as_much_under_twice_the_torque() {
     same(&at_rest(&scene, &positions), &at_rest(&twice, &positions), 1e-7);
 }
 
-/// The torque's work on the sun is what springs store: meshes and seats have a share each, and the rest, that of the bearings, is
-/// positive; more than the torque alone is not there.
+/// The torque's work on the sun is what springs store: meshes and seats have a share each, and the rest, that of the
+/// bearings, is positive; more than the torque alone is not there.
 #[test]
 fn shares_of_meshes_and_seats_are_parts_of_the_work() {
     for scene in [oh58(), five_planets()] {

@@ -50,7 +50,8 @@ fn off(found: &FourierSeries, samples: &[f64]) -> f64 {
     samples.iter().enumerate().map(at).fold(0.0, f64::max)
 }
 
-/// 0.1 % of the vibration, with contact kept and lost. Stiffness changes at once where a pair of teeth enters or leaves:
+/// 0.1 % of the vibration, with contact kept and lost. Stiffness changes at once where a pair of teeth enters or
+///   leaves:
 /// what sampling folds back falls with the number of samples.
 #[test]
 fn steady_motions_are_those_of_marching_extrapolated_in_the_step() {

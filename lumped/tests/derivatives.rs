@@ -131,8 +131,8 @@ fn an_unsupported_set_seen_from_the_carrier_whirls_at_carrier_speed() {
 }
 
 /// A set that turns freely has the common rotation with s = ±a, a in proportion to the speed: K_Ω acts on the planets'
-/// tangential motion. The growing one is found at every speed, whatever the signs of rounding errors. Values: eigenvalues with 40
-/// digits.
+/// tangential motion. The growing one is found at every speed, whatever the signs of rounding errors. Values:
+/// eigenvalues with 40 digits.
 #[test]
 fn a_pair_of_real_eigenvalues_has_its_growing_member_at_every_speed() {
     let (model, _) = modes(&scene("lin_parker_1999_3p.toml"));

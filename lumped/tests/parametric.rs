@@ -15,8 +15,8 @@ fn scene(name: &str) -> Scene {
 /// A tongue narrower than this part of its bound is closed.
 const CLOSED: f64 = 1e-9;
 
-/// Open tongues of the harmonics 1 to 3 that no other comes near, widest first: within six half-widths at ε no other open
-/// tongue has its centre.
+/// Open tongues of the harmonics 1 to 3 that no other comes near, widest first: within six half-widths at ε no other
+/// open tongue has its centre.
 fn isolated(set: &ParametricSet) -> Vec<Tongue> {
     let mut open = tongues(set, 3).unwrap();
     open.retain(|t| t.strength() > CLOSED);
@@ -32,8 +32,8 @@ fn isolated(set: &ParametricSet) -> Vec<Tongue> {
     alone
 }
 
-/// Borders found from multipliers leave the first-order ones as ε²: the order is 2, and the half-width over ε tends to the
-/// formula's. Combination and single-mode tongues, single modes and pairs.
+/// Borders found from multipliers leave the first-order ones as ε²: the order is 2, and the half-width over ε tends to
+/// the formula's. Combination and single-mode tongues, single modes and pairs.
 #[test]
 fn borders_are_the_first_order_ones_up_to_the_square_of_the_variation() {
     let epsilons = [0.02, 0.01, 0.005];
@@ -88,8 +88,9 @@ fn growth_is_inside_the_borders_and_nowhere_near() {
     assert!(all.iter().all(|m| (m.size() - 1.0).abs() < 1e-7), "{all:?}");
 }
 
-/// Five planets and a sun of 42 teeth: harmonic l has phases 2l/5 from planet to planet, modes have patterns e^{ikn2π/5}
-/// with k = 0 (rotational), ±1 (translational), ±2 (planet); a tongue is open only if k_p + k_q + 2l = 0 mod 5.
+/// Five planets and a sun of 42 teeth: harmonic l has phases 2l/5 from planet to planet, modes have patterns
+/// e^{ikn2π/5} with k = 0 (rotational), ±1 (translational), ±2 (planet); a tongue is open only if k_p + k_q + 2l = 0
+/// mod 5.
 #[test]
 fn planet_phasing_closes_the_tongues_that_symmetry_forbids() {
     let set = ParametricSet::from_scene(&scene("five_planets.toml"), 0.02).unwrap();
@@ -112,8 +113,8 @@ fn planet_phasing_closes_the_tongues_that_symmetry_forbids() {
     assert!(counts.iter().all(|c| *c > 50), "{counts:?}");
 }
 
-/// The same meshes all in phase open a tongue that phasing closes, and the multipliers say so too; contact ratios of 1.5
-/// close every tongue of the second harmonic.
+/// The same meshes all in phase open a tongue that phasing closes, and the multipliers say so too; contact ratios of
+/// 1.5 close every tongue of the second harmonic.
 #[test]
 fn phases_and_contact_ratios_decide_what_grows() {
     let scene = scene("five_planets.toml");

@@ -1,5 +1,5 @@
-//! The lumped set stepped by every scheme: the set of average acceleration step for step, the others by their order against
-//! harmonic balance, which has no step.
+//! The lumped set stepped by every scheme: the set of average acceleration step for step, the others by their order
+//! against harmonic balance, which has no step.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -75,8 +75,8 @@ fn average_acceleration_is_that_of_the_program() {
     }
 }
 
-/// Every scheme converges to the motion of harmonic balance with second order, which leaves 1e-4 in its highest harmonics: half an
-/// order at errors of a few times that.
+/// Every scheme converges to the motion of harmonic balance with second order, which leaves 1e-4 in its highest
+/// harmonics: half an order at errors of a few times that.
 #[test]
 fn every_scheme_converges_to_harmonic_balance_with_its_order() {
     let (scene, frequency, torque) = (scene(), 565.714, 1413.0);

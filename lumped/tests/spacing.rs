@@ -69,8 +69,8 @@ fn displaced_planets_are_those_of_a_scene_with_the_planets_there() {
     }
 }
 
-/// Splits at two small displacements have the order and the coefficient of theory, and their order is that of symmetry: the
-/// first only if the pattern has a component that goes twice around.
+/// Splits at two small displacements have the order and the coefficient of theory, and their order is that of symmetry:
+/// the first only if the pattern has a component that goes twice around.
 #[test]
 fn splits_have_the_order_of_symmetry_and_the_size_of_theory() {
     let mut compared = [0, 0];
@@ -98,8 +98,8 @@ fn splits_have_the_order_of_symmetry_and_the_size_of_theory() {
     assert!(compared.iter().all(|count| *count > 5), "{compared:?}");
 }
 
-/// Modes are listed as mixed from the displacement of the formula on, bisected, within three times the amplitude of 1e-3 that
-/// they are then mixed by and the displacement itself.
+/// Modes are listed as mixed from the displacement of the formula on, bisected, within three times the amplitude of
+/// 1e-3 that they are then mixed by and the displacement itself.
 #[test]
 fn modes_turn_mixed_at_the_displacement_of_theory() {
     let mut compared = 0;
@@ -132,8 +132,8 @@ fn modes_turn_mixed_at_the_displacement_of_theory() {
     assert!(compared > 30, "{compared}");
 }
 
-/// Turning all planets together changes nothing; planet modes are those of any spacing; and in a set whose opposed planets stay
-/// opposed, rotational and translational modes stay apart.
+/// Turning all planets together changes nothing; planet modes are those of any spacing; and in a set whose opposed
+/// planets stay opposed, rotational and translational modes stay apart.
 #[test]
 fn symmetry_says_what_does_not_change() {
     for name in SETS {

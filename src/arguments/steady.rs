@@ -97,8 +97,8 @@ pub(crate) struct Sweep {
 pub(crate) struct Branches {
     /// Scene file of a whole set, or a sun–planet gear pair; its `[dynamics]` gives fidelity and steps per mesh cycle.
     pub scene: PathBuf,
-    /// What is varied along the branch: speed (of the input member), torque (on the sun), damping (a factor on every damping
-    /// of the scene), or a scene key of damping, of the stiffness of a support, or of a mass or inertia, as
+    /// What is varied along the branch: speed (of the input member), torque (on the sun), damping (a factor on every
+    /// damping of the scene), or a scene key of damping, of the stiffness of a support, or of a mass or inertia, as
     /// planet.bearing_n_per_m.
     #[arg(long, value_name = "WHAT", default_value = "speed", value_parser = over)]
     pub over: BranchParameter,
@@ -117,15 +117,15 @@ pub(crate) struct Branches {
     /// Greatest value of the key, in its unit; with --over KEY, which needs it.
     #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
     pub to: Option<f64>,
-    /// Speed (rpm), torque (N·m), factor or value of the key at which the branch begins, with the motion found from rest; the greatest if
-    /// left out.
+    /// Speed (rpm), torque (N·m), factor or value of the key at which the branch begins, with the motion found from
+    /// rest; the greatest if left out.
     #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
     pub start: Option<f64>,
     /// Speed of the input member, rpm; not with --over speed. The operating speed if left out.
     #[arg(long, value_name = "RPM", allow_negative_numbers = true)]
     pub rpm: Option<f64>,
-    /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out. With --over torque the one under
-    /// which the model is set up, the middle of the range if left out.
+    /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out. With --over torque the one
+    /// under which the model is set up, the middle of the range if left out.
     #[arg(long, value_name = "NM", allow_negative_numbers = true)]
     pub sun_torque_nm: Option<f64>,
     /// Model whose motion is followed.
@@ -142,8 +142,8 @@ pub(crate) struct Branches {
     #[arg(long, value_name = "N", default_value_t = 500,
           value_parser = whole::<2, 100_000>, allow_negative_numbers = true)]
     pub max_points: u32,
-    /// Folder for finished steps, then the table (CSV) and everything (JSON); the same command resumes from the steps in
-    /// it. A folder with anything else that would be overwritten is refused.
+    /// Folder for finished steps, then the table (CSV) and everything (JSON); the same command resumes from the steps
+    /// in it. A folder with anything else that would be overwritten is refused.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Also draw the strongest motions of the sun into this folder (SVG, PNG), stable solid, unstable dashed:

@@ -52,7 +52,8 @@ pub(super) struct BranchesOutput {
     fidelity: String,
     /// What is varied.
     over: BranchParameter,
-    /// Its least and greatest value: rpm, N·m, the factor on the damping, or a number of the scene in the unit of its key.
+    /// Its least and greatest value: rpm, N·m, the factor on the damping, or a number of the scene in the unit of its
+    /// key.
     range: [f64; 2],
     /// Its value at which the first branch was begun.
     start: f64,

@@ -11,7 +11,8 @@ use crate::output;
 
 use super::refused;
 
-/// The folder of `--out`, if it is given, which receives a result as `NAME.json`, its table as `NAME.csv`, and its figure.
+/// The folder of `--out`, if it is given, which receives a result as `NAME.json`, its table as `NAME.csv`, and its
+/// figure.
 pub(super) struct ResultFiles<'f> {
     folder: Option<&'f Path>,
     name: &'f str,
@@ -62,7 +63,8 @@ pub(super) fn save(path: &Path, text: &str) -> Result<(), CommandError> {
 }
 
 /// Refuses a file that cannot be written, before the work whose results it is to hold: a folder in its place, a file in
-/// place of its folder, which is made if need be, or what the user may not write. A file that is there is left as it is.
+/// place of its folder, which is made if need be, or what the user may not write. A file that is there is left as it
+/// is.
 pub(super) fn writable(path: Option<&Path>) -> Result<(), CommandError> {
     let Some(path) = path else { return Ok(()) };
     if path.is_dir() {

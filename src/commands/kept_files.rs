@@ -32,8 +32,8 @@ pub(super) struct KeptFiles {
 }
 
 impl KeptFiles {
-    /// Opens a folder; parts that an earlier run with the same manifest left in it are used. `name`: name of the manifest's
-    /// file, which is written if it is not there; `parts`: folder of the parts.
+    /// Opens a folder; parts that an earlier run with the same manifest left in it are used. `name`: name of the
+    /// manifest's file, which is written if it is not there; `parts`: folder of the parts.
     ///
     /// # Errors
     /// If the folder holds the manifest of something else, or cannot be read or written.

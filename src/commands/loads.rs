@@ -1,4 +1,5 @@
-//! Loads given on the command line: finite, of a size that the linear theory can bear, and warned of where they are large.
+//! Loads given on the command line: finite, of a size that the linear theory can bear, and warned of where they are
+//! large.
 
 use std::io::Write;
 use std::path::Path;
@@ -18,7 +19,8 @@ pub(super) fn sun_torque(
 ) -> Result<f64, CommandError> {
     let Some(torque) = asked else {
         let torque = operating_torque(path, scene)?;
-        // A scene with more than the linear theory can bear is refused when it is read, and one that comes near it warned of.
+        // A scene with more than the linear theory can bear is refused when it is read, and one that comes near it
+        // warned of.
         let size = scene.size_of_sun_torque(torque);
         return match size.and_then(|size| size.refusal(torque, "N·m on the sun")) {
             Some(reason) => Err(unfit(path, format!("`operation.torque_nm` gives {reason}"))),
@@ -79,8 +81,8 @@ pub(super) fn approach(
     Ok(asked_um)
 }
 
-/// Refuses a load under which teeth give way by more than a module or less than a millionth of one, and warns from a quarter
-/// of a module on, as the scene's own `operation.torque_nm` is refused and warned of.
+/// Refuses a load under which teeth give way by more than a module or less than a millionth of one, and warns from a
+/// quarter of a module on, as the scene's own `operation.torque_nm` is refused and warned of.
 fn sized(
     argument: &'static str,
     load: f64,

@@ -24,8 +24,8 @@ use super::{auto_choice, needs, read_scene, refused, unfit};
 /// `modes --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
 pub(crate) struct ModesOutput {
-    /// One entry for each distinct frequency of the lumped model (and type, should two types coincide); with `auto` that with
-    /// parameters in closed form. Empty where `auto` chose another model.
+    /// One entry for each distinct frequency of the lumped model (and type, should two types coincide); with `auto`
+    /// that with parameters in closed form. Empty where `auto` chose another model.
     pub(crate) modes: Vec<ModeEntry>,
     /// With `--carrier-speeds-rpm`: frequencies with gyroscopic terms.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -78,9 +78,9 @@ struct CampbellEntry {
     largest_growth_per_s: f64,
     /// Whether that is above rounding.
     is_unstable: bool,
-    /// Frequency of the mode that grows fastest, Hz: 0 where it does not oscillate, as the common rotation of a set that turns
-    /// freely, which grows only because the equations leave out the preload of planet bearings by centrifugal forces; absent
-    /// if none grows.
+    /// Frequency of the mode that grows fastest, Hz: 0 where it does not oscillate, as the common rotation of a set
+    /// that turns freely, which grows only because the equations leave out the preload of planet bearings by
+    /// centrifugal forces; absent if none grows.
     #[serde(skip_serializing_if = "Option::is_none")]
     growing_hz: Option<f64>,
 }
@@ -174,8 +174,8 @@ pub(crate) fn describe(model: &LumpedModel, modes: &NaturalModes) -> ModesOutput
     }
 }
 
-/// The frequency that the scene names, with the cheapest settings within its tolerance; all modes of the lumped model if
-/// that is chosen.
+/// The frequency that the scene names, with the cheapest settings within its tolerance; all modes of the lumped model
+/// if that is chosen.
 fn chosen(
     arguments: &Modes,
     question: &FrequencyQuestion<'_>,

@@ -100,8 +100,8 @@ mod tests {
 
     use super::*;
 
-    /// Every file of `studies/` but the one to start from has a kept result of its title, quantities and settings, and every
-    /// map is shown with the figure that the page names.
+    /// Every file of `studies/` but the one to start from has a kept result of its title, quantities and settings, and
+    /// every map is shown with the figure that the page names.
     #[test]
     fn the_page_has_every_shipped_study_and_every_map() {
         let folder = tempfile::tempdir().unwrap();

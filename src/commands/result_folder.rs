@@ -1,5 +1,5 @@
-//! The folder of `--out` before anything is computed: whether its contents belong to this run, and that no other process
-//! writes into it.
+//! The folder of `--out` before anything is computed: whether its contents belong to this run, and that no other
+//! process writes into it.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
@@ -17,8 +17,8 @@ pub(super) const PLAN: &str = "plan.json";
 
 /// What a folder's contents were computed from.
 pub(super) trait Manifest: serde::Serialize {
-    /// The first difference of a manifest read from a folder from this one, as a clause about the folder; `None` if they
-    /// are the same.
+    /// The first difference of a manifest read from a folder from this one, as a clause about the folder; `None` if
+    /// they are the same.
     fn difference(&self, text: &str) -> Option<String>;
 }
 

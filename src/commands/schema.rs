@@ -18,7 +18,8 @@ use super::study::StudyOutput;
 use super::sweep_output::SweepOutput;
 use super::validate::ControlsOutput;
 
-/// `(file name, schema)` of each verb's output, and of a scene file; the files in `schemas/` are regenerated with the snapshots.
+/// `(file name, schema)` of each verb's output, and of a scene file; the files in `schemas/` are regenerated with the
+/// snapshots.
 pub fn schemas() -> Vec<(&'static str, Schema)> {
     fn of<T: JsonSchema>() -> Schema {
         schema_for!(T)

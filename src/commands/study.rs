@@ -67,8 +67,8 @@ fn figure(_: &StudyResult, _: &str, _: &Path) -> Result<(), CommandError> {
 }
 
 /// Ratio of the yardstick's times, of the last third to the first or of the upper quartile to the lower, beyond which
-/// costs are warned of. Ratios are taken to the yardstick just before and after, which a slow drift leaves as they are; a
-/// machine as restless as this may have changed in between.
+/// costs are warned of. Ratios are taken to the yardstick just before and after, which a slow drift leaves as they are;
+/// a machine as restless as this may have changed in between.
 const RESTLESS: f64 = 1.2;
 
 fn warn(study: &StudyResult, err: &mut dyn Write) -> Result<(), CommandError> {

@@ -27,8 +27,8 @@ const QUANTITIES: [Quantity; 2] = [
 /// A quantity whose largest amplitude is below this, in µrad or µm, is not drawn.
 const NOTHING: f64 = 1e-6;
 
-/// `branch_sun_rotation` and `branch_sun_translation` over the parameter, each in the harmonic that is the strongest anywhere
-/// on the branch; one that vanishes is left out.
+/// `branch_sun_rotation` and `branch_sun_translation` over the parameter, each in the harmonic that is the strongest
+/// anywhere on the branch; one that vanishes is left out.
 pub fn of_branches(found: &Branches, title: &str, harmonics: usize) -> Vec<Figure> {
     let Some(first) = found.branches.first() else { return Vec::new() };
     let points = || found.branches.iter().flat_map(|b| &b.points);

@@ -1,5 +1,5 @@
-//! Figures of the verdict's report, of a mesh cycle at rest, of impulse tests, of speed sweeps, of branches, of stability
-//! maps and of studies, one module per figure; all are saved as SVG and PNG.
+//! Figures of the verdict's report, of a mesh cycle at rest, of impulse tests, of speed sweeps, of branches, of
+//! stability maps and of studies, one module per figure; all are saved as SVG and PNG.
 
 mod branches;
 mod campbell;

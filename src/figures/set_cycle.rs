@@ -39,8 +39,8 @@ fn transmission_error(cycle: &SetCycle, radius: f64, about: &str) -> Picture {
     chart(&labels, &[Curve::new("", over(cycle, |s| s.transmission_error(radius) * 1e6))])
 }
 
-/// Width of curve i of so many, px. Planets in phase carry the same force: a curve that lies below others is wider and shows
-/// at their sides, and curves on top stay thin enough for their dashes to be seen.
+/// Width of curve i of so many, px. Planets in phase carry the same force: a curve that lies below others is wider and
+/// shows at their sides, and curves on top stay thin enough for their dashes to be seen.
 fn width(i: usize, count: usize) -> f64 {
     const THINNEST: f64 = 1.2;
     const STEP: f64 = 0.6;

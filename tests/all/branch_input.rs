@@ -54,8 +54,8 @@ fn scenes_without_damping_have_no_branches() {
     assert_eq!(own["lacks"][0]["key"], "damping.mass_proportional_per_s");
 }
 
-/// Exact kinematics have no derivative: the key is named before anything is computed, `scene check` knows it, and the lumped
-/// model, whose meshes are tabulated, has one all the same.
+/// Exact kinematics have no derivative: the key is named before anything is computed, `scene check` knows it, and the
+/// lumped model, whose meshes are tabulated, has one all the same.
 #[test]
 fn exact_kinematics_have_no_branches() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,5 +1,5 @@
-//! Figures as a reader meets them, judged by the text of their SVG files: labels that keep clear of one another and of lines,
-//! and curves that can be told apart where they coincide.
+//! Figures as a reader meets them, judged by the text of their SVG files: labels that keep clear of one another and of
+//! lines, and curves that can be told apart where they coincide.
 
 use std::path::Path;
 
@@ -219,8 +219,8 @@ fn every_harmonic_of_a_campbell_chart_is_labelled_at_its_line() {
     }
 }
 
-/// Meshes that carry the same force at every position are seen beside one another: each curve is drawn thinner than those
-/// below it.
+/// Meshes that carry the same force at every position are seen beside one another: each curve is drawn thinner than
+/// those below it.
 #[test]
 fn coinciding_curves_of_load_sharing_can_be_told_apart() {
     let folder = tempfile::tempdir().unwrap();

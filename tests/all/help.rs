@@ -81,7 +81,8 @@ fn short(verb: &str, plain: &str) -> Option<String> {
     })
 }
 
-/// CSV is accepted where help lists it, and no format that it does not list; text and JSON are in `every_verb_keeps_to_its_formats`.
+/// CSV is accepted where help lists it, and no format that it does not list; text and JSON are in
+/// `every_verb_keeps_to_its_formats`.
 #[test]
 fn every_verb_has_the_formats_of_its_help() {
     let folder = tempfile::tempdir().unwrap();
@@ -214,7 +215,8 @@ fn every_verb_draws_the_figures_of_its_help() {
             good(&format!("{line} --figures {}", at.display()));
             drawn.extend(figures(&at));
         }
-        // Names with a `_`, and the words that are a figure's whole name; `harmonics_*` stands for one of each quantity.
+        // Names with a `_`, and the words that are a figure's whole name; `harmonics_*` stands for one of each
+        // quantity.
         let (_, names) = text.split_once(": ").unwrap();
         let words = names.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '*'));
         let of = |name: &String| match name.starts_with("harmonics_") {

@@ -39,8 +39,8 @@ fn both(line: &str) -> [[String; 2]; 2] {
     [written(&on), written(&off)]
 }
 
-/// Each verb that takes more than a moment says what it is doing, removes it at the end, and prints the same result with or
-/// without a terminal; off a terminal standard error is empty, but for the lines of `validate`.
+/// Each verb that takes more than a moment says what it is doing, removes it at the end, and prints the same result
+/// with or without a terminal; off a terminal standard error is empty, but for the lines of `validate`.
 #[test]
 fn verbs_show_what_they_do_on_a_terminal_alone() {
     let folder = tempfile::tempdir().unwrap();

@@ -104,8 +104,8 @@ fn columns_of_meshes_and_modal_tests_are_explained() {
     }
 }
 
-/// A torque in the scene acts on the input member, and `--sun-torque-nm` on the sun: with the carrier driven the two differ by
-/// 1 + z_ring/z_sun, and with either the sun carries the same.
+/// A torque in the scene acts on the input member, and `--sun-torque-nm` on the sun: with the carrier driven the two
+/// differ by 1 + z_ring/z_sun, and with either the sun carries the same.
 #[test]
 fn torques_of_scene_and_command_line_name_their_member() {
     let folder = tempfile::tempdir().unwrap();

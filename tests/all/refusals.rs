@@ -1,12 +1,12 @@
-//! Values of arguments that no gear set has, and places that cannot be written: one message that names the argument, exit
-//! code 2, and no work before.
+//! Values of arguments that no gear set has, and places that cannot be written: one message that names the argument,
+//! exit code 2, and no work before.
 
 use serde_json::Value;
 
 use crate::harness::{coarse, run, scene};
 
-/// A torque, force or approach on the command line is judged as the scene's own torque is: beyond a module of deflection it is
-/// refused, with the largest that is allowed, and from a quarter of one it is warned of.
+/// A torque, force or approach on the command line is judged as the scene's own torque is: beyond a module of
+/// deflection it is refused, with the largest that is allowed, and from a quarter of one it is warned of.
 #[test]
 fn loads_of_another_size_are_refused_or_warned_of() {
     let (set, pair) = (scene("oh58_4p.toml"), scene("oh58_sun_planet_pair.toml"));
@@ -32,8 +32,8 @@ fn loads_of_another_size_are_refused_or_warned_of() {
     assert!(err.is_empty(), "{err}");
 }
 
-/// Under a load so small that rounding shows in the deflections, numbers would be wrong without a word: below a millionth of a
-/// module it is refused, with the least that is allowed.
+/// Under a load so small that rounding shows in the deflections, numbers would be wrong without a word: below a
+/// millionth of a module it is refused, with the least that is allowed.
 #[test]
 fn loads_too_small_to_be_told_from_rounding_are_refused() {
     let folder = tempfile::tempdir().unwrap();
@@ -72,8 +72,8 @@ fn loads_too_small_to_be_told_from_rounding_are_refused() {
     }
 }
 
-/// A contact's compliance falls in proportion to the logarithm of its load, so that over loads in equal ratios the compliances
-/// of a mesh are evenly spaced: down to the least torque that is accepted, where rounding would show first.
+/// A contact's compliance falls in proportion to the logarithm of its load, so that over loads in equal ratios the
+/// compliances of a mesh are evenly spaced: down to the least torque that is accepted, where rounding would show first.
 #[test]
 fn the_least_torque_that_is_accepted_is_computed_to_three_digits() {
     let folder = tempfile::tempdir().unwrap();
@@ -310,8 +310,8 @@ fn settings_that_meet_no_tolerance_are_refused_with_their_estimates() {
     }
 }
 
-/// `fidelity = "auto"` for a transmission error at rest and for an amplitude: the choice stands with the result, arguments
-/// that it decides are refused, and so is a quantity that the verb does not give.
+/// `fidelity = "auto"` for a transmission error at rest and for an amplitude: the choice stands with the result,
+/// arguments that it decides are refused, and so is a quantity that the verb does not give.
 #[test]
 fn settings_are_chosen_for_transmission_errors_and_amplitudes() {
     let folder = tempfile::tempdir().unwrap();

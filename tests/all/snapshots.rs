@@ -55,8 +55,8 @@ const NOISE: [(&str, f64); 4] = [
     ("uncertainty_hz", 1e-3),
 ];
 
-/// Checks whose value is what the last correction of a steady state leaves, which depends on rounding: only an upper limit is
-/// checked, a tenth of the tolerance that they are judged by.
+/// Checks whose value is what the last correction of a steady state leaves, which depends on rounding: only an upper
+/// limit is checked, a tenth of the tolerance that they are judged by.
 const LEFT_OVER: [(&str, f64); 2] = [("sweep.forbidden.", 1e-9), ("sweep.between.", 1e-17)];
 
 struct Tolerant;

@@ -25,8 +25,8 @@ fn stability_maps_that_are_none_are_refused() {
     }
 }
 
-/// A gear pair with lumped parameters: its highest frequency is √(k/m_e) of the mesh and its two inertias, of which central
-/// difference needs half a period a step. Tongues of a set ask for a set.
+/// A gear pair with lumped parameters: its highest frequency is √(k/m_e) of the mesh and its two inertias, of which
+/// central difference needs half a period a step. Tongues of a set ask for a set.
 #[test]
 fn the_explicit_step_of_a_pair_is_that_of_its_mesh() {
     let folder = tempfile::tempdir().unwrap();
@@ -80,8 +80,8 @@ fn borders_that_have_a_closed_form_are_those_of_theory() {
     }
 }
 
-/// A march that ends at some change from cycle to cycle is off by what the multipliers let expect: of this set no more, and
-/// by that of the slowest part once it alone is left. Without it a change of 0.001 would pass for an error of it.
+/// A march that ends at some change from cycle to cycle is off by what the multipliers let expect: of this set no more,
+/// and by that of the slowest part once it alone is left. Without it a change of 0.001 would pass for an error of it.
 #[test]
 fn an_unfinished_transient_is_as_large_as_multipliers_say() {
     let result = json(&["stability", "transients", "--format", "json"]);
@@ -106,9 +106,10 @@ fn an_unfinished_transient_is_as_large_as_multipliers_say() {
     }
 }
 
-/// Kinematics about the unloaded configuration are off as theory says, and those about the loaded one are not: a windup is a
-/// shift of time (harmonic l off by 2 sin πlw), gaps of corners are off by ½ G'' w², and lines of action that do not turn move
-/// natural frequencies to first order in the load. Coarse elements and cells, which both sides of every comparison share.
+/// Kinematics about the unloaded configuration are off as theory says, and those about the loaded one are not: a windup
+/// is a shift of time (harmonic l off by 2 sin πlw), gaps of corners are off by ½ G'' w², and lines of action that do
+/// not turn move natural frequencies to first order in the load. Coarse elements and cells, which both sides of every
+/// comparison share.
 #[test]
 fn kinematics_about_the_unloaded_set_are_off_as_theory_says() {
     let folder = tempfile::tempdir().unwrap();
@@ -184,8 +185,8 @@ fn the_lag_of_the_program_does_not_ring() {
     assert!(matches!(found[..], [Some(_), None]), "{found:?}");
 }
 
-/// Bilinear elements lock; a square one is about half too stiff, as the program warns: 1.48 in plane stress, 1.575 in plane
-/// strain, (1 − ν)²/(1 − 2ν) + (1 − ν)/2 at ν = 0.3.
+/// Bilinear elements lock; a square one is about half too stiff, as the program warns: 1.48 in plane stress, 1.575 in
+/// plane strain, (1 − ν)²/(1 − 2ν) + (1 − ν)/2 at ν = 0.3.
 #[test]
 fn a_square_bilinear_element_is_as_stiff_as_the_warning_says() {
     let result = json(&["stability", "locking", "--format", "json"]);
@@ -196,8 +197,8 @@ fn a_square_bilinear_element_is_as_stiff_as_the_warning_says() {
     assert!((stiff - 1.48).abs() < 0.005, "{stiff}");
 }
 
-/// Solvers agree where pivoting could cycle, the interior point to its floor; the default of 40 cells, twice the even share
-/// laid out, has more than the four cells in a half-width that 1 % of the peak pressure needs.
+/// Solvers agree where pivoting could cycle, the interior point to its floor; the default of 40 cells, twice the even
+/// share laid out, has more than the four cells in a half-width that 1 % of the peak pressure needs.
 #[test]
 fn contact_solvers_hold_on_degenerate_problems() {
     let result = json(&["stability", "contact-cells", "--format", "json"]);

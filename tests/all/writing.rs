@@ -33,8 +33,8 @@ fn folders_that_cannot_be_made_are_refused_before_anything_is_computed() {
     }
 }
 
-/// A folder in place of a file that is to be written is found before, where the name of the file is known; the folder of
-/// results holds nothing else then.
+/// A folder in place of a file that is to be written is found before, where the name of the file is known; the folder
+/// of results holds nothing else then.
 #[test]
 fn folders_in_place_of_results_are_refused_before_anything_is_computed() {
     let folder = tempfile::tempdir().unwrap();

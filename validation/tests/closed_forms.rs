@@ -1,6 +1,6 @@
-//! How far the parameters in closed form of the lumped model (`lumped::AnalyticSet`) are from what FE/contact computes on meshes of
-//! the same bodies: masses, pin seats and mesh stiffnesses; and the transmission errors of `lumped::AnalyticCycle`. `auto` estimates its
-//! errors from these.
+//! How far the parameters in closed form of the lumped model (`lumped::AnalyticSet`) are from what FE/contact computes
+//! on meshes of the same bodies: masses, pin seats and mesh stiffnesses; and the transmission errors of
+//! `lumped::AnalyticCycle`. `auto` estimates its errors from these.
 
 use experiments::auto::{
     AutoSettings, BodyInertia, CycleQuestion, CycleValue, FrequencyQuestion, Question,
@@ -92,9 +92,9 @@ fn closed_forms_hold_on_shipped_sets() {
     }
 }
 
-/// Modes in which planets hardly press their meshes change with the torque by how flanks lean as they roll on and as their centres move
-/// apart, and by forces that turn: alike in the closed form and in FE/contact. Without the slope over the centre distance they were
-/// apart by about 0.1 %.
+/// Modes in which planets hardly press their meshes change with the torque by how flanks lean as they roll on and as
+/// their centres move apart, and by forces that turn: alike in the closed form and in FE/contact. Without the slope
+/// over the centre distance they were apart by about 0.1 %.
 #[test]
 fn modes_hardly_pressed_follow_the_load() {
     for (name, scene) in [("OH-58", scene("oh58_4p")), ("18037", drawn_set(18037).unwrap())] {
@@ -169,8 +169,8 @@ fn stated_errors_hold_with_modes_of_the_bodies() {
     within_what_is_stated(&[1.7, 2.0, 2.5, 2.9], 40, 4);
 }
 
-/// Mean transmission error at rest in closed form over that of FE/contact, less 1, with its estimate, and the ratio of peak to peak;
-/// percent.
+/// Mean transmission error at rest in closed form over that of FE/contact, less 1, with its estimate, and the ratio of
+/// peak to peak; percent.
 fn means(scene: &Scene) -> Option<[f64; 3]> {
     let case = LoadCase::of_scene(scene).ok()?;
     let mean = CycleQuestion { scene, case: &case, value: CycleValue::Mean };
@@ -189,7 +189,8 @@ fn means(scene: &Scene) -> Option<[f64; 3]> {
     Some([percent(in_closed_form / by_contact.mean), estimate, of_range])
 }
 
-/// The mean transmission error at rest is within its estimate on shipped sets; peak to peak, which has none, is within a third.
+/// The mean transmission error at rest is within its estimate on shipped sets; peak to peak, which has none, is within
+/// a third.
 #[test]
 fn mean_transmission_errors_hold_on_shipped_sets() {
     for name in ["oh58_4p", "oh58_3p", "five_planets"] {
@@ -225,7 +226,8 @@ fn mean_transmission_errors_hold_on_drawn_sets() {
     assert!(beyond * 20 <= count, "{beyond} of {count}");
 }
 
-/// The figures of `docs/closed_forms.md`: on the drawn sets to which the foundation of the teeth was fitted, and on others.
+/// The figures of `docs/closed_forms.md`: on the drawn sets to which the foundation of the teeth was fitted, and on
+/// others.
 #[test]
 #[ignore = "seven minutes"]
 fn closed_forms_hold_on_drawn_sets() {

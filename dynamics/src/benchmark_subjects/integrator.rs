@@ -31,8 +31,8 @@ pub trait Integrator: Debug {
     /// Name of the scheme in words.
     fn name(&self) -> &'static str;
 
-    /// Replaces the state by that one step later under further forces; returns displacements in the middle of the step (n,
-    /// m) of a scheme that balances forces there.
+    /// Replaces the state by that one step later under further forces; returns displacements in the middle of the step
+    /// (n, m) of a scheme that balances forces there.
     ///
     /// # Errors
     /// If the contact problem of the step is not solved.

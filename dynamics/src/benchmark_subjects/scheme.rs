@@ -70,8 +70,8 @@ impl Scheme {
 
     /// What to know before this scheme is used on a system with obstacles; `None` if it cannot gain energy at them.
     ///
-    /// Proofs exist for contact-stabilised Newmark (Deuflhard, Krause & Ertel 2008) and for Moreau–Jean with θ ≥ ½ (Acary
-    /// 2016); the others gain energy on the bouncing bar.
+    /// Proofs exist for contact-stabilised Newmark (Deuflhard, Krause & Ertel 2008) and for Moreau–Jean with θ ≥ ½
+    /// (Acary 2016); the others gain energy on the bouncing bar.
     pub fn caution(&self, system: &VibratingSystem) -> Option<String> {
         let is_sound = matches!(self, Self::ContactStabilised | Self::MoreauJean { .. });
         (!is_sound && !system.clearance.is_empty()).then(|| {

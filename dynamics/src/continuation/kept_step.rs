@@ -12,8 +12,8 @@ use super::trace::Direction;
 pub struct KeptStep {
     /// Points in order: those located within the step, then the one that it ends at. Step 0 has the first point alone.
     pub points: Vec<BranchPoint>,
-    /// Scaled unknowns and, last, the scaled parameter at its end: rounding makes them others than the plain ones divided
-    /// by their scales.
+    /// Scaled unknowns and, last, the scaled parameter at its end: rounding makes them others than the plain ones
+    /// divided by their scales.
     pub scaled: Vec<f64>,
     /// Sign of det [∂F/∂u; tᵀ] at its end; 0 if it is not known.
     pub orientation: f64,

@@ -2,9 +2,9 @@
 //!
 //! Where two smooth pieces of F meet, the tangents on both sides differ by a finite angle. Up to a right angle the
 //! hyperplane across the old tangent still meets the branch; beyond it, at a fold of the kink, it does not, however
-//! short the step, or a solution on the piece beyond is found from which the branch leads back. What tells forwards from
-//! backwards is the sign of det [∂F/∂u; tᵀ], which stays the same along the branch. The next step goes in this sense along
-//! the tangent at the last point or of the linearisation at a point just beyond it.
+//! short the step, or a solution on the piece beyond is found from which the branch leads back. What tells forwards
+//! from backwards is the sign of det [∂F/∂u; tᵀ], which stays the same along the branch. The next step goes in this
+//! sense along the tangent at the last point or of the linearisation at a point just beyond it.
 
 use super::family::Family;
 use super::space::{Corrected, Space, Stop, dot, norm};
@@ -15,8 +15,8 @@ const LONGER: f64 = 4.0;
 /// Points whose linearisation is tried, in steps along the old tangent: the last one itself, then beyond the kink.
 const PROBES: [f64; 4] = [0.0, 1.0, 0.25, 4.0];
 
-/// A point beyond the kink after `from`, at most `longest` away; `None` if there is none that the linearisations there and
-/// beyond lead to. `sense`: sign of det [∂F/∂u; tᵀ] along the branch before the kink.
+/// A point beyond the kink after `from`, at most `longest` away; `None` if there is none that the linearisations there
+/// and beyond lead to. `sense`: sign of det [∂F/∂u; tᵀ] along the branch before the kink.
 pub(super) fn past_kink<F: Family>(
     space: &mut Space<'_, F>,
     from: &Corrected,

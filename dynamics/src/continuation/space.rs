@@ -234,8 +234,8 @@ impl<'a, F: Family> Space<'a, F> {
     }
 }
 
-/// Corrections up to this many times the tolerance may be rounding: over very many time steps that of a period comes to more than
-/// the tolerance.
+/// Corrections up to this many times the tolerance may be rounding: over very many time steps that of a period comes to
+/// more than the tolerance.
 const ROUNDING: f64 = 30.0;
 
 /// Sign of the determinant, 0 if it cannot be told. The determinant itself may be too small for a number.

@@ -24,13 +24,15 @@ pub enum Direction {
 const GROWTH: f64 = 1.6;
 
 /// A turn that stays within these shares of itself when the step is halved is a kink of the branch, as equations with
-/// kinks have them: no shorter step would avoid it. That onto another stretch of the branch, beside this one, grows instead.
+/// kinks have them: no shorter step would avoid it. That onto another stretch of the branch, beside this one, grows
+/// instead.
 const KINK: [f64; 2] = [0.75, 1.1];
 
 /// Least steps from which on the chord counts: nearer to a kink a point may be beyond it already.
 const CHORD: f64 = 1e3;
 
-/// Share of its values at both ends of a step below which a test function has vanished between, rather than jumped at a kink.
+/// Share of its values at both ends of a step below which a test function has vanished between, rather than jumped at a
+/// kink.
 const VANISHED: f64 = 1e-2;
 
 /// Least steps before a kink at which the sense of the branch is taken: nearer to it a point may be beyond it already.
@@ -303,7 +305,8 @@ fn follow<F: Family>(
                 Err(_) => {}
             }
         }
-        // The sign stays along a branch, but for branch points: the step has led to another branch, or back along this one.
+        // The sign stays along a branch, but for branch points: the step has led to another branch, or back along this
+        // one.
         let is_other = next.at.orientation * last.at.orientation < 0.0;
         if is_other && !meets_branch && h > options.steps[0] {
             (refused, h) = (f64::INFINITY, (0.5 * h).max(options.steps[0]));
@@ -344,7 +347,8 @@ fn follow<F: Family>(
     Ok((points, end))
 }
 
-/// Sign of det [∂F/∂u; tᵀ] at the last regular point up to an arc length, or at the first point; 0 if it cannot be told.
+/// Sign of det [∂F/∂u; tᵀ] at the last regular point up to an arc length, or at the first point; 0 if it cannot be
+/// told.
 fn sense_before<F: Family>(space: &mut Space<'_, F>, points: &[BranchPoint], arc: f64) -> f64 {
     let is_before = |p: &&BranchPoint| p.kind == PointKind::Regular && p.arc <= arc;
     let Some(p) = points.iter().rev().find(is_before).or(points.first()) else { return 0.0 };
@@ -405,8 +409,9 @@ fn advance<F: Family>(
     Ok(Step::Bound(Some(judge(space, next)?)))
 }
 
-/// Angle by which a branch turns from one point to another: from the tangent at the first to the chord, and on to the tangent at the
-/// other, rad. The tangents alone are parallel again where a step has skipped two folds; they count alone within a thousand
+/// Angle by which a branch turns from one point to another: from the tangent at the first to the chord, and on to the
+/// tangent at the other, rad. The tangents alone are parallel again where a step has skipped two folds; they count
+/// alone within a thousand
 /// `least` steps, where a point may be beyond a kink already and the chord says nothing.
 fn turn(from: &Corrected, to: &Corrected, least: f64) -> f64 {
     let chord = minus(&to.u, &from.u);

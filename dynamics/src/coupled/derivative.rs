@@ -79,8 +79,8 @@ impl<L: CouplingForce> Coupled<L> {
         Some(self.map_derivative(&derivative, rate))
     }
 
-    /// The same in double precision, with a change of the 2n coordinates at the start carried along. `None` also for a change of
-    /// another size.
+    /// The same in double precision, with a change of the 2n coordinates at the start carried along. `None` also for a
+    /// change of another size.
     pub fn derivative_with(
         &self,
         passed: &PassedSteps,
@@ -123,8 +123,8 @@ impl<L: CouplingForce> Coupled<L> {
         [&self.state.modal.x[..n], &self.state.modal.v[..n]].concat()
     }
 
-    /// Continues from displacements and velocities of the modes at the start of a cycle; accelerations follow from the balance
-    /// of forces.
+    /// Continues from displacements and velocities of the modes at the start of a cycle; accelerations follow from the
+    /// balance of forces.
     ///
     /// # Errors
     /// If there are not 2n finite numbers.

@@ -53,8 +53,8 @@ struct Factors<T> {
 enum LinearFactors<T> {
     /// Of each mode c and the entry of A⁻¹, where C is diagonal.
     Diagonal(Vec<(T, T)>),
-    /// −(h²/4) (2/h + (h/2) λ) of each mode, h²/4, and (4/h²) A⁻¹ by rows: of the order of 1, so that in single precision
-    /// no product is too small to be a normal number, which would cost a hundred times as much.
+    /// −(h²/4) (2/h + (h/2) λ) of each mode, h²/4, and (4/h²) A⁻¹ by rows: of the order of 1, so that in single
+    /// precision no product is too small to be a normal number, which would cost a hundred times as much.
     Full(Vec<T>, T, Vec<T>),
 }
 
@@ -68,8 +68,8 @@ struct GroupFactors<T> {
 }
 
 impl<T: Number> Gradients<T> {
-    /// Of displacements, velocities and accelerations, each 2n×n: rows by coordinate at the start, columns by mode. A row more is
-    /// a change of all coordinates.
+    /// Of displacements, velocities and accelerations, each 2n×n: rows by coordinate at the start, columns by mode. A
+    /// row more is a change of all coordinates.
     pub(super) fn new(
         start: [&DMatrix<f64>; 3],
         modes: &Modes,
@@ -271,8 +271,8 @@ impl<S: Simd, T: Number> Rows<'_, S, T> {
         }
     }
 
-    /// The displacements without coupling forces, A⁻¹ (a*' + C v*'). Where C is full, C = (h/2) (A − (4/h²) I − Λ) leaves
-    /// one product with a full matrix,
+    /// The displacements without coupling forces, A⁻¹ (a*' + C v*'). Where C is full, C = (h/2) (A − (4/h²) I − Λ)
+    /// leaves one product with a full matrix,
     ///
     /// ```text
     /// A⁻¹ (a* + C v*) = (h/2) v* + A⁻¹ (a* − (2/h) v* − (h/2) Λ v*)

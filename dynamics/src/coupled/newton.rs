@@ -169,8 +169,8 @@ pub(super) fn inverted<const W: usize>(y: &[[f64; W]; W], d: &[f64; W]) -> [[f64
 
 /// Replaces a matrix by its inverse, both by row: Gauss–Jordan without pivoting.
 ///
-/// Rows are read and written as a whole, with factors of 1 and 0 in place of single entries: an entry stored by itself just
-/// before its row is read stalls the processor.
+/// Rows are read and written as a whole, with factors of 1 and 0 in place of single entries: an entry stored by itself
+/// just before its row is read stalls the processor.
 #[inline(always)]
 pub(super) fn eliminate<const W: usize>(g: &mut [[f64; W]; W]) {
     for k in 0..W {

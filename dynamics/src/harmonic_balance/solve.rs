@@ -21,9 +21,9 @@ impl<L: CouplingForce> HarmonicBalance<L> {
     /// A periodic motion at a fundamental frequency, rad/s.
     ///
     /// `start`: unknowns of a motion nearby, with any number of harmonics, at least the means of the coordinates;
-    /// without it the iteration starts from equilibrium under the mean load. If Newton's method fails from there, damping in proportion to mass is added
-    /// until vibration almost vanishes, and then taken away step by step: of several motions this finds the one that
-    /// is connected to equilibrium, usually the least.
+    /// without it the iteration starts from equilibrium under the mean load. If Newton's method fails from there,
+    /// damping in proportion to mass is added until vibration almost vanishes, and then taken away step by step: of
+    /// several motions this finds the one that is connected to equilibrium, usually the least.
     ///
     /// # Errors
     /// If the input is out of range, there is no equilibrium, the linear part is at an undamped resonance, the

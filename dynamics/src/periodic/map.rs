@@ -29,8 +29,8 @@ pub trait PeriodMap {
     fn derivative(&mut self) -> Result<MapDerivative, Self::Error>;
 
     /// The same with errors of the order of 1e-4 of its size, if such a derivative costs less: corrections approach the
-    /// solution almost as fast with it, as the error of each is that of the derivative times the correction (Kelley, SIAM
-    /// Review 64, 2022).
+    /// solution almost as fast with it, as the error of each is that of the derivative times the correction (Kelley,
+    /// SIAM Review 64, 2022).
     ///
     /// # Errors
     /// If there is none.
@@ -41,12 +41,12 @@ pub trait PeriodMap {
     /// Size of a deviation of the coordinates (n) relative to the peak-to-peak vibration over the last period.
     fn relative(&self, deviation: &[f64]) -> f64;
 
-    /// The derivative over the period marched last, y(0) to y(T), and the largest change from that period to the one that
-    /// would follow it, relative to its peak-to-peak vibration.
+    /// The derivative over the period marched last, y(0) to y(T), and the largest change from that period to the one
+    /// that would follow it, relative to its peak-to-peak vibration.
     ///
-    /// The next period begins `residual` = y(T) − y(0) (n) beside this one, so that at step k it differs by P_k (y(T) − y(0))
-    /// with P_k the derivative of the first k steps, to first order. At the end of shooting the residual is some 1e-9 of the
-    /// vibration, and the second order is rounding.
+    /// The next period begins `residual` = y(T) − y(0) (n) beside this one, so that at step k it differs by P_k (y(T) −
+    /// y(0)) with P_k the derivative of the first k steps, to first order. At the end of shooting the residual is some
+    /// 1e-9 of the vibration, and the second order is rounding.
     ///
     /// # Errors
     /// If there is none.

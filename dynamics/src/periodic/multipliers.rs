@@ -13,7 +13,8 @@ use crate::error::EigenError;
 /// Columns of R below this share of its largest entry are rounding: they belong to multipliers of zero.
 const RANK: f64 = 1e-13;
 
-/// Where the pivots of an elimination with row exchanges stay above this share of the largest, no multiplier is zero to rounding.
+/// Where the pivots of an elimination with row exchanges stay above this share of the largest, no multiplier is zero to
+/// rounding.
 const FULL_RANK: f64 = 1e-6;
 
 /// Iterations of nalgebra's Schur form for each row of a matrix: three are usual.
@@ -68,17 +69,17 @@ impl Multiplier {
     }
 }
 
-/// Share of the size of a multiplier by which the shift of the inverse iteration is off it, so that the shifted matrix can
-/// be factorised.
+/// Share of the size of a multiplier by which the shift of the inverse iteration is off it, so that the shifted matrix
+/// can be factorised.
 const SHIFTED: f64 = 1e-9;
 
 /// Steps of the inverse iteration. Each leaves at most a share of [`SHIFTED`] over the relative distance to the next
 /// multiplier; of those that coincide any combination is an eigenvector.
 const ITERATIONS: usize = 3;
 
-/// Real and imaginary part of an eigenvector of DΦ: how the perturbation with a multiplier moves at the start of a period.
-/// All n coordinates of [`MapDerivative`]; those without a column of their own, which follow, are left 0. In scaled
-/// coordinates the vector has the norm 1 and its parts are orthogonal, the real one the longer.
+/// Real and imaginary part of an eigenvector of DΦ: how the perturbation with a multiplier moves at the start of a
+/// period. All n coordinates of [`MapDerivative`]; those without a column of their own, which follow, are left 0. In
+/// scaled coordinates the vector has the norm 1 and its parts are orthogonal, the real one the longer.
 ///
 /// # Errors
 /// If an entry is not finite or the iteration meets a singular matrix.
@@ -163,8 +164,8 @@ fn has_full_rank(m: &DMatrix<f64>) -> bool {
     !pivots.is_empty() && pivots.min() > FULL_RANK * pivots.max()
 }
 
-/// Eigenvalues from nalgebra's Schur form, which at order 34 takes about half of the time of faer's eigenvalues. Of some
-/// matrices it does not end, or leaves a block that it cannot solve: these have faer's.
+/// Eigenvalues from nalgebra's Schur form, which at order 34 takes about half of the time of faer's eigenvalues. Of
+/// some matrices it does not end, or leaves a block that it cannot solve: these have faer's.
 fn eigenvalues(m: DMatrix<f64>) -> Result<Vec<Multiplier>, EigenError> {
     let size = m.nrows();
     let quick = quick_eigenvalues(m.clone());

@@ -24,8 +24,8 @@ const LEAST: f64 = 1.0 / 64.0;
 /// Corrections given up, after each of which twice as many periods are marched, until shooting is given up.
 const PATIENCE: usize = 4;
 
-/// Error to the periodic solution, as a share of the tolerance on the change from period to period, that needs no further
-/// correction: between two ends of a period as close as this is a change of at most twice of it.
+/// Error to the periodic solution, as a share of the tolerance on the change from period to period, that needs no
+/// further correction: between two ends of a period as close as this is a change of at most twice of it.
 const CLOSE: f64 = 0.15;
 
 /// Largest error to the periodic solution in the last period, in tolerances on the change from period to period. Where
@@ -38,8 +38,8 @@ const MOST_ERROR: f64 = 10.0;
 pub struct ShootingSettings {
     /// Largest change from one period to the next, relative to the peak-to-peak vibration.
     pub tolerance: f64,
-    /// Periods marched before the first derivative, in which fast transients decay and the contact pattern settles. They are
-    /// spared where a correction from the end of the first of them contracts.
+    /// Periods marched before the first derivative, in which fast transients decay and the contact pattern settles.
+    /// They are spared where a correction from the end of the first of them contracts.
     pub settling: usize,
     /// Periods marched in all after which shooting is given up.
     pub most_periods: usize,
@@ -98,8 +98,8 @@ pub fn shoot<M: PeriodMap + ?Sized>(
     let mut march_on = 0;
     // Whether no correction was judged yet, so that the first period may turn out to be one of those that settle.
     let mut may_settle = settings.settling > 0;
-    // Corrections may use rough derivatives until the first correction of one does not contract, or shows an end that the
-    // exact one does not confirm.
+    // Corrections may use rough derivatives until the first correction of one does not contract, or shows an end that
+    // the exact one does not confirm.
     let (mut may_be_rough, mut is_new) = (true, false);
     // Whether the last period ended close to the solution.
     let mut is_close = false;

@@ -1,7 +1,7 @@
 //! An elastic bar that falls on rigid ground and bounces: a contact problem with waves that has a closed-form solution.
 //!
-//! A bar of length L, density ρ, modulus E (per unit of cross-section), wave speed c = √(E/ρ), falls under gravity g with
-//! its lower end at height v₀²/2g. With τ = 2L/c, the time of a wave there and back, and u(z, t) measured from the
+//! A bar of length L, density ρ, modulus E (per unit of cross-section), wave speed c = √(E/ρ), falls under gravity g
+//! with its lower end at height v₀²/2g. With τ = 2L/c, the time of a wave there and back, and u(z, t) measured from the
 //! unstrained bar on the ground, the wave equation ü = c² u'' − g gives for a bar that lands unstrained
 //!
 //! ```text
@@ -16,8 +16,8 @@
 //! velocity g (r − τ/2), which lands in phase after a flight of k whole periods and which landing 2 takes out. The
 //! solution holds for v₀ > g τ and whole k = 2v₀/(gτ). The total energy is constant.
 //!
-//! The problem with L = 10, E = 900, ρ = 1, g = 10, v₀ = 10 (k = 3) is the bouncing bar of Doyen, Ern & Piperno, SIAM J. Sci.
-//! Comput. 33 (2011) 223–249; the solution above is derived here.
+//! The problem with L = 10, E = 900, ρ = 1, g = 10, v₀ = 10 (k = 3) is the bouncing bar of Doyen, Ern & Piperno, SIAM
+//! J. Sci. Comput. 33 (2011) 223–249; the solution above is derived here.
 
 use nalgebra::DMatrix;
 

@@ -1,15 +1,15 @@
 //! A gear pair that hammers under a light torque: one mass on a tooth spring without mass, thrown off and pressed back.
 //!
-//! A mass m is pressed by a constant force f towards a flank that it touches through the spring k of the teeth; apart from
-//! the flank nothing acts but f. With ω = √(k/m), δ = f/k and x towards the flank, 0 where it is just touched,
+//! A mass m is pressed by a constant force f towards a flank that it touches through the spring k of the teeth; apart
+//! from the flank nothing acts but f. With ω = √(k/m), δ = f/k and x towards the flank, 0 where it is just touched,
 //!
 //! ```text
 //! contact, 0 ≤ s < T_c:   x = δ (1 − cos ωs) + (v/ω) sin ωs,      T_c = (2/ω) (π − arctan(v/(ωδ)))
 //! flight,  0 ≤ s < T_f:   x = −v s + ½ (f/m) s²,                   T_f = 2 v m/f
 //! ```
 //!
-//! The motion repeats after T_c + T_f for ever, and the energy ½ m v² is constant. Unlike the bouncing bar this problem has
-//! the inertia of gears: none at the flank, all of it behind the compliance of the teeth.
+//! The motion repeats after T_c + T_f for ever, and the energy ½ m v² is constant. Unlike the bouncing bar this problem
+//! has the inertia of gears: none at the flank, all of it behind the compliance of the teeth.
 
 use nalgebra::DMatrix;
 
@@ -18,8 +18,8 @@ use crate::benchmark_subjects::{IntegratorError, Obstacle, Scheme, VibratingSyst
 /// The pair, in units in which m = 1, ω = 1 and δ = 1: what remains is v/(ωδ).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HammeringPair {
-    /// v/(ωδ), the speed at which the flank is met over that of an oscillation by the static deflection: the largest force
-    /// is 1 + √(1 + (v/ωδ)²) times the static one.
+    /// v/(ωδ), the speed at which the flank is met over that of an oscillation by the static deflection: the largest
+    /// force is 1 + √(1 + (v/ωδ)²) times the static one.
     pub landing_speed: f64,
 }
 
@@ -28,8 +28,8 @@ pub struct HammeringPair {
 pub struct Hammering {
     /// At the top of each flight by the closed form: energy over its first value, one per bounce.
     pub energy: Vec<f64>,
-    /// Largest difference of the mass's place from the closed form over the first two bounces, as part of the height of a
-    /// flight.
+    /// Largest difference of the mass's place from the closed form over the first two bounces, as part of the height of
+    /// a flight.
     pub place_error: f64,
 }
 

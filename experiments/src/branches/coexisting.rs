@@ -48,8 +48,8 @@ impl<'b> Stretch<'b> {
         all
     }
 
-    /// Whether two stretches are the same motions, passed twice: both ends are at the same values with the same harmonics. (A motion
-    /// that repeats after two mesh cycles and the same one cycle later have the same harmonics.)
+    /// Whether two stretches are the same motions, passed twice: both ends are at the same values with the same
+    /// harmonics. (A motion that repeats after two mesh cycles and the same one cycle later have the same harmonics.)
     fn is(&self, other: &Self) -> bool {
         self.ends.iter().zip(&other.ends).all(|(a, b)| {
             (a.parameter - b.parameter).abs() <= SAME * a.parameter.abs() && are_alike(a, b)
@@ -166,8 +166,8 @@ mod tests {
         assert!(found.coexisting().is_empty());
     }
 
-    /// A branch that passes a stretch of stable motions twice, from one located point to another, has one motion there; two
-    /// stretches that share one end only are two.
+    /// A branch that passes a stretch of stable motions twice, from one located point to another, has one motion there;
+    /// two stretches that share one end only are two.
     #[test]
     fn motions_passed_twice_count_once() {
         use BranchPointKind::{Fold, NeimarkSacker, PeriodDoubling, Regular};

@@ -12,10 +12,10 @@ use crate::sweep::{CriticalMotion, Marching, Record, RecordedCycles, SMALL, Swee
 /// Share of the parameter by which it is changed to either side for the derivative in it.
 pub const PARAMETER_CHANGE: f64 = 1e-6;
 
-/// F(y; λ) = Φᵖ(y; λ) − y for motions that repeat after p mesh cycles: y the coordinates at the start of a mesh cycle (as
-/// [`CycleDerivative::coordinates`](crate::sweep::CycleDerivative::coordinates)), λ the speed of the input member in
-/// rpm, the torque on the sun in N·m, the factor on the damping or a number of the scene. ∂F/∂y is the derivative of the steps, ∂F/∂λ a
-/// central difference over λ (1 ± [`PARAMETER_CHANGE`]).
+/// F(y; λ) = Φᵖ(y; λ) − y for motions that repeat after p mesh cycles: y the coordinates at the start of a mesh cycle
+/// (as [`CycleDerivative::coordinates`](crate::sweep::CycleDerivative::coordinates)), λ the speed of the input member
+/// in rpm, the torque on the sun in N·m, the factor on the damping or a number of the scene. ∂F/∂y is the derivative of
+/// the steps, ∂F/∂λ a central difference over λ (1 ± [`PARAMETER_CHANGE`]).
 pub struct PeriodicFamily<'m> {
     model: &'m dyn SweepModel,
     over: BranchParameter,
@@ -46,7 +46,8 @@ pub(super) struct Judged {
 }
 
 impl<'m> PeriodicFamily<'m> {
-    /// Motions that repeat with the mesh cycle, of a model whose coordinates number `dimension`; `size` as in [`SweepModel::turning`].
+    /// Motions that repeat with the mesh cycle, of a model whose coordinates number `dimension`; `size` as in
+    /// [`SweepModel::turning`].
     pub fn new(
         model: &'m dyn SweepModel,
         over: BranchParameter,

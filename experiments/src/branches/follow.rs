@@ -53,9 +53,9 @@ pub fn branches(
     branches_kept(model, settings, &Search { switch: true }, &Memory)
 }
 
-/// The branches asked for, with every finished step kept in `store` and none taken again that is there: it must be that of
-/// the same model, settings and search. A run that was interrupted and gone on with has the result of one that was not, to
-/// the last bit. Complete, the result itself is kept: [`finished`](super::finished) has it without a model.
+/// The branches asked for, with every finished step kept in `store` and none taken again that is there: it must be that
+/// of the same model, settings and search. A run that was interrupted and gone on with has the result of one that was
+/// not, to the last bit. Complete, the result itself is kept: [`finished`](super::finished) has it without a model.
 ///
 /// # Errors
 /// As [`branch`], or if the store fails.
@@ -164,8 +164,8 @@ impl<'a> Follower<'a> {
         self.kept(steps, found, BranchOrigin::Start(settings.start))
     }
 
-    /// The branch that leaves at a period doubling or branch point, `at` its number along the first branch, to one side; the
-    /// inner error is the reason why none was found.
+    /// The branch that leaves at a period doubling or branch point, `at` its number along the first branch, to one
+    /// side; the inner error is the reason why none was found.
     fn off(
         &self,
         at: (usize, &BranchPoint, &continuation::BranchPoint),
@@ -237,8 +237,8 @@ impl<'a> Follower<'a> {
 /// Share of the energy between harmonics below which a motion repeats after one cycle: squares of rounding errors.
 const REPEATS_AT_ONCE: f64 = 1e-15;
 
-/// Whether a branch of motions that repeat after several cycles has come back to motions that repeat after one. These solve
-/// its equations as well, so that it would follow them from there on.
+/// Whether a branch of motions that repeat after several cycles has come back to motions that repeat after one. These
+/// solve its equations as well, so that it would follow them from there on.
 fn is_back(own: &BranchPoint) -> bool {
     own.between.is_some_and(|share| share < REPEATS_AT_ONCE)
 }

@@ -94,8 +94,8 @@ fn kind(test: usize, all: &[Multiplier]) -> BranchPointKind {
     found.unwrap_or(BranchPointKind::Kink)
 }
 
-/// Keeps one point of those that several test functions locate at one place: a fold is also a zero of 1 − μ and a change
-/// of stability, and at a kink all functions may jump.
+/// Keeps one point of those that several test functions locate at one place: a fold is also a zero of 1 − μ and a
+/// change of stability, and at a kink all functions may jump.
 pub(super) fn drop_doubles(points: &mut Vec<(BranchPoint, continuation::BranchPoint)>) {
     let located: Vec<(usize, f64, f64, BranchPointKind)> = points
         .iter()

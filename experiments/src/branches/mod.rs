@@ -1,11 +1,13 @@
-//! Branches of periodic motions over speed, torque, damping or a number of the scene: stable or not, through folds, where sweeps jump.
+//! Branches of periodic motions over speed, torque, damping or a number of the scene: stable or not, through folds,
+//! where sweeps jump.
 //!
 //! ```text
 //! F(y; λ) = Φ(y; λ) − y = 0,   ∂F/∂y = DΦ − I
 //! ```
 //!
 //! with Φ the time steps of one mesh cycle, the very steps that sweeps march, and λ the speed of the input member, the
-//! torque on the sun, the factor on the damping or a number of the scene. The solutions are followed by pseudo-arclength continuation ([`dynamics::continuation`]).
+//! torque on the sun, the factor on the damping or a number of the scene. The solutions are followed by
+//! pseudo-arclength continuation ([`dynamics::continuation`]).
 
 mod branch;
 mod coexisting;

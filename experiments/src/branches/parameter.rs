@@ -70,9 +70,10 @@ impl BranchParameter {
         }
     }
 
-    /// Share of the peak-to-peak vibration that counts as a unit of arc. Over a resonance the vibration changes by multiples of
-    /// itself. Over load or damping it changes little but where teeth part: both folds may then lie within a seventh of the torque
-    /// and a twentieth of the vibration (the catalogue's pair at 3970 rpm: 133 and 153 N·m), which no step may span.
+    /// Share of the peak-to-peak vibration that counts as a unit of arc. Over a resonance the vibration changes by
+    /// multiples of itself. Over load or damping it changes little but where teeth part: both folds may then lie within
+    /// a seventh of the torque and a twentieth of the vibration (the catalogue's pair at 3970 rpm: 133 and 153 N·m),
+    /// which no step may span.
     pub(super) fn vibration_share(self) -> f64 {
         match self {
             Self::Speed => 1.0,

@@ -43,8 +43,8 @@ pub struct BranchPoint {
     /// Harmonics of everything, with speed and load.
     #[serde(flatten)]
     pub state: SteadyState,
-    /// Value of what is varied along the branch: speed in rpm, torque on the sun in N m, the factor on the damping, or a
-    /// number of the scene in the unit of its key.
+    /// Value of what is varied along the branch: speed in rpm, torque on the sun in N m, the factor on the damping, or
+    /// a number of the scene in the unit of its key.
     pub parameter: f64,
     /// Factor on every damping of the scene that is varied along the branch; 1 where it is not.
     pub damping_factor: f64,
@@ -54,7 +54,8 @@ pub struct BranchPoint {
     pub is_stable: bool,
     /// Floquet multipliers of size 1e-3 and above (real and imaginary part) by descending size.
     pub multipliers: Vec<[f64; 2]>,
-    /// How the perturbation moves whose multiplier is nearest in size to 1; absent for sets of fewer than three planets.
+    /// How the perturbation moves whose multiplier is nearest in size to 1; absent for sets of fewer than three
+    /// planets.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub critical: Option<CriticalMotion>,
     /// Energy between harmonics of the mesh frequency over all vibration; absent for motions that repeat with the mesh

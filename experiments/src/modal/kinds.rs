@@ -28,8 +28,8 @@ impl MotionKinds {
         Self::new(mass, &races.psi, &of)
     }
 
-    /// On displacements of carrier, ring, sun (x, y, m; θ, rad) and planets (ζ, η, θ) one after another, with the inertias
-    /// along them (kg, kg, kg m²; 0 where held) and the angles of the planets (rad).
+    /// On displacements of carrier, ring, sun (x, y, m; θ, rad) and planets (ζ, η, θ) one after another, with the
+    /// inertias along them (kg, kg, kg m²; 0 where held) and the angles of the planets (rad).
     pub fn of_bodies(inertias: &[[f64; 3]], psi: &[f64]) -> Self {
         let mass = inertias.as_flattened();
         let of = |body: usize, axis: usize| {
@@ -39,7 +39,8 @@ impl MotionKinds {
         Self::new(mass, psi, &of)
     }
 
-    /// `of`: place of a body's coordinate (carrier 0, ring, sun, planets; x, y or ζ, η, rotation), `None` if it is held.
+    /// `of`: place of a body's coordinate (carrier 0, ring, sun, planets; x, y or ζ, η, rotation), `None` if it is
+    /// held.
     fn new(mass: &[f64], psi: &[f64], of: &dyn Fn(usize, usize) -> Option<usize>) -> Self {
         let n = mass.len();
         let root: Vec<f64> = mass.iter().map(|m| m.sqrt()).collect();
@@ -84,8 +85,8 @@ impl MotionKinds {
         Ok(directions.iter().map(|d| [d.shares[0], d.shares[1], d.shares[2]]).collect())
     }
 
-    /// Shares of rotational, translational and planet motion in the kinetic energy of a vibration with the displacements
-    /// Re((a + i b) e^{iωt}), the mean over its period; `None` without motion.
+    /// Shares of rotational, translational and planet motion in the kinetic energy of a vibration with the
+    /// displacements Re((a + i b) e^{iωt}), the mean over its period; `None` without motion.
     pub(crate) fn shares_of(&self, parts: [&[f64]; 2]) -> Option<[f64; 3]> {
         let scaled =
             parts.map(|part| part.iter().zip(&self.root).map(|(x, r)| x * r).collect::<Vec<f64>>());

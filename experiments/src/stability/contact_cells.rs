@@ -91,8 +91,8 @@ fn compliance(cells: usize) -> DMatrix<f64> {
     })
 }
 
-/// Least over largest eigenvalue of the flexibility matrix. The kernel of the half-plane falls as the inverse of the wave
-/// number, so that the ratio falls as the inverse of the number of cells.
+/// Least over largest eigenvalue of the flexibility matrix. The kernel of the half-plane falls as the inverse of the
+/// wave number, so that the ratio falls as the inverse of the number of cells.
 fn definiteness(map: &mut StabilityMap) {
     let ratio = |cells: usize| {
         let eigen = SymmetricEigen::new(compliance(cells)).eigenvalues;

@@ -1,8 +1,8 @@
 //! Where meshes lose contact, over torque and damping: borders found on branches of periodic motions.
 //!
-//! Below the first loss of contact the motion is nearly linear, and what a resonance adds to the lowest mesh force grows
-//! as the inverse of the damping: with the deficit a = 1 − F_min/F̄ of the worst mesh at the two least dampings without
-//! loss, each twice the next,
+//! Below the first loss of contact the motion is nearly linear, and what a resonance adds to the lowest mesh force
+//! grows as the inverse of the damping: with the deficit a = 1 − F_min/F̄ of the worst mesh at the two least dampings
+//! without loss, each twice the next,
 //!
 //! ```text
 //! a(d) = s + r/d,   contact is first lost at   d = r/(1 − s)

@@ -211,7 +211,8 @@ fn few_elements_deep(beyond: bool) -> Said {
     at_depth(DEPTH_IN_ELEMENTS, 0, if beyond { 0.999 } else { 1.001 })
 }
 
-/// A matching depth, by the line of the template that holds its key, at a factor on one of its limits, which a refusal names.
+/// A matching depth, by the line of the template that holds its key, at a factor on one of its limits, which a refusal
+/// names.
 fn at_depth(line: &str, limit: usize, factor: f64) -> Said {
     let key = line.trim_start_matches("# ").split(' ').next().unwrap_or(line);
     let at = |depth: f64| {

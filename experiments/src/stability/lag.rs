@@ -7,8 +7,8 @@
 //! exact e^(−z),   trapezoidal rule (1 − z/2)/(1 + z/2)
 //! ```
 //!
-//! which is below 0 for z > 2 and tends to −1: forces ring from step to step for as long as there are steps. Under a sine
-//! of ω the lagged force is 1/(1 + iωβ) of it.
+//! which is below 0 for z > 2 and tends to −1: forces ring from step to step for as long as there are steps. Under a
+//! sine of ω the lagged force is 1/(1 + iωβ) of it.
 
 use std::f64::consts::TAU;
 

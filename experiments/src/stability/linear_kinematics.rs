@@ -1,19 +1,19 @@
 //! How far a set may be wound up by its load before kinematics linear about the unloaded, and about the mean loaded
 //! configuration are wrong.
 //!
-//! F is the force of a mesh, k_b the stiffness of a planet bearing. A planet gives way by η along the circle of the centres,
-//! its lines of centres turn by ψ, and the path is w farther on than in the unloaded set, in base pitches p_b:
+//! F is the force of a mesh, k_b the stiffness of a planet bearing. A planet gives way by η along the circle of the
+//! centres, its lines of centres turn by ψ, and the path is w farther on than in the unloaded set, in base pitches p_b:
 //!
 //! ```text
 //! η = F (cos α_s + cos α_r)/k_b,   ψ = η/a,   w = Z_r ψ/2π + (δ_s/2 + δ_r)/p_b,   δ = F/k of either mesh
 //! ```
 //!
-//! 1. A windup common to all meshes is a shift of time. What is linear about the unloaded configuration counts positions
-//!    without it: amplitudes stay, harmonic l is off by |1 − e^(2πi l w)| = 2 |sin πlw|.
-//! 2. It leaves the ends of the path where they were, and gaps of corners near them are off by up to ½ G'' (w p_b)². Harmonics
-//!    are off by the order of that over δ.
-//! 3. It presses along lines that do not turn, α_s − ψ and α_r + ψ, and has no stiffness Σ F ∂²δ of forces that turn with
-//!    their lines: frequencies are off to first order in the load.
+//! 1. A windup common to all meshes is a shift of time. What is linear about the unloaded configuration counts
+//!    positions without it: amplitudes stay, harmonic l is off by |1 − e^(2πi l w)| = 2 |sin πlw|.
+//! 2. It leaves the ends of the path where they were, and gaps of corners near them are off by up to ½ G'' (w p_b)².
+//!    Harmonics are off by the order of that over δ.
+//! 3. It presses along lines that do not turn, α_s − ψ and α_r + ψ, and has no stiffness Σ F ∂²δ of forces that turn
+//!    with their lines: frequencies are off to first order in the load.
 //!
 //! About the mean loaded configuration all three are left for the motion within a mesh cycle only.
 

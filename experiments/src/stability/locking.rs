@@ -1,8 +1,8 @@
 //! Locking of quadrilaterals in bending: the energy of one element that is bent, by family.
 //!
-//! A rectangle of 2a × 2b whose nodes follow pure bending by the curvature κ, u = κxy, v = −κ (x² + ν y²)/2 (plane stress),
-//! has the exact energy ½ κ² E t (4ab) b²/3. Bilinear functions make of it u = κxy, v = const: a shear κx that pure bending
-//! does not have, and no contraction across,
+//! A rectangle of 2a × 2b whose nodes follow pure bending by the curvature κ, u = κxy, v = −κ (x² + ν y²)/2 (plane
+//! stress), has the exact energy ½ κ² E t (4ab) b²/3. Bilinear functions make of it u = κxy, v = const: a shear κx that
+//! pure bending does not have, and no contraction across,
 //!
 //! ```text
 //! energy over exact = 1/(1 − ν²) + (a/b)²/(2(1 + ν))

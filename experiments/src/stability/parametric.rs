@@ -86,8 +86,8 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     Ok(map)
 }
 
-/// Whether no other open tongue has its centre within six half-widths at the largest ε: first-order borders are those of
-/// one tongue alone.
+/// Whether no other open tongue has its centre within six half-widths at the largest ε: first-order borders are those
+/// of one tongue alone.
 fn is_alone(tongue: &Tongue, open: &[Tongue]) -> bool {
     let near = |o: &&Tongue| {
         let wide = 6.0 * DRAWN[DRAWN.len() - 1] * tongue.half_width_hz.max(o.half_width_hz);

@@ -1,9 +1,9 @@
-//! Too few steps in a mesh cycle: resonances off their place, harmonics taken for one another, and phasing that no longer
-//! cancels.
+//! Too few steps in a mesh cycle: resonances off their place, harmonics taken for one another, and phasing that no
+//! longer cancels.
 //!
-//! Average acceleration turns a mode's frequency ω into (2/h) atan(ωh/2). With S steps in a cycle of any length harmonic l
-//! has 2πl/S a step, so that it meets the mode at y/tan y of ω, y = πl/S. A mesh stiffness that switches between two
-//! values, sampled S times, has the harmonic
+//! Average acceleration turns a mode's frequency ω into (2/h) atan(ωh/2). With S steps in a cycle of any length
+//! harmonic l has 2πl/S a step, so that it meets the mode at y/tan y of ω, y = πl/S. A mesh stiffness that switches
+//! between two values, sampled S times, has the harmonic
 //!
 //! ```text
 //! ŵ_l^S = Σ_k ŵ_(l+kS) = ŵ_l (πl/S)/sin(πl/S)

@@ -1,5 +1,5 @@
-//! Speeds at which a set is pushed hardest: the resonance that takes most from the mesh forces, and the one whose transient
-//! is slowest.
+//! Speeds at which a set is pushed hardest: the resonance that takes most from the mesh forces, and the one whose
+//! transient is slowest.
 
 use dynamics::Multiplier;
 use gearset::LoadCase;

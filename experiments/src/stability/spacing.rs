@@ -1,7 +1,8 @@
 //! Unequal spacing of planets: modes of equal frequency split, and modes lose their type.
 //!
-//! Theory is that of [`lumped::SpacingChange`]. The lumped model has no teeth to assemble, so that any angle is allowed; a
-//! set of gears assembles at whole multiples of 2π/(Z_s + Z_r), and between them within the errors of its pins.
+//! Theory is that of [`lumped::SpacingChange`]. The lumped model has no teeth to assemble, so that any angle is
+//! allowed; a set of gears assembles at whole multiples of 2π/(Z_s + Z_r), and between them within the errors of its
+//! pins.
 
 use std::f64::consts::TAU;
 
@@ -19,8 +20,8 @@ pub(super) const MAP: Map = Map {
     of: MapOf::Planets(map),
 };
 
-/// Displacements at which orders and coefficients are taken, rad: small enough for leading order, large enough for splits
-/// of second order to stand out from rounding.
+/// Displacements at which orders and coefficients are taken, rad: small enough for leading order, large enough for
+/// splits of second order to stand out from rounding.
 const SMALL: [f64; 2] = [1e-4, 2e-4];
 
 /// Least displacement of the curves and steps of a decade.

@@ -1,7 +1,7 @@
 //! A prescribed mesh stiffness of which only some harmonics are kept.
 //!
-//! k = k̄ (1 + ε w) with the rectangular wave w of one mesh, high while one more pair carries. Cut off after harmonic H it is
-//! k̄ (1 + ε w_H), and what a constant force deflects has the harmonics of
+//! k = k̄ (1 + ε w) with the rectangular wave w of one mesh, high while one more pair carries. Cut off after harmonic H
+//! it is k̄ (1 + ε w_H), and what a constant force deflects has the harmonics of
 //!
 //! ```text
 //! 1/(1 + ε w_H) = 1 − ε w_H + ε² w_H² − …

@@ -1,5 +1,5 @@
-//! A set wound up by its load, by three kinematics: linear about the unloaded configuration, linear about the mean loaded
-//! one, and exact.
+//! A set wound up by its load, by three kinematics: linear about the unloaded configuration, linear about the mean
+//! loaded one, and exact.
 
 use std::f64::consts::TAU;
 
@@ -16,8 +16,8 @@ use crate::modal::mesh_influence;
 /// Harmonics that are compared.
 const HARMONICS: usize = 5;
 
-/// Least number of positions of a mesh cycle at rest. They have no divisor in common with the number of planets, so that the
-/// meshes of a set whose phases are equally spaced pass through different phases.
+/// Least number of positions of a mesh cycle at rest. They have no divisor in common with the number of planets, so
+/// that the meshes of a set whose phases are equally spaced pass through different phases.
 const POSITIONS: usize = 56;
 
 /// Positions over which natural frequencies are averaged.
@@ -38,8 +38,8 @@ pub(super) struct FrequencyErrors {
 /// What kinematics linear about one configuration leave.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Left {
-    /// Largest error of a harmonic of the sun's rotation over its largest one, and the same of its translation: the larger.
-    /// A shift of time common to all harmonics is taken out.
+    /// Largest error of a harmonic of the sun's rotation over its largest one, and the same of its translation: the
+    /// larger. A shift of time common to all harmonics is taken out.
     pub harmonics: f64,
     /// Error of the largest harmonic of the sun's rotation, of itself, with the shift of time.
     pub shifted: f64,

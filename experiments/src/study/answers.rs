@@ -139,8 +139,8 @@ impl Bench<'_> {
         }
     }
 
-    /// The height of a peak over that of the same peak under another torque on the sun, with contact tables and laws of its
-    /// own.
+    /// The height of a peak over that of the same peak under another torque on the sun, with contact tables and laws of
+    /// its own.
     fn peak_ratio(&mut self, peak: &Action, reference_nm: f64) -> Result<Outcome, ModelError> {
         let case = self.case;
         let height = |of: Outcome| match of {

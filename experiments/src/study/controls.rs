@@ -82,9 +82,9 @@ fn the_known_truth_lies_within_a_known_uncertainty() {
 }
 
 /// Evaluations and leading errors over (e − 1): midpoint n, 1/(24 n²); trapezoidal n + 1, 1/(12 n²); Simpson 2n + 1,
-/// 1/(2880 n⁴). By hand: midpoint at 4 (cost 4, 2.6e-3) is the cheapest; at 8 (8, 6.5e-4) it is beaten by nothing cheaper,
-/// Simpson at 4 costs 9 and has 1.4e-6; from there on only Simpson at 8 (17) and 16 (33) are better. Trapezoidal at 4
-/// (5, 5.2e-3), 8 (9) and 16 (17), midpoint at 16 (16) are beaten.
+/// 1/(2880 n⁴). By hand: midpoint at 4 (cost 4, 2.6e-3) is the cheapest; at 8 (8, 6.5e-4) it is beaten by nothing
+/// cheaper, Simpson at 4 costs 9 and has 1.4e-6; from there on only Simpson at 8 (17) and 16 (33) are better.
+/// Trapezoidal at 4 (5, 5.2e-3), 8 (9) and 16 (17), midpoint at 16 (16) are beaten.
 #[test]
 fn the_known_front_is_found() {
     let routes = vec![

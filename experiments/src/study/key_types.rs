@@ -1,4 +1,5 @@
-//! Types of the keys of a study file, refused in the words of scene files; what their values may be is checked where they are used.
+//! Types of the keys of a study file, refused in the words of scene files; what their values may be is checked where
+//! they are used.
 
 use gearset::{Bound, KeyKind};
 use toml::{Table, Value};

@@ -33,8 +33,8 @@ pub enum QuantityKind {
     ResonantAmplitude,
     /// Speed of the input member at that peak; rpm.
     ResonantSpeed,
-    /// Height of that peak under `sun_torque_nm` over its height under `reference_torque_nm` on the sun, each about its own
-    /// loaded configuration.
+    /// Height of that peak under `sun_torque_nm` over its height under `reference_torque_nm` on the sun, each about its
+    /// own loaded configuration.
     TorqueRatio,
     /// Amplitude of one `harmonic` of the `motion` of a `part` at one `speed_rpm`; m or rad.
     Amplitude,

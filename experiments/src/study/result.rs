@@ -1,4 +1,5 @@
-//! What a study gives. Everything that depends on a clock is in fields called `time`; the rest is the same in every run.
+//! What a study gives. Everything that depends on a clock is in fields called `time`; the rest is the same in every
+//! run.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -100,7 +101,8 @@ pub struct QuantityResult {
     /// What the numbers do not say by themselves: errors that cross zero, ranks that U leaves open, settings without
     /// answer.
     pub notes: Vec<String>,
-    /// The setting of least counted work whose guarded error and U together are within the tolerance; absent if none is.
+    /// The setting of least counted work whose guarded error and U together are within the tolerance; absent if none
+    /// is.
     pub answer_by_work: Option<String>,
     /// Costs.
     pub time: QuantityTime,

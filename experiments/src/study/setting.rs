@@ -20,12 +20,13 @@ pub enum StudyModel {
     FeContact,
     /// The lumped model: constant mesh stiffness for natural frequencies, mesh forces tabulated by FE/contact in time.
     Lumped,
-    /// The lumped model whose mesh stiffness in time is prescribed: at each phase the secant that FE/contact has under the even
-    /// share of the load, whatever the vibration, and forces act along the lines of action. For natural frequencies the same as
+    /// The lumped model whose mesh stiffness in time is prescribed: at each phase the secant that FE/contact has under
+    /// the even share of the load, whatever the vibration, and forces act along the lines of action. For natural
+    /// frequencies the same as
     /// `lumped`.
     LumpedPrescribed,
-    /// The same with the side loads of the tabulated forces: what corner contacts and the slopes of deformed flanks press beside
-    /// the lines of action under the mean torque, by phase.
+    /// The same with the side loads of the tabulated forces: what corner contacts and the slopes of deformed flanks
+    /// press beside the lines of action under the mean torque, by phase.
     LumpedPrescribedSideLoads,
     /// The lumped model's steady states by harmonic balance, without a time step: resonant peaks of rotations.
     HarmonicBalance,

@@ -135,8 +135,8 @@ impl StudyFile {
     /// Reads a study file; paths in it are relative to its folder.
     ///
     /// # Errors
-    /// If a file cannot be read, the text is not TOML, a key is unknown, absent or of a value that is not allowed, or the
-    /// scene of a setting is not valid.
+    /// If a file cannot be read, the text is not TOML, a key is unknown, absent or of a value that is not allowed, or
+    /// the scene of a setting is not valid.
     pub fn read(path: &Path) -> Result<Self, StudyError> {
         let text = read(path, "FILE")?;
         Self::from_toml(&text, path.parent().unwrap_or(Path::new("")))
@@ -289,8 +289,8 @@ impl Input {
 }
 
 impl SeriesInput {
-    /// Two values or more; numbers of a series that refines go from coarse to fine, because the guarded error of a setting
-    /// is the largest of it and of all finer ones.
+    /// Two values or more; numbers of a series that refines go from coarse to fine, because the guarded error of a
+    /// setting is the largest of it and of all finer ones.
     fn check(&self, of: &str) -> Result<(), StudyError> {
         named("series", &self.name)?;
         let refused = |allowed: &str| {

@@ -17,8 +17,8 @@ const SETTLING: usize = 20;
 /// Steps in a mesh cycle of the yardstick, whatever the study's.
 pub(super) const STEPS: u32 = 140;
 
-/// The lumped model of a scene at its operating speed, its mesh forces tabulated by FE/contact at quasi-static bodies, 140
-/// steps to the cycle, under the load of the study.
+/// The lumped model of a scene at its operating speed, its mesh forces tabulated by FE/contact at quasi-static bodies,
+/// 140 steps to the cycle, under the load of the study.
 pub(super) fn yardstick(
     scene: &Scene,
     case: LoadCase,

@@ -13,8 +13,8 @@ use crate::modal::type_of;
 pub struct CriticalMotion {
     /// Real and imaginary part of the multiplier of a mesh cycle.
     pub multiplier: [f64; 2],
-    /// Type of motion with more than half of the kinetic energy of the eigenvector: rotational, translational, planet, or
-    /// mixed if there is none.
+    /// Type of motion with more than half of the kinetic energy of the eigenvector: rotational, translational, planet,
+    /// or mixed if there is none.
     pub mode_type: String,
     /// Share of rotational motion in that kinetic energy, by the displacements at the start of a mesh cycle.
     pub rotational: f64,
@@ -25,8 +25,9 @@ pub struct CriticalMotion {
 }
 
 impl CriticalMotion {
-    /// Of a set whose period is one of `parts` equal parts of a mesh cycle, or `cycles` mesh cycles, with the derivative of
-    /// its map and all multipliers of that period. `None` without multipliers, and for a set without such types of motion.
+    /// Of a set whose period is one of `parts` equal parts of a mesh cycle, or `cycles` mesh cycles, with the
+    /// derivative of its map and all multipliers of that period. `None` without multipliers, and for a set without such
+    /// types of motion.
     ///
     /// # Errors
     /// If the eigenvector is not found.
@@ -84,8 +85,8 @@ mod tests {
         scene
     }
 
-    /// The derivative of a mesh cycle of the lumped set with meshes of constant stiffness and the kinds of motion by its
-    /// multipliers; natural modes as (predicted multiplier, type).
+    /// The derivative of a mesh cycle of the lumped set with meshes of constant stiffness and the kinds of motion by
+    /// its multipliers; natural modes as (predicted multiplier, type).
     #[allow(clippy::type_complexity)]
     fn found(scene: &Scene) -> (Vec<(Multiplier, CriticalMotion)>, Vec<(c64, String)>) {
         let geometry = Geometry::from_scene(scene).unwrap();
@@ -131,8 +132,8 @@ mod tests {
         (all.iter().map(of).collect(), modes.collect())
     }
 
-    /// With constant mesh stiffness perturbations are natural modes: each has its multiplier, and its type with all of the
-    /// energy, also where frequencies occur twice.
+    /// With constant mesh stiffness perturbations are natural modes: each has its multiplier, and its type with all of
+    /// the energy, also where frequencies occur twice.
     #[test]
     fn perturbations_of_meshes_of_constant_stiffness_are_natural_modes() {
         for name in ["oh58_4p", "oh58_3p", "five_planets"] {

@@ -30,9 +30,9 @@ pub(super) fn shapes(set: &mut dyn Marching) -> Result<DMatrix<f64>, ExperimentE
     Ok(DMatrix::from_columns(&(0..n).map(column).collect::<Vec<_>>()))
 }
 
-/// A set whose meshes follow a law has the amplitudes of the modes of its supports as coordinates, q; with stiffness and
-/// mass these modes change, and among equal frequencies they turn by any angle. Here the coordinates are those of the
-/// first set:
+/// A set whose meshes follow a law has the amplitudes of the modes of its supports as coordinates, q; with stiffness
+/// and mass these modes change, and among equal frequencies they turn by any angle. Here the coordinates are those of
+/// the first set:
 ///
 /// ```text
 /// P₀ q₀ = P q,   q₀ = T q,   T = P₀⁺ P,   DΦ₀ = T DΦ T⁻¹

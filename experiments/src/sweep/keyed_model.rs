@@ -47,8 +47,8 @@ impl<'s> Made<'s> {
     }
 }
 
-/// A model of a scene with one number varied: at every value it is that of a scene with so much, on the same bodies. The
-/// loaded configuration, contact tables and mesh laws are made at each value again where they depend on the key.
+/// A model of a scene with one number varied: at every value it is that of a scene with so much, on the same bodies.
+/// The loaded configuration, contact tables and mesh laws are made at each value again where they depend on the key.
 pub struct KeyedModel<'s> {
     base: Table,
     key: VariedKey,
@@ -63,8 +63,9 @@ pub struct KeyedModel<'s> {
 }
 
 impl<'s> KeyedModel<'s> {
-    /// Of the scene file `text`, whose bodies are `bodies`, under the torque and at the speed of a load case; `at`: the first
-    /// value of the key, with its unit in the scene. `is_lumped`: the lumped model, with the law of the finite-element set.
+    /// Of the scene file `text`, whose bodies are `bodies`, under the torque and at the speed of a load case; `at`: the
+    /// first value of the key, with its unit in the scene. `is_lumped`: the lumped model, with the law of the
+    /// finite-element set.
     ///
     /// # Errors
     /// If the scene does not allow the value, or the model cannot be made.

@@ -51,8 +51,8 @@ pub trait Marching {
         None
     }
 
-    /// Kinematic rest (largest deviation of a pair's approach from its linear form) at a step since which the set has not passed
-    /// that position of the cycle, and the radius of the member that the torque acts on, m; `None` as
+    /// Kinematic rest (largest deviation of a pair's approach from its linear form) at a step since which the set has
+    /// not passed that position of the cycle, and the radius of the member that the torque acts on, m; `None` as
     /// [`loaded_step`](Self::loaded_step).
     fn kinematic_rest(&self, at: &LoadedStep) -> Option<[f64; 2]> {
         let _ = at;
@@ -85,8 +85,8 @@ pub trait Marching {
         None
     }
 
-    /// Rotational, translational and planet motion of the set, on its displacements one after another; `None` of a set of
-    /// fewer than three planets, whose motion has no such types.
+    /// Rotational, translational and planet motion of the set, on its displacements one after another; `None` of a set
+    /// of fewer than three planets, whose motion has no such types.
     fn kinds(&self) -> Option<MotionKinds> {
         None
     }

@@ -31,8 +31,8 @@ pub struct MeshLawModel<'s> {
     loaded: Option<StaticSet<'s>>,
     case: LoadCase,
     laws: Arc<GrowingLaw<'s>>,
-    /// The lumped set of the model's own scene at the first speed asked for, and its symmetry: sets at other speeds differ in
-    /// their time steps only.
+    /// The lumped set of the model's own scene at the first speed asked for, and its symmetry: sets at other speeds
+    /// differ in their time steps only.
     known: OnceLock<(TimeVarying, Part)>,
     /// The same with 2, 3 … times the steps.
     finer: [OnceLock<Box<Self>>; MOST_TIMES - 1],
@@ -76,8 +76,9 @@ impl<'s> MeshLawModel<'s> {
         }
     }
 
-    /// The lumped model with prescribed mesh stiffness: at each phase the secant of the law under the even share of the torque
-    /// ([`MeshLaw::with_prescribed_stiffness`]), with the side loads of corner contacts and deformed flanks or without.
+    /// The lumped model with prescribed mesh stiffness: at each phase the secant of the law under the even share of the
+    /// torque ([`MeshLaw::with_prescribed_stiffness`]), with the side loads of corner contacts and deformed flanks or
+    /// without.
     ///
     /// # Errors
     /// If this is a lumped model, or a mesh has no deflection under its share.
@@ -94,8 +95,8 @@ impl<'s> MeshLawModel<'s> {
         Ok(MeshLawModel::lumped_with(&self.scene, self.case, law))
     }
 
-    /// A set of a scene that differs from the model's own in nothing that the law or the loaded set depends on: damping,
-    /// masses; `size`: how often the tables of the law were found too small.
+    /// A set of a scene that differs from the model's own in nothing that the law or the loaded set depends on:
+    /// damping, masses; `size`: how often the tables of the law were found too small.
     pub(super) fn set_of(
         &self,
         scene: &Scene,

@@ -89,8 +89,8 @@ pub enum PlanError {
 /// Harmonic l over steps S in a mesh cycle at which a resonance is 1 % below its place: y/tan y = 0.99, y = πl/S.
 const LARGEST_SHARE: f64 = 0.05508;
 
-/// By how much average acceleration lowers the speed at which harmonic l excites a mode, %: with S steps in a cycle of any
-/// length, a mode ω meets the harmonic where (2/h) atan(ωh/2) = 2πl/(Sh), which is y/tan y of ω, y = πl/S.
+/// By how much average acceleration lowers the speed at which harmonic l excites a mode, %: with S steps in a cycle of
+/// any length, a mode ω meets the harmonic where (2/h) atan(ωh/2) = 2πl/(Sh), which is y/tan y of ω, y = πl/S.
 fn place_percent(harmonic: usize, steps: usize) -> f64 {
     let y = std::f64::consts::PI * harmonic as f64 / steps.max(1) as f64;
     // From two steps a period on the harmonic is none of the samples'.

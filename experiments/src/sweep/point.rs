@@ -130,8 +130,8 @@ pub struct SweepPoint {
     /// Whether the motion repeats with every mesh cycle within the tolerance and was shown to attract; what may be
     /// left of a transient, where that is a question, is within 1 %.
     pub is_steady: bool,
-    /// What may be left of the transient in the recorded cycle, of the vibration, by the multipliers of a marched motion
-    /// whose cycles still change by more than 1e-6; absent otherwise.
+    /// What may be left of the transient in the recorded cycle, of the vibration, by the multipliers of a marched
+    /// motion whose cycles still change by more than 1e-6; absent otherwise.
     #[serde(skip_serializing_if = "Option::is_none", default)]
     pub transient: Option<f64>,
     /// What the length of the steps may change of a strong harmonic of the sun; absent up to 1 %.
@@ -155,8 +155,8 @@ pub struct SweepPoint {
     /// Part of the time in which backside flanks of any mesh press, 0 to 1; absent for a model without
     /// backside flanks.
     pub backside_contact: Option<f64>,
-    /// Distance to grazing, near which multipliers lose their meaning: the least of lowest over mean force of the meshes
-    /// that never part, 0 where one is about to; absent if all meshes part.
+    /// Distance to grazing, near which multipliers lose their meaning: the least of lowest over mean force of the
+    /// meshes that never part, 0 where one is about to; absent if all meshes part.
     pub grazing_margin: Option<f64>,
     /// How often the load the tables are made for was doubled.
     pub size: usize,

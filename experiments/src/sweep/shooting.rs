@@ -67,8 +67,8 @@ pub trait CycleDerivative {
     /// If the bodies have no derivative.
     fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError>;
 
-    /// The same along [`Along::Motion`], with a change of the coordinates at the start of that cycle carried along: it is heard
-    /// of the leading coordinates, those that [`Marching::displacements_of`] needs.
+    /// The same along [`Along::Motion`], with a change of the coordinates at the start of that cycle carried along: it
+    /// is heard of the leading coordinates, those that [`Marching::displacements_of`] needs.
     ///
     /// # Errors
     /// If the bodies have no derivative, or the change is one of other coordinates.
@@ -190,8 +190,8 @@ impl PeriodMap for RecordedCycles<'_> {
 }
 
 impl RecordedCycles<'_> {
-    /// The larger of the ratios of deviations and vibration of translations and of rotations; every third number, the last of
-    /// each body, is a rotation.
+    /// The larger of the ratios of deviations and vibration of translations and of rotations; every third number, the
+    /// last of each body, is a rotation.
     fn relative_to_vibration(&self, deviations: impl Iterator<Item = (usize, f64)>) -> f64 {
         let mut largest = [0.0f64; 2];
         for (i, value) in deviations {

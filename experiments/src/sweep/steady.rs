@@ -105,7 +105,8 @@ pub struct Steady {
     pub between: Option<f64>,
     /// Kinematic rest at a sample of positions; `None` if the model has none.
     pub rest: Option<KinematicRest>,
-    /// What may be left of the transient in the recorded cycle, of the vibration, by the Floquet multipliers of that cycle;
+    /// What may be left of the transient in the recorded cycle, of the vibration, by the Floquet multipliers of that
+    /// cycle;
     /// `None` of a motion found by shooting, of one whose cycles change by 1e-6 or less, or without derivative.
     pub transient: Option<f64>,
     /// Number of mesh cycles after which the motion repeats within the tolerance: 1 for a steady state, 2 to

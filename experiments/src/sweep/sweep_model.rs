@@ -60,8 +60,9 @@ pub trait SweepModel: Sync {
     /// The set turning at the speed and under the torque of a load case. `size`: how often its tables were found too
     /// small and are to be laid out for twice the load.
     ///
-    /// What a model computes once it computes under the torque of its own [`case`](Self::case): the loaded configuration
-    /// that the set is linearised about, contact tables or the law of the meshes. It stays the same under another torque.
+    /// What a model computes once it computes under the torque of its own [`case`](Self::case): the loaded
+    /// configuration that the set is linearised about, contact tables or the law of the meshes. It stays the same under
+    /// another torque.
     ///
     /// # Errors
     /// If the set cannot be built, or the torque presses the other flanks than the model's own.
@@ -200,8 +201,8 @@ impl<'s> FeModel<'s> {
         Self { table_size: size, ..self }
     }
 
-    /// The same model with the steps of `scene`, on what this one has found: the mean configuration, and tables at positions that
-    /// both have.
+    /// The same model with the steps of `scene`, on what this one has found: the mean configuration, and tables at
+    /// positions that both have.
     ///
     /// # Errors
     /// If tables cannot be laid out.

@@ -35,8 +35,8 @@ pub struct KeyError {
     pub reason: String,
 }
 
-/// A number of the scene that a branch can go over: damping, stiffness of a support, mass or inertia. A motion depends on
-/// it smoothly, and the finite-element bodies do not depend on it.
+/// A number of the scene that a branch can go over: damping, stiffness of a support, mass or inertia. A motion depends
+/// on it smoothly, and the finite-element bodies do not depend on it.
 #[derive(Debug, Clone, Copy)]
 pub struct VariedKey(&'static SceneKey);
 

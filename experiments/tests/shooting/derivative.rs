@@ -10,8 +10,8 @@ use nalgebra::DMatrix;
 use super::apart;
 use super::sets::{backward, end_of_cycle, fe, march_cycle, scene};
 
-/// A cycle in the middle of which a step failed is begun anew by setting coordinates or a state: the same cycle follows, but for
-/// the rounding of contact patterns that were met in between.
+/// A cycle in the middle of which a step failed is begun anew by setting coordinates or a state: the same cycle
+/// follows, but for the rounding of contact patterns that were met in between.
 #[test]
 fn a_cycle_that_fails_leaves_nothing_behind() {
     let steps = 28;
@@ -131,7 +131,8 @@ fn multipliers_follow_from_displacements_and_velocities() {
     assert!(off < 1e-8, "{off:e}");
 }
 
-/// The same with a fifth and a twentieth of the damping, whose lag is a smaller part of a step and is followed over fewer steps.
+/// The same with a fifth and a twentieth of the damping, whose lag is a smaller part of a step and is followed over
+/// fewer steps.
 #[test]
 fn multipliers_follow_from_displacements_and_velocities_at_little_damping() {
     for factor in [0.2, 0.05] {
@@ -156,9 +157,9 @@ fn multipliers_follow_from_displacements_and_velocities_of_modal_bodies() {
     assert!(off < 1e-8, "{off:e}");
 }
 
-/// The rough derivative, in single precision and of FE/contact with a shorter follow-up of the lag, differs from the exact one
-/// by less than corrections of a state need, also with modes of the bodies and with tabulated mesh forces:
-/// (I − D)⁻¹ D' − (I − D)⁻¹ D is what a correction leaves of an error.
+/// The rough derivative, in single precision and of FE/contact with a shorter follow-up of the lag, differs from the
+/// exact one by less than corrections of a state need, also with modes of the bodies and with tabulated mesh forces: (I
+/// − D)⁻¹ D' − (I − D)⁻¹ D is what a correction leaves of an error.
 #[test]
 fn the_rough_derivative_leaves_little_of_an_error() {
     let scene = scene("oh58_4p", Fidelity::MeshLaw, 56);

@@ -51,7 +51,8 @@ struct Found {
     ratio: f64,
     /// What rounding of displacements may leave of that change.
     rounding: f64,
-    /// Its energy between harmonics over that of the last cycle and the next, marched; only where that is a whole cycle.
+    /// Its energy between harmonics over that of the last cycle and the next, marched; only where that is a whole
+    /// cycle.
     between: f64,
     /// Kinematic rest marched from there on, m.
     rest: Option<f64>,
@@ -87,8 +88,8 @@ fn found(model: &dyn SweepModel, parts: usize, tolerance: f64) -> Found {
 }
 
 /// The change of the next cycle, carried by the derivative over the last one, is what marching on finds: it is of first
-/// order, so that it is off by a share of the order of itself. Kinematic rest, computed after the last cycle from what was kept
-/// of it, is that of the cycles marched.
+/// order, so that it is off by a share of the order of itself. Kinematic rest, computed after the last cycle from what
+/// was kept of it, is that of the cycles marched.
 #[test]
 fn the_change_of_the_next_cycle_is_that_marched() {
     for (name, parts, torque) in [("oh58_4p", 2, 1130.0), ("oh58_3p", 1, 500.0)] {
@@ -128,8 +129,8 @@ fn the_change_of_the_next_cycle_is_that_marched() {
     }
 }
 
-/// A change that is carried along leaves the derivative as it is, bit by bit; it begins as it was given, grows in proportion to
-/// it, and is refused with another number of coordinates.
+/// A change that is carried along leaves the derivative as it is, bit by bit; it begins as it was given, grows in
+/// proportion to it, and is refused with another number of coordinates.
 #[test]
 fn a_change_is_carried_beside_the_derivative() {
     let scene = scene("oh58_4p", Fidelity::QuasiStatic, 56);

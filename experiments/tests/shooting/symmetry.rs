@@ -119,7 +119,8 @@ struct Compared {
 }
 
 /// The scenes with the parts of a cycle after which they are themselves: two opposed pairs of planets after half a
-/// cycle, five planets after a fifth; three planets in phase have no such part. Steps per cycle, torque on the sun (N m).
+/// cycle, five planets after a fifth; three planets in phase have no such part. Steps per cycle, torque on the sun (N
+/// m).
 const SYMMETRIC: [(&str, Option<usize>, u32, f64); 3] = [
     ("oh58_4p", Some(2), 56, 1130.0),
     ("five_planets", Some(5), 60, 800.0),

@@ -35,8 +35,8 @@ pub(crate) struct Hill {
 impl Hill {
     /// Of equal gears, m_e = J/2r_b², along a periodic motion under a torque (N m).
     ///
-    /// The phase of the teeth at time 0 of the motion is not taken from the program: it is the one at which Newton's law m_e ẅ =
-    /// T/r_b − F(w, φ) holds.
+    /// The phase of the teeth at time 0 of the motion is not taken from the program: it is the one at which Newton's
+    /// law m_e ẅ = T/r_b − F(w, φ) holds.
     pub(crate) fn along(point: &BranchPoint, bodies: &Bodies, torque_nm: f64) -> Self {
         let radius = bodies.planet.mesh.outline.gear().base_radius;
         let mass = 0.5 * bodies.planet.inertia / (radius * radius);

@@ -1,7 +1,7 @@
 //! The elastic displacement of a gear whose race is accelerated, and the kinetic energy of elastic displacements.
 //!
-//! With the matrices of [`BodyMatrices`](super::BodyMatrices) and M_fr e_k the inertia of the body under a unit acceleration
-//! of its race along x or y or about the centre,
+//! With the matrices of [`BodyMatrices`](super::BodyMatrices) and M_fr e_k the inertia of the body under a unit
+//! acceleration of its race along x or y or about the centre,
 //!
 //! ```text
 //! K w_k = M_fr e_k
@@ -18,8 +18,8 @@ use crate::error::FeError;
 /// Static displacements of a gear under unit accelerations of its race, and the mass matrix of a sector.
 #[derive(Debug, Clone)]
 pub struct Accelerated {
-    /// w in the frame of each tooth, 2 rows for each node of a sector; columns: acceleration along x and y of that frame (s²)
-    /// and about the centre (m s²).
+    /// w in the frame of each tooth, 2 rows for each node of a sector; columns: acceleration along x and y of that
+    /// frame (s²) and about the centre (m s²).
     pub displacement: DMatrix<f64>,
     /// M_rf K⁻¹ M_fr of a translation (kg s²) and of the rotation (kg m² s²); other entries are 0 by symmetry.
     pub coupled: [f64; 2],
@@ -80,8 +80,8 @@ impl Accelerated {
         Ok(Some(own))
     }
 
-    /// Lesser Rayleigh quotient of w, at least the first eigenvalue with the race held and, as a step of inverse iteration from
-    /// rigid motion, close to it, (rad/s)².
+    /// Lesser Rayleigh quotient of w, at least the first eigenvalue with the race held and, as a step of inverse
+    /// iteration from rigid motion, close to it, (rad/s)².
     pub fn first(&self) -> f64 {
         [0, 1].map(|k| self.coupled[k] / self.moved[k]).into_iter().fold(f64::INFINITY, f64::min)
     }
@@ -103,8 +103,9 @@ impl Accelerated {
         product.transpose()
     }
 
-    /// ℓ w for a distributed load on a tooth: displacement along `direction` in the tooth's frame, mean with the weights of the
-    /// load (columns of the gear's response), under the accelerations `race` (x, y in the tooth's frame, m/s², and rad/s²), m.
+    /// ℓ w for a distributed load on a tooth: displacement along `direction` in the tooth's frame, mean with the
+    /// weights of the load (columns of the gear's response), under the accelerations `race` (x, y in the tooth's frame,
+    /// m/s², and rad/s²), m.
     pub fn at(
         &self,
         gear: &GearBody,
@@ -122,9 +123,9 @@ impl Accelerated {
         load.iter().map(one).sum()
     }
 
-    /// u_1ᵀ M_ff u_1 of the displacement u_1 = −K⁻¹ Σ_a ℓ_aᵀ P_a + w a of the whole gear under forces that press on its teeth
-    /// and an acceleration a of its race (x, y in the frame of tooth 0, m/s², and rad/s²), kg m². The displacement by a
-    /// force is counted on the teeth near it, at all of whose nodes the gear keeps it.
+    /// u_1ᵀ M_ff u_1 of the displacement u_1 = −K⁻¹ Σ_a ℓ_aᵀ P_a + w a of the whole gear under forces that press on its
+    /// teeth and an acceleration a of its race (x, y in the frame of tooth 0, m/s², and rad/s²), kg m². The
+    /// displacement by a force is counted on the teeth near it, at all of whose nodes the gear keeps it.
     pub fn energy(&self, gear: &GearBody, forces: &[ToothForce<'_>], race: [f64; 3]) -> f64 {
         let teeth = gear.mesh.nodes.len() as i64;
         let one = |tooth: i64| -> f64 {

@@ -98,8 +98,8 @@ impl Sparse {
         self.factorised(body, SupernodalThreshold::AUTO, get_global_parallelism())
     }
 
-    /// Factorises it by dense blocks of columns (supernodes), whatever its fill: many right-hand sides at once are then solved by
-    /// products of dense matrices, on one thread.
+    /// Factorises it by dense blocks of columns (supernodes), whatever its fill: many right-hand sides at once are then
+    /// solved by products of dense matrices, on one thread.
     ///
     /// # Errors
     /// If it is not positive definite.

@@ -1,8 +1,8 @@
 //! One sector of a gear of equal teeth, condensed onto its cuts with the next ones.
 //!
-//! All displacements are in the frame of the sector's tooth. With v_j those of its first cut, its last cut has T v_{j+1}, where T turns
-//! by the angle between two teeth. The race is held. Its equations, i: the inner unknowns, c = (v_j, v_{j+1}): those of both cuts, T
-//! included in the columns and rows of the last cut,
+//! All displacements are in the frame of the sector's tooth. With v_j those of its first cut, its last cut has T
+//! v_{j+1}, where T turns by the angle between two teeth. The race is held. Its equations, i: the inner unknowns, c =
+//! (v_j, v_{j+1}): those of both cuts, T included in the columns and rows of the last cut,
 //!
 //! ```text
 //! [K_ii  K_ic] [u_i]   [f]                    u_i = K_ii⁻¹ f + E c,   E = −K_ii⁻¹ K_ic
@@ -63,7 +63,8 @@ pub(super) struct Pressed {
 }
 
 impl Condensed {
-    /// Of a gear whose teeth are meshed alike, and what it is under `loads`, as [`Condensed::under`]: one solution for both.
+    /// Of a gear whose teeth are meshed alike, and what it is under `loads`, as [`Condensed::under`]: one solution for
+    /// both.
     ///
     /// # Errors
     /// If an element is distorted or the stiffness is not positive definite.
@@ -156,8 +157,8 @@ impl Condensed {
         Ok((own, pressed))
     }
 
-    /// The sector under `loads`: 2 rows for each of its nodes in the frame of its tooth, one column a load; what acts on the
-    /// race is taken by it.
+    /// The sector under `loads`: 2 rows for each of its nodes in the frame of its tooth, one column a load; what acts
+    /// on the race is taken by it.
     pub(super) fn under(&self, loads: &DMatrix<f64>) -> Pressed {
         let mut right = Mat::zeros(self.inner, loads.ncols());
         press(&self.places, loads, &mut right);
@@ -197,11 +198,12 @@ impl Condensed {
         Pressed { held, on_cuts }
     }
 
-    /// Displacement of sector 0 (2 rows a node, in the frame of its tooth, 3 columns) where every sector carries the loads
-    /// of a body force: columns 0 and 1 of the loads are those along x and y of the tooth's frame, column 2 turns with the teeth.
+    /// Displacement of sector 0 (2 rows a node, in the frame of its tooth, 3 columns) where every sector carries the
+    /// loads of a body force: columns 0 and 1 of the loads are those along x and y of the tooth's frame, column 2 turns
+    /// with the teeth.
     ///
-    /// Forces along x or y of the fixed frame of tooth 0 are, in the frame of the tooth at the angle φ_j = ηj, the real and
-    /// imaginary part of (f_x + i f_y) e^{iηj}: one harmonic of the ring.
+    /// Forces along x or y of the fixed frame of tooth 0 are, in the frame of the tooth at the angle φ_j = ηj, the real
+    /// and imaginary part of (f_x + i f_y) e^{iηj}: one harmonic of the ring.
     ///
     /// ```text
     /// (S_aa + S_bb + S_ab e^{iη} + S_ba e^{−iη}) V = g_a + g_b e^{−iη},   v_0 = V,   v_1 = V e^{iη}

@@ -230,8 +230,8 @@ impl GearBody {
         self.responses.near_under(offset, side)
     }
 
-    /// The ring of sectors from which responses are computed; `None` where teeth are meshed differently or the whole gear was
-    /// solved.
+    /// The ring of sectors from which responses are computed; `None` where teeth are meshed differently or the whole
+    /// gear was solved.
     pub(super) fn ring(&self) -> Option<&Arc<RingOfSectors>> {
         self.responses.ring()
     }

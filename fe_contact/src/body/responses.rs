@@ -121,7 +121,8 @@ impl Responses {
         }
     }
 
-    /// The same under loads on one flank, with the column of the whole response that is its first: contact needs one flank alone, half of the work.
+    /// The same under loads on one flank, with the column of the whole response that is its first: contact needs one
+    /// flank alone, half of the work.
     pub(super) fn near_under(&self, offset: i64, side: Side) -> Option<(&DMatrix<f64>, usize)> {
         let (place, columns) = (self.place(offset)?, &self.of_sides[side.index()]);
         match &self.ring {

@@ -87,8 +87,8 @@ pub(super) struct RingOfSectors {
 }
 
 impl RingOfSectors {
-    /// Response of all nodes of the tooth `offset` teeth on from the loaded one, 2 rows each, to all loads or those of some
-    /// columns, m/N.
+    /// Response of all nodes of the tooth `offset` teeth on from the loaded one, 2 rows each, to all loads or those of
+    /// some columns, m/N.
     pub(super) fn of_all_nodes(&self, offset: i64, loads: Option<&Range<usize>>) -> DMatrix<f64> {
         self.of([&self.sector.carried, &self.held], offset, loads)
     }

@@ -31,8 +31,8 @@ const REMEMBERED: usize = 8;
 /// Affine law of one set of touching cells.
 #[derive(Debug, Clone)]
 pub struct ContactMap {
-    /// δ at which the set was found (k, m), P₀ (k, N), S (k×k by rows, N/m), then how far δ may change before the set does:
-    /// all in one place, because what a map that was not asked for lately costs is the way to the memory.
+    /// δ at which the set was found (k, m), P₀ (k, N), S (k×k by rows, N/m), then how far δ may change before the set
+    /// does: all in one place, because what a map that was not asked for lately costs is the way to the memory.
     numbers: Vec<f64>,
     /// Number k of pairs.
     pairs: usize,
@@ -97,8 +97,8 @@ impl SharedMaps {
             let room = map.rooms().least_at(delta).filter(|room| *room > 2.0 * map.slack[1])?;
             Some((Arc::clone(map), room))
         };
-        // At most one map holds beyond its slack, so that the order of the search is a matter of time only: the one that was
-        // found nearest is the likeliest.
+        // At most one map holds beyond its slack, so that the order of the search is a matter of time only: the one
+        // that was found nearest is the likeliest.
         let away = |at: &[f64]| -> f64 {
             at.iter().zip(delta).fold(0.0, |most, (at, d)| most.max((at - d).abs()))
         };

@@ -288,8 +288,8 @@ impl PairFrame<'_> {
         })
     }
 
-    /// Derivative of the gap with respect to the tangential coordinate x, m/m. With the tangent t and, on either flank, the
-    /// radial direction e and the roll length s,
+    /// Derivative of the gap with respect to the tangential coordinate x, m/m. With the tangent t and, on either flank,
+    /// the radial direction e and the roll length s,
     ///
     /// ```text
     /// g = (q − p)·n + Σ relief,   dp/ds = (s/r_b) e,   d(p·n)/dx = (e·n)/(e·t),   ds/dx = r_b/(s e·t)

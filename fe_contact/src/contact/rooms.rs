@@ -26,9 +26,9 @@ pub(super) struct Rooms<'m> {
 }
 
 impl<'m> Rooms<'m> {
-    /// Writes, behind other numbers, those of the cells' forces (of those that touch) or gaps, each at δ = 0 and then its k
-    /// derivatives: how many lanes they fill, and what slack makes of a room at least and at most (m). `found_at`: δ at which
-    /// the set was found; `scale`: load (N) and window (m) of the table.
+    /// Writes, behind other numbers, those of the cells' forces (of those that touch) or gaps, each at δ = 0 and then
+    /// its k derivatives: how many lanes they fill, and what slack makes of a room at least and at most (m).
+    /// `found_at`: δ at which the set was found; `scale`: load (N) and window (m) of the table.
     pub(super) fn write(
         cells: &[f64],
         active: &[bool],

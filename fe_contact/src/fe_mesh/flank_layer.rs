@@ -1,7 +1,7 @@
 //! Flank elements divided in three along and across the flank, and the elements that join them to those behind.
 //!
-//! Elements of the first column behind a flank become nine; those of the second column, and the one below the first flank element,
-//! become four, with three edges on the divided side and one on each other:
+//! Elements of the first column behind a flank become nine; those of the second column, and the one below the first
+//! flank element, become four, with three edges on the divided side and one on each other:
 //!
 //! ```text
 //! t = 1   T3 ─────────────────── B1         s = −1: the divided side, s = 1: the one opposite.
@@ -82,8 +82,8 @@ impl Divided {
 }
 
 impl Builder<'_> {
-    /// Adds the nodes of a layer with so many rows that the tooth block's lattice does not have; `at`: point at a column and a row of the layer, whose first
-    /// column is that of the block's lattice.
+    /// Adds the nodes of a layer with so many rows that the tooth block's lattice does not have; `at`: point at a
+    /// column and a row of the layer, whose first column is that of the block's lattice.
     pub(super) fn layer_nodes(
         &mut self,
         layer: &Layer,
@@ -101,9 +101,9 @@ impl Builder<'_> {
         }
     }
 
-    /// Adds what takes the place of the element at lattice (i, j) of the tooth block where a flank behind it or beside it is divided,
-    /// those on the flanks also to `on_flanks` (first column, last column); whether there is any. `half_length`: half of Δℓ of a
-    /// flank element that is not divided, m.
+    /// Adds what takes the place of the element at lattice (i, j) of the tooth block where a flank behind it or beside
+    /// it is divided, those on the flanks also to `on_flanks` (first column, last column); whether there is any.
+    /// `half_length`: half of Δℓ of a flank element that is not divided, m.
     pub(super) fn divided(
         &mut self,
         (i, j): (usize, usize),
@@ -156,7 +156,8 @@ impl Builder<'_> {
         })
     }
 
-    /// The four elements in place of the one at lattice (i, j) of the tooth block, whose neighbour on one side is divided.
+    /// The four elements in place of the one at lattice (i, j) of the tooth block, whose neighbour on one side is
+    /// divided.
     fn transition(&mut self, (i, j): (usize, usize), layer: &Layer, divided: Divided) {
         let quadratic = self.family == ElementFamily::Quadratic;
         // Nodes of the divided side, ascending in t; of linear elements each second one alone.
@@ -261,8 +262,8 @@ mod tests {
         found
     }
 
-    /// Every edge belongs to two elements with the same nodes, or lies on the border of the tooth, which is one closed line: a node
-    /// hanging on an edge would open a second one around the gap.
+    /// Every edge belongs to two elements with the same nodes, or lies on the border of the tooth, which is one closed
+    /// line: a node hanging on an edge would open a second one around the gap.
     #[test]
     fn divided_layers_are_joined_edge_to_edge() {
         for family in FAMILIES {

@@ -339,8 +339,8 @@ impl Builder<'_> {
         self.nodes[&place]
     }
 
-    /// Adds the element whose corners and mid-side nodes are at the lattice points (i, j) to (i + 2, j + 2) of `place`, and returns its
-    /// index. The derivative nodes of Hermite edges are filled in by `Builder::flank`.
+    /// Adds the element whose corners and mid-side nodes are at the lattice points (i, j) to (i + 2, j + 2) of `place`,
+    /// and returns its index. The derivative nodes of Hermite edges are filled in by `Builder::flank`.
     pub(super) fn element(
         &mut self,
         place: &dyn Fn(usize, usize) -> Place,

@@ -21,8 +21,8 @@ pub struct FeSettings {
 const DEPTH_IN_BASE_PITCHES: f64 = 0.07;
 
 /// Least matching depth of the default in flank elements, unless the scene names another, and of any setting: nearer to
-/// the load the FE field depends on the elements. The check `fe.convergence.depth` shows that results do not depend on the
-/// depth in the allowed range. On six and ten elements amplitudes are 0.8 % too small with 0.85.
+/// the load the FE field depends on the elements. The check `fe.convergence.depth` shows that results do not depend on
+/// the depth in the allowed range. On six and ten elements amplitudes are 0.8 % too small with 0.85.
 const DEPTH_IN_ELEMENTS: [f64; 2] = [0.85, 0.7];
 
 /// Greatest depth of a matching point in tooth thicknesses at mid-flank: beyond the middle of the
@@ -161,7 +161,8 @@ impl Bodies {
         self.settings.input.flexibility_factor.of(kind)
     }
 
-    /// Cells at rest for meshes that carry up to `force` (N), in the layout of the scene (`fe_contact.cell_layout_at_rest`).
+    /// Cells at rest for meshes that carry up to `force` (N), in the layout of the scene
+    /// (`fe_contact.cell_layout_at_rest`).
     ///
     /// The window for corner contact is the deflection of a mesh (E b/80) six times softer than one
     /// pair of steel teeth usually is (E b/13), so that no corner that could touch is left out. The

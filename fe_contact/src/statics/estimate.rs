@@ -11,8 +11,9 @@ use crate::material::Elastic;
 
 /// Most memory that the bodies of a scene may need while they are made, bytes: 2 GiB.
 ///
-/// Contact tables of all phases and the factors and modes of all bodies at fidelities `modal` and `full` come on top; 2 GiB
-/// of bodies leave room for them on a machine with 16 GiB. With 40 flank elements the bodies of an OH-58 set take 1.3 GB.
+/// Contact tables of all phases and the factors and modes of all bodies at fidelities `modal` and `full` come on top; 2
+/// GiB of bodies leave room for them on a machine with 16 GiB. With 40 flank elements the bodies of an OH-58 set take
+/// 1.3 GB.
 pub const MOST_BYTES: u64 = 2 << 30;
 
 /// Scene key that sets the size of all elements.

@@ -14,7 +14,8 @@ use super::state::ThroughTorques;
 use crate::contact::MeshTable;
 use crate::error::FeError;
 
-/// A front mesh at one position by linear kinematics about the reference: what is the same with every motion through the position.
+/// A front mesh at one position by linear kinematics about the reference: what is the same with every motion through
+/// the position.
 #[derive(Debug)]
 pub(crate) struct LinearMesh {
     mesh: usize,
@@ -90,8 +91,8 @@ impl StaticSet<'_> {
         Ok(LinearMesh { mesh, position, phase: table.phase, pairs, bends })
     }
 
-    /// Largest difference of a loaded pair's exact approach from its linear form, with the races at q (m) and `forces` (N) on
-    /// the pairs of one front mesh, m; NaN where exact kinematics fail.
+    /// Largest difference of a loaded pair's exact approach from its linear form, with the races at q (m) and `forces`
+    /// (N) on the pairs of one front mesh, m; NaN where exact kinematics fail.
     pub(crate) fn rest_of_mesh(
         &self,
         linear: &LinearMesh,

@@ -155,8 +155,8 @@ impl Races {
         self.index[3 * body + axis]
     }
 
-    /// Inertias of carrier, ring, sun and planets along their displacements (x, y or ζ, η: kg; θ: kg m²; 0 where held), from
-    /// the masses of the coordinates (n, kg).
+    /// Inertias of carrier, ring, sun and planets along their displacements (x, y or ζ, η: kg; θ: kg m²; 0 where held),
+    /// from the masses of the coordinates (n, kg).
     pub fn inertias(&self, mass: &[f64]) -> Vec<[f64; 3]> {
         let of = |body: usize, axis: usize| {
             let own = self.of(body, axis).map_or(0.0, |i| mass[i]);

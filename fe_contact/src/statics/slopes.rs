@@ -44,8 +44,8 @@ pub(crate) struct NeighbourTables {
 /// Steps of the differences along the line of action and of the centre distance, m.
 const STEPS: [f64; 2] = [2e-5, 2e-5];
 
-/// Cells per pair in tables of which only differences are taken, if the tables between them have `count`: fewer, but more
-/// if these are more than the default 40, so that one number of cells governs the error of both.
+/// Cells per pair in tables of which only differences are taken, if the tables between them have `count`: fewer, but
+/// more if these are more than the default 40, so that one number of cells governs the error of both.
 fn few_cells(layout: CellLayout, count: usize) -> usize {
     match layout {
         CellLayout::Graded => count.min((2 * count / 5).max(16)),
@@ -121,8 +121,8 @@ impl NeighbourTables {
         Ok(Self { tables, steps, is_graded: settings.layout == CellLayout::Graded })
     }
 
-    /// [`NeighbourTables::slopes`] on tables of the nearest pairs; `None` if these lack a pair that carries load, or are
-    /// too small for it.
+    /// [`NeighbourTables::slopes`] on tables of the nearest pairs; `None` if these lack a pair that carries load, or
+    /// are too small for it.
     ///
     /// # Errors
     /// If contact cannot be solved.

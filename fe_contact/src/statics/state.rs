@@ -142,8 +142,8 @@ impl SetCycle {
         sum / weights.iter().sum::<f64>()
     }
 
-    /// Parts of the cycle that the positions stand for: alike if they are evenly spaced, otherwise half of the way to either neighbour
-    /// (trapezoidal rule).
+    /// Parts of the cycle that the positions stand for: alike if they are evenly spaced, otherwise half of the way to
+    /// either neighbour (trapezoidal rule).
     fn weights(&self) -> Vec<f64> {
         let x: Vec<f64> = self.states.iter().map(|s| s.position).collect();
         let n = x.len();

@@ -14,8 +14,8 @@ impl VibratingSet<'_> {
         out
     }
 
-    /// Continues from a state of a set of the same scene and fidelity, at this set's own speed and at the start of a mesh
-    /// cycle.
+    /// Continues from a state of a set of the same scene and fidelity, at this set's own speed and at the start of a
+    /// mesh cycle.
     ///
     /// # Errors
     /// If the state is that of another kind of set.

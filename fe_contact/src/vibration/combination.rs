@@ -14,8 +14,8 @@
 //! (A + Rᵀ S' R) x = L − Rᵀ (S' b + P₀')
 //! ```
 //!
-//! E couples the pairs of a mesh or, on bodies with elastic states, all pairs. The matrix of the races is of the order of
-//! their coordinates; its symmetric part is positive definite.
+//! E couples the pairs of a mesh or, on bodies with elastic states, all pairs. The matrix of the races is of the order
+//! of their coordinates; its symmetric part is positive definite.
 
 use dynamics::{Computation, Simd, wide};
 
@@ -27,8 +27,8 @@ use super::packed::Packed;
 pub(super) struct Combination {
     /// Ids of the maps, one per mesh.
     pub(super) maps: Vec<u64>,
-    /// Pairs that touch: those with a force that changes with the approaches, in the order of the groups that E couples. Then
-    /// how many of them each group has.
+    /// Pairs that touch: those with a force that changes with the approaches, in the order of the groups that E
+    /// couples. Then how many of them each group has.
     pub(super) places: Vec<usize>,
     /// How many pairs touch.
     pub(super) count: usize,

@@ -1,7 +1,8 @@
-//! How the step for one combination of contact maps is made: from the matrix of the races, or from another combination of the
-//! same frame from which it differs in few meshes.
+//! How the step for one combination of contact maps is made: from the matrix of the races, or from another combination
+//! of the same frame from which it differs in few meshes.
 //!
-//! With S' of one mesh changed by ΔS', between all pairs that touch before or after, (A + Rᵀ S' R)⁻¹ changes by (Woodbury)
+//! With S' of one mesh changed by ΔS', between all pairs that touch before or after, (A + Rᵀ S' R)⁻¹ changes by
+//! (Woodbury)
 //!
 //! ```text
 //! −X Z Y,   X = (A + Rᵀ S' R)⁻¹ Rᵀ,   Y = R (A + Rᵀ S' R)⁻¹,   Z = (I + ΔS' R X)⁻¹ ΔS'
@@ -40,7 +41,8 @@ pub(super) struct CombiningWork {
 }
 
 impl Combination {
-    /// Solves the step of a frame whose present maps have the ids `ids`; `None` if a mesh has no map. `races`: A, n×n, N/m.
+    /// Solves the step of a frame whose present maps have the ids `ids`; `None` if a mesh has no map. `races`: A, n×n,
+    /// N/m.
     ///
     /// # Errors
     /// If the contact problem of the step is singular.
@@ -102,8 +104,8 @@ impl Computation for Combining<'_> {
     }
 }
 
-/// The solved combination of the frame that differs from that of the maps `ids` in the fewest meshes, and in how many, if few
-/// enough and if no body has an elastic state: the pairs of all meshes would change.
+/// The solved combination of the frame that differs from that of the maps `ids` in the fewest meshes, and in how many,
+/// if few enough and if no body has an elastic state: the pairs of all meshes would change.
 #[inline(always)]
 fn base<'f>(frame: &'f Frame, ids: &[u64]) -> Option<(&'f Combination, usize)> {
     let differing = |own: &Combination| own.maps.iter().zip(ids).filter(|(a, b)| a != b).count();
@@ -395,8 +397,8 @@ mod tests {
     use super::*;
     use crate::statics::{Bodies, Imperfections};
 
-    /// The step that was made from another combination by changing single meshes is the one that elimination gives: at few steps
-    /// per cycle of a low speed, where meshes are far stiffer than the inertia of a step, and at usual ones.
+    /// The step that was made from another combination by changing single meshes is the one that elimination gives: at
+    /// few steps per cycle of a low speed, where meshes are far stiffer than the inertia of a step, and at usual ones.
     #[test]
     fn changed_combinations_are_those_of_an_elimination() {
         let path = format!("{}/../scenes/oh58_4p.toml", env!("CARGO_MANIFEST_DIR"));

@@ -8,8 +8,8 @@ use super::tooth_shift::ToothShift;
 use crate::error::FeError;
 
 impl VibratingSet<'_> {
-    /// Whether [`VibratingSet::cycle_derivative`] gives a derivative: not where kinematics are exact at every step, where
-    /// bodies have every degree of freedom, or where tooth errors let no cycle repeat.
+    /// Whether [`VibratingSet::cycle_derivative`] gives a derivative: not where kinematics are exact at every step,
+    /// where bodies have every degree of freedom, or where tooth errors let no cycle repeat.
     pub fn has_derivative(&self) -> bool {
         self.contact.grid.is_none()
             && !self.statics.has_tooth_errors()
@@ -24,8 +24,8 @@ impl VibratingSet<'_> {
         out
     }
 
-    /// Continues from other coordinates at the start of the mesh cycle in which the set is, wherever in it a step failed;
-    /// bearings follow.
+    /// Continues from other coordinates at the start of the mesh cycle in which the set is, wherever in it a step
+    /// failed; bearings follow.
     ///
     /// # Errors
     /// If they are too few or too many, or not finite.
@@ -68,9 +68,9 @@ impl VibratingSet<'_> {
         self.statics.displacements(&DVector::from_column_slice(&y[..n]))
     }
 
-    /// After a whole cycle, or a part of it after which the set is itself by its [`Symmetry`](gearset::Symmetry), if that
-    /// was asked for: takes it back, with the bodies' modes turned by one tooth or the planets renumbered, so that the
-    /// state can be compared with that at the start.
+    /// After a whole cycle, or a part of it after which the set is itself by its [`Symmetry`](gearset::Symmetry), if
+    /// that was asked for: takes it back, with the bodies' modes turned by one tooth or the planets renumbered, so that
+    /// the state can be compared with that at the start.
     ///
     /// # Errors
     /// If a body's modes are not those of equal teeth.

@@ -20,12 +20,12 @@ const STIFFNESS: f64 = 1e9;
 /// The lag forgets its state as e^{−t/β}: after this many β a share of 1e-10 is left.
 const FORGOTTEN: f64 = 23.0;
 
-/// Share that may be left of the forces of the last two steps, which the parabola of the lag passes through, until they follow
-/// from displacements and velocities as accelerations do after one step.
+/// Share that may be left of the forces of the last two steps, which the parabola of the lag passes through, until they
+/// follow from displacements and velocities as accelerations do after one step.
 const LEFT: f64 = 1e-8;
 
-/// Most steps that are waited for that: with a longer β the compliance of the cells, which has no lag, leaves less of them
-/// than the lag alone does (0.3 after a step of 10 β).
+/// Most steps that are waited for that: with a longer β the compliance of the cells, which has no lag, leaves less of
+/// them than the lag alone does (0.3 after a step of 10 β).
 const MOST_LEFT: usize = 12;
 
 /// The same for corrections of a state: shares of 1e-3 and 2e-3 are left.
@@ -63,8 +63,8 @@ pub(super) struct SetDerivative<T> {
     basis: Option<DMatrix<T>>,
 }
 
-/// Gradients used within a step, kept so that steps allocate little memory; those of the races and of the touching pairs,
-/// column after column, only where bodies have modes.
+/// Gradients used within a step, kept so that steps allocate little memory; those of the races and of the touching
+/// pairs, column after column, only where bodies have modes.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Work<T> {
     pub(super) acceleration: Vec<T>,
@@ -281,8 +281,8 @@ impl<T: Number> SetDerivative<T> {
         bodies.flat_map(Gradients::lists_mut).chain(meshes)
     }
 
-    /// Hands over the columns of what follows from displacements and velocities: of accelerations, and of the lag of pairs that
-    /// have gradients.
+    /// Hands over the columns of what follows from displacements and velocities: of accelerations, and of the lag of
+    /// pairs that have gradients.
     fn following_columns_mut(&mut self, of: &mut dyn FnMut(&mut [T])) {
         let m = self.rows().max(1);
         for own in std::iter::once(&mut self.races).chain(&mut self.elastic) {

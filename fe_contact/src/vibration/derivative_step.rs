@@ -8,10 +8,10 @@
 //! ```
 //!
 //! where L is the load that the histories leave, and S' the change of the forces of the touching pairs with
-//! their approaches ([`Combination`](super::combination::Combination)). The coordinates are displacements, velocities and accelerations of the races and of the
-//! bodies' modes, and the state of the lag of every pair; bearings follow from these. Frames keep the cells that
-//! touched in the last step to their position and the second-order terms, so that a whole cycle can be
-//! differentiated after it was marched.
+//! their approaches ([`Combination`](super::combination::Combination)). The coordinates are displacements, velocities
+//! and accelerations of the races and of the bodies' modes, and the state of the lag of every pair; bearings follow
+//! from these. Frames keep the cells that touched in the last step to their position and the second-order terms, so
+//! that a whole cycle can be differentiated after it was marched.
 
 use dynamics::{Number, wide};
 use nalgebra::{DMatrix, DVector};

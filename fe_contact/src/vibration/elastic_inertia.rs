@@ -1,7 +1,8 @@
-//! What quasi-static bodies lack in one mode of a set, to first order: the inertia of their elastic displacement, and the
-//! static flexibility between different meshes of a body.
+//! What quasi-static bodies lack in one mode of a set, to first order: the inertia of their elastic displacement, and
+//! the static flexibility between different meshes of a body.
 //!
-//! q is the motion of a body's race in the mode, u its elastic displacement with the race held. With inertia in the body,
+//! q is the motion of a body's race in the mode, u its elastic displacement with the race held. With inertia in the
+//! body,
 //!
 //! ```text
 //! (K − λ M_ff) u = −Σ_a ℓ_aᵀ P_a + λ M_fr q,     u_s = −K⁻¹ Σ_a ℓ_aᵀ P_a,   K w = M_fr q,   u_1 = u_s + λ w
@@ -14,10 +15,11 @@
 //! qᵀM_rf u_s = −Σ_a P_a ℓ_a w
 //! ```
 //!
-//! λ_1 is the first eigenvalue with the race held. R is the series u_1ᵀ M_ff (1 + λK⁻¹M_ff + …) u_1. By Rayleigh's quotient of the
-//! mode, δλ/λ = −Σ δm for a shape of unit modal mass, to first order in δm.
+//! λ_1 is the first eigenvalue with the race held. R is the series u_1ᵀ M_ff (1 + λK⁻¹M_ff + …) u_1. By Rayleigh's
+//! quotient of the mode, δλ/λ = −Σ δm for a shape of unit modal mass, to first order in δm.
 //!
-//! Flexibility X_ab = ℓ_a K⁻¹ ℓ_bᵀ between pairs of different meshes of a body takes −PᵀX P from the stiffness of the mode.
+//! Flexibility X_ab = ℓ_a K⁻¹ ℓ_bᵀ between pairs of different meshes of a body takes −PᵀX P from the stiffness of the
+//! mode.
 
 use std::sync::Arc;
 
@@ -110,7 +112,8 @@ impl ElasticInertia {
         Ok(Some(Self { gears, carrier }))
     }
 
-    /// Least Rayleigh quotient of the displacements, close to the first eigenvalue λ_1 of a body with its race held, (rad/s)².
+    /// Least Rayleigh quotient of the displacements, close to the first eigenvalue λ_1 of a body with its race held,
+    /// (rad/s)².
     pub fn first(&self) -> f64 {
         let carrier = self.carrier.as_ref().map_or(f64::INFINITY, |own| own.first);
         self.gears.iter().map(Accelerated::first).fold(carrier, f64::min)
@@ -235,8 +238,8 @@ fn bounded(energy: f64, lambda: f64, first: f64) -> f64 {
 mod tests {
     use nalgebra::{DMatrix, DVector};
 
-    /// An elastic bar of mass 1 on a race without mass, whose tip a spring of stiffness κ EA/L holds. Exactly β tan β = κ with
-    /// λ = β² (in units of the bar), and with a quasi-static bar λ = κ/(1 + κ), so that
+    /// An elastic bar of mass 1 on a race without mass, whose tip a spring of stiffness κ EA/L holds. Exactly β tan β =
+    /// κ with λ = β² (in units of the bar), and with a quasi-static bar λ = κ/(1 + κ), so that
     ///
     /// ```text
     /// δλ/λ = 2κ/3 + O(κ²):   −2 qᵀM_rf u_s = κ,   −λ qᵀM_rf w = −κ/3

@@ -60,9 +60,9 @@ impl VibratingSet<'_> {
         }
     }
 
-    /// Kinematic rest of a step: largest difference of a loaded pair's approach, by exact kinematics at the displacements,
-    /// from its linear form about the reference, m; 0 where kinematics are exact at every step. The set must not have passed
-    /// the step's position in the cycle since.
+    /// Kinematic rest of a step: largest difference of a loaded pair's approach, by exact kinematics at the
+    /// displacements, from its linear form about the reference, m; 0 where kinematics are exact at every step. The set
+    /// must not have passed the step's position in the cycle since.
     pub fn kinematic_rest(&self, at: &LoadedStep) -> f64 {
         let (Some(frame), None) = (self.frames.current(at.step_in_cycle), &self.contact.grid)
         else {

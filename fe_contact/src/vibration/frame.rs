@@ -157,8 +157,8 @@ impl Frame {
         self.elastic.as_ref().map_or(&self.pattern.rows, |own| &own.rows)
     }
 
-    /// Static FE flexibility that no body's elastic state represents, m/N: between pairs of one mesh and, on bodies with
-    /// elastic states, between pairs of different meshes.
+    /// Static FE flexibility that no body's elastic state represents, m/N: between pairs of one mesh and, on bodies
+    /// with elastic states, between pairs of different meshes.
     pub(super) fn lagging(&self) -> &DMatrix<f64> {
         self.elastic.as_ref().map_or(&self.pattern.within, |own| &own.lagging)
     }
@@ -172,9 +172,9 @@ impl Frame {
         }
     }
 
-    /// Compliance E between pairs within a step beyond that of the cells, m/N, as a factor and the numbers that it multiplies:
-    /// of each [group](Self::groups) the columns of its pairs, with their rows. Where no body has an elastic state, E is that of
-    /// the forces which the lag holds back: −(1 − end) F.
+    /// Compliance E between pairs within a step beyond that of the cells, m/N, as a factor and the numbers that it
+    /// multiplies: of each [group](Self::groups) the columns of its pairs, with their rows. Where no body has an
+    /// elastic state, E is that of the forces which the lag holds back: −(1 − end) F.
     #[inline]
     pub(super) fn excess(&self) -> (f64, &[f64]) {
         match &self.elastic {

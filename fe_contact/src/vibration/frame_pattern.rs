@@ -66,7 +66,8 @@ pub(super) struct FramePattern {
     pub(super) within_meshes: Vec<f64>,
     /// Between ports of different meshes, others 0; for bodies with elastic states only.
     across: OnceLock<Vec<DMatrix<f64>>>,
-    /// The front meshes by linear kinematics, without the slopes of deformed flanks; only where the kinematic rest is asked for.
+    /// The front meshes by linear kinematics, without the slopes of deformed flanks; only where the kinematic rest is
+    /// asked for.
     linear: OnceLock<Vec<LinearMesh>>,
 }
 

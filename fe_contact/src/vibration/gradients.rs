@@ -89,8 +89,8 @@ pub(super) enum LagEnd {
     Forgotten,
 }
 
-/// Gradients of the lag of one mesh: of P̃ (within a step of the part of it at its end that is known at its start), of the
-/// forces at the end of the last step, and of those one step earlier.
+/// Gradients of the lag of one mesh: of P̃ (within a step of the part of it at its end that is known at its start), of
+/// the forces at the end of the last step, and of those one step earlier.
 #[derive(Debug, Clone)]
 pub(super) struct LagGradients<T> {
     lists: [DMatrix<T>; 3],
@@ -136,9 +136,9 @@ impl<T: Number> LagGradients<T> {
         self.live
     }
 
-    /// What becomes of the lag of a pair at the end of a step, at which it may be one of those that touch; `None` if it has
-    /// no gradients before and after. `forgotten`: steps after which nothing is left of the lag of a pair that does not
-    /// touch.
+    /// What becomes of the lag of a pair at the end of a step, at which it may be one of those that touch; `None` if it
+    /// has no gradients before and after. `forgotten`: steps after which nothing is left of the lag of a pair that does
+    /// not touch.
     pub(super) fn end(
         &mut self,
         slot: usize,

@@ -39,15 +39,16 @@ impl LagRule {
         [self.end, self.start, self.before, self.state]
     }
 
-    /// Steps after which nothing is left of P̃ (1e-18 of it, a hundredth of rounding) once a force has ended: it enters for two
-    /// more steps, and then P̃ falls as a power of its weight.
+    /// Steps after which nothing is left of P̃ (1e-18 of it, a hundredth of rounding) once a force has ended: it enters
+    /// for two more steps, and then P̃ falls as a power of its weight.
     pub(super) fn forgotten(&self) -> usize {
         let falling = 1e-18f64.ln() / self.state.ln();
         2 + if falling.is_finite() { falling.ceil() as usize } else { 0 }
     }
 
-    /// Share of a change of the forces of the last two steps that is left in the force after one more, for the same approaches:
-    /// these determine P̃, so that e P₁ + s P₀ + b P₋₁ does not change, and P falls as the larger root r of e r² + s r + b = 0.
+    /// Share of a change of the forces of the last two steps that is left in the force after one more, for the same
+    /// approaches: these determine P̃, so that e P₁ + s P₀ + b P₋₁ does not change, and P falls as the larger root r of
+    /// e r² + s r + b = 0.
     pub(super) fn left_after_step(&self) -> f64 {
         let (half, product) = (0.5 * self.start / self.end, self.before / self.end);
         let square = half * half - product;
@@ -260,8 +261,8 @@ mod tests {
         assert_eq!(LagRule::new(0.0, &AverageAcceleration::new(1e-5).unwrap()).forgotten(), 2);
     }
 
-    /// Where the same approaches keep asking for the force 1 (P̃ = 1 at the end of every step), errors 1 and −r of the last two forces
-    /// leave r² in the next: −r is the larger root.
+    /// Where the same approaches keep asking for the force 1 (P̃ = 1 at the end of every step), errors 1 and −r of the
+    /// last two forces leave r² in the next: −r is the larger root.
     #[test]
     fn forces_follow_from_approaches_as_said() {
         for z in [3.0, 8.0, 14.0, 50.0, 140.0] {

@@ -22,8 +22,8 @@ impl Leaning {
         Self { slopes: Vec::new(), load: DVector::zeros(statics.races.count) }
     }
 
-    /// At each of the `positions` (cycles), in the equilibrium under the reference's torque; those that are `known` by the number of
-    /// the position are taken over.
+    /// At each of the `positions` (cycles), in the equilibrium under the reference's torque; those that are `known` by
+    /// the number of the position are taken over.
     pub(super) fn at<'k>(
         statics: &StaticSet<'_>,
         tables: &SetTables,

@@ -70,8 +70,8 @@ impl VibratingSet<'_> {
     /// Linearises about the present state, also of a moving set whose teeth have all parted.
     ///
     /// # Errors
-    /// If the set has not been stepped or put to rest yet, or a body has every degree of freedom (`full`): its linearisation is the
-    /// limit of `modal`.
+    /// If the set has not been stepped or put to rest yet, or a body has every degree of freedom (`full`): its
+    /// linearisation is the limit of `modal`.
     pub fn tangent(&self) -> Result<LinearSet, FeError> {
         let frame = self.frames.current(self.clock.step_in_cycle).ok_or_else(unloaded)?;
         let n = self.races().count;

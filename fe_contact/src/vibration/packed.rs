@@ -111,10 +111,11 @@ impl Packed {
 
     /// The inverse; `None` where there is none.
     ///
-    /// Elimination by Gauss and Jordan without pivoting: where the symmetric part is positive definite, as that of a step's
-    /// matrix, every pivot is positive. A matrix of which a pivot is not positive, or of more than 32 columns, is inverted by
-    /// the library. With the library's inverse of every step's matrix a sweep by shooting (`benches/steady_states.rs`) took
-    /// a fifth longer: at an order of 20 its loops over views cost more than the arithmetic.
+    /// Elimination by Gauss and Jordan without pivoting: where the symmetric part is positive definite, as that of a
+    /// step's matrix, every pivot is positive. A matrix of which a pivot is not positive, or of more than 32 columns,
+    /// is inverted by the library. With the library's inverse of every step's matrix a sweep by shooting
+    /// (`benches/steady_states.rs`) took a fifth longer: at an order of 20 its loops over views cost more than the
+    /// arithmetic.
     #[inline(always)]
     pub(super) fn inverse(&self, work: &mut Vec<[f64; LANES]>) -> Option<Self> {
         let found = match self.columns.div_ceil(LANES) {
@@ -233,8 +234,8 @@ impl Packed {
 mod tests {
     use super::*;
 
-    /// Of matrices as those of a step: symmetric and positive definite, with a skew part as gyroscopic terms have it, and
-    /// rows of units that differ by a factor of 1000.
+    /// Of matrices as those of a step: symmetric and positive definite, with a skew part as gyroscopic terms have it,
+    /// and rows of units that differ by a factor of 1000.
     #[test]
     fn inverses_are_right() {
         for n in [1, 7, 8, 17, 24] {
@@ -253,8 +254,8 @@ mod tests {
         assert!(Packed::new(&DMatrix::zeros(3, 3)).inverse(&mut Vec::new()).is_none());
     }
 
-    /// Of order 17, symmetric and with a spread of eigenvalues of 1e8 as the races of a set have, the inverse is as near as
-    /// that of the library with its pivoting.
+    /// Of order 17, symmetric and with a spread of eigenvalues of 1e8 as the races of a set have, the inverse is as
+    /// near as that of the library with its pivoting.
     #[test]
     fn inverses_without_pivoting_are_as_near_as_with_pivoting() {
         let n = 17;

@@ -62,8 +62,8 @@ impl<'s> Prepared<'s> {
         Self::of(statics, is_exact, &rotation, loading.mesh_force, None)
     }
 
-    /// Data of a set about its mean configuration, its tables laid out for a mesh force, N. What `known` has of them, which
-    /// is of the same gears about the same configuration, is not computed again.
+    /// Data of a set about its mean configuration, its tables laid out for a mesh force, N. What `known` has of them,
+    /// which is of the same gears about the same configuration, is not computed again.
     fn of(
         mut statics: StaticSet<'s>,
         is_exact: bool,
@@ -97,8 +97,8 @@ impl<'s> Prepared<'s> {
         Ok(Self { statics, tables, leaning, is_exact, patterns, turns })
     }
 
-    /// Data of the same scene for another number of steps: the mean configuration is not found anew, nor are tables and slopes at
-    /// positions that both have.
+    /// Data of the same scene for another number of steps: the mean configuration is not found anew, nor are tables and
+    /// slopes at positions that both have.
     ///
     /// # Errors
     /// As [`Prepared::new`].
@@ -203,8 +203,8 @@ mod tests {
 
     use super::*;
 
-    /// Tables at positions that both numbers of steps have are the same ones, and what is found at all others is what a set
-    /// finds that is prepared for the larger number alone.
+    /// Tables at positions that both numbers of steps have are the same ones, and what is found at all others is what a
+    /// set finds that is prepared for the larger number alone.
     #[test]
     fn more_steps_keep_the_tables_of_fewer() {
         let mut scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();

@@ -14,8 +14,8 @@ use crate::error::FeError;
 const MOST_ITERATIONS: usize = 60;
 
 impl VibratingSet<'_> {
-    /// One step; the external forces must be those at its end. After a step that fails the set is in the mesh cycle in which
-    /// the step began, with a motion to be replaced.
+    /// One step; the external forces must be those at its end. After a step that fails the set is in the mesh cycle in
+    /// which the step began, with a motion to be replaced.
     ///
     /// # Errors
     /// If contact cannot be solved, its cells do not suffice, or the motion diverges.

@@ -1,7 +1,7 @@
 //! Rows of the gradients of the races and of the lag on their way through a step.
 //!
-//! Each row passes through a step by itself. Bundles of them pass through the whole of it together, so that what they need
-//! in between stays in the nearest memory.
+//! Each row passes through a step by itself. Bundles of them pass through the whole of it together, so that what they
+//! need in between stays in the nearest memory.
 
 use dynamics::{Bundles, Computation, InBundles, MOST_IN_BUNDLE, Number, Simd, in_bundles};
 

@@ -1,8 +1,8 @@
 //! The [symmetry](Symmetry) after a part of a mesh cycle, found in the equations of a set: frames, loads and the matrix
 //! of a step must be equal under the renumbering.
 //!
-//! The map of a part, with the renumbering, then has the same periodic motion as that of the whole cycle, and the map of
-//! the whole cycle is the p-th power of it.
+//! The map of a part, with the renumbering, then has the same periodic motion as that of the whole cycle, and the map
+//! of the whole cycle is the p-th power of it.
 
 use std::sync::Arc;
 

@@ -1,10 +1,10 @@
 //! Two equal gears pressed together: pressures of hat shape on flanks whose elements resolve the patch.
 //!
-//! The driven gear is the driving one turned by 180° about the pitch point. The driving gear is turned by an angle θ from
-//! where the flanks would touch without relief, and the gaps are measured between the true curves in that position. The
-//! weak form of contact is met by pressures p ≥ 0 on hats N_i along the driving flank: ∫ N_i (gap + relative displacement)
-//! dl ≥ 0, complementary to p_i. Pressures act along the mean of both flanks' normals, equal and opposite, and have the
-//! arms about the gears' centres that follow from where they act.
+//! The driven gear is the driving one turned by 180° about the pitch point. The driving gear is turned by an angle θ
+//! from where the flanks would touch without relief, and the gaps are measured between the true curves in that
+//! position. The weak form of contact is met by pressures p ≥ 0 on hats N_i along the driving flank: ∫ N_i (gap +
+//! relative displacement) dl ≥ 0, complementary to p_i. Pressures act along the mean of both flanks' normals, equal and
+//! opposite, and have the arms about the gears' centres that follow from where they act.
 
 use std::collections::BTreeMap;
 
@@ -242,8 +242,8 @@ impl Pair<'_> {
     }
 }
 
-/// The place of the driven flank that the driving one's point at roll length `s` faces, along the mean of both normals or
-/// along that of one of the two gears; the search starts at roll length `guess`.
+/// The place of the driven flank that the driving one's point at roll length `s` faces, along the mean of both normals
+/// or along that of one of the two gears; the search starts at roll length `guess`.
 fn facing(
     gear: &ExternalGear,
     centre_distance: f64,

@@ -1,9 +1,10 @@
 //! Deflection and load sharing of relieved teeth against a calculation of their own.
 //!
 //! The calculation beside this file shares no code with the program: involutes, fillets and relief from their
-//! definitions (`gear`), biquadratic elements whose nodes lie on the relieved flanks (`mesh`, `elastic`), no half-plane,
-//! and contact of flanks that their elements resolve (`contact`), at the turned position and with the arms that the
-//! pressures really have. Driven race held, driving race turned until its torque is the given one. It takes minutes;
+//! definitions (`gear`), biquadratic elements whose nodes lie on the relieved flanks (`mesh`, `elastic`), no
+//! half-plane, and contact of flanks that their elements resolve (`contact`), at the turned position and with the arms
+//! that the pressures really have. Driven race held, driving race turned until its torque is the given one. It takes
+//! minutes;
 //! `kept/relieved_pair.csv` has its answers on meshes each twice as fine as the one before. The tests hold the
 //! program to them, extrapolated to elements of no size, and the calculation itself to closed forms.
 

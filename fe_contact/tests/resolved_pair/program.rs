@@ -6,8 +6,8 @@ use gearset::{MeshKind, Scene};
 
 use crate::{CASES, Case, FACE, POSITIONS, START};
 
-/// Largest difference of δ as a part of it, and of a pair's force as a part of the normal force: what is asked of answers
-/// for relieved teeth.
+/// Largest difference of δ as a part of it, and of a pair's force as a part of the normal force: what is asked of
+/// answers for relieved teeth.
 const ALLOWED: f64 = 5e-3;
 
 /// What the default mesh may be off at one position: its grid convergence index, docs/fe_contact.md.
@@ -19,7 +19,8 @@ const CORNER: f64 = 9e-3;
 /// Elements along a flank of the default mesh and of one on which discretisation no longer counts.
 const FLANKS: [&str; 2] = ["flank_elements = 14", "flank_elements = 28"];
 
-/// A mesh of `auto` at rest, eight elements of which those next to the flanks are divided, and the same whole with even cells.
+/// A mesh of `auto` at rest, eight elements of which those next to the flanks are divided, and the same whole with even
+/// cells.
 const WHOLE: &str = "flank_elements = 8\nmatching_depth_elements = 1.3\ncontact_cells = 20";
 const DIVIDED: &str = "flank_elements = 8\nflank_layer = \"divided\"\nmatching_depth_elements = 1.3\n\
                        contact_cells = 20\ncell_layout_at_rest = \"graded\"";
@@ -123,9 +124,9 @@ fn bodies(amount_um: f64, fe_contact: &str) -> Bodies {
     Bodies::new(&Scene::from_toml(&text).unwrap()).unwrap()
 }
 
-/// What the program is off over a mesh cycle: largest difference of δ as a part of it, without and with corner contact; that
-/// of the mean of δ and of its peak-to-peak value as parts of the mean; that of a pair's force as a part of the normal
-/// force.
+/// What the program is off over a mesh cycle: largest difference of δ as a part of it, without and with corner contact;
+/// that of the mean of δ and of its peak-to-peak value as parts of the mean; that of a pair's force as a part of the
+/// normal force.
 #[derive(Debug)]
 struct Off {
     path: f64,
@@ -189,8 +190,8 @@ fn relieved_teeth_answer_as_the_resolved_calculation() {
     }
 }
 
-/// The deflections of eight elements with twenty cells are nearer to the resolved calculation where elements next to the flanks are divided and the cells
-/// graded. Their peak to peak need not be: docs/fe_contact.md.
+/// The deflections of eight elements with twenty cells are nearer to the resolved calculation where elements next to
+/// the flanks are divided and the cells graded. Their peak to peak need not be: docs/fe_contact.md.
 #[test]
 fn divided_flank_layers_come_nearer() {
     for case in &CASES {
@@ -221,8 +222,8 @@ fn a_relief_five_percent_larger_is_told_apart() {
     }
 }
 
-/// Meshes twice as fine change δ ever less. What the extrapolation adds in the end, a third of the last change, is below
-/// half of what the program may be off.
+/// Meshes twice as fine change δ ever less. What the extrapolation adds in the end, a third of the last change, is
+/// below half of what the program may be off.
 #[test]
 fn kept_answers_converge() {
     for case in &CASES {
@@ -239,9 +240,9 @@ fn kept_answers_converge() {
     }
 }
 
-/// Under the light load, where neither flank is relieved, the peak pressure is Hertz's: √(F'E*/(πR)), E* = E/(2(1 − ν²)).
-/// Hats a third of the half-width wide miss the top of the ellipse by (1/3)²/8 where they interpolate it; those of single
-/// positions scatter by as much more.
+/// Under the light load, where neither flank is relieved, the peak pressure is Hertz's: √(F'E*/(πR)), E* = E/(2(1 −
+/// ν²)). Hats a third of the half-width wide miss the top of the ellipse by (1/3)²/8 where they interpolate it; those
+/// of single positions scatter by as much more.
 #[test]
 fn pressures_of_the_kept_answers_are_hertzian() {
     let case = &CASES[2];

@@ -1,7 +1,8 @@
 //! Static displacement of an annulus that its race accelerates, in closed form.
 //!
-//! A body of density ρ that vibrates with its race as λ = ω² has the inertial forces λρq of the rigid motion q, under which it yields by
-//! λw. For a race at r = a and a free edge at r = b, rotation by θ about the centre gives the tangential displacement
+//! A body of density ρ that vibrates with its race as λ = ω² has the inertial forces λρq of the rigid motion q, under
+//! which it yields by λw. For a race at r = a and a free edge at r = b, rotation by θ about the centre gives the
+//! tangential displacement
 //!
 //! ```text
 //! w = ρ θ r/(4G) [b⁴/2 (1/a² − 1/r²) − (r² − a²)/2]
@@ -15,8 +16,8 @@
 //! A₂ (2b + 2κ a⁴/b³) = 2A a²/b³ − 2A/b − 2D b/(κ − 1)
 //! ```
 //!
-//! where 2D z z̄ is a particular solution of the equations of equilibrium and the rest leaves the race at rest and the free edge without
-//! traction.
+//! where 2D z z̄ is a particular solution of the equations of equilibrium and the rest leaves the race at rest and the
+//! free edge without traction.
 
 use std::f64::consts::PI;
 

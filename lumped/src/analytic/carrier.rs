@@ -1,8 +1,9 @@
-//! Flexibility of the carrier between the pin seats and its bore, in closed form: forces in an annulus that is held at its bore
-//! and free at its outside.
+//! Flexibility of the carrier between the pin seats and its bore, in closed form: forces in an annulus that is held at
+//! its bore and free at its outside.
 //!
-//! With complex displacement u + iv of the plane (Muskhelishvili, Some Basic Problems of the Mathematical Theory of Elasticity,
-//! 1953, §§ 32, 56 and 59), κ = 3 − 4ν and a force F at z = c on the real axis, f = F/(2π(1 + κ)), all lengths over c:
+//! With complex displacement u + iv of the plane (Muskhelishvili, Some Basic Problems of the Mathematical Theory of
+//! Elasticity, 1953, §§ 32, 56 and 59), κ = 3 − 4ν and a force F at z = c on the real axis, f = F/(2π(1 + κ)), all
+//! lengths over c:
 //!
 //! ```text
 //! 2G (u + iv) = κφ − z φ̄' − ψ̄
@@ -10,13 +11,13 @@
 //! |z| = a: u + iv = 0,      |z| = b: φ + z φ̄' + ψ̄ = constant
 //! ```
 //!
-//! Each harmonic σᵏ = e^{ikθ} of both conditions holds a_k, ā_{2−k} and b̄_{−k}, so that k and 2 − k are solved together
-//! ([`Field::new`]).
+//! Each harmonic σᵏ = e^{ikθ} of both conditions holds a_k, ā_{2−k} and b̄_{−k}, so that k and 2 − k are solved
+//! together ([`Field::new`]).
 //!
-//! A rigid seat of radius ρ with a uniform traction on its circle moves by the mean of the displacement over the circle, 2κ f
-//! ln(1/ρ) of it from the force itself and that of the rest of the field to ρ² by its Laplacian, once for the seat that moves
-//! and once for the one that is loaded. A rigid seat resists the strain ε of the rest of the field as a rigid inclusion in a
-//! dilute suspension does; both seats' forces have such strain at every seat s:
+//! A rigid seat of radius ρ with a uniform traction on its circle moves by the mean of the displacement over the
+//! circle, 2κ f ln(1/ρ) of it from the force itself and that of the rest of the field to ρ² by its Laplacian, once for
+//! the seat that moves and once for the one that is loaded. A rigid seat resists the strain ε of the rest of the field
+//! as a rigid inclusion in a dilute suspension does; both seats' forces have such strain at every seat s:
 //!
 //! ```text
 //! A_ij ← A_ij − πρ² b Σ_s [(K + G) tr ε_i tr ε_j + 2G (κ + 1)/κ e_i : e_j],     K = 2G/(κ − 1)
@@ -37,12 +38,13 @@ const SERIES: f64 = 1e-7;
 /// Most terms: of thinner annuli the series converge slowly.
 const MOST_TERMS: f64 = 120.0;
 
-/// Seats that reach farther than this part of the way to the nearest edge of the annulus, or of half the way to the next seat,
-/// are no small inclusions.
+/// Seats that reach farther than this part of the way to the nearest edge of the annulus, or of half the way to the
+/// next seat, are no small inclusions.
 const NEAREST: f64 = 0.6;
 
-/// Displacement of every seat along unit forces on every seat, 2N×2N, m/N: radial and tangential of each planet in turn, for planets
-/// at ψ (rad) on the radius `center_distance` (m). `None` for seats that are not small, or too thin an annulus.
+/// Displacement of every seat along unit forces on every seat, 2N×2N, m/N: radial and tangential of each planet in
+/// turn, for planets at ψ (rad) on the radius `center_distance` (m). `None` for seats that are not small, or too thin
+/// an annulus.
 pub(super) fn seat_flexibility(
     carrier: &CarrierInput,
     center_distance: f64,

@@ -1,17 +1,18 @@
-//! The loaded transmission error of a set in closed form: rigid bodies on bearings and pin seats, and meshes whose tooth pairs touch
-//! or not.
+//! The loaded transmission error of a set in closed form: rigid bodies on bearings and pin seats, and meshes whose
+//! tooth pairs touch or not.
 //!
-//! At every position of the mesh cycle, with the approach δ_i = b_iᵀq and the force F_i(δ_i) of every mesh at its own phase
-//! (`mesh.rs`), the displacements obey
+//! At every position of the mesh cycle, with the approach δ_i = b_iᵀq and the force F_i(δ_i) of every mesh at its own
+//! phase (`mesh.rs`), the displacements obey
 //!
 //! ```text
 //! (K + G) q + Σ [b_i F_i(b_iᵀ q) − κ_i R_i(b_iᵀ q)] = f + G q̄
 //! ```
 //!
-//! K: bearings, pin seats and supports; G: mesh forces that turn with their lines of action (`line.rs`) about the mean configuration
-//! q̄; R = −∂Ψ/∂σ: what the energy Ψ of the pairs changes by as they roll on by σ = κᵀq at the same approach, since flanks lean under
-//! load; f: the torque on the sun. Newton's method from q̄. In the mean configuration gears mesh at other centre distances, and elsewhere
-//! on their paths ([`gearset::DisplacedMesh`]); phases count from where planet 0's sun mesh starts its path there, as in FE/contact.
+//! K: bearings, pin seats and supports; G: mesh forces that turn with their lines of action (`line.rs`) about the mean
+//! configuration q̄; R = −∂Ψ/∂σ: what the energy Ψ of the pairs changes by as they roll on by σ = κᵀq at the same
+//! approach, since flanks lean under load; f: the torque on the sun. Newton's method from q̄. In the mean configuration
+//! gears mesh at other centre distances, and elsewhere on their paths ([`gearset::DisplacedMesh`]); phases count from
+//! where planet 0's sun mesh starts its path there, as in FE/contact.
 
 use std::collections::BTreeMap;
 
@@ -88,7 +89,8 @@ impl AnalyticCycle {
     /// The set of a scene about its mean configuration under the torque.
     ///
     /// # Errors
-    /// [`LumpedError::NotAnalytic`] for scenes and teeth that the closed forms do not hold for, or sets that nothing holds.
+    /// [`LumpedError::NotAnalytic`] for scenes and teeth that the closed forms do not hold for, or sets that nothing
+    /// holds.
     pub fn new(scene: &Scene, case: &LoadCase) -> Result<Self, LumpedError> {
         let SetParts { geometry, plane, mut model, seats, load, force, phases, .. } =
             SetParts::new(scene, case)?;
@@ -262,8 +264,8 @@ impl AnalyticCycle {
     }
 }
 
-/// Displacements (x, y, m; θ, rad) of driver and driven in the mesh frame of planet n, which is at ψ (rad), under those of the
-/// model's coordinates.
+/// Displacements (x, y, m; θ, rad) of driver and driven in the mesh frame of planet n, which is at ψ (rad), under those
+/// of the model's coordinates.
 fn displacements(
     model: &LumpedModel,
     mesh: &Mesh,

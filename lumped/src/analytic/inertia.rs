@@ -1,7 +1,7 @@
 //! What the inertia of elastic displacements changes of a natural frequency, to first order and in closed form.
 //!
-//! Bodies yield under their own inertial forces by λw (`accelerated.rs`), which the forces F of springs on them feel. With the
-//! rigid motion q of a body in a mode of unit modal mass (as `docs/fe_dynamics.md` derives for FE/contact),
+//! Bodies yield under their own inertial forces by λw (`accelerated.rs`), which the forces F of springs on them feel.
+//! With the rigid motion q of a body in a mode of unit modal mass (as `docs/fe_dynamics.md` derives for FE/contact),
 //!
 //! ```text
 //! δm = Σ_bodies (2 Σ F·w + λ qᵀM w),      f'/f = 1/√(1 + δm)
@@ -90,8 +90,8 @@ impl ElasticBodies {
 }
 
 impl OnRadius {
-    /// w at an angle where the springs act, along (x, y) directions, for a translation d and u = r θ: along a direction n with the
-    /// coefficient of u.
+    /// w at an angle where the springs act, along (x, y) directions, for a translation d and u = r θ: along a direction
+    /// n with the coefficient of u.
     fn along(&self, d: Complex<f64>, u: f64, angle: f64, n: Complex<f64>, of_u: f64) -> f64 {
         let [constant, double] = self.body.by_translation(self.at);
         let turned = Complex::from_polar(1.0, 2.0 * angle);
@@ -101,7 +101,8 @@ impl OnRadius {
 }
 
 impl AnalyticSet {
-    /// Relative change of the frequency of a group of modes, its mean, by the inertia of elastic displacements; 0 for a rigid-body mode.
+    /// Relative change of the frequency of a group of modes, its mean, by the inertia of elastic displacements; 0 for a
+    /// rigid-body mode.
     pub fn inertia_change(&self, group: &ModeGroup) -> f64 {
         let count = group.multiplicity as f64;
         let added: f64 = (0..group.multiplicity)

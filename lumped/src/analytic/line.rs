@@ -1,20 +1,20 @@
 //! Lines of action that turn as the centres move, and flanks that lean as they are deformed.
 //!
-//! Let n be the direction of the force on the driven gear, m that direction turned counter-clockwise by a quarter, and L = a sin α the
-//! distance between the points where the line of action touches both base circles. It stays tangent to both: if the planet's centre
-//! moves by d against the other centre, the line turns by m·d/L. With the row t of −m·d for a ring mesh and m·d for a sun mesh,
-//! the force F adds the stiffness −F/L t tᵀ of a sun mesh, a strut that is pressed, and +F/L t tᵀ of a ring mesh, whose force pulls
-//! the points of contact with the base circles together.
+//! Let n be the direction of the force on the driven gear, m that direction turned counter-clockwise by a quarter, and
+//! L = a sin α the distance between the points where the line of action touches both base circles. It stays tangent to
+//! both: if the planet's centre moves by d against the other centre, the line turns by m·d/L. With the row t of −m·d
+//! for a ring mesh and m·d for a sun mesh, the force F adds the stiffness −F/L t tᵀ of a sun mesh, a strut that is
+//! pressed, and +F/L t tᵀ of a ring mesh, whose force pulls the points of contact with the base circles together.
 //!
-//! The force of a mesh depends on its approach δ = bᵀq and on where along its path it touches, the driver's roll length σ = κᵀq. Under
-//! a constant force the approach changes by s = ∂δ/∂σ, hence
+//! The force of a mesh depends on its approach δ = bᵀq and on where along its path it touches, the driver's roll length
+//! σ = κᵀq. Under a constant force the approach changes by s = ∂δ/∂σ, hence
 //!
 //! ```text
 //! ∂F/∂q = k (b − s κ),  K = k (b − sκ)(b − sκ)ᵀ + c κκᵀ,      σ = ±u − r_b m·d/L  (+ sun, which drives; a planet drives the ring the other way round)
 //! ```
 //!
-//! It also changes with the centre distance a' = ζᵀq, by s_a = ∂δ/∂a': the row is b − sκ − s_a ζ. In modes that hardly press a mesh, this
-//! is a good part of what does.
+//! It also changes with the centre distance a' = ζᵀq, by s_a = ∂δ/∂a': the row is b − sκ − s_a ζ. In modes that hardly
+//! press a mesh, this is a good part of what does.
 
 use gearset::{Mesh, MeshMember};
 use nalgebra::DMatrix;
@@ -99,7 +99,8 @@ impl Line {
         self.roll
     }
 
-    /// Adds what a force (N) that turns with its line of action does to a stiffness, and the stiffness c against rolling on, N/m.
+    /// Adds what a force (N) that turns with its line of action does to a stiffness, and the stiffness c against
+    /// rolling on, N/m.
     pub(super) fn turn(&self, stiffness: &mut DMatrix<f64>, force: f64, rolling: f64) {
         for (factor, row) in [(self.strut * force, &self.across), (rolling, &self.roll)] {
             for (i, a) in row {

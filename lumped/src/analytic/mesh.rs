@@ -1,24 +1,25 @@
-//! Tangent stiffness of a mesh at one phase under its mean force, in closed form: tooth pairs with gaps share the force.
+//! Tangent stiffness of a mesh at one phase under its mean force, in closed form: tooth pairs with gaps share the
+//! force.
 //!
 //! ```text
 //! δ − g_i = Σ_j C_ij f_j + h_i(f_i),   f_i ≥ 0,   Σ f_i = F,     k = 1ᵀ (C + diag h_i')⁻¹ 1 over the pairs that touch
 //! h_i = 2 f/(π E' b) [ln(2 d₁/a) + ln(2 d₂/a) − ν/(1 − ν)],   a = √(8 f R/(π E' b))
 //! ```
 //!
-//! C_ii: both teeth (`tooth.rs`); C_ij of neighbouring pairs: a fixed share of √(C_ii C_jj). h: what two half-planes yield
-//! between the flanks and the depths d of both axes (Weber & Banaschek 1953; Johnson, Contact Mechanics 1985, eq. 5.57), with
-//! the relative radius R of the flanks. The gap of a pair beyond an end of the path grows with the square of the distance
-//! ([`Mesh::corner_gap_curvature`]); tip relief adds to it.
+//! C_ii: both teeth (`tooth.rs`); C_ij of neighbouring pairs: a fixed share of √(C_ii C_jj). h: what two half-planes
+//! yield between the flanks and the depths d of both axes (Weber & Banaschek 1953; Johnson, Contact Mechanics 1985, eq.
+//! 5.57), with the relative radius R of the flanks. The gap of a pair beyond an end of the path grows with the square
+//! of the distance ([`Mesh::corner_gap_curvature`]); tip relief adds to it.
 //!
-//! As the set rolls on by σ, gaps and flexibilities change: g' = ∂(g_i + C_ii f_i)/∂σ. The energy ½ (δ − g)ᵀ K (δ − g) of the pairs,
-//! K = (C + diag h')⁻¹, has the second derivatives
+//! As the set rolls on by σ, gaps and flexibilities change: g' = ∂(g_i + C_ii f_i)/∂σ. The energy ½ (δ − g)ᵀ K (δ − g)
+//! of the pairs, K = (C + diag h')⁻¹, has the second derivatives
 //!
 //! ```text
 //! k = 1ᵀK 1,    −k s = −1ᵀK g',    c + k s² = g'ᵀK g' − Σ f_i g_i''
 //! ```
 //!
-//! with respect to δ, to δ and σ, and to σ; g'' is that of the corners. The slope s_a over the centre distance, where the driver's roll length
-//! stays and the driven gear's changes by 1/sin α, is found alike.
+//! with respect to δ, to δ and σ, and to σ; g'' is that of the corners. The slope s_a over the centre distance, where
+//! the driver's roll length stays and the driven gear's changes by 1/sin α, is found alike.
 
 use std::f64::consts::PI;
 
@@ -28,14 +29,14 @@ use nalgebra::{Cholesky, Const, Matrix4, Vector4};
 use super::plane::Plane;
 use super::tooth::Tooth;
 
-/// C_ij of neighbouring pairs over √(C_ii C_jj): a rim that yields under one tooth carries its neighbour with it. Fitted to
-/// FE/contact (`docs/closed_forms.md`).
+/// C_ij of neighbouring pairs over √(C_ii C_jj): a rim that yields under one tooth carries its neighbour with it.
+/// Fitted to FE/contact (`docs/closed_forms.md`).
 const NEIGHBOUR: f64 = 0.12;
 
-/// A pair that is off its mate by less than this part of the approach may touch, and one that carries less than that of the force may
-/// not. On the drawn sets 1 to 249 at twelve positions FE/contact has it the other way in 16 of 92 meshes with a pair that is off by
-/// less, and in none of 177 with one that is off by up to three times as much; in 30 of 92 with a pair that carries less, and in 4 of
-/// 173 with one that carries up to three times as much.
+/// A pair that is off its mate by less than this part of the approach may touch, and one that carries less than that of
+/// the force may not. On the drawn sets 1 to 249 at twelve positions FE/contact has it the other way in 16 of 92 meshes
+/// with a pair that is off by less, and in none of 177 with one that is off by up to three times as much; in 30 of 92
+/// with a pair that carries less, and in 4 of 173 with one that carries up to three times as much.
 const NEAR: [f64; 2] = [0.06, 0.02];
 
 /// Part of a cycle to either side over which a slope is taken.
@@ -57,9 +58,11 @@ const MOST: usize = 4;
 pub(super) struct MeshTangent {
     /// k, N/m.
     pub(super) stiffness: f64,
-    /// ln of the factor on k if a pair that nearly touches does, or one that hardly carries does not; 0 if there is none.
+    /// ln of the factor on k if a pair that nearly touches does, or one that hardly carries does not; 0 if there is
+    /// none.
     pub(super) hand_over: f64,
-    /// s and s_a, m/m: slopes of the approach under a constant force over the driver's roll length and over the centre distance.
+    /// s and s_a, m/m: slopes of the approach under a constant force over the driver's roll length and over the centre
+    /// distance.
     pub(super) slopes: [f64; 2],
     /// c, N/m: stiffness against rolling on with an approach that follows that slope.
     pub(super) rolling: f64,
@@ -81,7 +84,8 @@ struct Pair {
     curvature: f64,
 }
 
-/// Slopes of a pair's gap (m/m), of the flexibility of its teeth (1/N) and of `near` (1/m) over the driver's roll length.
+/// Slopes of a pair's gap (m/m), of the flexibility of its teeth (1/N) and of `near` (1/m) over the driver's roll
+/// length.
 #[derive(Debug, Clone, Copy)]
 struct Rolled {
     gap: f64,
@@ -90,8 +94,8 @@ struct Rolled {
 }
 
 impl Pair {
-    /// The pair where the driver's roll length on the common line is `along` and the flanks approach by `approach`; `None` where a
-    /// tooth is none that the closed forms hold for.
+    /// The pair where the driver's roll length on the common line is `along` and the flanks approach by `approach`;
+    /// `None` where a tooth is none that the closed forms hold for.
     fn at(mesh: &Mesh, along: f64, approach: f64, plane: &Plane) -> Option<Self> {
         let (driver, driven) = (mesh.gear(MeshMember::Driver), mesh.gear(MeshMember::Driven));
         let (gap, curvature, s) = gap(mesh, along, approach);
@@ -128,11 +132,12 @@ fn relative_radius(mesh: &Mesh, s: f64) -> f64 {
     }
 }
 
-/// Gap of a pair (m), its second derivative at a corner (1/m), and the driver's roll length where it touches (m), of flanks that
-/// approach by `approach` (m): each gear is half of that further on its own path, towards a corner at either end.
+/// Gap of a pair (m), its second derivative at a corner (1/m), and the driver's roll length where it touches (m), of
+/// flanks that approach by `approach` (m): each gear is half of that further on its own path, towards a corner at
+/// either end.
 ///
-/// Relief is the less, the farther from the tip. With its slope d along the flank, flanks of relative radius R whose contact would lie X
-/// beyond a corner are nearest at x towards the root,
+/// Relief is the less, the farther from the tip. With its slope d along the flank, flanks of relative radius R whose
+/// contact would lie X beyond a corner are nearest at x towards the root,
 ///
 /// ```text
 /// g(x) = g(0) + ((X + x)² − X²)/(2 R) − d x,   x = R d − X > 0   ⇒   g = g(0) − ½ R (d − X/R)²
@@ -165,8 +170,8 @@ fn gap(mesh: &Mesh, along: f64, approach: f64) -> (f64, f64, f64) {
     (0.5 * curvature * e * e + nearest, curvature, s)
 }
 
-/// The tangent stiffness of a mesh at a phase (cycles) under a force (N); `None` where a tooth is none that the closed forms
-/// hold for, or more than four pairs are near.
+/// The tangent stiffness of a mesh at a phase (cycles) under a force (N); `None` where a tooth is none that the closed
+/// forms hold for, or more than four pairs are near.
 pub(super) fn mesh_tangent(
     mesh: &Mesh,
     phase: f64,
@@ -202,7 +207,8 @@ pub(super) fn mesh_tangent(
 /// Which pairs touch.
 type Touching = [bool; MOST];
 
-/// Forces of pairs of which none is pulled: those that are, are left out one by one, the most pulled first. 0 where none is left.
+/// Forces of pairs of which none is pulled: those that are, are left out one by one, the most pulled first. 0 where
+/// none is left.
 fn pressing(
     touching: &mut Touching,
     mut forces: impl FnMut(&Touching) -> Option<Vector4<f64>>,
@@ -365,7 +371,8 @@ impl PressedMesh {
         Some(Self { near, rolled })
     }
 
-    /// Where the gears approach by δ (m): the force F (N), its derivative k (N/m), and R (N) against rolling on at that approach,
+    /// Where the gears approach by δ (m): the force F (N), its derivative k (N/m), and R (N) against rolling on at that
+    /// approach,
     ///
     /// ```text
     /// R = −∂Ψ/∂σ = Σ f_i g_i' + ½ Σ f_i C_ij' f_j + ½ Σ f_i² c_i',    c = 2/(π E' b) [ln(4 d₁ d₂/a²) − ν/(1 − ν)]
@@ -448,9 +455,9 @@ mod tests {
         assert!(checked > 4, "{checked} with a slope to speak of");
     }
 
-    /// The gap of flanks with tip relief is the least one along them: searched for point by point, with the arc s ds/r_b of an
-    /// involute, at both ends of the path of either mesh and a little beyond. At the tips of ring meshes it is a good part below that
-    /// where flanks without relief touch.
+    /// The gap of flanks with tip relief is the least one along them: searched for point by point, with the arc s
+    /// ds/r_b of an involute, at both ends of the path of either mesh and a little beyond. At the tips of ring meshes
+    /// it is a good part below that where flanks without relief touch.
     #[test]
     fn the_gap_of_relieved_flanks_is_the_least_along_them() {
         let mut scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();

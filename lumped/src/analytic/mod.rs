@@ -1,11 +1,11 @@
-//! The Lin–Parker model with parameters from the geometry of a scene, all in closed form: what FE/contact computes from meshes of
-//! the bodies, at the price of the lumped model.
+//! The Lin–Parker model with parameters from the geometry of a scene, all in closed form: what FE/contact computes from
+//! meshes of the bodies, at the price of the lumped model.
 //!
-//! Masses and inertias are those of the outlines; every mesh has the stiffness of its own phase under the operating torque
-//! (`mesh.rs`, `tooth.rs`); the planet bearings stand on pin seats of an elastic carrier (`carrier.rs`); and mesh forces turn
-//! with their lines of action: by the distance L = a sin α between the points where it touches both base circles, a line of action
-//! turns with the displacement across it of the one centre against the other, which adds −F/L of a strut pressed by F to sun
-//! meshes and +F/L to ring meshes, whose force pulls the two points together.
+//! Masses and inertias are those of the outlines; every mesh has the stiffness of its own phase under the operating
+//! torque (`mesh.rs`, `tooth.rs`); the planet bearings stand on pin seats of an elastic carrier (`carrier.rs`); and
+//! mesh forces turn with their lines of action: by the distance L = a sin α between the points where it touches both
+//! base circles, a line of action turns with the displacement across it of the one centre against the other, which adds
+//! −F/L of a strut pressed by F to sun meshes and +F/L to ring meshes, whose force pulls the two points together.
 //!
 //! Which approximations that makes, and how good they are, is on `docs/closed_forms.md`.
 
@@ -46,10 +46,11 @@ pub struct AnalyticSet {
     pub model: LumpedModel,
     /// K with flexibility between the pin seats and mesh forces that turn, n×n, N/m.
     pub stiffness: DMatrix<f64>,
-    /// ln of the factor on the stiffness of a mesh if a pair that nearly touches does, or one that hardly carries does not: sun
-    /// meshes, then ring meshes; 0 where there is no such pair.
+    /// ln of the factor on the stiffness of a mesh if a pair that nearly touches does, or one that hardly carries does
+    /// not: sun meshes, then ring meshes; 0 where there is no such pair.
     pub hand_overs: Vec<f64>,
-    /// Flexibility of the pin seats, 2N×2N, m/N: radial and tangential of each planet in turn; empty if the carrier is rigid.
+    /// Flexibility of the pin seats, 2N×2N, m/N: radial and tangential of each planet in turn; empty if the carrier is
+    /// rigid.
     pub seats: DMatrix<f64>,
     /// Masses, I/r², radii and pressure angles of a `[lumped]` table, and of the stiffness of sun and of ring meshes
     /// the mean over the planets at this position: to first order the frequencies of modes that planets share alike
@@ -165,8 +166,8 @@ struct SetParts {
     plane: Plane,
     /// Without stiffness of the meshes.
     parameters: LumpedInput,
-    /// Springs without the stiffness of the meshes; a planet bearing has that of itself and its own pin seat in series. The
-    /// set is mirrored if the torque on the sun is clockwise.
+    /// Springs without the stiffness of the meshes; a planet bearing has that of itself and its own pin seat in series.
+    /// The set is mirrored if the torque on the sun is clockwise.
     model: LumpedModel,
     /// Flexibility of the pin seats, 2N×2N, m/N; empty if the carrier is rigid.
     seats: DMatrix<f64>,
@@ -281,8 +282,8 @@ fn parameters(scene: &Scene, geometry: &Geometry) -> Option<LumpedInput> {
 }
 
 /// Replaces the springs of the planet bearings by those in series with the flexibility A of all pin seats:
-/// K ← K − Σ k̃ B BᵀB + BᵀJB, J = (I/k + A)⁻¹. Returns what the seats have of it, Bᵀ J A J B, N/m: half of its quadratic form is their
-/// strain energy.
+/// K ← K − Σ k̃ B BᵀB + BᵀJB, J = (I/k + A)⁻¹. Returns what the seats have of it, Bᵀ J A J B, N/m: half of its
+/// quadratic form is their strain energy.
 fn stand_on_seats(
     stiffness: &mut DMatrix<f64>,
     model: &LumpedModel,

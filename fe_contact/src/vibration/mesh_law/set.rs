@@ -271,7 +271,8 @@ impl<'s> MeshLawSet<'s> {
     }
 
     /// The derivative of the last of the states passed with respect to the first, between which every step was
-    /// kept, computed in the precision of T; frequencies of the motion are of the order of `rate` (rad/s). `None` without a state.
+    /// kept, computed in the precision of T; frequencies of the motion are of the order of `rate` (rad/s). `None`
+    /// without a state.
     pub fn derivative_of<T: Number>(
         &self,
         passed: &PassedSteps,
@@ -280,8 +281,8 @@ impl<'s> MeshLawSet<'s> {
         self.system.derivative_of::<T>(passed, rate)
     }
 
-    /// The same in double precision, with a change of the coordinates at the start carried along. `None` also for a change of
-    /// another size.
+    /// The same in double precision, with a change of the coordinates at the start carried along. `None` also for a
+    /// change of another size.
     pub fn derivative_with(
         &self,
         passed: &PassedSteps,

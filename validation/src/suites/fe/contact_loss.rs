@@ -1,5 +1,5 @@
-//! Statements on planetary gears whose teeth part, of another paper about other gear sets: judged here on OH-58 with three
-//! planets in phase, under light torque and little damping.
+//! Statements on planetary gears whose teeth part, of another paper about other gear sets: judged here on OH-58 with
+//! three planets in phase, under light torque and little damping.
 
 use experiments::branches::{Branch, BranchPoint, BranchSettings, Branches, branches};
 use experiments::sweep::{Coordinate, DampedModel, FeModel, MeshLawModel, Part, SweepModel};
