@@ -24,10 +24,13 @@ pub mod figures;
 mod output;
 
 pub use dynamics;
+#[cfg(feature = "fe")]
 pub use experiments;
+#[cfg(feature = "fe")]
 pub use fe_contact;
 pub use gearset;
 pub use lumped;
+#[cfg(feature = "validation")]
 pub use validation;
 
 #[cfg(feature = "command")]

@@ -1,6 +1,4 @@
-//! Numerical methods without gears: eigenproblems of vibrating systems and their subspaces, time integration,
-//! periodic solutions by shooting with their stability, periodic motions by harmonic balance, branches of
-//! solutions, spectra of records, identification of modes from records, and discretisation errors of refined sequences.
+#![doc = include_str!("../README.md")]
 
 pub mod benchmark_subjects;
 mod bundles;
@@ -35,6 +33,9 @@ pub use error::{EigenError, SpectrumError};
 pub use factored::{FactoredModes, SpringRow, factored_modes};
 pub use faer::c64;
 pub use gyroscopic::{GyroscopicMode, gyroscopic_modes};
+/// The crate whose matrices and vectors stand in signatures.
+pub use nalgebra;
+
 pub use lowest_modes::{LowMode, ModalOperator, lowest_modes};
 pub use newmark::{AverageAcceleration, Motion, StepError};
 pub use number::Number;

@@ -1,5 +1,4 @@
-//! Virtual experiments: what can be asked of a model of a planetary gear set, as functions of the model and a
-//! load case.
+#![doc = include_str!("../README.md")]
 
 pub mod auto;
 mod bodies_cache;

@@ -1,5 +1,4 @@
-//! Finite-element/contact simulator of planetary gears: meshes, elements, bodies, contact, statics
-//! and vibration.
+#![doc = include_str!("../README.md")]
 
 pub mod body;
 pub mod complementarity;
@@ -12,6 +11,9 @@ mod material;
 mod short_row;
 pub mod statics;
 pub mod vibration;
+
+/// The crate whose matrices and vectors stand in signatures.
+pub use nalgebra;
 
 pub use error::FeError;
 pub use material::Elastic;

@@ -1,5 +1,4 @@
-//! What every model of a planetary gear set shares: the scene file, involute geometry, assembly,
-//! kinematics, mesh phases, tables of mesh forces and excitation rules.
+#![doc = include_str!("../README.md")]
 
 pub mod assembly;
 mod bound;

@@ -1,9 +1,8 @@
-//! The Lin–Parker lumped-parameter model of a planetary gear set: rigid bodies, springs at meshes
-//! and bearings, natural modes and their sensitivities; and the same set in time, its mesh springs
-//! replaced by tables of mesh force. A gear pair is a sun and one planet, each on a bearing of its own.
+#![doc = include_str!("../README.md")]
 //!
-//! Source of the equations: Lin & Parker (1999), J. Vib. Acoust. 121, 316–321. Coordinates and
-//! signs are defined in [`springs`](Spring) and checked in the tests against matrices derived by hand.
+//! Source of the equations: Lin & Parker (1999), J. Vib. Acoust. 121, 316–321. Coordinates and signs are defined in
+//! [`springs`](Spring) and checked in the tests against matrices derived by hand. A gear pair is a sun and one planet,
+//! each on a bearing of its own.
 
 mod analytic;
 mod balanced;
@@ -22,6 +21,9 @@ mod spacing_tolerance;
 mod springs;
 mod time_varying;
 mod type_tolerance;
+
+/// The crate whose matrices and vectors stand in signatures.
+pub use nalgebra;
 
 pub use analytic::{AnalyticCycle, AnalyticRest, AnalyticSet, StatedError};
 pub use balanced::BalancedSet;

@@ -1,5 +1,6 @@
 //! The scenes that checks run on, built into the program.
 
+use crate::reference_file::embedded;
 use gearset::{Scene, SceneError};
 
 /// A scene of the catalogue.
@@ -40,7 +41,7 @@ pub enum PublishedScene {
 pub fn scene(which: PublishedScene) -> Result<Scene, SceneError> {
     macro_rules! file {
         ($name:literal) => {
-            include_str!(concat!("../scenes/", $name))
+            embedded!(concat!("scenes/", $name))
         };
     }
     Scene::from_toml(match which {

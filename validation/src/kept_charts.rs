@@ -5,7 +5,7 @@ use experiments::study::StudyResult;
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
-use crate::reference_file::ReferenceError;
+use crate::reference_file::{ReferenceError, embedded};
 
 /// A study as it was run, that of models for instance by
 /// `epicyclic study studies/models.toml --rounds 3 --format json > kept/studies/models.json`.
@@ -40,7 +40,7 @@ pub fn kept_studies() -> Result<Vec<KeptStudy>, ReferenceError> {
     macro_rules! kept {
         ($($name:literal),*) => {
             vec![$({
-                let text = include_str!(concat!("../kept/studies/", $name, ".json"));
+                let text = embedded!(concat!("kept/studies/", $name, ".json"));
                 let Written { version, result } = read(concat!("kept/studies/", $name, ".json"), text)?;
                 KeptStudy { name: $name, version, result }
             }),*]
@@ -71,7 +71,7 @@ pub fn kept_studies() -> Result<Vec<KeptStudy>, ReferenceError> {
 pub fn kept_maps() -> Result<Vec<StabilityMap>, ReferenceError> {
     macro_rules! kept {
         ($name:literal) => {{
-            let text = include_str!(concat!("../kept/stability/", $name, ".json"));
+            let text = embedded!(concat!("kept/stability/", $name, ".json"));
             read(concat!("kept/stability/", $name, ".json"), text)?.result
         }};
     }

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use crate::reference_file::{ReferenceError, parse};
+use crate::reference_file::{ReferenceError, embedded, parse};
 
 /// `checks/assumptions.toml`.
 #[derive(Debug, Clone, Deserialize)]
@@ -43,7 +43,7 @@ impl Ledger {
     /// # Errors
     /// If the file does not hold what the code expects.
     pub fn load() -> Result<Self, ReferenceError> {
-        parse("checks/assumptions.toml", include_str!("../checks/assumptions.toml"))
+        parse("checks/assumptions.toml", embedded!("checks/assumptions.toml"))
     }
 
     /// The page `docs/assumptions.md` with the figures a verdict has; checks that it does not have are

@@ -1,4 +1,4 @@
-//! Virtual experiments and checks: the models against published numbers, theorems and each other.
+#![doc = include_str!("../README.md")]
 
 mod catalogue;
 mod check;

@@ -4,7 +4,7 @@
 use gearset::CellLayout;
 use serde::Deserialize;
 
-use crate::reference_file::{ReferenceError, parse};
+use crate::reference_file::{ReferenceError, embedded, parse};
 use experiments::sweep::top_of_three;
 
 /// `full_impulse.toml`.
@@ -92,7 +92,7 @@ impl FullSweep {
     /// # Errors
     /// If the file does not hold what the code expects.
     pub fn load() -> Result<Self, ReferenceError> {
-        parse("kept/full_sweep.toml", include_str!("../kept/full_sweep.toml"))
+        parse("kept/full_sweep.toml", embedded!("kept/full_sweep.toml"))
     }
 
     /// The points at some steps a cycle.

@@ -8,7 +8,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::reference_file::{ReferenceError, parse};
+use crate::reference_file::{ReferenceError, embedded, parse};
 
 /// A parameter that the paper leaves open, with its interval.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -123,7 +123,7 @@ impl ParameterBands {
     /// # Errors
     /// If the file does not hold what the code expects.
     pub fn load() -> Result<Self, ReferenceError> {
-        parse("kept/parameter_bands.toml", include_str!("../kept/parameter_bands.toml"))
+        parse("kept/parameter_bands.toml", embedded!("kept/parameter_bands.toml"))
     }
 
     /// The row of a check.

@@ -6,7 +6,7 @@ use crate::check::{Check, ReferenceKind, Status, Subject, Tolerance};
 use crate::judged::Judged;
 use crate::own_truth::{ExactPeaks, FullImpulse, FullSweep, Ladder, TorqueMap, TorquePeaks};
 use crate::parameter_bands::ParameterBands;
-use crate::reference_file::{ReferenceError, parse};
+use crate::reference_file::{ReferenceError, embedded, parse};
 use crate::registry::{ControlEntry, Registry};
 
 /// All reference data.
@@ -209,7 +209,7 @@ impl Reference {
     pub fn load() -> Result<Self, ReferenceError> {
         macro_rules! file {
             ($name:literal) => {
-                parse($name, include_str!(concat!("../", $name)))?
+                parse($name, embedded!($name))?
             };
         }
         let misses: MissFile = file!("checks/misses.toml");

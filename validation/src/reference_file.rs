@@ -29,6 +29,15 @@ pub enum ReferenceError {
     NoBand(String),
 }
 
+/// Text of a file of the data crate; one that is missing is found when this crate is compiled.
+macro_rules! embedded {
+    ($path:expr) => {
+        const { epicyclic_data::text($path).expect("a file of the data crate") }
+    };
+}
+
+pub(crate) use embedded;
+
 /// The contents of a file.
 pub(crate) fn parse<T: serde::de::DeserializeOwned>(
     file: &'static str,

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::Profile;
 use crate::check::{ReferenceKind, Tolerance};
 use crate::glob::matches;
-use crate::reference_file::{ReferenceError, parse};
+use crate::reference_file::{ReferenceError, embedded, parse};
 
 /// What a suite asks of a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -96,7 +96,7 @@ impl Registry {
     /// # Errors
     /// If the file does not hold what the code expects.
     pub fn load() -> Result<Self, ReferenceError> {
-        parse("checks/registry.toml", include_str!("../checks/registry.toml"))
+        parse("checks/registry.toml", embedded!("checks/registry.toml"))
     }
 
     /// The suite that an id belongs to.
