@@ -50,7 +50,7 @@ const ALL: [(&str, &str, Remake); 14] = [
     ("ladder", "kept/ladder.toml: error against cost of the fidelities", ladder::remake),
     (
         "loaded_te",
-        "table of docs/sweeps.md: harmonics of the loaded transmission error",
+        "table of docs/torque.md: harmonics of the loaded transmission error",
         loaded_te::remake,
     ),
     (
@@ -66,7 +66,7 @@ const ALL: [(&str, &str, Remake); 14] = [
     ("second_system", "parameters of scenes/oh58_4p_second_system.toml", second_system::remake),
     (
         "sensitivity",
-        "table of docs/sweeps.md: what damping and mesh do to growth with torque",
+        "figures of docs/torque.md: what damping and mesh do to growth with torque",
         sensitivity::remake,
     ),
     ("torque", "kept/torque_peaks.toml: resonant peaks over torque", torque::remake),
