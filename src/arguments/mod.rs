@@ -72,7 +72,7 @@ pub(crate) struct Validate {
     #[arg(long, conflicts_with_all = ["report", "details", "profile", "recorded"])]
     pub controls: bool,
     /// Judge tables of results instead of this project's models: a folder with any of modes.csv,
-    /// mesh_cycle.csv and steady_states.csv (columns in README.md).
+    /// mesh_cycle.csv and steady_states.csv (columns in docs/suites.md).
     #[arg(long, value_name = "DIR", conflicts_with = "profile")]
     pub recorded: Option<PathBuf>,
     /// How much to run; checks left out are listed as not run.
