@@ -1,6 +1,6 @@
 //! Modes identified from sums of damped cosines, against the parameters of these cosines.
 
-mod synthetic;
+use crate::synthetic;
 
 use std::f64::consts::TAU;
 

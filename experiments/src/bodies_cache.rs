@@ -25,13 +25,13 @@ impl BodiesCache {
             "{:?} {:?} {:?} {:?} {:?}",
             scene.teeth, scene.geometry, scene.material, scene.fe_contact, scene.pair
         );
-        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(bodies) = known.get(&key) {
+        let known = || self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(bodies) = known().get(&key) {
             return Ok(Arc::clone(bodies));
         }
+        // Not under the lock: threads of the pool that computes gears may be waiting for it.
         let bodies = Arc::new(Bodies::new(scene)?);
-        known.insert(key, Arc::clone(&bodies));
-        Ok(bodies)
+        Ok(Arc::clone(known().entry(key).or_insert(bodies)))
     }
 
     /// Drops gears that are not in use elsewhere.

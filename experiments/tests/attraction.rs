@@ -1,6 +1,6 @@
 //! Motions that sweeps report as steady attract, also where shooting and repeating cycles find unstable ones.
 
-mod shipped;
+use crate::shipped;
 
 use experiments::sweep::{
     Attraction, Coordinate, Direction, FeModel, Marching, Memory, MeshLawModel, Part, Plan, Record,
@@ -84,6 +84,7 @@ fn sweeps_with_random_starts_list_the_same_motions_at_a_speed_they_share() {
 /// What the steps are said to change of a strong harmonic near a resonance is what four times as many change, and
 /// up to half of that more; with the steps that are named it is not said.
 #[test]
+#[ignore = "long: .ci/full runs it"]
 fn the_error_of_the_steps_is_that_seen_with_more_of_them() {
     let at = |name: &str, steps: u32, rpm: f64| {
         let scene = shipped::scene(name, steps, 1.0);
@@ -191,6 +192,7 @@ fn what_a_sweep_finds_where_teeth_part_attracts() {
 /// OH-58 with three planets below 30 rpm, where 140 steps in a mesh cycle are longer than the periods of most
 /// natural modes: the answer is that of four times the steps, whatever speeds were asked before.
 #[test]
+#[ignore = "long: .ci/full runs it"]
 fn slow_sets_have_the_motion_of_shorter_steps() {
     let of = |steps: u32, speeds: &[f64]| {
         let scene = shipped::scene("oh58_3p", steps, 1.0);

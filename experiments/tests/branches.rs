@@ -1,8 +1,8 @@
 //! Branches of periodic motions over speed: folds, bifurcations, and what marching makes of them.
 
-mod amplitudes;
-mod crossings;
-mod shipped;
+use crate::amplitudes;
+use crate::crossings;
+use crate::shipped;
 
 use amplitudes::{off, rotation};
 use crossings::{at, speed};

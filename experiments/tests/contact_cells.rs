@@ -1,6 +1,6 @@
 //! A resonant peak does not depend on the load that the contact tables are laid out for.
 
-mod shipped;
+use crate::shipped;
 
 use experiments::sweep::{
     FeModel, Part, Response, SteadySettings, SweepModel, SweepPoint, steady, top_of_three,

@@ -1,10 +1,10 @@
 //! Gear pairs in time: the jump of a pair with backlash on lumped and finite-element models, by three tools that share
 //! no code but the time step: marching up and down, shooting with continuation, and Floquet multipliers.
 
-mod amplitudes;
-mod crossings;
-mod shipped;
-mod tongue;
+use crate::amplitudes;
+use crate::crossings;
+use crate::shipped;
+use crate::tongue;
 
 use std::f64::consts::TAU;
 

@@ -1,6 +1,6 @@
 //! The same set with its planets counted from another one moves in the same way, whatever its meshes follow.
 
-mod shipped;
+use crate::shipped;
 
 use std::f64::consts::TAU;
 
@@ -87,13 +87,14 @@ fn compare(positions: [i64; 4], steps: u32, others: &[usize], most: f64) {
 /// largest amplitude.
 #[test]
 fn the_motion_of_opposed_pairs_does_not_depend_on_which_planet_is_counted_first() {
-    compare(OPPOSED, 140, &[1, 2, 3], 1e-6);
+    compare(OPPOSED, 140, &[1], 1e-6);
 }
 
 /// Loaded phases differ from planet to planet, so that time steps lie elsewhere in the mesh cycle if counted from
 /// another planet. That makes 1.3e-3 (quasi-static) to 2.3e-3 (lumped) with 140 steps, a sixteenth of which is allowed
 /// with 560.
 #[test]
+#[ignore = "long: .ci/full runs it"]
 fn the_motion_of_unequal_planets_does_not_depend_on_which_is_counted_first() {
     compare(UNEQUAL, 560, &[1], 8e-5);
 }

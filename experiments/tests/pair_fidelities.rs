@@ -1,6 +1,6 @@
 //! A gear pair in time at the fidelities with bodies that vibrate within themselves.
 
-mod amplitudes;
+use crate::amplitudes;
 
 use amplitudes::{off, rotation};
 use experiments::sweep::{FeModel, SteadyMethod, SteadySettings, SweepModel, SweepPoint, steady};
@@ -36,6 +36,7 @@ fn at(scene: &Scene, bodies: &Bodies, rpm: f64, settings: &SteadySettings) -> Sw
 
 /// The pair with two modes of each gear: shooting finds what marching finds.
 #[test]
+#[ignore = "long: .ci/full runs it"]
 fn shooting_and_marching_agree_on_a_pair_with_modes() {
     let shooting = SteadySettings { between_cycles: 0, ..SteadySettings::default() };
     let marching =
@@ -57,6 +58,7 @@ fn shooting_and_marching_agree_on_a_pair_with_modes() {
 /// damping of the other test and 60 steps six modes left a fiftieth of it at 600 rpm and a thirtieth at 1500 rpm, in
 /// four minutes each.
 #[test]
+#[ignore = "long: .ci/full runs it"]
 fn modes_bring_a_pair_near_to_full_bodies() {
     let marching = SteadySettings {
         method: SteadyMethod::Marching,

@@ -1,6 +1,6 @@
 //! Strengths of excitation assume that all planets carry the same mesh force. What they are off where planets do not.
 
-mod shipped;
+use crate::shipped;
 
 use std::f64::consts::TAU;
 

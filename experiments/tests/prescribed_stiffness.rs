@@ -1,7 +1,7 @@
 //! The lumped model with prescribed mesh stiffness: a linear model as long as teeth touch, and at rest the tabulated
 //! one.
 
-mod shipped;
+use crate::shipped;
 
 use experiments::sweep::{MeshLawModel, SteadySettings, SweepModel, steady};
 use fe_contact::statics::Bodies;

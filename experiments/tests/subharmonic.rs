@@ -1,6 +1,6 @@
 //! Motions of a gear set that repeat after several mesh cycles.
 
-mod shipped;
+use crate::shipped;
 
 use experiments::sweep::{Marching, MeshLawModel, SteadySettings, SweepModel, steady};
 use fe_contact::statics::Bodies;

@@ -85,7 +85,7 @@ fn peak() -> f64 {
 }
 
 /// Peak memory against its estimate. Each number of elements needs a process of its own:
-/// `ELEMENTS=14 SCENE=oh58_4p cargo test --release -p fe_contact --test estimate -- --ignored --nocapture`
+/// `ELEMENTS=14 SCENE=oh58_4p cargo test --release -p fe_contact --test all estimate -- --ignored --nocapture`
 #[test]
 #[ignore = "measures the memory of its own process: run alone, one number of elements at a time"]
 fn peak_memory_is_as_estimated() {

@@ -71,6 +71,7 @@ fn four_planets() {
 }
 
 #[test]
+#[ignore = "long: .ci/full runs it"]
 fn four_planets_of_best_thickness() {
     every_fidelity_turns(scene("oh58_4p_best_thickness", 8));
 }
@@ -131,6 +132,7 @@ fn full_bodies_turn_as_quasi_static_ones() {
 /// Natural frequencies between 6.9 and 15.3 kHz, which the mesh stiffness governs, are 2 to 5 % lower with quasi-static
 /// bodies than with 30 modes a body.
 #[test]
+#[ignore = "long: .ci/full runs it"]
 fn quasi_static_bodies_lower_the_modes_that_meshes_govern() {
     let mut scene = scene("oh58_4p", 8);
     let bodies = Bodies::new(&scene).unwrap();

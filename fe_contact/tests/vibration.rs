@@ -207,6 +207,7 @@ fn slow_damping_is_that_of_the_lagging_set() {
 }
 
 #[test]
+#[ignore = "long: .ci/full runs it"]
 fn modes_and_full_bodies_answer_alike() {
     // All modes together would be the full body; twelve come closer to it than none.
     let run = |fidelity| {

@@ -78,6 +78,16 @@ impl SpeedModes {
 ///
 /// # Errors
 /// If an eigenproblem does not converge.
+///
+/// ```
+/// use gearset::{Scene, SceneKind, template};
+/// use lumped::{LumpedModel, NaturalModes, campbell};
+///
+/// let set = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
+/// let model = LumpedModel::from_scene(&set).unwrap();
+/// let [standing, turning] = &campbell(&model, &[0.0, 50.0]).unwrap()[..] else { panic!() };
+/// assert!(!standing.is_unstable() && standing.modes.len() == turning.modes.len());
+/// ```
 pub fn campbell(model: &LumpedModel, speeds: &[f64]) -> Result<Vec<SpeedModes>, LumpedError> {
     let k = model.stiffness();
     let kinds = Kinds::of(model);

@@ -10,6 +10,17 @@ use crate::springs::{Rows, Spring, SpringId};
 
 /// The Lin–Parker model, or that of a gear pair (six coordinates at most): a diagonal mass matrix and a list of springs
 /// on the free coordinates.
+///
+/// ```
+/// use gearset::{Scene, SceneKind, template};
+/// use lumped::LumpedModel;
+///
+/// let set = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
+/// let model = LumpedModel::from_scene(&set).unwrap();
+/// let k = model.stiffness();
+/// assert_eq!(k.nrows(), model.mass.len());
+/// assert_eq!(k, k.transpose());
+/// ```
 #[derive(Debug, Clone)]
 pub struct LumpedModel {
     /// ψ_n, rad.

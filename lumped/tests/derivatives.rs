@@ -1,6 +1,6 @@
 //! Sensitivities against difference quotients, sums of energies, gyroscopic terms against closed forms.
 
-mod common;
+use crate::common;
 
 use std::f64::consts::TAU;
 

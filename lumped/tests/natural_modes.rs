@@ -1,6 +1,6 @@
 //! Published frequencies, classification where modes coincide, structure over random sets.
 
-mod common;
+use crate::common;
 
 use gearset::{PlanetOverride, PlanetPositions, Scene, Torsional};
 use lumped::{LumpedModel, ModeType, NaturalModes};

@@ -23,11 +23,21 @@ pub(crate) fn json(arguments: &[&str]) -> Value {
     serde_json::from_str(&out).unwrap()
 }
 
-/// A scene of the repository with a coarse mesh.
+/// Holds a result against its schema in `schemas/`.
+pub(crate) fn keeps_to_schema(name: &str, result: &Value) {
+    let path = format!("{}/schemas/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    let schema: Value = serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap();
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    let faults: Vec<_> = validator.iter_errors(result).map(|e| e.to_string()).collect();
+    assert!(faults.is_empty(), "{name}: {faults:?}");
+}
+
+/// A scene of the repository with coarse meshes and patches.
 pub(crate) fn coarse(folder: &Path, name: &str) -> String {
     let text = std::fs::read_to_string(scene(name)).unwrap();
     let path = folder.join(name);
-    std::fs::write(&path, text + "\n[fe_contact]\nflank_elements = 8\n").unwrap();
+    std::fs::write(&path, text + "\n[fe_contact]\nflank_elements = 6\ncontact_cells = 20\n")
+        .unwrap();
     path.to_str().unwrap().to_owned()
 }
 

@@ -74,6 +74,15 @@ const ZERO_SHARE: f64 = 1e-4;
 /// for a model frequency as often as that occurs, or once for all of them unless the list says how often it
 /// occurs. Modes of the model above the highest listed frequency are no disagreement, for published tables end
 /// somewhere, unless `is_whole` says that the list is to hold them all.
+///
+/// ```
+/// use validation::{ListedMode, ModelMode, compare};
+///
+/// let listed = ListedMode { frequency_hz: 1000.0, mode_type: None, multiplicity: None };
+/// let model = ModelMode { frequency_hz: 1004.0, mode_type: "rotational".into(), multiplicity: 1 };
+/// let found = compare(&[listed], &[model], 0.5, true);
+/// assert_eq!((found.agreed, found.disagreed), (1, 0));
+/// ```
 pub fn compare(
     listed: &[ListedMode],
     model: &[ModelMode],

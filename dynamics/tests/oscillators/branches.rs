@@ -2,9 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::families::{FrequencyResponse, JudgedBy, LoadResponse};
-use crate::oscillator::{Law, Oscillator, duffing, duffing_fold};
-use crate::shooting::Shooting;
+use super::families::{FrequencyResponse, JudgedBy, LoadResponse};
+use super::oscillator::{Law, Oscillator, duffing, duffing_fold};
+use super::shooting::Shooting;
 use dynamics::continuation::{
     Branch, BranchPoint, ContinuationOptions, Direction, End, Evaluation, Family, PointKind,
     Scales, trace,

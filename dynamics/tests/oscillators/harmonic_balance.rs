@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::oscillator::{Law, Oscillator, duffing};
+use super::oscillator::{Law, Oscillator, duffing};
 use dynamics::harmonic_balance::{BalanceError, BalanceOptions, HarmonicBalance};
 use dynamics::{Coupling, CouplingForce, LinearPart, c64};
 use nalgebra::DMatrix;

@@ -31,6 +31,19 @@ pub enum ModalRoute {
 }
 
 /// The FE/contact model with the gears of every scene it was asked about.
+///
+/// ```no_run
+/// use experiments::models::FeContact;
+/// use experiments::sweep::{Coordinate, Part};
+/// use experiments::{SpeedRequest, SteadyStateModel};
+/// use gearset::{LoadCase, Scene, SceneKind, template};
+///
+/// let set = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
+/// let case = LoadCase::of_scene(&set).unwrap();
+/// let request = SpeedRequest { speeds_rpm: &[1600.0], harmonics: 5, tolerance: 1e-6 };
+/// let states = FeContact::default().steady_states(&set, &case, &request).unwrap();
+/// println!("{:e} rad", states[0].amplitude(Part::Sun, Coordinate::Rotation, 1));
+/// ```
 #[derive(Debug, Default)]
 pub struct FeContact {
     bodies: Arc<BodiesCache>,

@@ -46,6 +46,7 @@ fn shooting_and_marching_agree_on_quasi_static_bodies() {
 
 /// Modes of the gears stand in frames that turn by a tooth in each cycle.
 #[test]
+#[ignore = "long: .ci/full runs it"]
 fn shooting_and_marching_agree_on_modal_bodies() {
     let scene = scene("oh58_4p", Fidelity::Modal(6), 56);
     for (scene, speeds) in

@@ -91,6 +91,7 @@ fn found(model: &dyn SweepModel, parts: usize, tolerance: f64) -> Found {
 /// order, so that it is off by a share of the order of itself. Kinematic rest, computed after the last cycle from what
 /// was kept of it, is that of the cycles marched.
 #[test]
+#[ignore = "long: .ci/full runs it"]
 fn the_change_of_the_next_cycle_is_that_marched() {
     for (name, parts, torque) in [("oh58_4p", 2, 1130.0), ("oh58_3p", 1, 500.0)] {
         let quasi_static = scene(name, Fidelity::QuasiStatic, 56);

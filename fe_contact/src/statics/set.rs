@@ -17,6 +17,21 @@ use super::reference::{ReferenceConfiguration, ReferenceInputs};
 use crate::error::FeError;
 
 /// A set with the configuration about which it is linearised.
+///
+/// ```
+/// use fe_contact::complementarity::ActiveSet;
+/// use fe_contact::statics::{Bodies, Imperfections, StaticSet};
+/// use gearset::{LoadCase, Scene, SceneKind, template};
+///
+/// let scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
+/// let (bodies, load) = (Bodies::new(&scene).unwrap(), LoadCase::standing(1000.0));
+/// let set = StaticSet::new(&scene, &bodies, load.sense(), Imperfections::default()).unwrap();
+/// let cycle = set.cycle(load.sun_load_nm(), 4, &ActiveSet).unwrap();
+/// // The sun meshes carry the torque between them.
+/// let carried: f64 = cycle.states[0].meshes.iter().take(scene.planets.count()).map(|m| m.force).sum();
+/// let radius = bodies.geometry.sun.as_ref().unwrap().base_radius;
+/// assert!((carried * radius / 1000.0 - 1.0).abs() < 1e-6);
+/// ```
 #[derive(Debug, Clone)]
 pub struct StaticSet<'s> {
     pub(crate) bodies: &'s Bodies,

@@ -13,6 +13,10 @@ mod structure;
 mod table1;
 pub(crate) mod tables;
 
+use std::num::NonZero;
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use experiments::{ModalModel, StaticModel, SteadyStateModel};
 use gearset::Scene;
 
@@ -192,15 +196,35 @@ pub(crate) fn all(
         return Ok(Vec::new());
     }
     let lab = Lab::new(reference, profile)?;
-    let mut checks: Vec<Check> = Vec::new();
-    for (names, suite) in suites {
-        checks.extend(told(names, progress, || {
+    let run = |(names, suite): Own| {
+        told(names, progress, || {
             let mut found = suite(&lab)?;
             found.retain(|check| check.id.starts_with(only));
             Ok(found)
-        })?);
-    }
-    Ok(checks)
+        })
+    };
+    let found = side_by_side(&suites, run).into_iter().collect::<Result<Vec<_>, _>>()?;
+    Ok(found.into_iter().flatten().collect())
+}
+
+/// What each suite found, in their order, from as many suites at a time as the machine has processors.
+///
+/// Threads beside rayon's: one of these that waits for a part of its suite would begin another suite meanwhile.
+fn side_by_side(suites: &[Own], run: impl Fn(Own) -> Checks + Sync) -> Vec<Checks> {
+    let next = AtomicUsize::new(0);
+    let worker = || {
+        let taken = std::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
+        let mine = taken.map_while(|k| Some((k, *suites.get(k)?)));
+        mine.map(|(k, suite)| (k, run(suite))).collect::<Vec<_>>()
+    };
+    let count = std::thread::available_parallelism().map_or(1, NonZero::get).min(suites.len());
+    let mut found: Vec<_> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..count).map(|_| scope.spawn(worker)).collect();
+        let joined = workers.into_iter().map(|w| w.join().unwrap_or_else(|e| resume_unwind(e)));
+        joined.flatten().collect()
+    });
+    found.sort_by_key(|(k, _)| *k);
+    found.into_iter().map(|(_, checks)| checks).collect()
 }
 
 /// Every suite whose question a foreign model answers.
