@@ -1,5 +1,5 @@
 //! Nothing that the pages point at may be missing: relative links, images and anchors of the Markdown pages,
-//! paths that pages, program and data files quote, and ids of checks that pages quote.
+//! paths that pages, program and data files quote, and ids of checks that pages quote. Comments fit on a screen.
 
 use std::fs;
 use std::path::{Component, Path, PathBuf};
@@ -7,8 +7,13 @@ use std::path::{Component, Path, PathBuf};
 /// Folders whose files are quoted by their path from the root of the repository.
 const DATA: [&str; 6] = ["docs", "kept", "reference", "checks", "scenes", "studies"];
 
+/// Most characters of a line of comment.
+const WIDEST: usize = 120;
+
 /// Pages quote program files as well.
-const PROGRAM: [&str; 13] = [
+const PROGRAM: [&str; 15] = [
+    "examples",
+    "remake",
     "benches",
     "dynamics",
     "experiments",
@@ -372,4 +377,50 @@ fn dead_links_are_found() {
 fn headings_have_the_anchors_that_github_gives_them() {
     let page = "# A `b` c: d, e\n\n## Same\n\n## Same\n\n```\n# none\n```\n### β and F/δ\n";
     assert_eq!(anchors(page), ["a-b-c-d-e", "same", "same-1", "β-and-fδ"]);
+}
+
+/// Lines of comment that are too long and neither rows of a table nor in a block of code.
+fn long_comments(text: &str) -> Vec<usize> {
+    let mut is_fenced = false;
+    let mut found = Vec::new();
+    for (number, line) in text.lines().enumerate() {
+        let Some(comment) = line.trim_start().strip_prefix("//") else {
+            is_fenced = false;
+            continue;
+        };
+        let words = comment.trim_start_matches(['/', '!']).trim_start();
+        if words.starts_with("```") {
+            is_fenced = !is_fenced;
+        } else if !is_fenced && !words.starts_with('|') && line.chars().count() > WIDEST {
+            found.push(number + 1);
+        }
+    }
+    found
+}
+
+#[test]
+fn comments_fit_on_a_screen() {
+    let root = root();
+    let mut faults = Vec::new();
+    for folder in PROGRAM.iter().filter(|f| ![".ci", "schemas", "snapshots"].contains(*f)) {
+        for path in files(&root.join(folder), "rs", true) {
+            let name = from_root(&root, &path);
+            // What crates outside the workspace build is not ours.
+            if name.components().any(|part| part.as_os_str() == "target") {
+                continue;
+            }
+            let long = long_comments(&read(&path)).into_iter();
+            faults.extend(long.map(|line| format!("{}:{line}", name.display())));
+        }
+    }
+    assert!(faults.is_empty(), "comments above {WIDEST} characters:\n{}", faults.join("\n"));
+}
+
+#[test]
+fn long_comments_are_found() {
+    let wide = "x".repeat(WIDEST);
+    let text = format!(
+        "// {wide}\nlet a = \"{wide}\";\n    /// {wide}\n/// | {wide} |\n//! ```\n//! {wide}\n//! ```\n"
+    );
+    assert_eq!(long_comments(&text), [1, 3]);
 }

@@ -37,6 +37,7 @@ fn frequencies_are_within_their_estimates() {
 }
 
 #[test]
+#[ignore = "long: .ci/full runs it"]
 fn transmission_errors_at_rest_are_within_their_estimates() {
     let (scene, case) = set("oh58_4p");
     let value = CycleValue::PeakToPeak;

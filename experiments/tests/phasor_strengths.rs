@@ -111,6 +111,7 @@ fn off(positions: [i64; 5]) -> Vec<Off> {
 /// Equally spaced planets carry the same force, and the strengths hold. Of planets up to a step (2.8°) off equal
 /// spacing they are off by what `checks/assumptions.toml` says.
 #[test]
+#[ignore = "long: .ci/full runs it"]
 fn strengths_hold_for_equal_forces_and_are_off_for_unequal_ones() {
     let worst = |list: &[Off]| {
         let each = |of: fn(&Off) -> f64| list.iter().map(of).fold(0.0, f64::max);

@@ -66,6 +66,7 @@ fn three_planets() {
 }
 
 #[test]
+#[ignore = "long: .ci/full runs it"]
 fn four_planets() {
     every_fidelity_turns(scene("oh58_4p", 8));
 }

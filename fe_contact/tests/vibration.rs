@@ -239,6 +239,7 @@ fn modes_and_full_bodies_answer_alike() {
 /// The flexibility that the modes of a body leave out acts statically, between its meshes as within
 /// them, so that the equilibrium does not depend on the number of modes.
 #[test]
+#[ignore = "long: .ci/full runs it"]
 fn equilibrium_is_that_of_full_bodies_with_any_number_of_modes() {
     let at_rest = |fidelity| {
         let scene = scene("oh58_4p", fidelity);

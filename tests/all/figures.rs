@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use crate::harness::{run, scene};
+use crate::harness::{coarse, run, scene};
 
 /// A text of an SVG file with the corners of the box it fills, by estimate.
 struct Label {
@@ -128,7 +128,7 @@ fn draws(line: &str) {
 fn no_label_covers_another() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path().to_str().unwrap();
-    let (set, pair) = (scene("oh58_4p.toml"), scene("oh58_sun_planet_pair.toml"));
+    let (set, pair) = (coarse(folder.path(), "oh58_4p.toml"), scene("oh58_sun_planet_pair.toml"));
     draws(&format!("static {set} --positions 8 --sun-torque-nm 700,1400 --figures {at}/set"));
     draws(&format!("static {pair} --normal-force-n 1e4 --positions 8 --figures {at}/pair"));
     let speeds = "--speeds-rpm 300:2500:200 --tolerance 1e-4 --both-ways";
