@@ -1,4 +1,5 @@
-//! Tests of the lumped model against hand matrices, closed forms and independent solutions. One program for all files, which is built faster:
+//! Tests of the lumped model against hand matrices, closed forms and independent solutions. One program for all files,
+//! which is built faster:
 //! `cargo test --release -p lumped --test all analytic` runs those whose name has the word.
 
 mod analytic;

@@ -3,8 +3,8 @@
 //! The paper does not give tooth thickness, fillets, pin seats and plane state of its finite-element model,
 //! so that its values can be expected to agree with ours only within the effects of these. Each parameter has
 //! an interval from geometry or design practice; the two ends are computed one parameter at a time
-//! (`remake -- parameter_bands`). The effects that lower a value add up to the lower end of its band, those that raise it to
-//! the upper end. The printed value does not enter. `kept/parameter_bands.toml` holds the result.
+//! (`remake -- parameter_bands`). The effects that lower a value add up to the lower end of its band, those that raise
+//! it to the upper end. The printed value does not enter. `kept/parameter_bands.toml` holds the result.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,5 @@
-//! Tests of the checks, and long comparisons on drawn and shipped sets. One program for all files, which is built faster:
+//! Tests of the checks, and long comparisons on drawn and shipped sets. One program for all files, which is built
+//! faster:
 //! `cargo test --release -p epicyclic-validation --test all sweep` runs those whose name has the word.
 
 mod closed_forms;
