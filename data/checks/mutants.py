@@ -19,7 +19,8 @@ import time
 import tomllib
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+# The folder of this file is reached by a link from the root.
+ROOT = Path(__file__).resolve().parents[2]
 
 
 def unfit(words: str) -> None:
