@@ -13,7 +13,6 @@ mod structure;
 mod table1;
 pub(crate) mod tables;
 
-use std::num::NonZero;
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -207,17 +206,21 @@ pub(crate) fn all(
     Ok(found.into_iter().flatten().collect())
 }
 
-/// What each suite found, in their order, from as many suites at a time as the machine has processors.
+/// What each suite found, in their order, from as many suites at a time as rayon has threads.
 ///
-/// Threads beside rayon's: one of these that waits for a part of its suite would begin another suite meanwhile.
+/// Threads beside rayon's: one of these that waits for a part of its suite would begin another suite meanwhile. Where
+/// rayon has one thread, the suites follow one another on the caller's.
 fn side_by_side(suites: &[Own], run: impl Fn(Own) -> Checks + Sync) -> Vec<Checks> {
+    let count = rayon::current_num_threads().min(suites.len());
+    if count == 1 {
+        return suites.iter().map(|suite| run(*suite)).collect();
+    }
     let next = AtomicUsize::new(0);
     let worker = || {
         let taken = std::iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
         let mine = taken.map_while(|k| Some((k, *suites.get(k)?)));
         mine.map(|(k, suite)| (k, run(suite))).collect::<Vec<_>>()
     };
-    let count = std::thread::available_parallelism().map_or(1, NonZero::get).min(suites.len());
     let mut found: Vec<_> = std::thread::scope(|scope| {
         let workers: Vec<_> = (0..count).map(|_| scope.spawn(worker)).collect();
         let joined = workers.into_iter().map(|w| w.join().unwrap_or_else(|e| resume_unwind(e)));
