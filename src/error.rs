@@ -1,6 +1,7 @@
 //! Errors of the command, each shown as one message.
 
-use std::path::PathBuf;
+use std::io;
+use std::path::{Path, PathBuf};
 
 use gearset::{Fault, SceneError};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource};
@@ -86,6 +87,31 @@ impl From<csv::Error> for CommandError {
             _ => std::io::Error::other(text),
         })
     }
+}
+
+/// The error for an argument whose value is not allowed.
+pub(crate) fn refused(argument: &'static str, reason: impl Into<String>) -> CommandError {
+    CommandError::Argument { argument, reason: reason.into() }
+}
+
+/// The error for a valid scene that a verb cannot use.
+pub(crate) fn unfit(path: &Path, reason: impl ToString) -> CommandError {
+    CommandError::Unfit { path: path.to_owned(), reason: reason.to_string() }
+}
+
+/// The error for a scene that FE/contact cannot use or cannot solve.
+pub(crate) fn fe_refused(path: &Path) -> impl Fn(fe_contact::FeError) -> CommandError + '_ {
+    |e| unfit(path, e)
+}
+
+/// The error for a file that cannot be written.
+pub(crate) fn unwritten(path: &Path) -> impl Fn(io::Error) -> CommandError + '_ {
+    |source| CommandError::File { what: "cannot write", path: path.into(), source }
+}
+
+/// The error for a file that cannot be read.
+pub(crate) fn unread(path: &Path) -> impl Fn(io::Error) -> CommandError + '_ {
+    |source| CommandError::File { what: "cannot read", path: path.into(), source }
 }
 
 impl CommandError {

@@ -21,6 +21,10 @@ mod error;
 #[cfg(feature = "charts")]
 pub mod figures;
 #[cfg(feature = "command")]
+mod folder;
+#[cfg(feature = "command")]
+mod inputs;
+#[cfg(feature = "command")]
 mod output;
 
 pub use dynamics;

@@ -58,6 +58,11 @@ pub(crate) enum Format {
     Text,
     /// Stable keys for programs; schemas in `schemas/`.
     Json,
+    /// The table: one row per mode (`modes`, `impulse`, `compare`), harmonic (`rules`), position and tooth pair
+    /// (`static`), speed, quantity and harmonic (`sweep`), point, quantity and harmonic (`branches`), border
+    /// (`stability`; without a map, one row per map), quantity and setting (`study`), body (`mesh`), verb
+    /// (`scene check`), or check (`validate`).
+    Csv,
 }
 
 #[derive(Debug, Args)]
@@ -123,18 +128,6 @@ pub(crate) struct Rules {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(crate) enum TableFormat {
-    /// A table for people.
-    Text,
-    /// Stable keys for programs; schemas in `schemas/`.
-    Json,
-    /// One row per position and tooth pair (`static`), mode (`impulse`), speed, quantity and harmonic (`sweep`),
-    /// point, quantity and harmonic (`branches`), border (`stability`; without a map, one row per map), or quantity and
-    /// setting (`study`).
-    Csv,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ContactSolver {
     /// Warm-started active set.
     ActiveSet,
@@ -189,8 +182,8 @@ pub(crate) struct Static {
     #[arg(long, value_name = "N", requires = "export_inp",
           value_parser = whole::<0, 10_000>, allow_negative_numbers = true)]
     pub export_teeth: Option<u32>,
-    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
-    pub format: TableFormat,
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
 }
 
 /// Positions of a mesh cycle where the command line names none.
@@ -244,8 +237,8 @@ pub(crate) struct Impulse {
     #[cfg(feature = "charts")]
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
-    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
-    pub format: TableFormat,
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
 }
 
 #[derive(Debug, Args)]
@@ -263,8 +256,8 @@ pub(crate) struct Stability {
     /// Also write table (CSV), result (JSON) and figure (SVG, PNG) into this folder.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
-    pub format: TableFormat,
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
 }
 
 #[derive(Debug, Args)]
@@ -278,8 +271,8 @@ pub(crate) struct Study {
     /// Also write table (CSV), result (JSON) and figure (SVG, PNG) into this folder.
     #[arg(long, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
-    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
-    pub(crate) format: TableFormat,
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub(crate) format: Format,
 }
 
 #[derive(Debug, Args)]

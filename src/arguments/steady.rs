@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use experiments::branches::BranchParameter;
 use experiments::sweep::SteadyMethod;
 
-use super::TableFormat;
+use super::Format;
 use super::values::{damping_factor, one_of, over, range, small, span, whole};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -89,8 +89,8 @@ pub(crate) struct Sweep {
     #[cfg(feature = "charts")]
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
-    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
-    pub format: TableFormat,
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
 }
 
 #[derive(Debug, Args)]
@@ -151,6 +151,6 @@ pub(crate) struct Branches {
     #[cfg(feature = "charts")]
     #[arg(long, value_name = "DIR")]
     pub figures: Option<PathBuf>,
-    #[arg(long, value_enum, default_value_t = TableFormat::Text)]
-    pub format: TableFormat,
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
 }

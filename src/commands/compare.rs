@@ -3,14 +3,15 @@
 use std::io::Write;
 use std::path::Path;
 
-use gearset::{Scene, Verb};
-use validation::{Comparison, ListedMode, ModelMode, compare};
+use gearset::Verb;
+use serde::Serialize;
+use validation::{Comparison, ListedMode, Match, ModelMode, compare};
 
-use crate::arguments::{Compare, Format};
-use crate::error::CommandError;
-use crate::output;
-
-use super::{closed_form, modes, needs, read_scene, unfit};
+use super::modes::{self, PARAMETERS};
+use crate::arguments::Compare;
+use crate::error::{CommandError, unfit, unread};
+use crate::inputs::{needs, read_scene};
+use crate::output::{self, Notation, Report, Table};
 
 /// Longest list that is read, bytes.
 const MOST_BYTES: u64 = 1_000_000;
@@ -40,59 +41,77 @@ pub(crate) fn run(arguments: &Compare, out: &mut dyn Write) -> Result<bool, Comm
         })
         .collect();
     let result = compare(&listed, &model, arguments.tolerance_percent, arguments.whole);
-    match arguments.format {
-        Format::Json => output::json(out, &result)?,
-        Format::Text => write_text(&result, &scene, out)?,
-    }
-    Ok(result.disagreed == 0)
+    let against = match scene.has_closed_forms() {
+        true => format!("against the lumped model, {PARAMETERS}, of: {}", scene.title),
+        false => format!("against the lumped model of: {}", scene.title),
+    };
+    let result = CompareOutput { result, against };
+    output::show(arguments.format, &result, out)?;
+    Ok(result.result.disagreed == 0)
 }
 
-fn write_text(result: &Comparison, scene: &Scene, out: &mut dyn Write) -> std::io::Result<()> {
-    let title = &scene.title;
-    match scene.has_closed_forms() {
-        true => {
-            writeln!(out, "against the lumped model, {}, of: {title}", closed_form::PARAMETERS)?
-        }
-        false => writeln!(out, "against the lumped model of: {title}")?,
+/// `compare --format json`.
+#[derive(Debug, Serialize)]
+#[serde(transparent)]
+struct CompareOutput {
+    result: Comparison,
+    /// What the list is held against.
+    #[serde(skip)]
+    against: String,
+}
+
+fn table<'r>() -> Table<'r, &'r Match> {
+    use Notation::{Fixed, Plain, Signed};
+    let listed = |m: &&Match| match m.listed_hz.as_slice() {
+        [] => "–".to_owned(),
+        list => list.iter().map(|f| format!("{f:.2}")).collect::<Vec<_>>().join(", "),
+    };
+    Table::new()
+        .column("model_hz", "", |m: &&Match| m.model_hz)
+        .shown("model Hz", Fixed(2))
+        .column("model_type", "", |m| m.model_type.clone())
+        .shown("type", Plain)
+        .column("model_multiplicity", "", |m| m.model_multiplicity)
+        .shown("times", Plain)
+        .column("listed_hz", "", |m| {
+            m.listed_hz.iter().map(f64::to_string).collect::<Vec<_>>().join(" ")
+        })
+        .shown_as("listed Hz", listed)
+        .right()
+        .column("difference_percent", "", |m| m.difference_percent)
+        .shown("difference %", Signed(3))
+        .column("remark", "", |m| m.remark.clone())
+        .shown_as("", |m| m.remark.clone().unwrap_or_else(|| "agrees".into()))
+}
+
+impl Report for CompareOutput {
+    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        table().csv(&self.result.matches, out)
     }
-    let header = ["model Hz", "type", "times", "listed Hz", "difference %", ""];
-    let mut table = output::table(&header, &[0, 2, 3, 4]);
-    for m in &result.matches {
-        let listed: Vec<_> = m.listed_hz.iter().map(|f| format!("{f:.2}")).collect();
-        table.add_row(vec![
-            m.model_hz.map_or("–".into(), |f| format!("{f:.2}")),
-            m.model_type.clone().unwrap_or_else(|| "–".into()),
-            m.model_multiplicity.to_string(),
-            if listed.is_empty() { "–".into() } else { listed.join(", ") },
-            m.difference_percent.map_or("–".into(), |d| format!("{d:+.3}")),
-            m.remark.clone().unwrap_or_else(|| "agrees".into()),
-        ]);
-    }
-    writeln!(out, "{table}")?;
-    writeln!(
-        out,
-        "{} agree, {} do not, largest difference {:.3} % (tolerance {} %)",
-        result.agreed,
-        result.disagreed,
-        result.largest_difference_percent,
-        result.tolerance_percent
-    )?;
-    if result.beyond_list > 0 {
+
+    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        writeln!(out, "{}", self.against)?;
+        let Comparison { matches, agreed, disagreed, beyond_list, .. } = &self.result;
+        table().text(matches, out)?;
         writeln!(
             out,
-            "{} of the model above the list's highest frequency, which a list may leave out (--whole demands them)",
-            result.beyond_list
+            "{agreed} agree, {disagreed} do not, largest difference {:.3} % (tolerance {} %)",
+            self.result.largest_difference_percent, self.result.tolerance_percent
         )?;
+        if *beyond_list > 0 {
+            writeln!(
+                out,
+                "{beyond_list} of the model above the list's highest frequency, which a list may leave out (--whole demands them)"
+            )?;
+        }
+        Ok(())
     }
-    Ok(())
 }
 
 /// Reads somebody's modes; the first fault of the table is reported with its line and column.
 fn read_modes(path: &Path) -> Result<Vec<ListedMode>, CommandError> {
     let bad = |reason: String| CommandError::Table { path: path.to_owned(), reason };
-    let unreadable =
-        |source| CommandError::File { what: "cannot read", path: path.to_owned(), source };
-    let text = gearset::read_text(path, MOST_BYTES).map_err(unreadable)?;
+    let text = gearset::read_text(path, MOST_BYTES).map_err(unread(path))?;
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .comment(Some(b'#'))

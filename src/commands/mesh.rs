@@ -11,19 +11,20 @@ use gearset::{LumpedInput, Scene, SceneKind, Verb};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::arguments::{Format, MeshVerb};
-use crate::error::CommandError;
-use crate::output;
-
-use super::working::Working;
+use crate::arguments::MeshVerb;
+use crate::error::{CommandError, fe_refused};
 #[cfg(feature = "charts")]
-use super::writable;
-use super::{fe_refused, folder, needs, read_scene, save};
+use crate::folder::writable;
+use crate::folder::{folder, save};
+use crate::inputs::{Working, needs, read_scene};
+use crate::output::{self, Notation, Report, Table};
 
 /// `mesh --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
 pub(crate) struct MeshOutput {
     bodies: Vec<BodyOutput>,
+    #[serde(skip)]
+    title: String,
 }
 
 /// One body.
@@ -110,13 +111,9 @@ pub(crate) fn run(
             seat_flexibility_m_per_n: Some(body.mean_seat_flexibility()),
         });
     }
-    let result = MeshOutput { bodies: list };
+    let result = MeshOutput { bodies: list, title: scene.title.clone() };
     // What was computed is shown also where its files cannot be written.
-    let shown = match arguments.format {
-        Format::Json => output::json(out, &result),
-        Format::Text => text(&scene, &result, out).map_err(CommandError::from),
-    };
-    saved.and(shown)
+    saved.and(output::show(arguments.format, &result, out))
 }
 
 /// One file for each body.
@@ -175,67 +172,87 @@ fn gear(body: &GearBody, bodies: &Bodies, lumped: Option<&LumpedInput>) -> BodyO
     }
 }
 
-/// Below the tables: what each column is.
-const LEGEND: &str = "\
-elements, free: numbers of finite elements and of free nodal displacements
-mass, inertia: of the finite-element mesh; inertia: polar, about the body's centre
-lumped: the scene's value in [lumped], and by how much the mesh's is above it; – without one
-flank error: largest distance of a meshed flank from its involute
-angles: least and largest corner of an element; aspect: largest ratio of two sides of an element
-det J ratio: least ratio of the smallest to the largest Jacobian determinant within one element, 1 without distortion
-flexibility: normal displacement below mid-flank, at the matching depth, under a unit force there; carrier: of a pin seat
-neighbour: displacement of the same point of the next tooth, over that of the loaded one";
+fn table<'r>() -> Table<'r, &'r BodyOutput> {
+    use Notation::{Fixed, Plain, Power};
+    type Body<'r> = &'r BodyOutput;
+    let teeth = |value: fn(&TeethOutput) -> f64| move |b: &Body<'_>| b.teeth.as_ref().map(value);
+    let excess = |given: Option<f64>, meshed: f64| Some(100.0 * (meshed / given? - 1.0));
+    Table::new()
+.column("body", "", |b: &Body<'_>| &b.body).shown("body", Plain).key()
+.column("elements", "number of finite elements", |b| b.elements).shown("elements", Plain)
+.column("degrees_of_freedom", "number of free nodal displacements", |b| {
+            b.degrees_of_freedom
+        })
+        .shown("free", Plain)
+.column("mass_kg", "of the finite-element mesh, kg", |b| b.mass_kg)
+            .shown("mass kg", Fixed(4))
+.column("lumped_mass_kg", "the scene's value in [lumped], kg", |b| b.lumped_mass_kg)
+            .shown("lumped kg", Power(4))
+.words("above %", Notation::Signed(1), move |b: &Body<'_>| {
+            excess(b.lumped_mass_kg, b.mass_kg)
+        })
+        .meaning("by how much the mesh's value is above that in [lumped]")
+.column(
+            "polar_inertia_kg_m2",
+            "of the finite-element mesh, about the body's centre, kg m²",
+            |b| b.polar_inertia_kg_m2,
+        )
+        .shown("inertia kg m²", Power(4))
+.column("lumped_inertia_kg_m2", "the scene's value in [lumped], kg m²", |b| {
+            b.lumped_inertia_kg_m2
+        })
+        .shown("lumped kg m²", Power(4))
+.words("above %", Notation::Signed(1), move |b: &Body<'_>| {
+            excess(b.lumped_inertia_kg_m2, b.polar_inertia_kg_m2)
+        })
+.column(
+            "flank_error_um",
+            "largest distance of a meshed flank from its involute, µm",
+            teeth(|t| t.flank_error_um),
+        )
+        .shown("flank error µm", Fixed(4))
+.column("least_corner_angle_deg", "least corner of an element, °", teeth(|t| t.least_corner_angle_deg))
+            .shown("angle °", Fixed(0))
+.column(
+            "largest_corner_angle_deg",
+            "largest corner of an element, °",
+            teeth(|t| t.largest_corner_angle_deg),
+        )
+        .shown("to °", Fixed(0))
+.column(
+            "largest_aspect_ratio",
+            "largest ratio of two sides of an element",
+            teeth(|t| t.largest_aspect_ratio),
+        )
+        .shown("aspect", Fixed(1))
+.column(
+            "least_jacobian_ratio",
+            "least ratio of the smallest to the largest Jacobian determinant within one element, 1 without distortion",
+            teeth(|t| t.least_jacobian_ratio),
+        )
+        .shown("det J ratio", Fixed(2))
+.column(
+            "flexibility_m_per_n",
+            "normal displacement below mid-flank, at the matching depth, under a unit force there; carrier: of a pin seat",
+            |b| b.teeth.as_ref().map(|t| t.flexibility_m_per_n).or(b.seat_flexibility_m_per_n),
+        )
+        .scaled("flexibility µm/kN", 1e9, Fixed(4))
+.column(
+            "neighbour_share",
+            "displacement of the same point of the next tooth, over that of the loaded one",
+            teeth(|t| t.neighbour_share),
+        )
+        .scaled("neighbour %", 100.0, Fixed(1))
+}
 
-fn text(scene: &Scene, result: &MeshOutput, out: &mut dyn Write) -> std::io::Result<()> {
-    writeln!(out, "{}", scene.title)?;
-    let header =
-        ["body", "elements", "free", "mass kg", "lumped kg", "inertia kg m²", "lumped kg m²"];
-    let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6]);
-    let beside = |value: Option<f64>, own: f64| match value {
-        Some(v) => format!("{v:.4e} ({:+.1} %)", 100.0 * (own / v - 1.0)),
-        None => "–".into(),
-    };
-    for b in &result.bodies {
-        table.add_row(vec![
-            b.body.clone(),
-            b.elements.to_string(),
-            b.degrees_of_freedom.to_string(),
-            format!("{:.4}", b.mass_kg),
-            beside(b.lumped_mass_kg, b.mass_kg),
-            format!("{:.4e}", b.polar_inertia_kg_m2),
-            beside(b.lumped_inertia_kg_m2, b.polar_inertia_kg_m2),
-        ]);
+impl Report for MeshOutput {
+    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        table().csv(&self.bodies, out)
     }
-    writeln!(out, "{table}")?;
-    let header = [
-        "body",
-        "flank error µm",
-        "angles °",
-        "aspect",
-        "det J ratio",
-        "flexibility µm/kN",
-        "neighbour",
-    ];
-    let mut table = output::table(&header, &[1, 2, 3, 4, 5, 6]);
-    for b in &result.bodies {
-        if let Some(t) = &b.teeth {
-            table.add_row(vec![
-                b.body.clone(),
-                format!("{:.4}", t.flank_error_um),
-                format!("{:.0} to {:.0}", t.least_corner_angle_deg, t.largest_corner_angle_deg),
-                format!("{:.1}", t.largest_aspect_ratio),
-                format!("{:.2}", t.least_jacobian_ratio),
-                format!("{:.4}", t.flexibility_m_per_n * 1e9),
-                format!("{:.1} %", 100.0 * t.neighbour_share),
-            ]);
-        }
-        if let Some(f) = b.seat_flexibility_m_per_n {
-            let row = [b.body.clone(), "–".into(), "–".into(), "–".into(), "–".into()];
-            let mut row: Vec<String> = row.into();
-            row.extend([format!("{:.4}", f * 1e9), "–".into()]);
-            table.add_row(row);
-        }
+
+    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        writeln!(out, "{}", self.title)?;
+        table().text(&self.bodies, out)?;
+        Ok(table().legend(out)?)
     }
-    writeln!(out, "{table}")?;
-    writeln!(out, "{LEGEND}")
 }

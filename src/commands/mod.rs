@@ -2,64 +2,29 @@
 
 mod auto_choice;
 mod branches;
-mod branches_manifest;
-mod branches_output;
-mod closed_form;
 mod compare;
-mod files;
 mod impulse;
-mod impulse_output;
-mod impulse_text;
-mod kept_files;
-mod loads;
 mod mesh;
 mod modes;
-mod needs;
-mod report;
-mod report_charts;
-mod result_folder;
 mod rules;
 mod scene;
-mod scene_summary;
-mod scene_text;
 mod schema;
 mod stability;
-mod stability_guards;
-mod static_approach;
-mod static_auto;
-mod static_pair;
-mod static_set;
 mod statics;
 mod study;
-mod study_text;
-mod suite_progress;
 mod sweep;
-mod sweep_auto;
-mod sweep_claim;
-mod sweep_manifest;
-mod sweep_output;
-#[cfg(feature = "parquet")]
-mod sweep_parquet;
-mod sweep_store;
 mod turning;
 mod validate;
-mod verdict_table;
-mod verdict_text;
-mod working;
 
 pub use schema::schemas;
 
 use std::ffi::OsString;
 use std::io::Write;
-use std::path::Path;
 
 use clap::Parser;
-use gearset::Scene;
 
 use crate::arguments::{Arguments, Verb};
 use crate::error::CommandError;
-
-use files::{folder, save, writable};
 
 /// Runs the command: results to `out`, everything else to `err`. Returns the exit code: 0 ran and
 /// every check passed, 1 ran and a check failed, 2 bad input.
@@ -109,24 +74,4 @@ fn dispatch(
         Verb::Scene(verb) => scene::run(&verb, out).map(|()| true),
         Verb::Compare(arguments) => compare::run(&arguments, out),
     }
-}
-
-/// Reads a scene, or says what is wrong with it.
-fn read_scene(path: &Path) -> Result<Scene, CommandError> {
-    Scene::from_file(path).map_err(|source| CommandError::Scene { path: path.to_owned(), source })
-}
-
-/// The error for a scene that FE/contact cannot use or cannot solve.
-fn fe_refused(path: &Path) -> impl Fn(fe_contact::FeError) -> CommandError + '_ {
-    |e| unfit(path, e.to_string())
-}
-
-/// The error for an argument whose value is not allowed.
-fn refused(argument: &'static str, reason: impl Into<String>) -> CommandError {
-    CommandError::Argument { argument, reason: reason.into() }
-}
-
-/// The error for a valid scene that this verb cannot use.
-fn unfit(path: &Path, reason: impl Into<String>) -> CommandError {
-    CommandError::Unfit { path: path.to_owned(), reason: reason.into() }
 }

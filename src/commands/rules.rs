@@ -9,12 +9,11 @@ use gearset::{
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::arguments::{Format, Rules};
-use crate::error::CommandError;
-use crate::output::{self, share};
-
 use super::scene::degrees;
-use super::{read_scene, unfit};
+use crate::arguments::Rules;
+use crate::error::{CommandError, unfit};
+use crate::inputs::read_scene;
+use crate::output::{self, Notation, Report, Table};
 
 /// `rules --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -23,6 +22,12 @@ pub(crate) struct RulesOutput {
     sun_teeth: u32,
     assumption: String,
     harmonics: Vec<HarmonicRule>,
+    /// Title and positions of the set.
+    #[serde(skip)]
+    heading: String,
+    /// Whether the positions balance: Σ e^(iψ) = 0.
+    #[serde(skip)]
+    is_balanced: bool,
 }
 
 /// One harmonic of mesh frequency.
@@ -60,34 +65,53 @@ pub(crate) fn run(arguments: &Rules, out: &mut dyn Write) -> Result<(), CommandE
         sun_teeth,
         assumption: ASSUMPTION.into(),
         harmonics,
+        heading: format!(
+            "{}\nplanets at {}, Z_s = {sun_teeth}",
+            scene.title,
+            degrees(&scene.planets)
+        ),
+        is_balanced: spacing.is_balanced(),
     };
-    if arguments.format == Format::Json {
-        return output::json(out, &result);
+    output::show(arguments.format, &result, out)
+}
+
+fn table<'r>() -> Table<'r, &'r HarmonicRule> {
+    use Notation::{Plain, Share};
+    Table::new()
+        .column("harmonic", "", |h: &&HarmonicRule| h.harmonic)
+        .shown("l", Plain)
+        .column("k", "", |h| h.k.map(|k| k as i64))
+        .shown("k", Plain)
+        .column("net_torque", "", |h| h.net_torque)
+        .shown("net torque", Share)
+        .column("net_force_plus", "", |h| h.net_force_plus)
+        .shown("net force +", Share)
+        .column("net_force_minus", "", |h| h.net_force_minus)
+        .shown("net force −", Share)
+        .column("planet", "", |h| h.planet)
+        .shown("planets only", Share)
+        .column("excites", "", |h| h.excites.join(" "))
+        .shown_as("excites", |h| h.excites.join(", "))
+        .column("printed_rule", "", |h| h.printed_rule.clone())
+}
+
+impl Report for RulesOutput {
+    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        table().csv(&self.harmonics, out)
     }
-    writeln!(out, "{}", scene.title)?;
-    writeln!(out, "planets at {}, Z_s = {sun_teeth}", degrees(&scene.planets))?;
-    let header = ["l", "k", "net torque", "net force +", "net force −", "planets only", "excites"];
-    let mut table = output::table(&header, &[0, 1, 2, 3, 4, 5]);
-    for h in &result.harmonics {
-        table.add_row(vec![
-            h.harmonic.to_string(),
-            h.k.map_or("–".into(), |k| k.to_string()),
-            share(h.net_torque),
-            share(h.net_force_plus),
-            share(h.net_force_minus),
-            share(h.planet),
-            h.excites.join(", "),
-        ]);
+
+    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        writeln!(out, "{}", self.heading)?;
+        table().text(&self.harmonics, out)?;
+        writeln!(out, "strengths from 0 (cancels) to 1 (all planets in step); {ASSUMPTION}")?;
+        if !self.is_balanced {
+            writeln!(
+                out,
+                "the planets' positions do not balance (Σ e^(iψ) ≠ 0): modes are mixed, and no harmonic is kept from any of them"
+            )?;
+        }
+        Ok(())
     }
-    writeln!(out, "{table}")?;
-    writeln!(out, "strengths from 0 (cancels) to 1 (all planets in step); {ASSUMPTION}")?;
-    if !spacing.is_balanced() {
-        writeln!(
-            out,
-            "the planets' positions do not balance (Σ e^(iψ) ≠ 0): modes are mixed, and no harmonic is kept from any of them"
-        )?;
-    }
-    Ok(())
 }
 
 fn rule(spacing: &Spacing, sun_teeth: u32, harmonic: u32) -> HarmonicRule {

@@ -3,19 +3,16 @@
 use schemars::{JsonSchema, Schema, schema_for};
 use validation::{Comparison, Verdict};
 
-use super::branches_output::BranchesOutput;
-use super::impulse_output::ImpulseOutput;
+use super::branches::BranchesOutput;
+use super::impulse::ImpulseOutput;
 use super::mesh::MeshOutput;
 use super::modes::ModesOutput;
 use super::rules::RulesOutput;
-use super::scene_summary::SceneSummary;
-use super::stability::{StabilityList, StabilityOutput};
-use super::stability_guards::GuardList;
-use super::static_approach::ApproachOutput;
-use super::static_pair::PairOutput;
-use super::static_set::SetOutput;
+use super::scene::SceneSummary;
+use super::stability::{GuardList, StabilityList, StabilityOutput};
+use super::statics::{ApproachOutput, PairOutput, SetOutput};
 use super::study::StudyOutput;
-use super::sweep_output::SweepOutput;
+use super::sweep::SweepOutput;
 use super::validate::ControlsOutput;
 
 /// `(file name, schema)` of each verb's output, and of a scene file; the files in `schemas/` are regenerated with the

@@ -6,9 +6,7 @@ use gearset::{Fidelity, LoadCase, Scene};
 
 use crate::arguments::Model;
 use crate::error::CommandError;
-
-/// Headings of the cells of [`of_member`].
-pub(super) const OF_MEMBER: [&str; 4] = ["rotation µrad", "l", "translation µm", "l"];
+use crate::output::{Notation, Table};
 
 /// The model asked for, at the fidelity of the scene.
 ///
@@ -29,16 +27,31 @@ pub(super) fn model<'a>(
     })
 }
 
-/// Strongest harmonics of the sun, or of the member that turns where it is held, of its rotation and of its
-/// translation, each with its number.
-pub(super) fn of_member(state: &SteadyState, harmonics: usize) -> [String; 4] {
-    let member = state.turning_member();
-    let rotation = Response::Rotation(member).strongest(state, harmonics);
-    let translation = Response::Translation(member).strongest(state, harmonics);
-    [
-        format!("{:.3}", 1e6 * rotation.0),
-        rotation.1.to_string(),
-        format!("{:.4}", 1e6 * translation.0),
-        if translation.0 > 1e-12 { translation.1.to_string() } else { "–".into() },
-    ]
+/// Adds the strongest harmonics of the rotation and of the translation of the sun, or of the member that turns where it
+/// is held, each with its number; `state`: the steady state of a row and its highest harmonic.
+pub(super) fn with_strongest<'t, R: 't>(
+    table: Table<'t, R>,
+    state: impl for<'r> Fn(&'r R) -> (&'r SteadyState, usize) + Copy + 't,
+) -> Table<'t, R> {
+    let strongest = move |row: &R, response: fn(_) -> Response| {
+        let (state, harmonics) = state(row);
+        response(state.turning_member()).strongest(state, harmonics)
+    };
+    let rotation = move |row: &R| strongest(row, Response::Rotation);
+    let translation = move |row: &R| strongest(row, Response::Translation);
+    table
+        .words("rotation µrad", Notation::Fixed(3), move |row| 1e6 * rotation(row).0)
+        .meaning(
+            "strongest harmonic of the sun, of a held sun that of the ring or carrier that turns, and its number l as a \
+             multiple of the mesh frequency",
+        )
+        .words("l", Notation::Plain, move |row| rotation(row).1)
+        .words("translation µm", Notation::Fixed(4), move |row| 1e6 * translation(row).0)
+        .meaning(
+            "the same of √(R² + T²) of the amplitudes R and T of the radial and the tangential displacement",
+        )
+        .words("l", Notation::Plain, move |row| {
+            let (amplitude, harmonic) = translation(row);
+            (amplitude > 1e-12).then_some(harmonic)
+        })
 }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::parameter::BranchParameter;
-use super::point::{BranchPoint, BranchPointKind, BranchRow};
+use super::point::{BranchPoint, BranchPointKind};
 
 /// Why a branch ends where it does.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -82,35 +82,5 @@ impl Branch {
     pub fn bifurcations(&self) -> impl Iterator<Item = &BranchPoint> {
         let is_other = |k| !matches!(k, BranchPointKind::Regular | BranchPointKind::Fold);
         self.points.iter().filter(move |p| is_other(p.kind))
-    }
-
-    /// The tidy table: every point in order along the branch, each body's radial, tangential and rotational
-    /// harmonics followed by those of its translation.
-    /// `branch`: its number.
-    pub fn rows(&self, scene: &str, branch: usize) -> impl Iterator<Item = BranchRow> {
-        self.points.iter().enumerate().flat_map(move |(index, p)| {
-            p.state.with_translations().into_iter().map(move |line| BranchRow {
-                scene: scene.to_owned(),
-                fidelity: self.fidelity.clone(),
-                sun_torque_nm: p.state.case.sun_torque_nm,
-                speed_rpm: p.state.case.speed_rpm,
-                mesh_frequency_hz: p.state.case.mesh_frequency_hz,
-                damping_factor: p.damping_factor,
-                parameter: p.parameter,
-                branch,
-                repeats_after: self.repeats_after,
-                point: index,
-                kind: p.kind.name().to_owned(),
-                is_stable: p.is_stable,
-                largest_multiplier: p.largest_multiplier(),
-                arc: p.arc,
-                body: line.part.name(),
-                coordinate: line.coordinate.name().to_owned(),
-                harmonic: line.harmonic,
-                amplitude: line.amplitude,
-                unit: line.coordinate.unit().to_owned(),
-                phase_rad: line.phase_rad,
-            })
-        })
     }
 }

@@ -29,6 +29,6 @@ pub use family::{PARAMETER_CHANGE, PeriodicFamily};
 pub use follow::{branch, branches, branches_kept};
 pub use kept::{BranchStore, KeptPart, finished};
 pub use parameter::BranchParameter;
-pub use point::{BranchPoint, BranchPointKind, BranchRow};
+pub use point::{BranchPoint, BranchPointKind};
 pub use search::Search;
 pub use settings::BranchSettings;

@@ -45,7 +45,7 @@ pub use mesh_law_model::{LUMPED, MeshLawModel};
 pub use naturals::naturals;
 pub use peaks::{Peak, Response, peaks, top_of_three};
 pub use plan::{Chain, Direction, Plan, PlanError, even_speeds};
-pub use point::{LargestMultiplier, MultipliersOf, SearchStart, StepError, SweepPoint, TableRow};
+pub use point::{LargestMultiplier, MultipliersOf, SearchStart, StepError, SweepPoint};
 pub use random_start::{push_at_random, vibration};
 pub use record::Record;
 pub use resolved_steps::steps_needed;

@@ -1,4 +1,4 @@
-//! One speed of a sweep: what the steady state gives, and its rows in the tidy table.
+//! One speed of a sweep: what the steady state gives.
 
 use dynamics::Multiplier;
 use gearset::LoadCase;
@@ -167,53 +167,6 @@ pub struct SweepPoint {
     pub kinematic_rest_share: Option<f64>,
     /// Whether that is worth a warning.
     pub is_beyond_linear: bool,
-}
-
-/// One row of the tidy table.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct TableRow {
-    /// Scene.
-    pub scene: String,
-    /// Fidelity or model.
-    pub fidelity: String,
-    /// Torque on the sun, N m.
-    pub sun_torque_nm: f64,
-    /// Speed of the input member, rpm.
-    pub speed_rpm: f64,
-    /// f_m, Hz.
-    pub mesh_frequency_hz: f64,
-    /// Chain of the plan, which also says the direction.
-    pub chain: String,
-    /// Body or mesh.
-    pub body: String,
-    /// Quantity.
-    pub coordinate: String,
-    /// Harmonic; 0 is the mean.
-    pub harmonic: usize,
-    /// Amplitude.
-    pub amplitude: f64,
-    /// Its unit.
-    pub unit: String,
-    /// Phase, rad.
-    pub phase_rad: f64,
-    /// Cycles marched.
-    pub cycles: usize,
-    /// Change of the last two periods, or from the last to the next one.
-    pub residual: f64,
-    /// Mesh cycles after which the motion repeats; empty if it does not.
-    pub repeats_after: Option<usize>,
-    /// Whether the motion attracts, and what showed it.
-    pub attracts: String,
-    /// Size of the largest Floquet multiplier; empty without multipliers.
-    pub multiplier: Option<f64>,
-    /// Its kind: `fold`, `period_doubling` or `neimark_sacker`.
-    pub multiplier_kind: String,
-    /// Type of the motion that it multiplies.
-    pub mode_type: String,
-    /// Where the search began.
-    pub start: String,
-    /// Sense in which the sun turns relative to the carrier: `counter_clockwise` or `clockwise`.
-    pub sun_turns: String,
 }
 
 impl SweepPoint {

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use super::failed_point::FailedPoint;
 use super::judge::peak_centres;
 use super::plan::{Chain, Plan};
-use super::point::{SearchStart, SweepPoint, TableRow};
+use super::point::{SearchStart, SweepPoint};
 use super::random_start::start_at_random;
 use super::resolved_steps::{Resolved, Vibrations};
 use super::search::steady;
@@ -156,39 +156,6 @@ impl Sweep {
         let states: Vec<&SteadyState> = attract.map(|p| &p.state).collect();
         let centres = peak_centres(&states, steady.harmonics, least, span);
         Plan::around(&centres, span, count, steady)
-    }
-
-    /// The tidy table: all points by speed, at one speed in the order of the chains. Each body's radial,
-    /// tangential and rotational harmonics are followed by those of its translation.
-    pub fn rows(&self, scene: &str) -> impl Iterator<Item = TableRow> {
-        self.by_speed().into_iter().flat_map(move |(chain, p)| {
-            let largest = p.largest_multiplier.as_ref();
-            let kind = largest.map_or("", |m| &m.kind);
-            let mode_type = largest.and_then(|m| m.mode_type.as_deref()).unwrap_or_default();
-            p.state.with_translations().into_iter().map(move |line| TableRow {
-                scene: scene.to_owned(),
-                fidelity: self.fidelity.clone(),
-                sun_torque_nm: p.state.case.sun_torque_nm,
-                speed_rpm: p.state.case.speed_rpm,
-                mesh_frequency_hz: p.state.case.mesh_frequency_hz,
-                chain: chain.to_owned(),
-                body: line.part.name(),
-                coordinate: line.coordinate.name().to_owned(),
-                harmonic: line.harmonic,
-                amplitude: line.amplitude,
-                unit: line.coordinate.unit().to_owned(),
-                phase_rad: line.phase_rad,
-                cycles: p.cycles,
-                residual: p.residual,
-                repeats_after: p.repeats_after,
-                attracts: p.attracts.name().to_owned(),
-                multiplier: p.largest_multiplier(),
-                multiplier_kind: kind.to_owned(),
-                mode_type: mode_type.to_owned(),
-                start: p.start.to_string(),
-                sun_turns: p.state.case.sun_turns.name().to_owned(),
-            })
-        })
     }
 }
 

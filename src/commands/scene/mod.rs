@@ -1,0 +1,45 @@
+//! `scene new`, `scene check` and `scene schema`.
+
+mod motion;
+mod summary;
+mod text;
+
+pub(crate) use summary::SceneSummary;
+
+use std::io::Write;
+use std::path::Path;
+
+use gearset::{PlanetPositions, SceneKind, template};
+
+use crate::arguments::SceneVerb;
+use crate::error::{CommandError, unwritten};
+use crate::inputs::read_scene;
+use crate::output;
+
+pub(crate) fn run(verb: &SceneVerb, out: &mut dyn Write) -> Result<(), CommandError> {
+    match verb {
+        SceneVerb::New { path, kind } => new(path, *kind, out),
+        SceneVerb::Check { scene, format } => {
+            output::show(*format, &SceneSummary::of(&read_scene(scene)?), out)
+        }
+        SceneVerb::Schema => output::json(out, &gearset::scene_schema()),
+    }
+}
+
+fn new(path: &Path, kind: SceneKind, out: &mut dyn Write) -> Result<(), CommandError> {
+    let text = template(kind);
+    if path == Path::new("-") {
+        return Ok(out.write_all(text.as_bytes())?);
+    }
+    let mut file = std::fs::File::create_new(path).map_err(unwritten(path))?;
+    file.write_all(text.as_bytes()).map_err(unwritten(path))?;
+    writeln!(out, "wrote {}; try: epicyclic scene check {}", path.display(), path.display())?;
+    Ok(())
+}
+
+/// Positions for people, `0°, -88.57°, …`.
+pub(crate) fn degrees(positions: &PlanetPositions) -> String {
+    let each: Vec<_> =
+        positions.psi_rad.iter().map(|psi| format!("{:.2}°", psi.to_degrees())).collect();
+    each.join(", ")
+}

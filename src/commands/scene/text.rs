@@ -1,0 +1,134 @@
+//! `scene check` as text.
+
+use std::io::Write;
+
+use super::motion::write_motion;
+use super::summary::{GearSummary, MeshSummary, SceneSummary, VerbSummary};
+use crate::error::CommandError;
+use crate::output::{Notation, Report, Table};
+
+impl Report for SceneSummary {
+    /// One row for each verb.
+    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        let keys = |v: &&VerbSummary| {
+            v.lacks.iter().map(|lack| lack.key.as_str()).collect::<Vec<_>>().join(" ")
+        };
+        let table = Table::new()
+            .column("verb", "", |v: &&VerbSummary| &v.verb)
+            .column("runs", "", |v| v.runs)
+            .column("lacks", "", keys);
+        table.csv(&self.verbs, out)
+    }
+
+    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        Ok(text(self, out)?)
+    }
+}
+
+/// Writes the summary of a scene.
+fn text(summary: &SceneSummary, out: &mut dyn Write) -> std::io::Result<()> {
+    writeln!(out, "{} ({}): a valid scene", summary.title, summary.kind)?;
+    if let Some(source) = &summary.source {
+        writeln!(out, "source: {source}")?;
+    }
+    let degrees: Vec<_> = summary.planet_positions_deg.iter().map(|d| format!("{d:.4}°")).collect();
+    writeln!(out, "planets: {} at {}", degrees.len(), degrees.join(", "))?;
+    if let Some(steps) = &summary.planet_position_steps {
+        writeln!(out, "in assembly steps: {steps:?}")?;
+    }
+    if let (Some(a), Some(p)) = (summary.center_distance_mm, summary.base_pitch_mm) {
+        writeln!(out, "centre distance {a:.4} mm, base pitch {p:.5} mm")?;
+    }
+    if !summary.gears.is_empty() {
+        type Gear<'r> = &'r GearSummary;
+        let mm = Notation::Fixed(4);
+        Table::new()
+            .words("gear", Notation::Plain, |g: &Gear<'_>| &g.gear)
+            .words("Z", Notation::Plain, |g: &Gear<'_>| g.teeth)
+            .words("base mm", mm, |g: &Gear<'_>| g.base_diameter_mm)
+            .words("tip mm", mm, |g: &Gear<'_>| g.tip_diameter_mm)
+            .words("root mm", mm, |g: &Gear<'_>| g.root_diameter_mm)
+            .words("form mm", mm, |g: &Gear<'_>| g.form_diameter_mm)
+            .words("tip land mm", mm, |g: &Gear<'_>| g.tooth_thickness_at_tip_mm)
+            .text(&summary.gears, out)?;
+        type Mesh<'r> = &'r MeshSummary;
+        Table::new()
+            .words("mesh", Notation::Plain, |m: &Mesh<'_>| &m.mesh)
+            .words("angle °", mm, |m: &Mesh<'_>| m.pressure_angle_deg)
+            .words("module mm", mm, |m: &Mesh<'_>| m.operating_module_mm)
+            .words("contact ratio", mm, |m: &Mesh<'_>| m.contact_ratio)
+            .words("backlash mm", mm, |m: &Mesh<'_>| m.backlash_mm)
+            .text(&summary.meshes, out)?;
+    }
+    if let (Some(gamma), Some(sun), Some(ring)) =
+        (summary.gamma, &summary.sun_mesh_phases, &summary.ring_mesh_phases)
+    {
+        let list = |p: &[f64]| p.iter().map(|x| format!("{x:.5}")).collect::<Vec<_>>().join(", ");
+        writeln!(out, "γ = {gamma:.5} cycles")?;
+        writeln!(out, "sun mesh phases:  {}", list(sun))?;
+        writeln!(out, "ring mesh phases: {}", list(ring))?;
+    }
+    if let (Some(f), Some(n)) = (summary.mesh_frequency_hz, summary.carrier_speed_rpm) {
+        writeln!(out, "mesh frequency {f:.2} Hz, carrier at {n:.2} rpm")?;
+    }
+    if let Some(motion) = &summary.motion {
+        write_motion(motion, out)?;
+    }
+    for g in &summary.gears {
+        if let Some(r) = &g.tip_relief {
+            writeln!(
+                out,
+                "{}: {} tip relief of {:.3} µm from diameter {:.4} mm, over {:.1} % of the flank's roll length",
+                g.gear,
+                r.shape,
+                r.amount_um,
+                r.start_diameter_mm,
+                100.0 * r.relieved_share
+            )?;
+        }
+    }
+    if let Some(fe) = &summary.fe_bodies {
+        writeln!(
+            out,
+            "finite-element bodies: {} degrees of freedom, about {:.0} MB",
+            fe.degrees_of_freedom, fe.memory_mb
+        )?;
+    }
+    for limit in &summary.limits {
+        writeln!(out, "note: {limit}")?;
+    }
+    for w in &summary.warnings {
+        writeln!(out, "warning: `{}` is {}: {}; {}", w.key, w.value, w.what, w.likely)?;
+    }
+    verbs(&summary.verbs, out)
+}
+
+/// Which verbs run, and what the others lack.
+fn verbs(verbs: &[VerbSummary], out: &mut dyn Write) -> std::io::Result<()> {
+    let ready = verbs.iter().filter(|v| v.lacks.is_empty()).map(|v| v.verb.as_str());
+    let ready: Vec<_> = ready.collect();
+    let list = if ready.is_empty() { "none".into() } else { ready.join(", ") };
+    writeln!(out, "verbs that run: {list}")?;
+    let lacking: Vec<&VerbSummary> = verbs.iter().filter(|v| !v.lacks.is_empty()).collect();
+    let mut told: Vec<&VerbSummary> = Vec::new();
+    for verb in &lacking {
+        if told.iter().any(|t| t.runs == verb.runs && t.lacks == verb.lacks) {
+            continue;
+        }
+        let alike = lacking.iter().filter(|v| v.runs == verb.runs && v.lacks == verb.lacks);
+        let names: Vec<&str> = alike.map(|v| v.verb.as_str()).collect();
+        let does = match (verb.runs, names.len()) {
+            (true, 1) => "runs with",
+            (true, _) => "run with",
+            (false, _) => "cannot run",
+        };
+        writeln!(out, "{} {does}:", names.join(", "))?;
+        for lack in &verb.lacks {
+            let instead =
+                lack.argument.as_ref().map_or(String::new(), |a| format!(", or argument {a}"));
+            writeln!(out, "  `{}`{instead}: {}", lack.key, lack.why)?;
+        }
+        told.push(verb);
+    }
+    Ok(())
+}

@@ -1,0 +1,17 @@
+//! Solvers of the contact problem by their names on the command line.
+
+#[cfg(feature = "interior_point")]
+use fe_contact::complementarity::InteriorPoint;
+use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, Lemke};
+
+use crate::arguments::ContactSolver;
+
+/// The solver asked for.
+pub(super) fn solver(which: ContactSolver) -> &'static (dyn ComplementaritySolver + Sync) {
+    match which {
+        ContactSolver::ActiveSet => &ActiveSet,
+        ContactSolver::Lemke => &Lemke,
+        #[cfg(feature = "interior_point")]
+        ContactSolver::InteriorPoint => &InteriorPoint,
+    }
+}

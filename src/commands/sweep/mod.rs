@@ -1,0 +1,232 @@
+//! `sweep SCENE`: steady states over speed.
+
+mod auto;
+mod folder;
+mod result;
+
+pub(crate) use result::SweepOutput;
+
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+
+use experiments::ExperimentError;
+use experiments::sweep::{
+    Direction, Kept, LUMPED, Memory, Plan, PlanError, PointStore, SteadyMethod, SteadySettings,
+    Sweep, SweepModel, even_speeds, fidelity_name, run as run_plan,
+};
+use fe_contact::statics::Bodies;
+use gearset::{Fidelity, LoadCase, Scene, Verb};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use super::turning;
+use crate::arguments::{Format, Model, Sweep as SweepArguments};
+use crate::error::{CommandError, fe_refused, refused, unfit};
+use crate::folder::{Claim, KeptFiles, Manifest, PLAN, write_results};
+use crate::inputs::needs::{self, not_ring_pair};
+use crate::inputs::{Working, loads, read_scene, scene_text};
+use crate::output;
+use folder::PEAKS;
+
+/// Half-width of the refinement about a peak, as a share of its speed.
+const SPAN: f64 = 0.04;
+
+/// Peaks at least this many times as high as the curve to either side are refined.
+const PROMINENT: f64 = 1.25;
+
+/// Runs the sweep: results to `out`; beside a table on `out`, which has no place for them, speeds that could
+/// not be computed go to `err`.
+pub(super) fn run(
+    arguments: &SweepArguments,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
+) -> Result<(), CommandError> {
+    let path = &arguments.scene;
+    let scene = read_scene(path)?;
+    let task = Task::new(arguments, &scene, err)?;
+    if let Some(response) = auto::response(&scene) {
+        let asked = auto::Asked { arguments, scene: &scene, case: task.case };
+        return asked.run(response, &task.plan, out, err);
+    }
+    // Bodies and tables take minutes: a folder that cannot be used is refused before.
+    let _claim = task.claim()?;
+    needs::warn(&scene, err)?;
+    #[cfg(feature = "charts")]
+    needs::figures(&scene, arguments.figures.as_deref(), err)?;
+    let working = Working::new("meshing the bodies and laying out tables");
+    let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
+    let model = turning::model(arguments.model, &scene, &bodies, task.case)?;
+    let model = model.as_ref();
+    drop(working);
+    let mut sweep = task.march(model, &task.plan, PLAN)?;
+    if arguments.refine > 0 {
+        let steady = task.plan.steady.clone();
+        let around = sweep.around_peaks(PROMINENT, SPAN, arguments.refine as usize, steady);
+        if !around.chains.is_empty() {
+            let more = task.march(model, &around, PEAKS)?;
+            sweep.extend(more);
+        }
+    }
+    let result = SweepOutput::new(&scene, task.case.sun_torque_nm, &task.plan.steady, &sweep);
+    let saved = match &arguments.out {
+        Some(folder) => write_folder(&result, &task.text, folder),
+        None => Ok(()),
+    };
+    #[cfg(feature = "charts")]
+    let saved = saved.and(match &arguments.figures {
+        Some(folder) => draw(&scene, &bodies, task.case, &sweep, folder),
+        None => Ok(()),
+    });
+    // What was computed is shown also where it cannot be saved.
+    let shown = output::show(arguments.format, &result, out);
+    let said = match arguments.format {
+        Format::Csv => result.write_failed(err),
+        _ => Ok(()),
+    };
+    saved.and(shown).and(said)
+}
+
+/// Table and sidecar of a finished sweep.
+fn write_folder(result: &SweepOutput, scene_text: &str, folder: &Path) -> Result<(), CommandError> {
+    let mut table = Vec::new();
+    output::Report::csv(result, &mut table)?;
+    write_results(folder, [("sweep.csv", table)])?;
+    #[cfg(feature = "parquet")]
+    write_results(folder, [("sweep.parquet", result.parquet()?)])?;
+    write_results(folder, [("sweep.json", result.sidecar(scene_text)?)])
+}
+
+#[cfg(feature = "charts")]
+pub(super) fn draw(
+    scene: &Scene,
+    bodies: &Bodies,
+    case: LoadCase,
+    sweep: &Sweep,
+    folder: &Path,
+) -> Result<(), CommandError> {
+    use crate::figures::{SweepContext, of_sweep, save};
+    let mut linear = scene.clone();
+    if matches!(scene.dynamics.fidelity, Fidelity::Full | Fidelity::MeshLaw) {
+        // These have no linearisation of small order: the figure shows the quasi-static frequencies instead.
+        linear.dynamics.fidelity = Fidelity::QuasiStatic;
+    }
+    let found = experiments::sweep::naturals(&linear, bodies, case)?;
+    let natural: Vec<_> = found.iter().map(|n| (n.frequency_hz, n.mode_type)).collect();
+    let context = SweepContext { scene, torque_nm: case.sun_torque_nm, natural: &natural };
+    Ok(save(&of_sweep(sweep, &context), folder)?)
+}
+
+/// A sweep as requested.
+struct Task<'a> {
+    arguments: &'a SweepArguments,
+    /// The scene file.
+    text: String,
+    /// Torque and driven member; speeds are the plan's.
+    case: LoadCase,
+    plan: Plan,
+    /// Name of the fidelity or model, as the model itself gives it.
+    fidelity: String,
+}
+
+impl<'a> Task<'a> {
+    fn new(
+        arguments: &'a SweepArguments,
+        scene: &Scene,
+        err: &mut dyn Write,
+    ) -> Result<Self, CommandError> {
+        let path = &arguments.scene;
+        not_ring_pair(path, scene)?;
+        if scene.geometry.is_none() {
+            return Err(unfit(path, "[geometry] is absent: teeth are needed to touch"));
+        }
+        let torque_nm = loads::sun_torque(arguments.sun_torque_nm, path, scene, err)?;
+        let missing =
+            || unfit(path, "[operation] is absent: it says which member's speed is swept");
+        let case = LoadCase::of_scene(scene).map_err(|_| missing())?.with_sun_torque(torque_nm);
+        // The lumped model takes its mesh forces from quasi-static bodies, whatever the scene's fidelity.
+        let verb = Verb::Sweep(match arguments.model {
+            Model::Lumped => Fidelity::QuasiStatic,
+            Model::FeContact => scene.dynamics.fidelity,
+        });
+        let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
+        needs::require(path, scene, verb, is_given)?;
+        let [from, to, step] = arguments.speeds_rpm;
+        let refuse = |argument| move |e: PlanError| refused(argument, e.to_string());
+        let speeds = even_speeds(from, to, step).map_err(refuse("--speeds-rpm"))?;
+        let steady = SteadySettings {
+            method: arguments.method,
+            tolerance: arguments.tolerance,
+            most_cycles: arguments.most_cycles as usize,
+            harmonics: arguments.harmonics as usize,
+            between_cycles: arguments.between_cycles as usize,
+            whole_cycles: arguments.whole_cycles,
+            keeps_steps: false,
+        };
+        if steady.whole_cycles && steady.method == SteadyMethod::Marching {
+            let reason = "is of --method shooting: marching passes through every step of a mesh cycle anyway: leave it out";
+            return Err(refused("--whole-cycles", reason));
+        }
+        // The number of steps is among the settings that are chosen for an amplitude.
+        if auto::response(scene).is_none() {
+            let steps = scene.dynamics.steps_per_cycle as usize;
+            steady.check(steps).map_err(refuse("--harmonics"))?;
+            needs::caution(&steady, steps, err)?;
+        }
+        let directions: &[Direction] = match arguments.both_ways {
+            true => &[Direction::Up, Direction::Down],
+            false => &[Direction::Up],
+        };
+        let plan = Plan::new(&speeds, directions, steady).map_err(refuse("--speeds-rpm"))?;
+        let plan = plan.with_random_starts(arguments.random_starts);
+        let text = scene_text(path)?;
+        let fidelity = match arguments.model {
+            Model::FeContact => fidelity_name(scene.dynamics.fidelity),
+            Model::Lumped => LUMPED.into(),
+        };
+        Ok(Self { arguments, text, case, plan, fidelity })
+    }
+
+    /// What a folder of a plan's points says that they were computed from.
+    fn manifest(&self, plan: &Plan) -> Result<Manifest, CommandError> {
+        folder::manifest((&self.text, &self.fidelity, self.case.sun_torque_nm), plan)
+    }
+
+    /// The folder of `--out` for this process alone; `None` without that argument.
+    fn claim(&self) -> Result<Option<Claim>, CommandError> {
+        let Some(folder) = &self.arguments.out else { return Ok(None) };
+        folder::claim(folder, &self.manifest(&self.plan)?, self.arguments.refine).map(Some)
+    }
+
+    /// Runs one plan and stores its points if a folder is given.
+    fn march(
+        &self,
+        model: &dyn SweepModel,
+        plan: &Plan,
+        manifest: &str,
+    ) -> Result<Sweep, CommandError> {
+        let bar = progress(plan.points() as u64);
+        let store: Box<dyn PointStore> = match &self.arguments.out {
+            Some(folder) => Box::new(KeptFiles::open(folder, manifest, &self.manifest(plan)?)?),
+            None => Box::new(Memory),
+        };
+        let done = |_: &Kept| bar.inc(1);
+        let found = run_plan(model, plan, store.as_ref(), &done);
+        bar.finish_and_clear();
+        found.map_err(|e| match e {
+            ExperimentError::Fe(e) => unfit(&self.arguments.scene, e.to_string()),
+            other => other.into(),
+        })
+    }
+}
+
+/// A bar on a terminal, nothing elsewhere.
+fn progress(points: u64) -> ProgressBar {
+    let target = match std::io::stderr().is_terminal() {
+        true => ProgressDrawTarget::stderr(),
+        false => ProgressDrawTarget::hidden(),
+    };
+    let bar = ProgressBar::with_draw_target(Some(points), target);
+    match ProgressStyle::with_template("{bar:32} {pos}/{len} speeds, {eta} to go") {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar,
+    }
+}

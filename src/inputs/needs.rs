@@ -1,0 +1,78 @@
+//! What a verb asks of a scene before it starts any work.
+
+use std::io::Write;
+use std::path::Path;
+
+use experiments::sweep::SteadySettings;
+use gearset::{Scene, Verb};
+
+use crate::error::{CommandError, unfit};
+
+/// Refuses a scene that lacks what the verb needs; `is_given` says whether an argument stands in for a key.
+pub(crate) fn require(
+    path: &Path,
+    scene: &Scene,
+    verb: Verb,
+    is_given: impl Fn(&str) -> bool,
+) -> Result<(), CommandError> {
+    let lacks = scene.lacks(verb);
+    let mut open = lacks.iter().filter(|lack| !lack.argument.is_some_and(&is_given)).peekable();
+    if open.peek().is_none() {
+        return Ok(());
+    }
+    let each: Vec<_> = open.map(|lack| format!("`{}`: {}", lack.key, lack.why)).collect();
+    Err(unfit(path, format!("{} cannot run: {}", verb.name(), each.join("; "))))
+}
+
+/// Refuses a ring–planet pair, of which only statics are computed.
+pub(crate) fn not_ring_pair(path: &Path, scene: &Scene) -> Result<(), CommandError> {
+    let lacks = scene.lacks(Verb::Modes);
+    match lacks.iter().find(|lack| lack.key == "mesh") {
+        Some(lack) => Err(unfit(path, format!("`{}`: {}", lack.key, lack.why))),
+        None => Ok(()),
+    }
+}
+
+/// Writes a scene's warnings, one a line.
+///
+/// # Errors
+/// If they cannot be written.
+pub(crate) fn warn(scene: &Scene, err: &mut dyn Write) -> std::io::Result<()> {
+    gearset::warnings(scene).iter().try_for_each(|warning| writeln!(err, "warning: {warning}"))
+}
+
+/// Writes what to know of harmonics that few steps resolve.
+///
+/// # Errors
+/// If it cannot be written.
+pub(crate) fn caution(
+    settings: &SteadySettings,
+    steps: usize,
+    err: &mut dyn Write,
+) -> std::io::Result<()> {
+    settings.caution(steps).map_or(Ok(()), |words| writeln!(err, "warning: {words}"))
+}
+
+/// Refuses a folder of figures that cannot be made, and warns of characters in the title that figures cannot show.
+///
+/// # Errors
+/// [`CommandError`] for the folder, or if the warning cannot be written.
+#[cfg(feature = "charts")]
+pub(crate) fn figures(
+    scene: &Scene,
+    figures: Option<&Path>,
+    err: &mut dyn Write,
+) -> Result<(), CommandError> {
+    crate::folder::folder("--figures", figures)?;
+    let lacking: Vec<String> =
+        crate::figures::lacking(&scene.title).into_iter().map(String::from).collect();
+    if figures.is_none() || lacking.is_empty() {
+        return Ok(());
+    }
+    Ok(writeln!(
+        err,
+        "warning: `title` has characters that the font of PNG figures lacks ({}): `?` stands for them there, and the SVG \
+         figures keep them",
+        lacking.join(" ")
+    )?)
+}
