@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use gearset::{Fault, SceneError};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource};
+use scene::{Fault, SceneError};
 
 /// Why the command could not run (exit code 2).
 #[derive(Debug, thiserror::Error)]

@@ -11,7 +11,7 @@ use experiments::sweep::{
     KeyedModel, LUMPED, Memory, SteadySettings, SweepModel, fidelity_name, steps_needed,
 };
 use fe_contact::statics::Bodies;
-use gearset::{Fidelity, LoadCase, MOST_SCENE_BYTES, Scene, Verb};
+use scene::{Fidelity, LoadCase, MOST_SCENE_BYTES, Scene, Verb};
 
 use crate::arguments::{Branches, DAMPING_FACTORS, Model, TableFormat};
 use crate::error::CommandError;
@@ -49,7 +49,7 @@ pub(super) fn run(
     };
     // Bodies and tables take minutes: a folder that cannot be used is refused before.
     let failed = |source| CommandError::File { what: "cannot read", path: path.into(), source };
-    let text = gearset::read_text(path, MOST_SCENE_BYTES).map_err(failed)?;
+    let text = scene::read_text(path, MOST_SCENE_BYTES).map_err(failed)?;
     if let BranchParameter::Key(key) = settings.over {
         for (argument, value) in ["--from", "--to"].into_iter().zip(settings.range) {
             KeyedModel::check(&text, key, value).map_err(|e| refused(argument, e.to_string()))?;
@@ -265,7 +265,7 @@ fn case(
     let missing = || unfit(path, "[operation] is absent: it says which member is driven");
     let case = LoadCase::of_scene(scene).map_err(|_| missing())?.with_sun_torque(torque_nm);
     match arguments.rpm {
-        Some(rpm) if gearset::is_speed(rpm) => Ok(case.at_speed(rpm)),
+        Some(rpm) if scene::is_speed(rpm) => Ok(case.at_speed(rpm)),
         Some(rpm) => {
             Err(refused("--rpm", format!("{rpm:?}: allowed are speeds from 0.001 to 1e7 rpm")))
         }

@@ -144,7 +144,7 @@ impl BranchStore for Steps {
 #[cfg(test)]
 mod tests {
     use experiments::branches::BranchParameter;
-    use gearset::LoadCase;
+    use scene::LoadCase;
 
     use super::*;
 

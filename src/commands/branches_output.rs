@@ -5,7 +5,7 @@ use std::io::Write;
 use experiments::branches::{
     Branch, BranchEnd, BranchOrigin, BranchParameter, BranchPointKind, BranchSettings, Branches,
 };
-use gearset::{LoadCase, Scene};
+use scene::{LoadCase, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use gearset::{Scene, Verb};
+use scene::{Scene, Verb};
 use validation::{Comparison, ListedMode, ModelMode, compare};
 
 use crate::arguments::{Compare, Format};
@@ -92,7 +92,7 @@ fn read_modes(path: &Path) -> Result<Vec<ListedMode>, CommandError> {
     let bad = |reason: String| CommandError::Table { path: path.to_owned(), reason };
     let unreadable =
         |source| CommandError::File { what: "cannot read", path: path.to_owned(), source };
-    let text = gearset::read_text(path, MOST_BYTES).map_err(unreadable)?;
+    let text = scene::read_text(path, MOST_BYTES).map_err(unreadable)?;
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .comment(Some(b'#'))

@@ -9,7 +9,7 @@ use experiments::modal::{
 };
 use fe_contact::FeError;
 use fe_contact::statics::{Bodies, Races};
-use gearset::{Fidelity, LoadCase, Scene, Verb};
+use scene::{Fidelity, LoadCase, Scene, Verb};
 #[cfg(feature = "charts")]
 use validation::ValidationError;
 

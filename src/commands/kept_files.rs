@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use experiments::sweep::StoreError;
-use gearset::read_text;
+use scene::read_text;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 

@@ -53,8 +53,8 @@ use std::ffi::OsString;
 use std::io::Write;
 use std::path::Path;
 
+use ::scene::Scene;
 use clap::Parser;
-use gearset::Scene;
 
 use crate::arguments::{Arguments, Verb};
 use crate::error::CommandError;

@@ -5,11 +5,11 @@ use std::f64::consts::TAU;
 use std::io::Write;
 
 use experiments::auto::{AutoModel, Choice, FrequencyQuestion, choose_frequency};
-use gearset::{AutoQuantity, LoadCase, Scene, SceneKind, Verb};
 use lumped::{
     AnalyticSet, LumpedError, LumpedModel, ModeGroup, NaturalModes, Parameter, campbell,
     kinetic_energy, sensitivities, strain_energy,
 };
+use scene::{AutoQuantity, LoadCase, Scene, SceneKind, Verb};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -92,7 +92,7 @@ pub(crate) fn run(
 ) -> Result<(), CommandError> {
     let scene = read_scene(&arguments.scene)?;
     needs::warn(&scene, err)?;
-    let most = gearset::SPEEDS_RPM[1];
+    let most = scene::SPEEDS_RPM[1];
     // Not `abs() > most`: what is no number is within nothing.
     if let Some(bad) = arguments.carrier_speeds_rpm.iter().find(|s| !(-most..=most).contains(*s)) {
         let reason = format!("{bad:?} is not a finite speed from {:e} to {most:e} rpm", -most);

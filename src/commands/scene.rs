@@ -3,7 +3,8 @@
 use std::io::Write;
 use std::path::Path;
 
-use gearset::{PlanetPositions, SceneKind, template};
+use gearset::PlanetPositions;
+use scene::{SceneKind, template};
 
 use crate::arguments::{Format, SceneVerb};
 use crate::error::CommandError;
@@ -22,7 +23,7 @@ pub(crate) fn run(verb: &SceneVerb, out: &mut dyn Write) -> Result<(), CommandEr
                 Format::Text => Ok(super::scene_text::text(&summary, out)?),
             }
         }
-        SceneVerb::Schema => output::json(out, &gearset::scene_schema()),
+        SceneVerb::Schema => output::json(out, &scene::scene_schema()),
     }
 }
 

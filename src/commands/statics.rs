@@ -5,7 +5,7 @@ use std::io::Write;
 #[cfg(feature = "interior_point")]
 use fe_contact::complementarity::InteriorPoint;
 use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, Lemke};
-use gearset::{Scene, SceneKind, Verb};
+use scene::{Scene, SceneKind, Verb};
 
 use crate::arguments::{ContactSolver, Static};
 use crate::error::CommandError;

@@ -9,8 +9,8 @@ use experiments::sweep::{
     Sweep, SweepModel, even_speeds, fidelity_name, run as run_plan,
 };
 use fe_contact::statics::Bodies;
-use gearset::{Fidelity, LoadCase, MOST_SCENE_BYTES, Scene, Verb};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use scene::{Fidelity, LoadCase, MOST_SCENE_BYTES, Scene, Verb};
 
 use crate::arguments::{Model, Sweep as SweepArguments, TableFormat};
 use crate::error::CommandError;
@@ -194,7 +194,7 @@ impl<'a> Task<'a> {
         let plan = Plan::new(&speeds, directions, steady).map_err(refuse("--speeds-rpm"))?;
         let plan = plan.with_random_starts(arguments.random_starts);
         let failed = |source| CommandError::File { what: "cannot read", path: path.into(), source };
-        let text = gearset::read_text(path, MOST_SCENE_BYTES).map_err(failed)?;
+        let text = scene::read_text(path, MOST_SCENE_BYTES).map_err(failed)?;
         let fidelity = match arguments.model {
             Model::FeContact => fidelity_name(scene.dynamics.fidelity),
             Model::Lumped => LUMPED.into(),

@@ -4,7 +4,7 @@ use std::io::Write;
 
 use experiments::auto::{AmplitudeQuestion, choose_amplitude};
 use experiments::sweep::Plan;
-use gearset::{AutoQuantity, AutoResponse, LoadCase, Scene};
+use scene::{AutoQuantity, AutoResponse, LoadCase, Scene};
 
 use crate::arguments::{Model, Sweep, TableFormat};
 use crate::error::CommandError;

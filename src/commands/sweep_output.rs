@@ -8,7 +8,7 @@ use experiments::sweep::{
     MOST_REPEATS, MultipliersOf, SearchStart, SteadyMethod, SteadySettings, StepError, Sweep,
     SweepPoint,
 };
-use gearset::Scene;
+use scene::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -499,7 +499,7 @@ fn loses(largest: &LargestMultiplier) -> String {
 mod tests {
     use super::*;
     use experiments::sweep::{Coordinate, Line, SteadyState};
-    use gearset::LoadCase;
+    use scene::LoadCase;
 
     /// A sweep of three chains: two speeds found, the first in the second chain, and one that failed.
     fn sweep() -> Sweep {
@@ -565,7 +565,7 @@ mod tests {
     }
 
     fn result() -> SweepOutput {
-        let scene = gearset::template(gearset::SceneKind::Planetary);
+        let scene = scene::template(scene::SceneKind::Planetary);
         let scene = Scene::from_toml(scene).unwrap();
         SweepOutput::new(&scene, 1130.0, &SteadySettings::default(), &sweep())
     }
