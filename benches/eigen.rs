@@ -9,8 +9,9 @@ use std::path::Path;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use gearset::{PlanetPositions, Scene};
+use gearset::PlanetPositions;
 use lumped::{LumpedModel, NaturalModes};
+use scene::Scene;
 
 fn benches(c: &mut Criterion) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/lin_parker_1999_3p.toml");

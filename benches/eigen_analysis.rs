@@ -15,8 +15,8 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use beside::{Beside, Outcome, csv, quartiles};
-use gearset::Scene;
 use lumped::{LumpedModel, NaturalModes};
+use scene::Scene;
 
 /// Analyses of a batch of the summary.
 const BATCH: u32 = 1000;

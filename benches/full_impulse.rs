@@ -5,7 +5,7 @@ use std::path::Path;
 
 use experiments::modal::{ImpulseSettings, impulse_test};
 use fe_contact::statics::Bodies;
-use gearset::{Fidelity, Scene};
+use scene::{Fidelity, Scene};
 
 const FLANK_ELEMENTS: u32 = 8;
 const TORQUE: f64 = 1130.0;
@@ -31,7 +31,7 @@ fn main() {
         let test = impulse_test(
             &scene,
             &bodies,
-            &ImpulseSettings::short(gearset::LoadCase::standing(TORQUE), 0.0),
+            &ImpulseSettings::short(scene::LoadCase::standing(TORQUE), 0.0),
         )
         .unwrap();
         let list = |of: &dyn Fn(usize) -> String| {

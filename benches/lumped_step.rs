@@ -15,10 +15,9 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use beside::{Beside, Outcome, csv, quartiles};
-use gearset::{
-    Facing, Geometry, MeshCurve, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing, Scene,
-};
+use gearset::{Facing, MeshCurve, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing};
 use lumped::{Axis, Body, LumpedModel, SpringId, TimeVarying};
+use scene::Scene;
 
 /// Steps of a batch of the summary.
 const BATCH: u32 = 100_000;
@@ -50,7 +49,7 @@ fn scene() -> Outcome<Scene> {
 }
 
 fn law(scene: &Scene, backside: bool) -> Outcome<MeshLaw> {
-    let geometry = Geometry::from_scene(scene).map_err(|e| e.to_string())?;
+    let geometry = scene.tooth_geometry().map_err(|e| e.to_string())?;
     let phasing = Phasing::new(&geometry, &scene.planets).ok_or("no whole set")?;
     let mut starts = MeshStart::of_set(&phasing);
     for start in &mut starts {

@@ -8,8 +8,8 @@ use std::path::Path;
 
 use experiments::auto::{AutoSettings, BodyInertia, FrequencyQuestion, Question};
 use experiments::study::{CpuTime, Stopwatch};
-use gearset::{LoadCase, Scene};
 use lumped::{LumpedModel, ModeType, NaturalModes};
+use scene::{LoadCase, Scene};
 
 /// Runs of each lumped model beside one of FE/contact.
 const RUNS: usize = 40;

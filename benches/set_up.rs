@@ -9,7 +9,8 @@ use std::path::Path;
 use fe_contact::body::GearBody;
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{Loading, NominalRotation, Prepared, VibratingSet};
-use gearset::{Facing, PathDirection, Scene};
+use gearset::{Facing, PathDirection};
+use scene::Scene;
 
 const TORQUE: f64 = 1413.0;
 

@@ -10,7 +10,8 @@ use std::path::Path;
 use criterion::{Criterion, criterion_group, criterion_main};
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-use gearset::{Facing, Gear, Geometry, ReliefShape, Scene, TipRelief};
+use gearset::{Facing, Gear, ReliefShape, TipRelief};
+use scene::Scene;
 
 fn statics(c: &mut Criterion) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/oh58_4p.toml");
@@ -39,7 +40,7 @@ fn statics(c: &mut Criterion) {
 /// The same gears with 10 µm taken off from a quarter of the tooth's depth below the tip.
 fn with_relief(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
-    let geometry = Geometry::from_scene(&scene).expect("teeth");
+    let geometry = scene.tooth_geometry().expect("teeth");
     let relief = |gear: &Gear| {
         let start_radius = gear.tip_radius - 0.25 * (gear.tip_radius - gear.root_radius);
         Some(TipRelief { start_radius, amount: 10e-6, shape: ReliefShape::Linear })

@@ -24,7 +24,7 @@ use experiments::sweep::{
 };
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::Along;
-use gearset::{LoadCase, Scene};
+use scene::{LoadCase, Scene};
 
 const TORQUE: f64 = 1413.0;
 

@@ -8,7 +8,8 @@ use criterion::{Criterion, criterion_group, criterion_main};
 
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{Loading, NominalRotation, VibratingSet};
-use gearset::{Facing, Fidelity, PathDirection, Scene};
+use gearset::{Facing, PathDirection};
+use scene::{Fidelity, Scene};
 
 const STEPS: usize = 140;
 const TORQUE: f64 = 1413.0;

@@ -3,8 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use gearset::{Fault, SceneError};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource};
+use scene::{Fault, SceneError};
 
 /// Why the command could not run (exit code 2).
 #[derive(Debug, thiserror::Error)]

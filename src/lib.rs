@@ -3,7 +3,7 @@
 //!
 //! | module | what it holds |
 //! |---|---|
-//! | [`gearset`] | scene files, involute geometry, planet phasing, kinematics, excitation rules |
+//! | [`gearset`] | scene files, load cases, involute geometry, planet phasing, kinematics, excitation rules |
 //! | [`dynamics`] | eigenproblems, time steps, spectra and identification; knows no gears |
 //! | [`lumped`] | the lumped-parameter model of Lin and Parker |
 //! | [`fe_contact`] | finite-element/contact model: meshes, contact, statics, vibration |
@@ -32,10 +32,15 @@ pub use dynamics;
 pub use experiments;
 #[cfg(feature = "fe")]
 pub use fe_contact;
-pub use gearset;
 pub use lumped;
 #[cfg(feature = "validation")]
 pub use validation;
+
+/// Scene files, and the mechanics of the set that they describe: the crates `scene` and `gearset` under one name.
+pub mod gearset {
+    pub use ::gearset::*;
+    pub use ::scene::*;
+}
 
 #[cfg(feature = "command")]
 pub use commands::{run, schemas};

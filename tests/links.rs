@@ -11,7 +11,7 @@ const DATA: [&str; 6] = ["docs", "kept", "reference", "checks", "scenes", "studi
 const WIDEST: usize = 120;
 
 /// Pages quote program files as well.
-const PROGRAM: [&str; 15] = [
+const PROGRAM: [&str; 16] = [
     "examples",
     "remake",
     "benches",
@@ -21,6 +21,7 @@ const PROGRAM: [&str; 15] = [
     "gearset",
     "lapack_route",
     "lumped",
+    "scene",
     "schemas",
     "snapshots",
     "src",

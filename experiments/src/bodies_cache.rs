@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use fe_contact::FeError;
 use fe_contact::statics::Bodies;
-use gearset::Scene;
+use scene::Scene;
 
 /// Gears by the scene data they depend on: scenes that differ only in planet positions, supports or load
 /// share them.

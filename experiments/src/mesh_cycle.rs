@@ -1,6 +1,7 @@
 //! Static equilibrium over a mesh cycle, of any model.
 
-use gearset::{LoadCase, MeshKind};
+use gearset::MeshKind;
+use scene::LoadCase;
 use serde::{Deserialize, Serialize};
 
 /// Static equilibrium at evenly spaced positions of one mesh cycle.

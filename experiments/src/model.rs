@@ -3,7 +3,7 @@
 //! A model that answers one of these questions can be judged by every suite of checks that asks it, beside the
 //! two models of this project: implement the trait in a crate of your own. Errors travel as they are.
 
-use gearset::{LoadCase, Scene};
+use scene::{LoadCase, Scene};
 
 use crate::mesh_cycle::MeshCycle;
 use crate::natural_mode::NaturalMode;

@@ -1,6 +1,6 @@
 //! A scene with some of its keys replaced, by the text of the file: what results is read and validated as any scene is.
 
-use gearset::{Scene, SceneError};
+use scene::{Scene, SceneError};
 use toml::{Table, Value};
 
 /// The scene with `keys` laid over it, one after the other; tables are merged, other values replaced.
@@ -62,7 +62,7 @@ pub(crate) fn at<'t>(table: &'t Table, path: &str) -> Option<&'t Value> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gearset::{Fidelity, SceneKind, template};
+    use scene::{Fidelity, SceneKind, template};
 
     fn table(text: &str) -> Table {
         text.parse().unwrap()

@@ -7,7 +7,7 @@ use experiments::sweep::{
     SearchStart, SteadyMethod, SteadySettings, Sweep, SweepModel, SweepPoint, run,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{LoadCase, Scene};
+use scene::{LoadCase, Scene};
 
 fn swept(model: &dyn SweepModel, speeds: &[f64], to: Direction, method: SteadyMethod) -> Sweep {
     let steady = SteadySettings { method, between_cycles: 0, ..SteadySettings::default() };

@@ -5,8 +5,8 @@ use experiments::auto::{
     FrequencyQuestion, Question, choose_amplitude, choose_frequency, choose_transmission_error,
 };
 use experiments::sweep::SteadySettings;
-use gearset::{AutoResponse, LoadCase, Scene};
 use lumped::ModeType;
+use scene::{AutoResponse, LoadCase, Scene};
 
 fn set(name: &str) -> (Scene, LoadCase) {
     let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));

@@ -7,8 +7,9 @@ use dynamics::harmonic_balance::BalanceOptions;
 use experiments::sweep::{MeshLawModel, SteadyMethod, SteadySettings, SweepModel, steady};
 use fe_contact::statics::Bodies;
 use fe_contact::vibration::{MeshLawSettings, mesh_law};
-use gearset::{LoadCase, MeshLaw, Scene};
+use gearset::MeshLaw;
 use lumped::{Axis, BalancedSet, Body};
+use scene::{LoadCase, Scene};
 
 /// Samples that are compared.
 const SAMPLES: usize = 70;

@@ -19,7 +19,7 @@ use experiments::sweep::{
     even_speeds, run, steady,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, LoadCase, Scene};
+use scene::{Fidelity, LoadCase, Scene};
 
 fn law<'b>(scene: &Scene, bodies: &'b Bodies, torque_nm: f64) -> MeshLawModel<'b> {
     let case = LoadCase::of_scene(scene).unwrap().with_sun_torque(torque_nm);
@@ -277,7 +277,7 @@ fn what_makes_no_branch_is_refused() {
     assert_eq!(refused(few), BranchError::Points(1));
     let mut full = scene.clone();
     full.dynamics.fidelity = Fidelity::QuasiStatic;
-    full.dynamics.kinematics = gearset::MeshKinematics::Exact;
+    full.dynamics.kinematics = scene::MeshKinematics::Exact;
     let exact = FeModel::new(&full, &bodies, Imperfections::default(), model.case());
     let error = branch(&exact, &BranchSettings::over([800.0, 900.0])).unwrap_err();
     assert!(matches!(error, ExperimentError::Branch(BranchError::NoDerivative(_))), "{error}");

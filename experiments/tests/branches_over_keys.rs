@@ -13,7 +13,7 @@ use experiments::sweep::{
     FeModel, KeyedModel, MeshLawModel, SteadySettings, SweepModel, SweepPoint, VariedKey, steady,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{LoadCase, Scene};
+use scene::{LoadCase, Scene};
 
 const STEPS: usize = 56;
 

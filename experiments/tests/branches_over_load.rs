@@ -14,7 +14,7 @@ use experiments::sweep::{
     FeModel, MeshLawModel, SteadyMethod, SteadySettings, SweepModel, SweepPoint, steady,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{LoadCase, Scene};
+use scene::{LoadCase, Scene};
 
 const STEPS: usize = 70;
 

@@ -6,7 +6,7 @@ use experiments::sweep::{
     FeModel, Part, Response, SteadySettings, SweepModel, SweepPoint, steady, top_of_three,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{CellLayout, LoadCase, Scene};
+use scene::{CellLayout, LoadCase, Scene};
 
 /// Speeds about the peak of the sun's rotation in the second harmonic, rpm.
 const SPEEDS: [f64; 3] = [1600.0, 1630.0, 1660.0];

@@ -11,8 +11,9 @@ use experiments::sweep::{
 };
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-use gearset::{LoadCase, Member, PathDirection, Scene};
+use gearset::{Member, PathDirection};
 use lumped::ModeType;
+use scene::{LoadCase, Scene};
 
 /// Driver, held member and the direction while driving.
 const MACHINES: [(Member, Member, PathDirection); 6] = [
@@ -34,7 +35,7 @@ fn machine_loaded_at(
     (driver, held): (Member, Member),
     [speed, torque]: [f64; 2],
 ) -> (Scene, LoadCase) {
-    use gearset::Freedom::{Free, RotationHeld};
+    use scene::Freedom::{Free, RotationHeld};
     let mut scene = shipped::scene("oh58_4p", 56, 1.0);
     scene.fe_contact.flank_elements = 6;
     let supports = &mut scene.supports;
@@ -212,7 +213,7 @@ fn gyroscopic_peaks_split_as_the_carrier_turns() {
         let case = case.with_sun_torque(SUN_NM * case.sun_torque_nm.signum());
         let model = MeshLawModel::new(&scene, &bodies, case).unwrap();
         let mut linear = scene.clone();
-        linear.dynamics.fidelity = gearset::Fidelity::QuasiStatic;
+        linear.dynamics.fidelity = scene::Fidelity::QuasiStatic;
         let found = naturals(&linear, &bodies, case).unwrap();
         let first = found.iter().find(|own| own.mode_type == ModeType::Translational);
         let hz = first.unwrap().frequency_hz;
@@ -235,7 +236,7 @@ fn gyroscopic_peaks_split_as_the_carrier_turns() {
         }
         let [a, b, c] = [-1.0, 0.0, 1.0].map(|k| height(best.0 + 0.0025 * k).powi(-2));
         let share = best.0 + 0.0025 * 0.5 * (a - c) / (a - 2.0 * b + c);
-        let speeds = gearset::Kinematics::from_scene(&scene).unwrap();
+        let speeds = scene.kinematics().unwrap();
         let carrier = speeds.speeds_rpm.carrier / speeds.mesh_frequency_hz / 60.0;
         // Peak, and the carrier's speed as part of it.
         (share * hz, 0.5 * carrier.abs())
@@ -265,7 +266,7 @@ fn gyroscopic_peaks_split_as_the_carrier_turns() {
 /// teeth at every instant; the torque that is given is the one that is constant then.
 #[test]
 fn statics_are_the_same_whichever_member_turns() {
-    use gearset::Freedom::{Free, Held, RotationHeld};
+    use scene::Freedom::{Free, Held, RotationHeld};
     let cycle = |loaded: Member| {
         let mut scene = shipped::scene("oh58_4p", 28, 1.0);
         scene.fe_contact.flank_elements = 6;

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use experiments::modal::{FeMode, Preload, linear_modes, preloaded};
 use fe_contact::statics::Bodies;
 use fe_contact::vibration::{ElasticInertia, ElasticShift};
-use gearset::{ElementFamily, Fidelity, LoadCase, Scene};
 use lumped::ModeType;
+use scene::{ElementFamily, Fidelity, LoadCase, Scene};
 
 const TYPES: [ModeType; 3] = [ModeType::Rotational, ModeType::Translational, ModeType::Planet];
 

@@ -17,8 +17,9 @@ use experiments::sweep::{
 };
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, pair_cycle};
-use gearset::{Facing, LoadCase, MeshKind, MeshLaw, PairFlanks, Scene, pair_law};
+use gearset::{Facing, MeshKind, MeshLaw, PairFlanks, pair_law};
 use lumped::BalancedSet;
+use scene::{LoadCase, Scene};
 
 const STEPS: usize = 140;
 

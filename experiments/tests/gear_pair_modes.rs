@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use experiments::modal::{ImpulseSettings, Preload, impulse_test, linear_modes, preloaded};
 use fe_contact::statics::Bodies;
-use gearset::{LoadCase, LumpedInput, PerBody, PerMesh, Scene};
 use lumped::{LumpedModel, NaturalModes};
+use scene::{LoadCase, LumpedInput, PerBody, PerMesh, Scene};
 
 /// The catalogue scene on a coarse mesh, with supports given as text.
 fn meshed(supports: &str) -> (Scene, Bodies) {

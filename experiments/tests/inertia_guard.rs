@@ -2,7 +2,7 @@
 
 use experiments::sweep::{Direction, FeModel, InertiaError, Memory, Plan, SteadySettings, run};
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{LoadCase, Scene};
+use scene::{LoadCase, Scene};
 
 fn error_at(name: &str, change: impl Fn(&mut Scene), rpm: f64) -> Option<InertiaError> {
     let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));

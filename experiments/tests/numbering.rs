@@ -9,7 +9,7 @@ use experiments::sweep::{
     steady,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, LoadCase, Scene};
+use scene::{Fidelity, LoadCase, Scene};
 
 /// Planet positions in assembly steps, of which a turn has Z_s + Z_r = 126. Mesh phases of the unloaded set differ by
 /// multiples of 1/14 cycle.

@@ -5,7 +5,7 @@ use experiments::sweep::{
     SweepPoint, run,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, LoadCase, Scene};
+use scene::{Fidelity, LoadCase, Scene};
 
 /// Teeth hammer on both flanks of this pair, whose backlash is 4 µm.
 const PAIR: &str = r#"

@@ -5,7 +5,7 @@ use crate::amplitudes;
 use amplitudes::{off, rotation};
 use experiments::sweep::{FeModel, SteadyMethod, SteadySettings, SweepModel, SweepPoint, steady};
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, LoadCase, Scene};
+use scene::{Fidelity, LoadCase, Scene};
 
 /// The catalogue pair on a coarse mesh with the driven gear on a torsional spring and more damping.
 fn sprung(fidelity: Fidelity, steps: u32, damping_factor: f64) -> Scene {

@@ -7,7 +7,8 @@ use std::f64::consts::TAU;
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use fe_contact::vibration::{MeshLawSettings, mesh_law};
-use gearset::{ExcitationStrengths, LoadCase, MeshKind, MeshLaw, Scene, excitation_of_scene};
+use gearset::{ExcitationStrengths, MeshKind, MeshLaw};
+use scene::{LoadCase, Scene, excitation_of_scene};
 
 const STEPS: usize = 130;
 const HARMONICS: usize = 8;

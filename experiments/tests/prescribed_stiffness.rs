@@ -6,7 +6,8 @@ use crate::shipped;
 use experiments::sweep::{MeshLawModel, SteadySettings, SweepModel, steady};
 use fe_contact::statics::Bodies;
 use fe_contact::vibration::{MeshLawSettings, mesh_law};
-use gearset::{LoadCase, MeshLaw};
+use gearset::MeshLaw;
+use scene::LoadCase;
 
 /// Rotation of the sun over the steps of a steady mesh cycle, rad, and the lowest mesh force, N.
 fn motion(model: &MeshLawModel<'_>, case: &LoadCase) -> (Vec<f64>, f64) {

@@ -4,7 +4,7 @@ use crate::shipped;
 
 use experiments::sweep::{Marching, MeshLawModel, SteadySettings, SweepModel, steady};
 use fe_contact::statics::Bodies;
-use gearset::LoadCase;
+use scene::LoadCase;
 
 const STEPS: usize = 70;
 

@@ -1,6 +1,6 @@
 //! Isotropic linear elasticity in the plane.
 
-use gearset::{Material, PlaneState};
+use scene::{Material, PlaneState};
 
 /// Elastic constants with the state of the plane, SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]

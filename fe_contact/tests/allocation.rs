@@ -4,7 +4,8 @@ use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{
     Loading, MeshLawSet, MeshLawSettings, NominalRotation, VibratingSet, mesh_law,
 };
-use gearset::{Facing, Fidelity, PathDirection, Scene};
+use gearset::{Facing, PathDirection};
+use scene::{Fidelity, Scene};
 
 #[test]
 fn a_warm_step_allocates_nothing() {

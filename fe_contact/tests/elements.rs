@@ -3,8 +3,8 @@
 use fe_contact::Elastic;
 use fe_contact::body::Triplets;
 use fe_contact::element::{Edge, Shape, matrices};
-use gearset::{ElementFamily, PlaneState};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use scene::{ElementFamily, PlaneState};
 
 const FAMILIES: [ElementFamily; 3] =
     [ElementFamily::Linear, ElementFamily::Incompatible, ElementFamily::Quadratic];

@@ -3,7 +3,7 @@
 use fe_contact::FeError;
 use fe_contact::fe_mesh::Side;
 use fe_contact::statics::{Bodies, MOST_BYTES, estimate};
-use gearset::{ElementFamily, Fidelity, Scene};
+use scene::{ElementFamily, Fidelity, Scene};
 
 fn scene(name: &str, flank_elements: u32) -> Scene {
     let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));

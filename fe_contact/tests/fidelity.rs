@@ -3,7 +3,8 @@
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use fe_contact::vibration::{Loading, NominalRotation, VibratingSet};
-use gearset::{Facing, Fidelity, Freedom, Kinematics, PathDirection, Scene, Torsional};
+use gearset::{Facing, PathDirection};
+use scene::{Fidelity, Freedom, Scene, Torsional};
 
 const TORQUE: f64 = 1130.0;
 
@@ -19,7 +20,7 @@ fn scene(name: &str, flank_elements: u32) -> Scene {
 fn turning<'b>(scene: &Scene, bodies: &'b Bodies, steps_per_cycle: usize) -> VibratingSet<'b> {
     let sun = bodies.geometry.sun.as_ref().unwrap();
     let force = TORQUE / scene.planets.count() as f64 / sun.base_radius;
-    let mesh_frequency = Kinematics::from_scene(scene).unwrap().mesh_frequency_hz;
+    let mesh_frequency = scene.kinematics().unwrap().mesh_frequency_hz;
     let rotation = NominalRotation::Turning {
         mesh_frequency,
         steps_per_cycle,

@@ -8,8 +8,9 @@ use fe_contact::statics::{Bodies, CARRIER, Imperfections, PLANETS, SUN};
 use fe_contact::vibration::{
     Loading, MeshLawSet, MeshLawSettings, NominalRotation, VibratingSet, mesh_law,
 };
-use gearset::{Facing, Fidelity, MeshKind, PathDirection, Scene};
+use gearset::{Facing, MeshKind, PathDirection};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use scene::{Fidelity, Scene};
 
 type C = nalgebra::Complex<f64>;
 

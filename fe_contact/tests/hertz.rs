@@ -4,7 +4,7 @@ use fe_contact::Elastic;
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::contact::cylinders::Cylinders;
 use fe_contact::contact::hertz::{Hertz, fit};
-use gearset::PlaneState;
+use scene::PlaneState;
 
 #[test]
 fn profile_half_width_and_approach() {

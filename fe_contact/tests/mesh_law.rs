@@ -9,7 +9,8 @@ use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use fe_contact::vibration::{
     Loading, MeshLawSet, MeshLawSettings, NominalRotation, VibratingSet, mesh_law,
 };
-use gearset::{Facing, Fidelity, FlankSide, PathDirection, Scene};
+use gearset::{Facing, FlankSide, PathDirection};
+use scene::{Fidelity, Scene};
 
 const TORQUE: f64 = 1413.0;
 

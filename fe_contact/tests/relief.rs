@@ -15,10 +15,8 @@ use fe_contact::statics::{Bodies, Imperfections, StaticSet, at_phase, pair_cycle
 use fe_contact::vibration::{
     Loading, MeshLawSet, MeshLawSettings, NominalRotation, VibratingSet, mesh_law,
 };
-use gearset::{
-    Facing, Fidelity, Gear, Geometry, MeshKind, MeshMember, PathDirection, ReliefShape, Scene,
-    TipRelief,
-};
+use gearset::{Facing, Gear, MeshKind, MeshMember, PathDirection, ReliefShape, TipRelief};
+use scene::{Fidelity, Scene};
 
 const KIND: MeshKind = MeshKind::SunPlanet;
 
@@ -84,7 +82,7 @@ fn relieved(of: [Option<TipRelief>; 2]) -> Bodies {
     let geometry = scene.geometry.as_mut().unwrap();
     geometry.sun.as_mut().unwrap().tip_relief = of[0];
     geometry.planet.tip_relief = of[1];
-    Bodies { geometry: Geometry::from_scene(&scene).unwrap(), ..plain().clone() }
+    Bodies { geometry: scene.tooth_geometry().unwrap(), ..plain().clone() }
 }
 
 /// Relief at a roll length from its definition: 0 at the start, the amount at the tip.
@@ -197,7 +195,7 @@ fn relief_of_a_ring_pair_on_its_own_grid_is_relief_added_to_a_wide_grid() {
         let geometry = scene.geometry.as_mut().unwrap();
         geometry.planet.tip_relief = of[0];
         geometry.ring.as_mut().unwrap().tip_relief = of[1];
-        let relieved = Bodies { geometry: Geometry::from_scene(&scene).unwrap(), ..plain.clone() };
+        let relieved = Bodies { geometry: scene.tooth_geometry().unwrap(), ..plain.clone() };
         let off = cycle_off_wide_grids(&plain, &relieved, kind, of, force);
         // Relief is no small matter: somewhere in the cycle δ is another without it.
         let changed = (0..12).map(|i| {
@@ -260,7 +258,7 @@ fn a_micrometre_of_relief_brings_no_far_pair_into_contact() {
     let plain = Bodies::new(&scene).unwrap();
     let planet = &mut scene.geometry.as_mut().unwrap().planet;
     planet.tip_relief = Some(relief(59.8, 1.0, ReliefShape::Linear));
-    let relieved = Bodies { geometry: Geometry::from_scene(&scene).unwrap(), ..plain.clone() };
+    let relieved = Bodies { geometry: scene.tooth_geometry().unwrap(), ..plain.clone() };
     let deflections = |bodies: &Bodies| -> Vec<f64> {
         let cycle = pair_cycle(bodies, KIND, 2000.0, 100, &ActiveSet).unwrap();
         cycle.positions.iter().map(|p| p.deflection).collect()

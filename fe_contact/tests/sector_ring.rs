@@ -3,7 +3,8 @@
 use fe_contact::body::{Accelerated, BodyMatrices, GearBody};
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-use gearset::{ElementFamily, Facing, Scene};
+use gearset::Facing;
+use scene::{ElementFamily, Scene};
 
 fn scene(name: &str, family: ElementFamily) -> Scene {
     let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));

@@ -7,7 +7,8 @@ use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, InteriorPoin
 use fe_contact::contact::{MeshTable, PairFrame};
 use fe_contact::statics::{Bodies, Imperfections, StaticSet, at_phase, pair_cycle};
 use fe_contact::{Elastic, FeError};
-use gearset::{CellLayout, ElementFamily, Facing, Mesh, MeshKind, Scene};
+use gearset::{Facing, Mesh, MeshKind};
+use scene::{CellLayout, ElementFamily, Scene};
 
 fn scene(name: &str) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
@@ -203,7 +204,7 @@ fn a_grid_too_coarse_for_the_load_is_refused_with_its_remedy() {
 #[test]
 fn a_set_that_nothing_holds_is_refused() {
     let mut free = scene("oh58_4p.toml");
-    free.supports.carrier.motion = gearset::Freedom::Free;
+    free.supports.carrier.motion = scene::Freedom::Free;
     let set = StaticSet::new(&free, bodies(), Facing::CounterClockwise, Imperfections::default());
     let refused = set.unwrap().cycle(1000.0, 1, &ActiveSet);
     let error = refused.map(|_| ()).unwrap_err();

@@ -3,7 +3,8 @@
 use fe_contact::body::BodyMatrices;
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{LinearSet, Loading, NominalRotation, VibratingSet, fixed_race_modes};
-use gearset::{Facing, Fidelity, PathDirection, Scene};
+use gearset::{Facing, PathDirection};
+use scene::{Fidelity, Scene};
 
 const TORQUE: f64 = 1130.0;
 

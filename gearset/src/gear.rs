@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::geometry_input::{ReliefShape, TipRelief};
 use crate::involute::{inv, pressure_angle_at, radius_at, roll_length_at};
-use crate::scene::{ReliefShape, TipRelief};
 
 /// Which side the teeth are on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

@@ -5,10 +5,11 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use serde::Serialize;
 
 use crate::gear::{Gear, ToothSide};
+use crate::geometry_input::{GearInput, GeometryInput, ThicknessInput};
 use crate::involute::inv;
 use crate::mesh::{Mesh, NoMesh};
 use crate::mesh_kind::{MeshKind, MeshMember};
-use crate::scene::{GearInput, GeometryInput, Scene, Teeth, ThicknessInput};
+use crate::teeth::Teeth;
 
 /// Gears and meshes of a set. Lengths in m.
 #[derive(Debug, Clone, Serialize)]
@@ -31,17 +32,6 @@ pub struct Geometry {
     pub ring_planet: Option<Mesh>,
 }
 
-/// Why a scene has no tooth geometry.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum GeometryError {
-    /// The scene gives parameters only.
-    #[error("{0} is absent: the scene has no tooth geometry")]
-    Absent(&'static str),
-    /// The base circles do not fit the centre distance.
-    #[error(transparent)]
-    NoMesh(#[from] NoMesh),
-}
-
 /// Profile-shift sums for zero backlash with a given rack (ring with the internal-gear sign).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ProfileShiftSums {
@@ -56,16 +46,6 @@ impl Geometry {
     /// distance, beyond which no mesh is linear.
     pub fn largest_displacement(&self) -> f64 {
         0.1 * self.center_distance
-    }
-
-    /// Geometry of a scene.
-    ///
-    /// # Errors
-    /// [`GeometryError::Absent`] for parameter-only sets; otherwise as [`Geometry::new`].
-    pub fn from_scene(scene: &Scene) -> Result<Self, GeometryError> {
-        let input = scene.geometry.as_ref().ok_or(GeometryError::Absent("[geometry]"))?;
-        let teeth = scene.teeth.as_ref().ok_or(GeometryError::Absent("[teeth]"))?;
-        Ok(Self::new(input, teeth)?)
     }
 
     /// Computes gears and meshes from the scene's input.

@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::scene::{Member, Operation, Scene, SceneKind};
+use crate::operation::Member;
 
 /// rad/s in one rpm: 2π/60.
 const RAD_PER_S_IN_RPM: f64 = TAU / 60.0;
@@ -194,23 +194,6 @@ impl Kinematics {
             // f_m = Z_s |ω_s − ω_c| / 2π, and one rpm is 1/60 turn a second.
             mesh_frequency_hz: passing.abs() / 60.0,
         })
-    }
-
-    /// Motion at the scene's operating point.
-    ///
-    /// # Errors
-    /// [`KinematicsError::Absent`] unless the scene is a whole set with teeth and an operating point;
-    /// otherwise as [`Kinematics::new`].
-    pub fn from_scene(scene: &Scene) -> Result<Self, KinematicsError> {
-        use KinematicsError::Absent;
-        if scene.kind != SceneKind::Planetary {
-            return Err(Absent("kind = \"planetary\""));
-        }
-        let teeth = scene.teeth.ok_or(Absent("[teeth]"))?;
-        let (sun, ring) = teeth.sun_ring().ok_or(Absent("teeth.sun or teeth.ring"))?;
-        let Operation { fixed, input, speed_rpm, .. } =
-            scene.operation.ok_or(Absent("[operation]"))?;
-        Self::new(sun, teeth.planet, ring, fixed, input, speed_rpm)
     }
 
     /// External torques in equilibrium when the input member gets `input_torque_nm`:

@@ -5,9 +5,9 @@ use std::collections::HashMap;
 use serde::{Deserialize, Serialize};
 
 use crate::gear::Facing;
-use crate::load_case::PathDirection;
 use crate::mesh_curve::{CurveError, MeshCurve};
 use crate::mesh_kind::MeshKind;
+use crate::path_direction::PathDirection;
 use crate::phasing::Phasing;
 
 /// Resolution of phases, 1/cycle: phases that round to the same multiple of its inverse count as equal.

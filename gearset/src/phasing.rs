@@ -19,7 +19,7 @@ use crate::gear::{Facing, Gear};
 use crate::geometry::Geometry;
 use crate::mesh::Mesh;
 use crate::mesh_kind::{MeshKind, MeshMember};
-use crate::scene::PlanetPositions;
+use crate::planet_positions::PlanetPositions;
 
 /// Phases of all meshes at one sun angle, in cycles, each in [0, 1).
 #[derive(Debug, Clone, PartialEq, Serialize)]

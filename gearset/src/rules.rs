@@ -29,7 +29,8 @@ use std::num::NonZeroU32;
 
 use serde::Serialize;
 
-use crate::scene::{PlanetPositions, Scene, SceneKind, Teeth};
+use crate::planet_positions::PlanetPositions;
+use crate::teeth::Teeth;
 
 /// A strength at or below this counts as zero: rounding leaves less than 1e-12 where phasors cancel.
 pub const FORBIDDEN_UP_TO: f64 = 1e-9;
@@ -266,17 +267,6 @@ pub fn excitation(spacing: &Spacing, teeth: u32, harmonic: u32) -> ExcitationStr
         net_force_minus: mean_magnitude(&spacing.phasors(order - 1)),
         planet: planet_part(spacing, order),
     }
-}
-
-/// Strengths of harmonics 1…`harmonics` of a scene; `None` unless it is a whole set with sun teeth
-/// and usable positions.
-pub fn excitation_of_scene(scene: &Scene, harmonics: u32) -> Option<Vec<ExcitationStrengths>> {
-    if scene.kind != SceneKind::Planetary {
-        return None;
-    }
-    let sun_teeth = scene.teeth?.sun?;
-    let spacing = Spacing::of(&scene.planets, scene.teeth).ok()?;
-    Some((1..=harmonics).map(|l| excitation(&spacing, sun_teeth, l)).collect())
 }
 
 /// l Z_s.

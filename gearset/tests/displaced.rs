@@ -5,9 +5,10 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use gearset::{
-    DisplacedMesh, Displacements, Flank, Geometry, Mesh, MeshKind, MeshMember, PairLocation, Scene,
+    DisplacedMesh, Displacements, Flank, Geometry, Mesh, MeshKind, MeshMember, PairLocation,
     ToothSide,
 };
+use scene::Scene;
 
 const MESHES: [MeshKind; 2] = [MeshKind::SunPlanet, MeshKind::RingPlanet];
 
@@ -16,7 +17,7 @@ const CORNER_REACH: f64 = 0.6e-3;
 
 fn oh58() -> Geometry {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/oh58_4p.toml");
-    Geometry::from_scene(&Scene::from_file(&path).unwrap()).unwrap()
+    Scene::from_file(&path).unwrap().tooth_geometry().unwrap()
 }
 
 /// Linear congruential generator (Knuth's MMIX constants).

@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
-use gearset::{Geometry, MeshKind, MeshMember, Scene};
+use gearset::{Geometry, MeshKind, MeshMember};
+use scene::Scene;
 
 fn oh58() -> (Scene, Geometry) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/oh58_4p.toml");
     let scene = Scene::from_file(&path).unwrap();
-    let geometry = Geometry::from_scene(&scene).unwrap();
+    let geometry = scene.tooth_geometry().unwrap();
     (scene, geometry)
 }
 
@@ -45,7 +46,7 @@ fn a_9_dp_rack_of_22_5_degrees_describes_the_same_set() {
     let (module, angle) = (25.4e-3 / 9.0, 22.5f64.to_radians());
     input.base_pitch = std::f64::consts::PI * module * angle.cos();
     input.rack = Some(gearset::Rack { module, pressure_angle: angle });
-    let g = Geometry::from_scene(&scene).unwrap();
+    let g = scene.tooth_geometry().unwrap();
     assert!((g.sun_planet.as_ref().unwrap().pressure_angle.to_degrees() - 24.60).abs() < 0.005);
     assert!((g.ring_planet.as_ref().unwrap().pressure_angle.to_degrees() - 20.19).abs() < 0.005);
     let sums = g.zero_backlash_shift_sums(angle).unwrap();
@@ -59,7 +60,7 @@ fn a_9_dp_rack_of_22_5_degrees_describes_the_same_set() {
             ring: sums.ring_minus_planet + x_p,
         };
         scene.geometry.as_mut().unwrap().thickness = shift;
-        let g = Geometry::from_scene(&scene).unwrap();
+        let g = scene.tooth_geometry().unwrap();
         for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
             assert!(g.backlash(kind).unwrap().abs() < 1e-12);
         }

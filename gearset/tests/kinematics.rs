@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use gearset::{Kinematics, KinematicsError, Member, Scene, SceneKind, excitation_of_scene};
+use gearset::{Kinematics, KinematicsError, Member};
+use scene::{Scene, SceneKind, excitation_of_scene};
 
 const MEMBERS: [Member; 3] = [Member::Sun, Member::Ring, Member::Carrier];
 
@@ -150,7 +151,7 @@ fn oh_58_scene() -> Scene {
 #[test]
 fn a_scene_moves_when_it_has_teeth_and_an_operating_point() {
     let scene = oh_58_scene();
-    let k = Kinematics::from_scene(&scene).unwrap();
+    let k = scene.kinematics().unwrap();
     assert_eq!(k, set(OH_58, Member::Ring, Member::Sun, 2500.0));
     // With 3 planets and Z_s = 27 every harmonic has a net torque and none a net force.
     let strengths = excitation_of_scene(&scene, 5).unwrap();
@@ -158,12 +159,12 @@ fn a_scene_moves_when_it_has_teeth_and_an_operating_point() {
     assert!(strengths.iter().all(|e| e.allowed().rotational && !e.allowed().translational));
 
     let without_teeth = Scene { teeth: None, ..scene.clone() };
-    assert!(Kinematics::from_scene(&without_teeth).is_err());
+    assert!(without_teeth.kinematics().is_err());
     assert!(excitation_of_scene(&without_teeth, 5).is_none());
     let without_operation = Scene { operation: None, ..scene.clone() };
-    assert!(Kinematics::from_scene(&without_operation).is_err());
+    assert!(without_operation.kinematics().is_err());
     assert!(excitation_of_scene(&without_operation, 5).is_some());
     let pair = Scene { kind: SceneKind::GearPair, ..scene };
-    assert!(Kinematics::from_scene(&pair).is_err());
+    assert!(pair.kinematics().is_err());
     assert!(excitation_of_scene(&pair, 5).is_none());
 }

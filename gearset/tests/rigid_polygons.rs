@@ -3,12 +3,13 @@
 
 use std::path::Path;
 
-use gearset::{Facing, Flank, Gear, Geometry, MeshKind, Phasing, PlanetPositions, Scene};
+use gearset::{Facing, Flank, Gear, Geometry, MeshKind, Phasing, PlanetPositions};
+use scene::Scene;
 
 fn oh58(name: &str) -> (Scene, Geometry) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
     let scene = Scene::from_file(&path).unwrap();
-    let geometry = Geometry::from_scene(&scene).unwrap();
+    let geometry = scene.tooth_geometry().unwrap();
     (scene, geometry)
 }
 

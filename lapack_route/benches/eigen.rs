@@ -8,7 +8,8 @@ use std::hint::black_box;
 use std::path::Path;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use gearset::{PlanetPositions, Scene};
+use gearset::PlanetPositions;
+use scene::Scene;
 use lapack_route::dsygv_pairs;
 use lumped::{LumpedModel, NaturalModes};
 use nalgebra::DMatrix;

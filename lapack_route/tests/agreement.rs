@@ -7,7 +7,7 @@ mod common;
 use std::f64::consts::TAU;
 
 use common::{Random, project_file, scene};
-use gearset::Scene;
+use scene::Scene;
 use lapack_route::{Driver, lapack_generalized};
 use lumped::{LumpedModel, NaturalModes};
 use nalgebra::DMatrix;

@@ -4,7 +4,8 @@
 use std::f64::consts::TAU;
 
 use dynamics::harmonic_balance::{BalanceOptions, BalancedMotion, HarmonicBalance};
-use gearset::{Facing, MeshLaw, Scene};
+use gearset::{Facing, MeshLaw};
+use scene::Scene;
 
 use crate::coordinates::Coordinates;
 use crate::error::LumpedError;

@@ -80,7 +80,7 @@ impl SpeedModes {
 /// If an eigenproblem does not converge.
 ///
 /// ```
-/// use gearset::{Scene, SceneKind, template};
+/// use scene::{Scene, SceneKind, template};
 /// use lumped::{LumpedModel, NaturalModes, campbell};
 ///
 /// let set = Scene::from_toml(template(SceneKind::Planetary)).unwrap();

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use gearset::{Freedom, PerBody, Scene, Support, Torsional};
+use scene::{Freedom, PerBody, Scene, Support, Torsional};
 
 use crate::coordinates::{Axis, Body, Coordinates};
 use crate::error::LumpedError;
@@ -12,7 +12,7 @@ use crate::springs::{Rows, Spring, SpringId};
 /// on the free coordinates.
 ///
 /// ```
-/// use gearset::{Scene, SceneKind, template};
+/// use scene::{Scene, SceneKind, template};
 /// use lumped::LumpedModel;
 ///
 /// let set = Scene::from_toml(template(SceneKind::Planetary)).unwrap();

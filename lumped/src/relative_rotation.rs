@@ -13,7 +13,7 @@
 use nalgebra::DMatrix;
 
 use dynamics::{Coupling, LinearPart};
-use gearset::Scene;
+use scene::Scene;
 
 use crate::coordinates::{Axis, Body};
 use crate::model::LumpedModel;

@@ -15,8 +15,9 @@ use dynamics::Coupling;
 use dynamics::benchmark_subjects::{
     Instant, Integrator, Scheme, StepState, VibratingSystem, driven_step,
 };
-use gearset::{Facing, MeshLaw, Scene};
+use gearset::{Facing, MeshLaw};
 use nalgebra::{DMatrix, DVector};
+use scene::Scene;
 
 use crate::error::LumpedError;
 use crate::time_varying::{Layout, Parts, TimeVarying};

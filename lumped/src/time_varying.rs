@@ -19,7 +19,8 @@ use dynamics::{
     AverageAcceleration, CarriedChange, Coupled, CoupledState, Coupling, CouplingForce, CyclePart,
     LinearPart, MapDerivative, Motion, Number, PassedSteps, Renumbering,
 };
-use gearset::{Facing, Geometry, Member, MeshLaw, Scene, Symmetry};
+use gearset::{Facing, Member, MeshLaw, Symmetry};
+use scene::Scene;
 
 use crate::coordinates::{Axis, Body, Coordinates};
 use crate::error::LumpedError;
@@ -226,7 +227,7 @@ impl TimeVarying {
         let Parts { layout, linear, front, backside, side_loads } = Parts::new(scene, sense, &law)?;
         let mut system =
             Coupled::new(&linear, &front, &backside, MeshLawCouplings(law), rule, steps)?;
-        if let Ok(geometry) = Geometry::from_scene(scene) {
+        if let Ok(geometry) = scene.tooth_geometry() {
             system = system.bounded_by(geometry.largest_displacement());
         }
         for (step, load) in side_loads.iter().enumerate() {
@@ -468,7 +469,7 @@ fn side_loads(model: &LumpedModel, law: &MeshLaw) -> Vec<Vec<f64>> {
 /// Front and backside flanks of all meshes as couplings; the lag of each is its damping share times β, s.
 fn couplings(
     model: &LumpedModel,
-    lumped: &gearset::LumpedInput,
+    lumped: &scene::LumpedInput,
     beta: f64,
     law: &MeshLaw,
 ) -> [Vec<Coupling>; 2] {

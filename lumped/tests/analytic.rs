@@ -1,7 +1,8 @@
 //! Parameters in closed form: limit cases, and what must not matter.
 
-use gearset::{Displacements, Geometry, LoadCase, PlanetOverride, Scene, SceneKind, template};
+use gearset::Displacements;
 use lumped::{AnalyticCycle, AnalyticSet, LumpedError};
+use scene::{LoadCase, PlanetOverride, Scene, SceneKind, template};
 
 fn oh58() -> Scene {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/oh58_4p.toml");
@@ -57,7 +58,7 @@ fn a_mirrored_set_has_the_same_frequencies() {
 #[test]
 fn a_renumbered_set_has_the_same_frequencies() {
     let scene = five_planets();
-    let geometry = Geometry::from_scene(&scene).unwrap();
+    let geometry = scene.tooth_geometry().unwrap();
     let case = LoadCase::of_scene(&scene).unwrap();
     let phases =
         gearset::Phasing::new(&geometry, &scene.planets).unwrap().phases(0.0, case.sense());
@@ -106,7 +107,7 @@ fn a_rigid_carrier_is_the_limit_of_small_seats_flexibility() {
 /// of the approach, which the kinematics of displaced meshes know from elsewhere.
 #[test]
 fn turning_lines_of_action_have_the_second_derivatives_of_the_approach() {
-    let geometry = Geometry::from_scene(&oh58()).unwrap();
+    let geometry = oh58().tooth_geometry().unwrap();
     for (sign, mesh) in [
         (-1.0, geometry.sun_planet.as_ref().unwrap()),
         (1.0, geometry.ring_planet.as_ref().unwrap()),
@@ -203,8 +204,8 @@ fn a_set_of_twice_the_width_yields_as_much_under_twice_the_torque() {
     for support in [&mut supports.carrier, &mut supports.ring, &mut supports.sun] {
         support.bearing *= 2.0;
         support.torsional = match support.torsional {
-            gearset::Torsional::PerLength(k) => gearset::Torsional::PerLength(2.0 * k),
-            gearset::Torsional::PerAngle(k) => gearset::Torsional::PerAngle(2.0 * k),
+            scene::Torsional::PerLength(k) => scene::Torsional::PerLength(2.0 * k),
+            scene::Torsional::PerAngle(k) => scene::Torsional::PerAngle(2.0 * k),
         };
     }
     let positions = [0.0, 0.13, 0.4, 0.77];

@@ -4,8 +4,9 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use dynamics::harmonic_balance::{BalanceError, BalanceOptions, FourierSeries};
-use gearset::{Facing, Geometry, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing, Scene};
+use gearset::{Facing, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing};
 use lumped::{Axis, BalancedSet, Body, LumpedError, TimeVarying};
+use scene::Scene;
 
 fn scene(name: &str) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);
@@ -15,7 +16,7 @@ fn scene(name: &str) -> Scene {
 }
 
 fn law(scene: &Scene, steps: usize) -> MeshLaw {
-    let geometry = Geometry::from_scene(scene).unwrap();
+    let geometry = scene.tooth_geometry().unwrap();
     let starts = MeshStart::of_set(&Phasing::new(&geometry, &scene.planets).unwrap());
     let plan = MeshLawPlan::new(&starts, steps).unwrap();
     let pair = PairSprings { stiffness: 2.2e8, contact_ratio: 1.62, gap_at_tenth: 4e-6 };

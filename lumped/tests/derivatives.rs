@@ -4,8 +4,8 @@ use crate::common;
 
 use std::f64::consts::TAU;
 
-use gearset::Torsional;
 use lumped::*;
+use scene::Torsional;
 
 use common::{modes, of_type, scene};
 

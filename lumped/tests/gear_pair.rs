@@ -2,8 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use gearset::{Facing, MeshLaw, PairFlanks, Scene, SceneKind, pair_law, template};
+use gearset::{Facing, MeshLaw, PairFlanks, pair_law};
 use lumped::{Axis, Body, LumpedModel, NaturalModes, TimeVarying};
+use scene::{Scene, SceneKind, template};
 
 const K: f64 = 3.0e8;
 const INERTIA: [f64; 2] = [0.002, 0.005];
@@ -132,7 +133,7 @@ fn the_relative_rotation_is_that_of_the_effective_mass() {
     let scene = pair("");
     let own = motion(&scene, 8.0, 5 * STEPS);
     let mut held = scene.clone();
-    held.supports.pair.as_mut().unwrap().planet.motion = gearset::Freedom::Held;
+    held.supports.pair.as_mut().unwrap().planet.motion = scene::Freedom::Held;
     held.lumped.as_mut().unwrap().inertia_over_r2.sun = Some(effective_mass(&scene));
     let by_mass = motion(&held, 8.0, 5 * STEPS);
     let size = largest(&own);

@@ -3,8 +3,9 @@
 
 use std::path::Path;
 
-use gearset::{AddedMass, Freedom, PlanetPositions, Scene, Torsional};
+use gearset::PlanetPositions;
 use lumped::{Axis, Body, LumpedError, LumpedModel};
+use scene::{AddedMass, Freedom, Scene, Torsional};
 
 /// The Lin & Parker set.
 fn lin_parker() -> Scene {

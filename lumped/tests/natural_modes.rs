@@ -2,9 +2,10 @@
 
 use crate::common;
 
-use gearset::{PlanetOverride, PlanetPositions, Scene, Torsional};
+use gearset::PlanetPositions;
 use lumped::{LumpedModel, ModeType, NaturalModes};
 use proptest::prelude::*;
+use scene::{PlanetOverride, Scene, Torsional};
 
 use common::{modes, of_type, scene};
 
@@ -154,7 +155,7 @@ fn random_set() -> impl Strategy<Value = Scene> {
         let mut scene = scene("lin_parker_1999_3p.toml");
         scene.planets = PlanetPositions::equally_spaced(n);
         let lumped = scene.lumped.as_mut().unwrap();
-        let set = |values: &mut gearset::PerBody, from: &[f64]| {
+        let set = |values: &mut scene::PerBody, from: &[f64]| {
             values.carrier = Some(from[0]);
             values.ring = Some(from[1]);
             values.sun = Some(from[2]);

@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use gearset::Scene;
 use lumped::{LumpedError, LumpedModel, MeshWave, ModeType, ParametricSet, Tongue, tongues};
+use scene::Scene;
 
 /// A scene file of the repository.
 fn scene(name: &str) -> Scene {

@@ -6,8 +6,9 @@ use std::sync::Arc;
 
 use dynamics::benchmark_subjects::Scheme;
 use dynamics::harmonic_balance::BalanceOptions;
-use gearset::{Facing, Geometry, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing, Scene};
+use gearset::{Facing, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing};
 use lumped::{Axis, BalancedSet, Body, LAW_STEPS_A_STEP, LumpedError, SchemeSet, TimeVarying};
+use scene::Scene;
 
 /// OH-58 with four planets, its meshes undamped.
 fn scene() -> Scene {
@@ -19,7 +20,7 @@ fn scene() -> Scene {
 }
 
 fn law(scene: &Scene, steps: usize) -> Arc<MeshLaw> {
-    let geometry = Geometry::from_scene(scene).unwrap();
+    let geometry = scene.tooth_geometry().unwrap();
     let starts = MeshStart::of_set(&Phasing::new(&geometry, &scene.planets).unwrap());
     let plan = MeshLawPlan::new(&starts, steps).unwrap();
     let pair = PairSprings { stiffness: 2.2e8, contact_ratio: 1.62, gap_at_tenth: 4e-6 };

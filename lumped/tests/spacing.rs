@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 use std::path::Path;
 
-use gearset::Scene;
 use lumped::{LumpedModel, ModeGroup, ModeType, NaturalModes, SpacingChange};
+use scene::Scene;
 
 /// A scene file of the repository.
 fn scene(name: &str) -> Scene {

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use gearset::Scene;
 use lumped::{LumpedModel, NaturalModes};
+use scene::Scene;
 
 /// Digits of the kept frequencies.
 const KEPT: f64 = 1e-14;

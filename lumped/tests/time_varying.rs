@@ -4,10 +4,10 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use gearset::{
-    CurveKey, Facing, FlankSide, Geometry, MeshCurve, MeshLaw, MeshLawPlan, MeshStart, PairSprings,
-    Phasing, Scene,
+    CurveKey, Facing, FlankSide, MeshCurve, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing,
 };
 use lumped::{Axis, Body, LumpedModel, NaturalModes, TimeVarying};
+use scene::Scene;
 
 /// A scene file of the repository.
 fn scene(name: &str) -> Scene {
@@ -19,7 +19,7 @@ const TORQUE: f64 = 1413.0;
 const FREQUENCY: f64 = 565.714;
 
 fn starts(scene: &Scene) -> Vec<MeshStart> {
-    let geometry = Geometry::from_scene(scene).unwrap();
+    let geometry = scene.tooth_geometry().unwrap();
     MeshStart::of_set(&Phasing::new(&geometry, &scene.planets).unwrap())
 }
 

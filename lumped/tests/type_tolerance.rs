@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use gearset::Scene;
 use lumped::{LumpedModel, ModeType, NaturalModes, tolerances_to, type_warnings};
+use scene::Scene;
 
 /// A scene file of the repository.
 fn scene(name: &str) -> Scene {

@@ -8,8 +8,8 @@ use experiments::sweep::{
     push_at_random, steady, vibration,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, LoadCase, Scene};
 use rayon::prelude::*;
+use scene::{Fidelity, LoadCase, Scene};
 
 use super::Outcome;
 

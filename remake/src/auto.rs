@@ -8,8 +8,8 @@ use experiments::auto::{
 };
 use experiments::study::{CpuTime, Stopwatch};
 use experiments::sweep::SteadySettings;
-use gearset::{AutoResponse, LoadCase, Scene, excitation_of_scene};
 use lumped::ModeType;
+use scene::{AutoResponse, LoadCase, Scene, excitation_of_scene};
 use validation::drawn_set;
 
 use super::Outcome;

@@ -13,8 +13,7 @@ pub(crate) fn remake() -> crate::Outcome {
     let reference = Reference::load()?;
     let four = scene(PublishedScene::Oh58FourPlanets)?;
     let bodies = Bodies::new(&four)?;
-    let preload =
-        Preload { load: gearset::LoadCase::standing(1130.0), position: 0.0, step_s: 5e-6 };
+    let preload = Preload { load: scene::LoadCase::standing(1130.0), position: 0.0, step_s: 5e-6 };
     println!("### Rigid carrier: FE/contact against the lumped model with parameters from FE\n");
     println!(
         "| planets | position | pairs off the line of action | worst of all modes, % | at, Hz | 5 to 15 kHz, % | all along the line of action, % |"

@@ -9,8 +9,8 @@
 
 use experiments::sweep::{FeModel, Part, Response, SteadySettings, SweepModel, SweepPoint, steady};
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{LoadCase, MeshKinematics, Scene};
 use rayon::prelude::*;
+use scene::{LoadCase, MeshKinematics, Scene};
 use validation::{PublishedScene, Reference, scene};
 
 /// Resonances as the torque study names them, each with the response of the sun that is evaluated.

@@ -16,7 +16,7 @@ use experiments::sweep::{
     SteadyState, SweepModel, run, steady, top_of_three,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, LoadCase, Scene};
+use scene::{Fidelity, LoadCase, Scene};
 use validation::{FullSweep, FullSweepPoint, PublishedScene, scene};
 
 /// Speeds about the peak, rpm, with the spacing of those in `kept/full_sweep.toml`.

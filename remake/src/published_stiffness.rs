@@ -6,7 +6,8 @@
 use fe_contact::FeError;
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-use gearset::{Facing, MeshKind, Scene};
+use gearset::{Facing, MeshKind};
+use scene::Scene;
 use validation::{PublishedScene, scene};
 
 /// Section 3 of the paper: both meshes, N/m.

@@ -5,8 +5,8 @@
 //! `cargo run --release -p remake -- second_system`
 
 use experiments::modal::lumped_frequencies;
-use gearset::Scene;
 use lumped::ModeType;
+use scene::Scene;
 use validation::{PublishedScene, ValidationError, scene};
 
 /// Lowest translational (mean of its pair) and rotational mode, Hz.

@@ -7,7 +7,7 @@ use experiments::models::FeContact;
 use experiments::sweep::{Part, naturals};
 use experiments::torque::{follow, lowest_series};
 use fe_contact::statics::Bodies;
-use gearset::{PlaneState, Scene};
+use scene::{PlaneState, Scene};
 use validation::{PublishedScene, scene};
 
 const TORQUES: [f64; 2] = [565.0, 2260.0];
@@ -43,7 +43,7 @@ pub(crate) fn remake() -> crate::Outcome {
     println!("|---|---:|---:|---:|---:|");
     for (name, scene) in variants {
         let bodies = Bodies::new(&scene)?;
-        let all = lowest_series(&naturals(&scene, &bodies, gearset::LoadCase::standing(1130.0))?)
+        let all = lowest_series(&naturals(&scene, &bodies, scene::LoadCase::standing(1130.0))?)
             .ok_or("no such modes")?;
         let found =
             follow(&FeContact::default(), &scene, &TORQUES, &[all[0], all[2]], &[Part::Sun], 1e-5)?;

@@ -30,9 +30,8 @@ pub(crate) fn remake() -> crate::Outcome {
     for (system, which) in systems {
         let scene = scene(which)?;
         let bodies = Bodies::new(&scene)?;
-        let series =
-            lowest_series(&naturals(&scene, &bodies, gearset::LoadCase::standing(1130.0))?)
-                .ok_or("no such modes")?;
+        let series = lowest_series(&naturals(&scene, &bodies, scene::LoadCase::standing(1130.0))?)
+            .ok_or("no such modes")?;
         let both = [Part::Sun, Part::Planet(0)];
         let followed = follow(&FeContact::default(), &scene, &TORQUES, &series, &both, 1e-6)?;
         let still = static_growth(&scene, &bodies, &TORQUES)?;

@@ -16,8 +16,9 @@ use experiments::sweep::{Part, naturals};
 use experiments::torque::{Followed, follow, lowest_series, static_growth};
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-use gearset::{Facing, MeshKind, PerMesh, Phasing, ReliefShape, Scene, ThicknessInput, TipRelief};
+use gearset::{Facing, MeshKind, Phasing, ReliefShape, ThicknessInput, TipRelief};
 use rayon::prelude::*;
+use scene::{PerMesh, Scene};
 use validation::judge;
 use validation::{PublishedScene, scene};
 
@@ -100,9 +101,8 @@ fn cell(base: &Scene, soft: PerMesh, choice: Choice) -> Outcome<String> {
     let cycle = set.cycle(STIFFNESS_AT.0, STIFFNESS_AT.1, &ActiveSet)?;
     let [sun, ring] =
         [MeshKind::SunPlanet, MeshKind::RingPlanet].map(|k| 1e-6 * cycle.mean_secant_stiffness(k));
-    let all =
-        lowest_series(&naturals(&scene, &bodies, gearset::LoadCase::standing(STIFFNESS_AT.0))?)
-            .ok_or("no such modes")?;
+    let all = lowest_series(&naturals(&scene, &bodies, scene::LoadCase::standing(STIFFNESS_AT.0))?)
+        .ok_or("no such modes")?;
     let series: Vec<_> = [0, 2, 4].iter().map(|i| all[*i]).collect();
     let followed = follow(&FeContact::default(), &scene, &TORQUES, &series, &[Part::Sun], 1e-5)?;
     let still = static_growth(&scene, &bodies, &TORQUES)?;

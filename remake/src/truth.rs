@@ -13,8 +13,8 @@ use experiments::sweep::{
     Coordinate, FeModel, Part, Response, SteadySettings, SweepModel, SweepPoint, steady,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{CellLayout, Fidelity, LoadCase, Scene};
 use rayon::prelude::*;
+use scene::{CellLayout, Fidelity, LoadCase, Scene};
 use validation::{PublishedScene, scene};
 
 const TORQUE_NM: f64 = 1413.0;

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use clap::builder::TypedValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use experiments::stability::Map;
-use gearset::SceneKind;
+use scene::SceneKind;
 use validation::Profile;
 
 pub(crate) use steady::{Branches, Model, Sweep};

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use gearset::Verb;
+use scene::Verb;
 use serde::Serialize;
 use validation::{Comparison, ListedMode, Match, ModelMode, compare};
 
@@ -111,7 +111,7 @@ impl Report for CompareOutput {
 /// Reads somebody's modes; the first fault of the table is reported with its line and column.
 fn read_modes(path: &Path) -> Result<Vec<ListedMode>, CommandError> {
     let bad = |reason: String| CommandError::Table { path: path.to_owned(), reason };
-    let text = gearset::read_text(path, MOST_BYTES).map_err(unread(path))?;
+    let text = scene::read_text(path, MOST_BYTES).map_err(unread(path))?;
     let mut reader = csv::ReaderBuilder::new()
         .trim(csv::Trim::All)
         .comment(Some(b'#'))

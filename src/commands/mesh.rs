@@ -7,7 +7,7 @@ use fe_contact::body::{CarrierBody, GearBody};
 use fe_contact::export::{Drawn, vtu};
 use fe_contact::fe_mesh::Side;
 use fe_contact::statics::Bodies;
-use gearset::{LumpedInput, Scene, SceneKind, Verb};
+use scene::{LumpedInput, Scene, SceneKind, Verb};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -141,7 +141,7 @@ fn carrier(scene: &Scene, bodies: &Bodies) -> Option<Result<CarrierBody, fe_cont
 fn gear(body: &GearBody, bodies: &Bodies, lumped: Option<&LumpedInput>) -> BodyOutput {
     let name = body.mesh.name;
     let gear = body.mesh.outline.gear();
-    let of = |values: &gearset::PerBody| match name {
+    let of = |values: &scene::PerBody| match name {
         "sun" => values.sun,
         "ring" => values.ring,
         _ => values.planet,

@@ -3,9 +3,9 @@
 use std::io::Write;
 
 use gearset::{
-    DiametricalRule, ExcitationStrengths, SceneKind, Spacing, Table4, diametrical_rule, excitation,
-    table4,
+    DiametricalRule, ExcitationStrengths, Spacing, Table4, diametrical_rule, excitation, table4,
 };
+use scene::SceneKind;
 use schemars::JsonSchema;
 use serde::Serialize;
 

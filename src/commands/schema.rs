@@ -22,7 +22,7 @@ pub fn schemas() -> Vec<(&'static str, Schema)> {
         schema_for!(T)
     }
     // The schema of a scene is always an object.
-    let scene = Schema::try_from(gearset::scene_schema()).unwrap_or_default();
+    let scene = Schema::try_from(scene::scene_schema()).unwrap_or_default();
     vec![
         ("scene", scene),
         ("validate", of::<Verdict>()),

@@ -2,7 +2,7 @@
 
 use experiments::sweep::{FeModel, MeshLawModel, Response, SteadyState, SweepModel};
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, LoadCase, Scene};
+use scene::{Fidelity, LoadCase, Scene};
 
 use crate::arguments::Model;
 use crate::error::CommandError;

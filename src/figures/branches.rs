@@ -112,7 +112,7 @@ fn parts(
 #[cfg(test)]
 mod tests {
     use experiments::branches::{BranchEnd, BranchOrigin};
-    use gearset::LoadCase;
+    use scene::LoadCase;
 
     use super::*;
 

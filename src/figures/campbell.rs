@@ -1,8 +1,9 @@
 //! The Campbell chart of a set: where mesh harmonics meet natural frequencies, and whether they can
 //! excite what they meet.
 
-use gearset::{AllowedKinds, Kinematics, Scene, excitation_of_scene};
+use gearset::AllowedKinds;
 use lumped::{ModeType, NaturalModes};
+use scene::{Scene, excitation_of_scene};
 
 use super::drawing::{Curve, Labels, Picture, chart_with_words, colour_of};
 
@@ -17,7 +18,7 @@ pub fn campbell(scene: &Scene, modes: &NaturalModes) -> Option<Picture> {
     let strengths = excitation_of_scene(scene, HARMONICS)?;
     let mut at_top = scene.clone();
     at_top.operation.as_mut()?.speed_rpm = TOP_SPEED_RPM;
-    let top_mesh_hz = Kinematics::from_scene(&at_top).ok()?.mesh_frequency_hz;
+    let top_mesh_hz = at_top.kinematics().ok()?.mesh_frequency_hz;
     let (mut curves, mut words) = (Vec::new(), Vec::new());
     for l in 1..=HARMONICS {
         let reach = (TOP_FREQUENCY_HZ / (f64::from(l) * top_mesh_hz)).min(1.0);

@@ -3,7 +3,8 @@
 use dynamics::SpectrumError;
 use experiments::modal::{FrequencyBand, ImpulseTest};
 use fe_contact::statics::Races;
-use gearset::{Geometry, Scene};
+use gearset::Geometry;
+use scene::Scene;
 
 use super::{Figure, frequency_band, mode_shapes, spectrum, stabilisation};
 

@@ -7,7 +7,8 @@ use fe_contact::contact::PairFrame;
 use fe_contact::export::Drawn;
 use fe_contact::fe_mesh::polar;
 use fe_contact::statics::Bodies;
-use gearset::{Facing, MeshMember, Phasing, Scene};
+use gearset::{Facing, MeshMember, Phasing};
+use scene::Scene;
 
 use super::drawing::{Canvas, Pen, Picture, Pixel};
 

@@ -2,8 +2,8 @@
 //! harmonics over the mesh frequency and over the frequency of each harmonic, and one panel per harmonic.
 
 use experiments::sweep::{Coordinate, Part, Sweep, SweepPoint};
-use gearset::Scene;
 use lumped::ModeType;
+use scene::Scene;
 
 use super::drawing::{Anchor, Canvas, Pen, Type, colour_of};
 use super::{Figure, harmonics, multipliers, waterfall};

@@ -5,7 +5,7 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use gearset::read_text;
+use scene::read_text;
 
 use super::kept_files::MOST_BYTES;
 use super::manifest::{Manifest, PLAN, RunKind};

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use experiments::branches::{BranchStore, KeptPart};
 use experiments::sweep::{Chain, Kept, PointStore, StoreError};
-use gearset::read_text;
+use scene::read_text;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 

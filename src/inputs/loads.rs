@@ -4,7 +4,7 @@
 use std::io::Write;
 use std::path::Path;
 
-use gearset::{LoadCase, LoadSize, Scene};
+use scene::{LoadCase, LoadSize, Scene};
 
 use crate::error::{CommandError, refused, unfit};
 

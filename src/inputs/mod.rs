@@ -8,7 +8,7 @@ pub(crate) use working::Working;
 
 use std::path::Path;
 
-use gearset::{MOST_SCENE_BYTES, Scene};
+use scene::{MOST_SCENE_BYTES, Scene};
 
 use crate::error::{CommandError, unread};
 
@@ -19,5 +19,5 @@ pub(crate) fn read_scene(path: &Path) -> Result<Scene, CommandError> {
 
 /// The text of a scene file.
 pub(crate) fn scene_text(path: &Path) -> Result<String, CommandError> {
-    gearset::read_text(path, MOST_SCENE_BYTES).map_err(unread(path))
+    scene::read_text(path, MOST_SCENE_BYTES).map_err(unread(path))
 }

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use experiments::sweep::SteadySettings;
-use gearset::{Scene, Verb};
+use scene::{Scene, Verb};
 
 use crate::error::{CommandError, unfit};
 
@@ -38,7 +38,7 @@ pub(crate) fn not_ring_pair(path: &Path, scene: &Scene) -> Result<(), CommandErr
 /// # Errors
 /// If they cannot be written.
 pub(crate) fn warn(scene: &Scene, err: &mut dyn Write) -> std::io::Result<()> {
-    gearset::warnings(scene).iter().try_for_each(|warning| writeln!(err, "warning: {warning}"))
+    scene::warnings(scene).iter().try_for_each(|warning| writeln!(err, "warning: {warning}"))
 }
 
 /// Writes what to know of harmonics that few steps resolve.

@@ -40,17 +40,11 @@ fn every_verb(folder: &Path) -> Vec<(&'static str, Vec<String>)> {
         ("validate_controls", words("validate --controls --only fe.hertz")),
         ("mesh", words(&format!("mesh {plain}"))),
         ("static_set", words(&format!("static {plain} --positions 2"))),
-        (
-            "static_set",
-            words(&format!("static {plain} --positions 1 --sun-torque-nm 500,-900")),
-        ),
+        ("static_set", words(&format!("static {plain} --positions 1 --sun-torque-nm 500,-900"))),
         ("static_pair", words(&format!("static {pair} --normal-force-n 1e4 --positions 2"))),
         ("static_approach", words(&format!("static {pair} --approach-um 20 --phase 0.7"))),
         ("impulse", words(&format!("impulse {plain} --duration-ms 10"))),
-        (
-            "impulse",
-            words(&format!("impulse {pair} --sun-torque-nm 300 --duration-ms 10 --band")),
-        ),
+        ("impulse", words(&format!("impulse {pair} --sun-torque-nm 300 --duration-ms 10 --band"))),
         (
             "branches",
             words(&format!("branches {plain} --speeds-rpm 990:1000 --model lumped --switch")),

@@ -1,6 +1,6 @@
 //! `scene check`: what verbs lack, against what they refuse; warnings; tip relief; control characters.
 
-use gearset::{SceneKind, template};
+use scene::{SceneKind, template};
 use serde_json::Value;
 
 /// Exit code, stdout and stderr of one in-process run.

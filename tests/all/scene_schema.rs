@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use gearset::{SceneKind, template};
+use scene::{SceneKind, template};
 use serde_json::Value;
 
 fn root() -> &'static Path {
@@ -60,7 +60,7 @@ fn it_refuses_misspelt_keys_wrong_types_and_values_and_missing_keys() {
 #[test]
 fn the_page_of_keys_is_the_list() {
     let path = root().join("docs/scene_keys.md");
-    let page = gearset::scene_key_page();
+    let page = scene::scene_key_page();
     if std::env::var("INSTA_UPDATE").is_ok_and(|v| v == "always") {
         std::fs::write(&path, &page).unwrap();
     }

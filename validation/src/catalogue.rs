@@ -1,7 +1,7 @@
 //! The scenes that checks run on, built into the program.
 
 use crate::reference_file::embedded;
-use gearset::{Scene, SceneError};
+use scene::{Scene, SceneError};
 
 /// A scene of the catalogue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

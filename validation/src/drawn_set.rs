@@ -1,7 +1,7 @@
 //! Planetary sets drawn from seeds, of drawn teeth, modules, widths, rims, bearings, loads and damping.
 
 use experiments::ExperimentError;
-use gearset::{Scene, estimated_inertias, estimated_mesh_stiffness};
+use scene::{Scene, estimated_inertias, estimated_mesh_stiffness};
 
 /// The set of a seed: equally spaced planets, 3 to 6, on the rack without profile shift, of drawn teeth, modules,
 /// widths, rims, bearings, loads, damping and tip relief; its `[lumped]` has estimates that are off
@@ -131,7 +131,7 @@ torque_nm = {torque:.3}
 }
 
 fn drawn_lumped(scene: &Scene, random: &mut fastrand::Rng) -> Option<String> {
-    let geometry = gearset::Geometry::from_scene(scene).ok()?;
+    let geometry = scene.tooth_geometry().ok()?;
     let (m, i) = estimated_inertias(scene);
     let mut off = |value: Option<f64>, by: f64| Some(value? * between(random, 1.0 - by, 1.0 + by));
     let mesh = |mesh: Option<&gearset::Mesh>| estimated_mesh_stiffness(scene, mesh?);

@@ -8,7 +8,7 @@ pub enum ValidationError {
     Reference(#[from] crate::reference_file::ReferenceError),
     /// A scene of the catalogue.
     #[error("scene of the catalogue: {0}")]
-    Scene(#[from] gearset::SceneError),
+    Scene(#[from] scene::SceneError),
     /// A scene of the catalogue lacks something a check needs.
     #[error("a scene of the catalogue has no {0}")]
     Incomplete(&'static str),

@@ -1,7 +1,7 @@
 //! Results of this program that take too long to be computed by every run, as kept in `reference/` with
 //! the commands that remake them.
 
-use gearset::CellLayout;
+use scene::CellLayout;
 use serde::Deserialize;
 
 use crate::reference_file::{ReferenceError, embedded, parse};

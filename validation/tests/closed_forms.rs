@@ -8,8 +8,8 @@ use experiments::auto::{
 use experiments::modal::{Preload, linear_modes, majority, preloaded};
 use fe_contact::body::CarrierBody;
 use fe_contact::statics::Bodies;
-use gearset::{AutoModeType, CellLayout, FlankLayer, LoadCase, Scene};
 use lumped::{AnalyticCycle, AnalyticSet, ModeType, SpringId};
+use scene::{AutoModeType, CellLayout, FlankLayer, LoadCase, Scene};
 use validation::drawn_set;
 
 /// Ratios of one set, closed forms over FE/contact.

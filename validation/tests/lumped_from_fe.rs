@@ -11,7 +11,7 @@ fn where_all_pairs_press_along_the_line_of_action_the_models_are_one() {
     three.fe_contact.flank_elements = 10;
     let bodies = Bodies::new(&three).unwrap();
     let at = |torque_nm| Preload {
-        load: gearset::LoadCase::standing(torque_nm),
+        load: scene::LoadCase::standing(torque_nm),
         position: 0.0,
         step_s: 5e-6,
     };

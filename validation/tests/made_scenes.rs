@@ -42,8 +42,7 @@ fn the_second_system_has_its_printed_frequencies() {
     assert!((rotational - 782.0).abs() < 0.5, "{rotational}");
     // FE/contact, linearised at 1130 N·m: nothing is fitted to it.
     let bodies = Bodies::new(&scene).unwrap();
-    let preload =
-        Preload { load: gearset::LoadCase::standing(1130.0), position: 0.0, step_s: 5e-6 };
+    let preload = Preload { load: scene::LoadCase::standing(1130.0), position: 0.0, step_s: 5e-6 };
     let set = preloaded(&scene, &bodies, &preload).unwrap();
     let modes = linear_modes(&set, &set.linearised().unwrap()).unwrap();
     let first = |kind| of_type(&modes, kind)[0].frequency_hz;

@@ -8,7 +8,7 @@ use experiments::sweep::{
     SteadySettings, StoreError, Sweep, SweepModel, run,
 };
 use fe_contact::statics::{Bodies, Imperfections, PitchError};
-use gearset::{LoadCase, Scene};
+use scene::{LoadCase, Scene};
 
 fn scene(steps: u32) -> Scene {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/oh58_4p.toml");

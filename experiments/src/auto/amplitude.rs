@@ -3,7 +3,7 @@
 use std::cell::{Cell, RefCell};
 
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{AutoResponse, LoadCase, Scene};
+use scene::{AutoResponse, LoadCase, Scene};
 
 use super::choice::{AutoError, Choice};
 use super::question::{ClosedForm, Question};

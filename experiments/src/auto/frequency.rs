@@ -1,8 +1,8 @@
 //! The cheapest settings for a natural frequency.
 
 use fe_contact::statics::Bodies;
-use gearset::{AutoModeType, LoadCase, Scene};
 use lumped::{AnalyticSet, ModeType};
+use scene::{AutoModeType, LoadCase, Scene};
 
 use super::choice::{AutoError, Choice, ErrorPart};
 use super::question::{ClosedForm, Question};

@@ -1,6 +1,7 @@
 //! Settings among which `auto` chooses.
 
-use gearset::{CellLayout, ElementFamily, Facing, Fidelity, FlankLayer, Geometry, Phasing, Scene};
+use gearset::{Facing, Phasing};
+use scene::{CellLayout, ElementFamily, Fidelity, FlankLayer, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -167,7 +168,7 @@ const MOST_PARTS: usize = 60;
 /// `least` itself for planets whose phases have no such number.
 fn divided(scene: &Scene, least: u32) -> u32 {
     let of_phases = || -> Option<u32> {
-        let geometry = Geometry::from_scene(scene).ok()?;
+        let geometry = scene.tooth_geometry().ok()?;
         let phasing = Phasing::new(&geometry, &scene.planets)?;
         let phases = phasing.phases(0.0, Facing::CounterClockwise).sun_planet;
         let is_whole = |parts: &usize| {

@@ -2,8 +2,8 @@
 
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-use gearset::{LoadCase, Scene};
 use lumped::AnalyticCycle;
+use scene::{LoadCase, Scene};
 
 use super::choice::{AutoError, Choice, ErrorPart};
 use super::question::{ClosedForm, Question};

@@ -103,7 +103,7 @@ impl Branches {
 
 #[cfg(test)]
 mod tests {
-    use gearset::LoadCase;
+    use scene::LoadCase;
 
     use super::super::branch::{Branch, BranchEnd, BranchOrigin};
     use super::super::parameter::BranchParameter;

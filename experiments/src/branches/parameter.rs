@@ -1,6 +1,6 @@
 //! What is varied along a branch.
 
-use gearset::LoadCase;
+use scene::LoadCase;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

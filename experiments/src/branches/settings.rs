@@ -44,7 +44,7 @@ impl BranchSettings {
         let refuse = |allowed| Err(BranchError::Range { over, from, to, start, allowed });
         let are = |fine: fn(f64) -> bool| [from, to, start].into_iter().all(fine);
         match over {
-            BranchParameter::Speed if !are(gearset::is_speed) => {
+            BranchParameter::Speed if !are(scene::is_speed) => {
                 return refuse("speeds must be finite and above 0, from 0.001 to 1e7 rpm");
             }
             BranchParameter::Torque

@@ -8,8 +8,8 @@
 
 use fe_contact::statics::{Bodies, PLANETS, RING, Races, SUN};
 use fe_contact::vibration::LinearSet;
-use gearset::Scene;
 use lumped::{LumpedModel, NaturalModes, SpringId};
+use scene::Scene;
 
 use super::linear::{Preload, preloaded};
 use super::lumped_from_fe::lumped_from_tangents;

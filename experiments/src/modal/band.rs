@@ -1,8 +1,8 @@
 //! Change of natural frequencies with the position in the mesh cycle and with the preload.
 
 use fe_contact::statics::Bodies;
-use gearset::Scene;
 use lumped::ModeType;
+use scene::Scene;
 
 use super::linear::{Preload, linear_modes, preloaded};
 use super::mode::of_type;

@@ -5,7 +5,7 @@ use dynamics::orthonormal_basis;
 use fe_contact::FeError;
 use fe_contact::statics::{Bodies, CARRIER, PLANETS, RING, Races, SUN};
 use fe_contact::vibration::VibratingSet;
-use gearset::Scene;
+use scene::Scene;
 
 use super::kinds::{MotionKinds, type_of};
 use super::linear::preloaded;

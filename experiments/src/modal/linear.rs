@@ -3,7 +3,7 @@
 use fe_contact::FeError;
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{LinearSet, Loading, NominalRotation, VibratingSet};
-use gearset::{LoadCase, Scene};
+use scene::{LoadCase, Scene};
 
 use super::kinds::{MotionKinds, type_of};
 use super::mode::FeMode;

@@ -8,8 +8,9 @@
 //! of action.
 
 use fe_contact::statics::{Bodies, Races};
-use gearset::{LumpedInput, PerBody, PerMesh, PlanetOverride, PlanetPositions, Scene};
+use gearset::PlanetPositions;
 use lumped::{LumpedModel, ModeType, NaturalModes, Participation};
+use scene::{LumpedInput, PerBody, PerMesh, PlanetOverride, Scene};
 
 use super::kinds::type_of;
 use super::linear::{Preload, preloaded};

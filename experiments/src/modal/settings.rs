@@ -2,7 +2,7 @@
 
 use dynamics::identify::Options;
 
-use gearset::LoadCase;
+use scene::LoadCase;
 
 use super::linear::Preload;
 

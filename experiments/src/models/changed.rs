@@ -1,6 +1,6 @@
 //! A model evaluated on changed scenes, for negative controls and parameter studies.
 
-use gearset::{LoadCase, Scene};
+use scene::{LoadCase, Scene};
 
 use crate::mesh_cycle::MeshCycle;
 use crate::model::{

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use fe_contact::FeError;
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, SUN, SetState, StaticSet};
-use gearset::{Fidelity, LoadCase, MeshKind, Scene};
+use gearset::MeshKind;
+use scene::{Fidelity, LoadCase, Scene};
 
 use crate::bodies_cache::BodiesCache;
 use crate::error::ExperimentError;
@@ -36,7 +37,7 @@ pub enum ModalRoute {
 /// use experiments::models::FeContact;
 /// use experiments::sweep::{Coordinate, Part};
 /// use experiments::{SpeedRequest, SteadyStateModel};
-/// use gearset::{LoadCase, Scene, SceneKind, template};
+/// use scene::{LoadCase, Scene, SceneKind, template};
 ///
 /// let set = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
 /// let case = LoadCase::of_scene(&set).unwrap();

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use gearset::{LoadCase, Scene};
 use lumped::{LumpedModel, NaturalModes};
+use scene::{LoadCase, Scene};
 
 use crate::bodies_cache::BodiesCache;
 use crate::model::{

@@ -16,8 +16,9 @@
 
 use std::path::{Path, PathBuf};
 
-use gearset::{Facing, LoadCase, Scene, read_text};
+use gearset::Facing;
 use lumped::ModeType;
+use scene::{LoadCase, Scene, read_text};
 use serde::{Deserialize, Serialize};
 
 use crate::mesh_cycle::{MeshCycle, RestState};

@@ -5,8 +5,8 @@ use fe_contact::contact::cylinders::Cylinders;
 use fe_contact::contact::half_plane::HalfPlane;
 use fe_contact::contact::hertz::Hertz;
 use fe_contact::{Elastic, FeError};
-use gearset::PlaneState;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use scene::PlaneState;
 
 use super::map::{Drawn, Map, MapError, MapOf, StabilityMap, fine_from, logarithms};
 use crate::error::ExperimentError;

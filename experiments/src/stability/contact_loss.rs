@@ -9,8 +9,8 @@
 //! ```
 
 use fe_contact::statics::Bodies;
-use gearset::{LoadCase, Scene};
 use rayon::prelude::*;
+use scene::{LoadCase, Scene};
 
 use super::map::{Drawn, Map, MapError, MapOf, StabilityMap};
 use super::resonance::strongest;

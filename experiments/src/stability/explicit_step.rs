@@ -2,9 +2,9 @@
 
 use dynamics::benchmark_subjects::{Scheme, VibratingSystem, amplification, closed_form};
 use dynamics::stability::explicit_limit;
-use gearset::{LoadCase, Scene};
 use lumped::LumpedModel;
 use nalgebra::{DMatrix, DVector};
+use scene::{LoadCase, Scene};
 
 use super::map::{Map, MapError, MapOf, StabilityMap};
 

@@ -5,8 +5,9 @@ use dynamics::stability::{BouncingBar, HammeringPair};
 use fe_contact::FeError;
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, KinematicRest, pair_cycle};
-use gearset::{LoadCase, LoadSize, MeshKind, Scene, SceneKind, template, warnings};
+use gearset::MeshKind;
 use lumped::{LumpedModel, NaturalModes, ParametricSet, tolerances_to, type_warnings};
+use scene::{LoadCase, LoadSize, Scene, SceneKind, template, warnings};
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -21,10 +21,11 @@ use std::f64::consts::{PI, TAU};
 
 use dynamics::generalized_symmetric;
 use fe_contact::statics::Bodies;
-use gearset::{Fidelity, Geometry, LoadCase, MeshKind, MeshKinematics, MeshMember, Scene};
+use gearset::{Geometry, MeshKind, MeshMember};
 use lumped::{Axis, Body, LumpedModel, ModeGroup, NaturalModes, SpringId, strain_energy};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
+use scene::{Fidelity, LoadCase, MeshKinematics, Scene};
 
 use super::map::{Drawn, Map, MapError, MapOf, Point, StabilityMap, logarithms};
 use super::windup::{Left, WoundUp, of_slopes};

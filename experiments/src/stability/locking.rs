@@ -12,8 +12,8 @@
 
 use fe_contact::element::{Shape, matrices};
 use fe_contact::{Elastic, FeError};
-use gearset::PlaneState;
 use nalgebra::DVector;
+use scene::PlaneState;
 
 use super::map::{Map, MapError, MapOf, StabilityMap};
 use crate::error::ExperimentError;

@@ -1,7 +1,7 @@
 //! What a stability map is, and which there are.
 
-use gearset::{Scene, SceneKind};
 use rayon::prelude::*;
+use scene::{Scene, SceneKind};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,7 +1,7 @@
 //! Types of modes with one planet heavier.
 
-use gearset::Scene;
 use lumped::{LumpedModel, ModeGroup, NaturalModes, tolerances_to};
+use scene::Scene;
 
 use super::changed_group::ChangedGroup;
 use super::map::{Map, MapError, MapOf, StabilityMap, logarithms};

@@ -1,7 +1,7 @@
 //! Tongues of parametric instability of a lumped set with prescribed mesh stiffness.
 
-use gearset::Scene;
 use lumped::{ParametricSet, Tongue, TongueEdges, tongues};
+use scene::Scene;
 
 use super::map::{Drawn, Map, MapError, MapOf, StabilityMap};
 

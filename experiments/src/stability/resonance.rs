@@ -2,7 +2,7 @@
 //! transient is slowest.
 
 use dynamics::Multiplier;
-use gearset::LoadCase;
+use scene::LoadCase;
 
 use super::map::MapError;
 use crate::error::ExperimentError;

@@ -6,8 +6,8 @@
 
 use std::f64::consts::TAU;
 
-use gearset::{Geometry, Scene};
 use lumped::{LumpedModel, ModeType, NaturalModes, SpacingChange};
+use scene::Scene;
 
 use super::changed_group::ChangedGroup;
 use super::map::{Map, MapError, MapOf, StabilityMap, logarithms};
@@ -61,7 +61,7 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let mut map = StabilityMap::of(&MAP, scene.title.clone(), axis);
     let model = LumpedModel::from_scene(scene)?;
     let modes = NaturalModes::of(&model)?;
-    let geometry = Geometry::from_scene(scene).ok();
+    let geometry = scene.tooth_geometry().ok();
     let gears = geometry.as_ref().and_then(|g| g.sun.as_ref().zip(g.ring.as_ref()));
     let teeth = gears.map(|(sun, ring)| f64::from(sun.teeth + ring.teeth));
     let largest = teeth.map_or(LARGEST, |teeth| TAU / teeth);

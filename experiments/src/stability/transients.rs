@@ -10,7 +10,7 @@
 //! at a resonance, where μ ≈ e^(−2πζl) is real, about 1/(2πζl) times the change.
 
 use fe_contact::statics::Bodies;
-use gearset::{LoadCase, Scene};
+use scene::{LoadCase, Scene};
 
 use super::map::{Map, MapError, MapOf, Point, StabilityMap, logarithms};
 use super::resonance::{from_rest, slowest};

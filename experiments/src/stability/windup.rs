@@ -8,7 +8,7 @@ use fe_contact::FeError;
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, SetCycle, StaticSet};
 use fe_contact::vibration::{LinearSet, Loading, NominalRotation, VibratingSet};
-use gearset::{LoadCase, Scene};
+use scene::{LoadCase, Scene};
 
 use crate::error::ExperimentError;
 use crate::modal::mesh_influence;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use gearset::SceneError;
+use scene::SceneError;
 
 use crate::error::ExperimentError;
 

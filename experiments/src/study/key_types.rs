@@ -1,7 +1,7 @@
 //! Types of the keys of a study file, refused in the words of scene files; what their values may be is checked where
 //! they are used.
 
-use gearset::{Bound, KeyKind};
+use scene::{Bound, KeyKind};
 use toml::{Table, Value};
 
 use super::error::StudyError;

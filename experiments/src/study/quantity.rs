@@ -279,10 +279,10 @@ impl QuantityInput {
     }
 
     fn speed(&self, key: &str, speed: f64) -> Result<(), StudyError> {
-        if gearset::is_speed(speed) {
+        if scene::is_speed(speed) {
             return Ok(());
         }
-        let [least, most] = gearset::SPEEDS_RPM;
+        let [least, most] = scene::SPEEDS_RPM;
         let allowed = format!("from {least} to {most:e} rpm");
         Err(StudyError::key(self.at(key), speed, allowed))
     }

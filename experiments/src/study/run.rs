@@ -1,6 +1,6 @@
 //! Runs a study: truths once, settings in rounds between runs of the yardstick.
 
-use gearset::LoadCase;
+use scene::LoadCase;
 
 use super::answers::{Answer, answers};
 use super::cost::{CpuTime, Quartiles, Stopwatch, Timings, interleaved, quartiles};

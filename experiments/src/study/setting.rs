@@ -2,7 +2,7 @@
 
 use dynamics::benchmark_subjects::Scheme;
 use fe_contact::complementarity::{ActiveSet, ComplementaritySolver, Lemke};
-use gearset::Scene;
+use scene::Scene;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};

@@ -2,7 +2,7 @@
 
 use fe_contact::statics::Bodies;
 use fe_contact::vibration::{MeshLawSettings, mesh_law};
-use gearset::{Fidelity, LoadCase, Scene};
+use scene::{Fidelity, LoadCase, Scene};
 
 use super::cost::Stopwatch;
 use crate::error::ExperimentError;

@@ -63,10 +63,9 @@ mod tests {
 
     use dynamics::{c64, multipliers};
     use fe_contact::vibration::Along;
-    use gearset::{
-        Geometry, LoadCase, MeshCurve, MeshLawPlan, MeshStart, Phasing, PlanetOverride, Scene,
-    };
+    use gearset::{MeshCurve, MeshLawPlan, MeshStart, Phasing};
     use lumped::{LumpedModel, NaturalModes};
+    use scene::{LoadCase, PlanetOverride, Scene};
 
     use super::*;
     use crate::sweep::{MeshLawModel, SweepModel};
@@ -89,7 +88,7 @@ mod tests {
     /// its multipliers; natural modes as (predicted multiplier, type).
     #[allow(clippy::type_complexity)]
     fn found(scene: &Scene) -> (Vec<(Multiplier, CriticalMotion)>, Vec<(c64, String)>) {
-        let geometry = Geometry::from_scene(scene).unwrap();
+        let geometry = scene.tooth_geometry().unwrap();
         let starts = MeshStart::of_set(&Phasing::new(&geometry, &scene.planets).unwrap());
         let plan = MeshLawPlan::new(&starts, STEPS).unwrap();
         let k = scene.lumped.as_ref().unwrap().mesh.sun_planet;

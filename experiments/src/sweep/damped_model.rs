@@ -1,6 +1,6 @@
 //! A model with more or less damping than its scene gives it.
 
-use gearset::LoadCase;
+use scene::LoadCase;
 
 use super::marching::Marching;
 use super::set_shape::SetShape;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use gearset::LoadCase;
+use scene::LoadCase;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -5,7 +5,8 @@ use std::sync::{Arc, OnceLock};
 use fe_contact::FeError;
 use fe_contact::statics::Bodies;
 use fe_contact::vibration::{MeshLawSettings, mesh_law};
-use gearset::{LoadCase, MeshLaw, Scene};
+use gearset::MeshLaw;
+use scene::{LoadCase, Scene};
 
 use super::set_shape::SetShape;
 use crate::error::ExperimentError;

@@ -7,8 +7,9 @@ use dynamics::{CarriedChange, CoupledState, CyclePart, MapDerivative, PassedStep
 use fe_contact::FeError;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use fe_contact::vibration::{Along, MeshLawSet};
-use gearset::{Fidelity, LoadCase, MeshLaw, Scene, Symmetry};
+use gearset::{MeshLaw, Symmetry};
 use lumped::TimeVarying;
+use scene::{Fidelity, LoadCase, Scene};
 
 use super::growing_law::{GrowingLaw, Range};
 use super::marching::{Effort, Marching, motion_kinds};

@@ -1,7 +1,7 @@
 //! Natural frequencies with which resonant peaks are compared.
 
 use fe_contact::statics::Bodies;
-use gearset::{LoadCase, Scene};
+use scene::{LoadCase, Scene};
 
 use crate::error::ExperimentError;
 use crate::modal::{FeMode, Preload, linear_modes, preloaded};

@@ -154,7 +154,7 @@ mod tests {
                     phase_rad: 0.0,
                 };
                 SteadyState {
-                    case: gearset::LoadCase::turning(1130.0, 2.0 * f, f),
+                    case: scene::LoadCase::turning(1130.0, 2.0 * f, f),
                     lines: vec![line],
                 }
             })

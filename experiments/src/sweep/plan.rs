@@ -51,7 +51,7 @@ pub struct Plan {
 pub enum PlanError {
     /// A speed that is none.
     #[error("a speed of {0:?} rpm: speeds must be finite and above 0, from {least} to {most:e} rpm",
-        least = gearset::SPEEDS_RPM[0], most = gearset::SPEEDS_RPM[1])]
+        least = scene::SPEEDS_RPM[0], most = scene::SPEEDS_RPM[1])]
     Speed(f64),
     /// No speed between the ends.
     #[error(
@@ -139,7 +139,7 @@ fn count(count: &f64) -> String {
 /// [`PlanError`] for a range or a step that makes none.
 pub fn even_speeds(from: f64, to: f64, step: f64) -> Result<Vec<f64>, PlanError> {
     for speed in [from, to] {
-        if !gearset::is_speed(speed) {
+        if !scene::is_speed(speed) {
             return Err(PlanError::Speed(speed));
         }
     }
@@ -169,7 +169,7 @@ impl Plan {
         if speeds_rpm.is_empty() {
             return Err(PlanError::Empty { from: f64::NAN, to: f64::NAN });
         }
-        if let Some(bad) = speeds_rpm.iter().find(|s| !gearset::is_speed(**s)) {
+        if let Some(bad) = speeds_rpm.iter().find(|s| !scene::is_speed(**s)) {
             return Err(PlanError::Speed(*bad));
         }
         let mut sorted = speeds_rpm.to_vec();

@@ -1,7 +1,7 @@
 //! One speed of a sweep: what the steady state gives.
 
 use dynamics::Multiplier;
-use gearset::LoadCase;
+use scene::LoadCase;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

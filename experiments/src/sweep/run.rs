@@ -3,8 +3,8 @@
 use std::cell::{Cell, RefCell};
 use std::sync::OnceLock;
 
-use gearset::LoadCase;
 use rayon::prelude::*;
+use scene::LoadCase;
 use serde::{Deserialize, Serialize};
 
 use super::failed_point::FailedPoint;

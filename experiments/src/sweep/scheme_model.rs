@@ -2,8 +2,8 @@
 
 use dynamics::benchmark_subjects::Scheme;
 use fe_contact::statics::Bodies;
-use gearset::{Fidelity, LoadCase, Scene};
 use lumped::{LAW_STEPS_A_STEP, SchemeSet};
+use scene::{Fidelity, LoadCase, Scene};
 
 use super::growing_law::{GrowingLaw, Range};
 use super::marching::{Effort, Marching};

@@ -1,6 +1,6 @@
 //! Which bodies and meshes a set has.
 
-use gearset::{Scene, SceneKind};
+use scene::{Scene, SceneKind};
 
 /// Number of planets, and whether they mesh with a ring; a number of planets alone is a whole set.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

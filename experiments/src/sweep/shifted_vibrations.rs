@@ -12,8 +12,8 @@
 use std::f64::consts::TAU;
 
 use dynamics::c64;
-use gearset::{LoadCase, Scene};
 use lumped::{AnalyticSet, ModeType};
+use scene::{LoadCase, Scene};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! A steady state: harmonics of all bodies and mesh forces at one speed and load, whichever model it is of.
 
-use gearset::LoadCase;
+use scene::LoadCase;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

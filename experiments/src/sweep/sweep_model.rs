@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{Loading, NominalRotation, Prepared, VibratingSet};
-use gearset::{Fidelity, LoadCase, Scene};
+use scene::{Fidelity, LoadCase, Scene};
 
 use super::marching::{FeMarching, Marching};
 use super::set_shape::SetShape;

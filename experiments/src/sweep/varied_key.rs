@@ -1,6 +1,6 @@
 //! Numbers of the scene that branches go over.
 
-use gearset::{KeyKind, SceneKey, scene_keys};
+use scene::{KeyKind, SceneKey, scene_keys};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

@@ -3,7 +3,8 @@
 use dynamics::{Window, spectrum};
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-use gearset::{Facing, LoadCase, Scene};
+use gearset::Facing;
+use scene::{LoadCase, Scene};
 
 use super::series::Series;
 use crate::error::ExperimentError;

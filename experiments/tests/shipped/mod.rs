@@ -1,6 +1,6 @@
 //! Shipped scenes as tests use them: finite elements coarse enough to be quick, steps and damping as asked.
 
-use gearset::Scene;
+use scene::Scene;
 
 /// A scene of the catalogue with 8 elements along a flank, `steps` in a mesh cycle,
 /// and the damping of bodies and teeth times a factor; that of bearings stays.

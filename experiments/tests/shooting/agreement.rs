@@ -4,7 +4,8 @@ use experiments::sweep::{
     Coordinate, FeModel, MeshLawModel, SteadyMethod, SteadySettings, SweepModel, steady,
 };
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, LoadCase, PathDirection};
+use gearset::PathDirection;
+use scene::{Fidelity, LoadCase};
 
 use super::sets::{backward, fe, scene};
 

@@ -4,8 +4,8 @@ use dynamics::{MapDerivative, multipliers};
 use experiments::sweep::{Marching, MeshLawModel, Record, SweepModel};
 use fe_contact::statics::Bodies;
 use fe_contact::vibration::Along;
-use gearset::{Fidelity, LoadCase};
 use nalgebra::DMatrix;
+use scene::{Fidelity, LoadCase};
 
 use super::apart;
 use super::sets::{backward, end_of_cycle, fe, march_cycle, scene};

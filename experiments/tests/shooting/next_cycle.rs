@@ -6,7 +6,7 @@ use experiments::sweep::{
 };
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::Along;
-use gearset::{Fidelity, LoadCase};
+use scene::{Fidelity, LoadCase};
 
 use super::sets::{fe, march_cycle, scene};
 

@@ -2,7 +2,7 @@
 
 use experiments::sweep::{FeModel, Marching};
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::{Fidelity, LoadCase, Scene};
+use scene::{Fidelity, LoadCase, Scene};
 
 pub(super) fn scene(name: &str, fidelity: Fidelity, steps: u32) -> Scene {
     let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));

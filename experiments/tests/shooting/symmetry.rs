@@ -8,7 +8,8 @@ use experiments::sweep::{
 };
 use fe_contact::statics::Bodies;
 use fe_contact::vibration::{Along, LoadedStep};
-use gearset::{Fidelity, LoadCase, Symmetry};
+use gearset::Symmetry;
+use scene::{Fidelity, LoadCase};
 
 use super::apart;
 use super::sets::{fe, scene};

@@ -40,7 +40,7 @@ impl Accelerated {
         let mesh = &gear.mesh;
         let Some(ring) = gear.ring() else { return Ok(None) };
         let sector = mesh.sector(0);
-        let incompatible = mesh.family == gearset::ElementFamily::Incompatible;
+        let incompatible = mesh.family == scene::ElementFamily::Incompatible;
         let one = |(i, e): (usize, &crate::fe_mesh::SectorElement)| {
             let nodes = e.nodes[..e.shape.count()].to_vec();
             let points: Vec<_> = nodes.iter().map(|n| sector.points[*n]).collect();

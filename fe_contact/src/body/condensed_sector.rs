@@ -80,7 +80,7 @@ impl Condensed {
         let next = -mesh.outline.radial_sign();
         let (sin, cos) = (next * mesh.outline.gear().pitch_angle()).sin_cos();
         let turn = [[cos, -sin], [sin, cos]];
-        let incompatible = mesh.family == gearset::ElementFamily::Incompatible;
+        let incompatible = mesh.family == scene::ElementFamily::Incompatible;
         let mut triplets = Triplets::default();
         // K_ic by its entries (row, column, value), of which some repeat, and K_cc, with T.
         let mut border: Vec<(usize, usize, f64)> = Vec::new();

@@ -39,7 +39,7 @@ impl BodyMatrices {
         face_width: f64,
     ) -> Result<Self, FeError> {
         let unknown_of = number_unknowns(mesh);
-        let incompatible = mesh.family == gearset::ElementFamily::Incompatible;
+        let incompatible = mesh.family == scene::ElementFamily::Incompatible;
         let mut of_sectors = Vec::new();
         for sector in &mesh.sectors {
             let mut list = Vec::with_capacity(sector.elements.len());

@@ -12,7 +12,7 @@
 //!   pair grows in steps of two cells. Graded cells are a quarter of a cell off the middle: the edges
 //!   pass in turn, and the steps are half as large.
 
-use gearset::CellLayout;
+use scene::CellLayout;
 
 use super::pair::PairFrame;
 

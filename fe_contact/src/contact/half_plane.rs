@@ -70,7 +70,7 @@ impl HalfPlane {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gearset::PlaneState;
+    use scene::PlaneState;
 
     fn steel(plane: PlaneState) -> Elastic {
         Elastic { young: 207e9, poisson: 0.3, density: 7595.0, plane }

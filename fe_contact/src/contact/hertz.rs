@@ -76,7 +76,7 @@ pub fn fit(positions: &[f64], pressures: &[f64]) -> Option<Hertz> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gearset::PlaneState;
+    use scene::PlaneState;
 
     #[test]
     fn deep_compression_is_johnsons_5_57() {

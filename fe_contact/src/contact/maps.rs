@@ -390,7 +390,7 @@ mod tests {
     /// Maps and the solver's own answer agree wherever contact stands.
     #[test]
     fn maps_answer_as_the_solver_does() {
-        let scene = gearset::Scene::from_file(
+        let scene = scene::Scene::from_file(
             concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/oh58_sun_planet_pair.toml").as_ref(),
         )
         .unwrap();

@@ -176,7 +176,8 @@ pub(super) fn tooth_numbers(
 
 #[cfg(test)]
 mod tests {
-    use gearset::{MeshKind, Scene};
+    use gearset::MeshKind;
+    use scene::Scene;
 
     use super::super::pair::candidates;
     use super::*;

@@ -2,7 +2,8 @@
 
 use nalgebra::DMatrix;
 
-use gearset::{CellLayout, Mesh, MeshMember, PerMesh};
+use gearset::{Mesh, MeshMember};
+use scene::{CellLayout, PerMesh};
 
 use super::cells::Cells;
 use super::half_plane::HalfPlane;

@@ -13,7 +13,8 @@
 use std::collections::HashMap;
 use std::fmt::{self, Write as _};
 
-use gearset::{ElementFamily, Gear, Mesh, MeshMember, PlaneState};
+use gearset::{Gear, Mesh, MeshMember};
+use scene::{ElementFamily, PlaneState};
 
 use crate::contact::hertz::Hertz;
 use crate::contact::{Location, PairFrame, candidates, members};
@@ -397,7 +398,8 @@ mod tests {
     use super::*;
     use crate::complementarity::ActiveSet;
     use crate::statics::at_approach;
-    use gearset::{MeshKind, Scene};
+    use gearset::MeshKind;
+    use scene::Scene;
     use std::path::Path;
 
     fn bodies(name: &str) -> Bodies {

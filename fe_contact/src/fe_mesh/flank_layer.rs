@@ -13,7 +13,7 @@
 //! t = −1  T0 ─────────────────── B0
 //! ```
 
-use gearset::ElementFamily;
+use scene::ElementFamily;
 
 use super::sector::{Builder, Place};
 use crate::element::{Edge, Shape};
@@ -215,7 +215,8 @@ impl Builder<'_> {
 mod tests {
     use std::collections::HashMap;
 
-    use gearset::{FlankLayer, Geometry, Scene, SceneKind, template};
+    use gearset::Geometry;
+    use scene::{FlankLayer, Scene, SceneKind, template};
 
     use super::super::{Elements, FeGearMesh, Outline, Sector};
     use super::*;
@@ -231,7 +232,7 @@ mod tests {
 
     /// A tooth of every gear with flanks of `along_flank` elements, whole and divided.
     fn teeth(family: ElementFamily, along_flank: usize) -> Vec<[(Outline, Sector); 2]> {
-        let Geometry { sun, planet, ring, .. } = Geometry::from_scene(&scene()).unwrap();
+        let Geometry { sun, planet, ring, .. } = scene().tooth_geometry().unwrap();
         let all = [("sun", sun), ("planet", Some(planet)), ("ring", ring)];
         let each = all.map(|(name, gear)| {
             [FlankLayer::Whole, FlankLayer::Divided].map(|layer| {

@@ -1,6 +1,7 @@
 //! Mesh of a whole gear, from the sectors of its teeth.
 
-use gearset::{ElementFamily, FeContactInput, FlankLayer, Gear};
+use gearset::Gear;
+use scene::{ElementFamily, FeContactInput, FlankLayer};
 
 use super::outline::{Outline, Side};
 use super::quality::Quality;

@@ -11,7 +11,7 @@
 
 use std::collections::HashMap;
 
-use gearset::ElementFamily;
+use scene::ElementFamily;
 
 use super::flank_layer::{Layer, PARTS, between, divided};
 use super::outline::{Outline, Side, polar};

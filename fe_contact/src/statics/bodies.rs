@@ -1,6 +1,7 @@
 //! The flexible gears of a scene.
 
-use gearset::{FeContactInput, Gear, Geometry, Mesh, MeshKind, MeshMember, Scene};
+use gearset::{Gear, Geometry, Mesh, MeshKind, MeshMember};
+use scene::{FeContactInput, Scene};
 
 use crate::body::GearBody;
 use crate::contact::{CellSettings, Matching};
@@ -189,7 +190,7 @@ impl Bodies {
 pub(super) fn geometry(scene: &Scene) -> Result<Geometry, FeError> {
     let why = "teeth are needed to mesh and to touch";
     let missing = FeError::Missing { key: "geometry".into(), why };
-    Geometry::from_scene(scene).ok().ok_or(missing)
+    scene.tooth_geometry().ok().ok_or(missing)
 }
 
 /// Ring and sun, if the scene needs them: both of a set, one of a pair.

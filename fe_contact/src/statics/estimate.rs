@@ -1,6 +1,7 @@
 //! Memory that the bodies of a scene need, before any of it is allocated.
 
-use gearset::{Fidelity, Gear, Scene};
+use gearset::Gear;
+use scene::{Fidelity, Scene};
 
 use super::bodies::{fit, geometry, matching, wanted};
 use crate::body::kept_teeth;
@@ -144,7 +145,7 @@ fn sized(
     name: &'static str,
     gear: &Gear,
     sector: &Sector,
-    input: &gearset::FeContactInput,
+    input: &scene::FeContactInput,
     is_whole: bool,
 ) -> BodyEstimate {
     let teeth = f64::from(gear.teeth);

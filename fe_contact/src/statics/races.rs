@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use gearset::{Displacements, Freedom, GivenInertia, Member, MeshKind, Scene, Support, Torsional};
+use gearset::{Displacements, Member, MeshKind};
+use scene::{Freedom, GivenInertia, Scene, Support, Torsional};
 
 use super::bodies::Bodies;
 use crate::body::CarrierBody;

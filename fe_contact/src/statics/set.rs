@@ -3,10 +3,9 @@
 //! Its methods are in the modules `tables` (contact tables), `placing` (meshes at a position),
 //! `equilibrium`, and `cycle` (a mesh cycle, and the loaded configuration).
 
-use gearset::{
-    Facing, MeshKind, MeshPhases, MeshStart, Phasing, PlanetPositions, Scene, SceneKind,
-};
+use gearset::{Facing, MeshKind, MeshPhases, MeshStart, Phasing, PlanetPositions};
 use nalgebra::DVector;
+use scene::{Scene, SceneKind};
 
 use super::bodies::{Bodies, missing_mesh};
 use super::imperfection::Imperfections;
@@ -21,7 +20,7 @@ use crate::error::FeError;
 /// ```
 /// use fe_contact::complementarity::ActiveSet;
 /// use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-/// use gearset::{LoadCase, Scene, SceneKind, template};
+/// use scene::{LoadCase, Scene, SceneKind, template};
 ///
 /// let scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
 /// let (bodies, load) = (Bodies::new(&scene).unwrap(), LoadCase::standing(1000.0));

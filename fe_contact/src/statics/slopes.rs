@@ -15,8 +15,9 @@
 //! near it. On even cells that edge makes κ wrong by an amount proportional to the width of a cell, on
 //! graded ones (`contact/cells.rs`) hardly.
 
-use gearset::{CellLayout, DisplacedMesh, Mesh};
+use gearset::{DisplacedMesh, Mesh};
 use nalgebra::{DMatrix, DVector};
+use scene::CellLayout;
 
 use super::bodies::Bodies;
 use crate::complementarity::ComplementaritySolver;
@@ -302,7 +303,8 @@ fn ascent(pairs: &[(usize, usize)], off: &DVector<f64>, now: &MeshAnswer) -> DVe
 
 #[cfg(test)]
 mod tests {
-    use gearset::{MeshKind, Scene};
+    use gearset::MeshKind;
+    use scene::Scene;
 
     use super::*;
     use crate::complementarity::ActiveSet;

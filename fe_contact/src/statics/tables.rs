@@ -196,7 +196,8 @@ fn missing(kind: MeshKind) -> FeError {
 
 #[cfg(test)]
 mod tests {
-    use gearset::{Facing, Scene};
+    use gearset::Facing;
+    use scene::Scene;
 
     use super::super::bodies::Bodies;
     use super::super::imperfection::Imperfections;

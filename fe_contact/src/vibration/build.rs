@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use dynamics::AverageAcceleration;
-use gearset::{Fidelity, Freedom, GivenInertia, MeshKind, Scene, SceneKind};
+use gearset::MeshKind;
 use nalgebra::DMatrix;
+use scene::{Fidelity, Freedom, GivenInertia, Scene, SceneKind};
 
 use super::body::{Port, VibratingBody};
 use super::damping::Proportional;

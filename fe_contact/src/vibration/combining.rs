@@ -389,7 +389,8 @@ impl Change {
 
 #[cfg(test)]
 mod tests {
-    use gearset::{Facing, PathDirection, Scene};
+    use gearset::{Facing, PathDirection};
+    use scene::Scene;
 
     use super::super::prepared::Loading;
     use super::super::rotation::NominalRotation;

@@ -1,8 +1,8 @@
 //! Terms of the rotating carrier frame in the equations of the races.
 
 use dynamics::RotatingFrame;
-use gearset::{Kinematics, Scene};
 use nalgebra::DMatrix;
+use scene::Scene;
 
 use crate::statics::{PLANETS, Races};
 
@@ -40,7 +40,7 @@ impl GyroscopicTerms {
 /// carrier: times d it is that in the frame of counter-clockwise torque, in which the sun turns so relative to the
 /// carrier at d times its magnitude.
 pub(super) fn carrier_speed(scene: &Scene, mesh_frequency: f64) -> f64 {
-    match Kinematics::from_scene(scene) {
+    match scene.kinematics() {
         Ok(k) if k.mesh_frequency_hz > 0.0 => {
             let speeds = k.speeds_rad_per_s;
             let sense = (speeds.sun - speeds.carrier).signum();

@@ -79,7 +79,8 @@ impl VibratingSet<'_> {
 
 #[cfg(test)]
 mod tests {
-    use gearset::{Facing, PathDirection, Scene};
+    use gearset::{Facing, PathDirection};
+    use scene::Scene;
 
     use super::super::prepared::Loading;
     use super::*;

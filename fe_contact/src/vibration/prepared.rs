@@ -2,7 +2,8 @@
 
 use std::sync::Arc;
 
-use gearset::{Facing, Fidelity, MeshKinematics, PathDirection, Scene};
+use gearset::{Facing, PathDirection};
+use scene::{Fidelity, MeshKinematics, Scene};
 
 use super::frame_pattern::FramePatterns;
 use super::leaning::Leaning;
@@ -199,7 +200,7 @@ pub(super) fn fit(scene: &Scene, rotation: &NominalRotation) -> Result<(), FeErr
 
 #[cfg(test)]
 mod tests {
-    use gearset::{LoadCase, SceneKind, template};
+    use scene::{LoadCase, SceneKind, template};
 
     use super::*;
 

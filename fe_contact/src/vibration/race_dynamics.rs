@@ -2,8 +2,8 @@
 //! frame.
 
 use dynamics::{AverageAcceleration, Motion};
-use gearset::Scene;
 use nalgebra::{DMatrix, DVector};
+use scene::Scene;
 
 use super::bearings::Bearings;
 use super::body::Port;

@@ -13,8 +13,9 @@
 use std::sync::Arc;
 
 use dynamics::Motion;
-use gearset::{Facing, Scene, Symmetry};
+use gearset::{Facing, Symmetry};
 use nalgebra::DVector;
+use scene::Scene;
 
 use super::build;
 use super::clock::Clock;

@@ -122,7 +122,8 @@ impl ToothShift {
 
 #[cfg(test)]
 mod tests {
-    use gearset::{Facing, Fidelity, Scene};
+    use gearset::Facing;
+    use scene::{Fidelity, Scene};
 
     use super::super::prepared::Loading;
     use super::super::rotation::NominalRotation;

@@ -2,7 +2,8 @@
 
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, at_phase};
-use gearset::{MeshKind, Scene};
+use gearset::MeshKind;
+use scene::Scene;
 
 use crate::{CASES, Case, FACE, POSITIONS, START};
 

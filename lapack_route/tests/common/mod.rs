@@ -3,9 +3,8 @@
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 
-use gearset::{
-    Freedom, PerBody, PerMesh, PlanetOverride, PlanetPositions, Scene, Support, Torsional,
-};
+use gearset::PlanetPositions;
+use scene::{Freedom, PerBody, PerMesh, PlanetOverride, Scene, Support, Torsional};
 
 /// A file of the project.
 pub fn project_file(name: &str) -> PathBuf {

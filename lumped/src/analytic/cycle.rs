@@ -16,8 +16,9 @@
 
 use std::collections::BTreeMap;
 
-use gearset::{DisplacedMesh, Displacements, LoadCase, Mesh, MeshKind, MeshMember, Scene};
+use gearset::{DisplacedMesh, Displacements, Mesh, MeshKind, MeshMember};
 use nalgebra::{DMatrix, DVector};
+use scene::{LoadCase, Scene};
 
 use super::line::Line;
 use super::mesh::PressedMesh;

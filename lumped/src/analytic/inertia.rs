@@ -9,8 +9,9 @@
 //!
 //! The carrier is its annulus; a gear is an annulus from its race to the middle of its teeth.
 
-use gearset::{Gear, Geometry, Scene};
+use gearset::{Gear, Geometry};
 use nalgebra::{Complex, DMatrix, DVector};
+use scene::Scene;
 
 use super::AnalyticSet;
 use super::accelerated::Accelerated;

@@ -417,13 +417,14 @@ fn pairs_near(mesh: &Mesh, phase: f64, force: f64, plane: &Plane) -> Option<Vec<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gearset::{Geometry, Scene, SceneKind, template};
+
+    use scene::{Scene, SceneKind, template};
 
     /// R is what the energy ∫ F dδ loses as the mesh rolls on, and k the slope of F, on either mesh wherever it stands.
     #[test]
     fn forces_of_a_pressed_mesh_have_one_energy() {
         let scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
-        let geometry = Geometry::from_scene(&scene).unwrap();
+        let geometry = scene.tooth_geometry().unwrap();
         let plane = Plane::new(&scene, geometry.face_width);
         let (force, step) = (8000.0, 1e-4);
         let mut checked = 0;
@@ -461,7 +462,7 @@ mod tests {
     #[test]
     fn the_gap_of_relieved_flanks_is_the_least_along_them() {
         let mut scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
-        let plain = Geometry::from_scene(&scene).unwrap();
+        let plain = scene.tooth_geometry().unwrap();
         let relieved = |gear: &gearset::Gear| gearset::TipRelief {
             start_radius: gear.tip_radius - 0.2 * (gear.tip_radius - gear.root_radius),
             amount: 12e-6,
@@ -472,7 +473,7 @@ mod tests {
         let (sun, ring) = (plain.sun.as_ref().unwrap(), plain.ring.as_ref().unwrap());
         input.sun.as_mut().unwrap().tip_relief = Some(relieved(sun));
         input.ring.as_mut().unwrap().tip_relief = Some(relieved(ring));
-        let geometry = Geometry::from_scene(&scene).unwrap();
+        let geometry = scene.tooth_geometry().unwrap();
         let mut largest = [0.0f64; 2];
         for mesh in [geometry.sun_planet.unwrap(), geometry.ring_planet.unwrap()] {
             for (member, end) in [(MeshMember::Driven, -1.0), (MeshMember::Driver, 1.0)] {

@@ -20,11 +20,9 @@ mod stated_error;
 mod tooth;
 mod torsion;
 
-use gearset::{
-    Freedom, Geometry, LoadCase, LumpedInput, Mesh, MeshMember, MeshPhases, PerBody, PerMesh,
-    Phasing, Scene, SceneKind,
-};
+use gearset::{Geometry, Mesh, MeshMember, MeshPhases, Phasing};
 use nalgebra::DMatrix;
+use scene::{Freedom, LoadCase, LumpedInput, PerBody, PerMesh, Scene, SceneKind};
 
 use crate::error::LumpedError;
 use crate::model::LumpedModel;
@@ -191,7 +189,7 @@ impl SetParts {
         if sun_planet != 1.0 || ring_planet != 1.0 {
             return Err(none("`fe_contact.flexibility_factor` is not 1"));
         }
-        let geometry = Geometry::from_scene(scene).map_err(|_| none("there are no teeth"))?;
+        let geometry = scene.tooth_geometry().map_err(|_| none("there are no teeth"))?;
         let meshes = geometry.sun_planet.clone().zip(geometry.ring_planet.clone());
         let meshes = meshes.map(|(sun, ring)| [sun, ring]).ok_or(none("a mesh is missing"))?;
         let sun = geometry.sun.as_ref().ok_or(none("there is no sun"))?;

@@ -1,6 +1,6 @@
 //! The elastic plane of a scene's bodies.
 
-use gearset::Scene;
+use scene::Scene;
 
 /// Constants of the plane-strain body that behaves as the scene's material does, and the face width.
 #[derive(Debug, Clone, Copy, PartialEq)]

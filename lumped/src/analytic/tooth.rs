@@ -106,11 +106,12 @@ impl Tooth {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use gearset::{Geometry, Scene, SceneKind, template};
+
+    use scene::{Scene, SceneKind, template};
 
     fn sun() -> (Gear, Plane) {
         let scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
-        let geometry = Geometry::from_scene(&scene).unwrap();
+        let geometry = scene.tooth_geometry().unwrap();
         (geometry.sun.unwrap(), Plane::new(&scene, geometry.face_width))
     }
 

@@ -14,7 +14,8 @@ use std::f64::consts::TAU;
 use nalgebra::DMatrix;
 
 use dynamics::{MapDerivative, Multiplier, generalized_symmetric, multipliers};
-use gearset::{Geometry, MeshStart, Phasing, Scene};
+use gearset::{MeshStart, Phasing};
+use scene::Scene;
 
 use super::mesh_wave::MeshWave;
 use super::tongues::Tongue;
@@ -98,7 +99,7 @@ impl ParametricSet {
     /// If the scene has no teeth or no lumped parameters, or ε is out of range.
     pub fn from_scene(scene: &Scene, epsilon: f64) -> Result<Self, LumpedError> {
         let model = LumpedModel::from_scene(scene)?;
-        let geometry = Geometry::from_scene(scene).map_err(|_| LumpedError::NoTeeth)?;
+        let geometry = scene.tooth_geometry().map_err(|_| LumpedError::NoTeeth)?;
         let both = geometry.sun_planet.as_ref().zip(geometry.ring_planet.as_ref());
         let (sun, ring) = both.ok_or(LumpedError::NoTeeth)?;
         let phasing = Phasing::new(&geometry, &scene.planets).ok_or(LumpedError::NoTeeth)?;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use gearset::Scene;
 use lumped::{LumpedModel, ModeType, NaturalModes};
+use scene::Scene;
 
 /// A scene file of the repository.
 pub(crate) fn scene(name: &str) -> Scene {

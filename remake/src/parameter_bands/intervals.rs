@@ -1,6 +1,7 @@
 //! Intervals of the parameters that the paper leaves open, from geometry and design practice alone.
 
-use gearset::{Gear, Geometry, Scene, ThicknessInput, ToothSide};
+use gearset::{Gear, Geometry, ThicknessInput, ToothSide};
+use scene::Scene;
 use validation::ValidationError;
 use validation::parameter_bands::Interval;
 
@@ -43,7 +44,7 @@ fn incomplete() -> ValidationError {
 }
 
 fn geometry(scene: &Scene) -> Result<Geometry, ValidationError> {
-    Geometry::from_scene(scene).ok().ok_or_else(incomplete)
+    scene.tooth_geometry().ok().ok_or_else(incomplete)
 }
 
 /// The scene with another planet's share of the tooth thicknesses.
@@ -75,7 +76,7 @@ pub(super) fn with_backlash(scene: &Scene, backlash: f64) -> Scene {
 /// If the scene has no whole tooth geometry.
 pub(super) fn share_of_tip_lands(scene: &Scene) -> Result<[f64; 2], ValidationError> {
     let lands = |share: f64| -> Option<[f64; 2]> {
-        let geometry = Geometry::from_scene(&with_share(scene, share)).ok()?;
+        let geometry = with_share(scene, share).tooth_geometry().ok()?;
         let land = |gear: &Gear| gear.tooth_thickness(gear.tip_radius);
         Some([land(geometry.sun.as_ref()?), land(&geometry.planet)])
     };
@@ -169,7 +170,7 @@ pub(super) fn with_fitting_fillets(scene: &Scene) -> Result<Scene, ValidationErr
 /// Whether no gear is touched by its mates beyond its form circle, outside the involute.
 fn is_clear(scene: &Scene) -> bool {
     use gearset::{MeshKind, MeshMember};
-    let Ok(geometry) = Geometry::from_scene(scene) else { return false };
+    let Ok(geometry) = scene.tooth_geometry() else { return false };
     let meshes = [MeshKind::SunPlanet, MeshKind::RingPlanet].map(|kind| geometry.mesh(kind));
     meshes.into_iter().flatten().all(|mesh| {
         [MeshMember::Driver, MeshMember::Driven].into_iter().all(|m| mesh.interference(m) <= 0.0)

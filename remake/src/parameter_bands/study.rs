@@ -4,7 +4,8 @@ use experiments::NaturalMode;
 use experiments::modal::{Preload, linear_modes, lumped_frequencies, lumped_from_fe, preloaded};
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, pair_cycle};
-use gearset::{MeshKind, PlaneState, Scene};
+use gearset::MeshKind;
+use scene::{PlaneState, Scene};
 use validation::effects::{TabledFrequency, tabled};
 use validation::parameter_bands::{BandRow, Interval, ParameterBands, ParameterEffect, band_of};
 use validation::{Reference, Table, ValidationError, iso6336_mean_stiffness, scene};
@@ -34,7 +35,7 @@ struct Value {
 type Values = Vec<Value>;
 
 fn preload(torque_nm: f64, position: f64) -> Preload {
-    Preload { load: gearset::LoadCase::standing(torque_nm), position, step_s: 5e-6 }
+    Preload { load: scene::LoadCase::standing(torque_nm), position, step_s: 5e-6 }
 }
 
 /// Tabled frequencies by linearised FE/contact and by the lumped model with parameters from it.

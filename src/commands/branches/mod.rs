@@ -15,7 +15,7 @@ use experiments::sweep::{
     KeyedModel, LUMPED, Memory, SteadySettings, SweepModel, fidelity_name, steps_needed,
 };
 use fe_contact::statics::Bodies;
-use gearset::{Fidelity, LoadCase, Scene, Verb};
+use scene::{Fidelity, LoadCase, Scene, Verb};
 use serde::Serialize;
 
 use super::turning;
@@ -307,7 +307,7 @@ fn case(
     let missing = || unfit(path, "[operation] is absent: it says which member is driven");
     let case = LoadCase::of_scene(scene).map_err(|_| missing())?.with_sun_torque(torque_nm);
     match arguments.rpm {
-        Some(rpm) if gearset::is_speed(rpm) => Ok(case.at_speed(rpm)),
+        Some(rpm) if scene::is_speed(rpm) => Ok(case.at_speed(rpm)),
         Some(rpm) => {
             Err(refused("--rpm", format!("{rpm:?}: allowed are speeds from 0.001 to 1e7 rpm")))
         }

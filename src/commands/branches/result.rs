@@ -7,7 +7,7 @@ use experiments::branches::{
     Branches,
 };
 use experiments::sweep::Line;
-use gearset::{LoadCase, Scene};
+use scene::{LoadCase, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -2,7 +2,7 @@
 
 use experiments::modal::{FeMode, FrequencyBand, ImpulseTest};
 use fe_contact::statics::{Bodies, Races};
-use gearset::Scene;
+use scene::Scene;
 
 /// All that was found.
 pub(super) struct Found {

@@ -15,7 +15,7 @@ use experiments::modal::{
 };
 use fe_contact::FeError;
 use fe_contact::statics::Bodies;
-use gearset::{Fidelity, LoadCase, Scene, Verb};
+use scene::{Fidelity, LoadCase, Scene, Verb};
 #[cfg(feature = "charts")]
 use validation::ValidationError;
 

@@ -1,7 +1,7 @@
 //! JSON of `impulse`.
 
 use experiments::modal::{Decay, FeMode, FrequencyBand, ModeBand, Preload, Spread, beside};
-use gearset::Fidelity;
+use scene::Fidelity;
 use schemars::JsonSchema;
 use serde::Serialize;
 

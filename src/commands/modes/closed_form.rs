@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::io::Write;
 
 use experiments::modal::majority;
-use gearset::{LoadCase, PerBody, PerMesh, Scene};
 use lumped::{AnalyticSet, LumpedModel, ModeGroup, NaturalModes, SpringId, StatedError};
+use scene::{LoadCase, PerBody, PerMesh, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
 

@@ -10,8 +10,8 @@ use std::f64::consts::TAU;
 use std::io::Write;
 
 use experiments::auto::{AutoModel, FrequencyQuestion, choose_frequency};
-use gearset::{AutoQuantity, LoadCase, Scene, SceneKind, Verb};
 use lumped::{AnalyticSet, LumpedError, LumpedModel, NaturalModes, campbell};
+use scene::{AutoQuantity, LoadCase, Scene, SceneKind, Verb};
 
 use crate::arguments::{Format, Modes};
 use crate::error::{CommandError, refused, unfit};
@@ -26,7 +26,7 @@ pub(crate) fn run(
 ) -> Result<(), CommandError> {
     let scene = read_scene(&arguments.scene)?;
     needs::warn(&scene, err)?;
-    let most = gearset::SPEEDS_RPM[1];
+    let most = scene::SPEEDS_RPM[1];
     // Not `abs() > most`: what is no number is within nothing.
     if let Some(bad) = arguments.carrier_speeds_rpm.iter().find(|s| !(-most..=most).contains(*s)) {
         let reason = format!("{bad:?} is not a finite speed from {:e} to {most:e} rpm", -most);

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::io::Write;
 
 use experiments::auto::Choice;
-use gearset::Scene;
 use lumped::{
     LumpedModel, ModeGroup, NaturalModes, Parameter, SpeedModes, kinetic_energy, sensitivities,
     strain_energy,
 };
+use scene::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
 

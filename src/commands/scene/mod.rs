@@ -9,7 +9,8 @@ pub(crate) use summary::SceneSummary;
 use std::io::Write;
 use std::path::Path;
 
-use gearset::{PlanetPositions, SceneKind, template};
+use gearset::PlanetPositions;
+use scene::{SceneKind, template};
 
 use crate::arguments::SceneVerb;
 use crate::error::{CommandError, unwritten};
@@ -22,7 +23,7 @@ pub(crate) fn run(verb: &SceneVerb, out: &mut dyn Write) -> Result<(), CommandEr
         SceneVerb::Check { scene, format } => {
             output::show(*format, &SceneSummary::of(&read_scene(scene)?), out)
         }
-        SceneVerb::Schema => output::json(out, &gearset::scene_schema()),
+        SceneVerb::Schema => output::json(out, &scene::scene_schema()),
     }
 }
 

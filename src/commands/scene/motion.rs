@@ -2,7 +2,8 @@
 
 use std::io::Write;
 
-use gearset::{Kinematics, LoadCase, Member, MemberSpeeds, MemberTorques, PathDirection, Scene};
+use gearset::{Kinematics, Member, MemberSpeeds, MemberTorques, PathDirection};
+use scene::{LoadCase, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -32,7 +33,7 @@ pub(super) struct MotionSummary {
 
 impl MotionSummary {
     pub(super) fn new(scene: &Scene) -> Option<Self> {
-        let kinematics = Kinematics::from_scene(scene).ok()?;
+        let kinematics = scene.kinematics().ok()?;
         let case = LoadCase::of_scene(scene).ok()?;
         let operation = scene.operation?;
         let Kinematics { fixed, input, output, speed_ratio, speeds_rpm, .. } = kinematics;

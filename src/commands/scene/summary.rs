@@ -3,10 +3,8 @@
 use fe_contact::FeError;
 use fe_contact::statics::within_memory;
 use gearset::involute::roll_length_at;
-use gearset::{
-    Gear, Geometry, Kinematics, LoadCase, Mesh, MeshKind, Phasing, ReliefShape, Scene, SceneKind,
-    Verb,
-};
+use gearset::{Gear, Geometry, Mesh, MeshKind, Phasing, ReliefShape};
+use scene::{LoadCase, Scene, SceneKind, Verb};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -117,8 +115,8 @@ pub(super) struct MeshSummary {
 
 impl SceneSummary {
     pub(super) fn of(scene: &Scene) -> Self {
-        let geometry = Geometry::from_scene(scene).ok();
-        let kinematics = Kinematics::from_scene(scene).ok();
+        let geometry = scene.tooth_geometry().ok();
+        let kinematics = scene.kinematics().ok();
         let mesh_frequency_hz = LoadCase::of_scene(scene).ok().map(|case| case.mesh_frequency_hz);
         let geometry = geometry.as_ref();
         let phasing = geometry.and_then(|g| Phasing::new(g, &scene.planets));
@@ -157,7 +155,7 @@ impl SceneSummary {
                 degrees_of_freedom: found.bodies.iter().map(|b| b.unknowns).sum(),
                 memory_mb: 1e-6 * found.peak_bytes as f64,
             }),
-            warnings: gearset::warnings(scene).into_iter().map(warning).collect(),
+            warnings: scene::warnings(scene).into_iter().map(warning).collect(),
             verbs: Verb::ALL
                 .into_iter()
                 .map(|verb| needs(scene, verb, admitted.as_ref().err()))
@@ -166,8 +164,8 @@ impl SceneSummary {
     }
 }
 
-fn warning(w: gearset::Warning) -> WarningSummary {
-    let gearset::Warning { key, value, what, likely } = w;
+fn warning(w: scene::Warning) -> WarningSummary {
+    let scene::Warning { key, value, what, likely } = w;
     WarningSummary { key, value, what, likely }
 }
 
@@ -177,7 +175,7 @@ fn needs(scene: &Scene, verb: Verb, refusal: Option<&FeError>) -> VerbSummary {
     let is_on_bodies = !matches!(verb, Verb::Modes | Verb::Rules | Verb::Compare);
     let is_complete = lacks.iter().all(|lack| lack.argument.is_some());
     if let (true, true, Some(refusal)) = (is_on_bodies, is_complete, refusal) {
-        lacks.push(gearset::Lack {
+        lacks.push(scene::Lack {
             key: "fe_contact".into(),
             why: refusal.to_string(),
             argument: None,
@@ -186,9 +184,9 @@ fn needs(scene: &Scene, verb: Verb, refusal: Option<&FeError>) -> VerbSummary {
     let is_on_closed_forms =
         matches!(verb, Verb::Modes | Verb::Compare) && scene.has_closed_forms();
     if let (true, true, Err(why)) = (is_on_closed_forms, lacks.is_empty(), ClosedForm::new(scene)) {
-        lacks.push(gearset::Lack { key: "lumped".into(), why, argument: None });
+        lacks.push(scene::Lack { key: "lumped".into(), why, argument: None });
     }
-    let summary = |lack: &gearset::Lack| LackSummary {
+    let summary = |lack: &scene::Lack| LackSummary {
         key: lack.key.clone(),
         why: lack.why.clone(),
         argument: lack.argument.map(str::to_owned),

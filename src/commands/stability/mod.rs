@@ -8,7 +8,7 @@ use std::io::Write;
 use std::path::Path;
 
 use experiments::stability::{Border, MAPS, Map, StabilityMap, stability_map};
-use gearset::Scene;
+use scene::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
 use validation::PublishedScene;

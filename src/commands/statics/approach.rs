@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use fe_contact::export::calculix::{DeckSettings, deck};
 use fe_contact::statics::{Bodies, at_approach};
-use gearset::Scene;
+use scene::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
 

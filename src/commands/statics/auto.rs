@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use experiments::auto::{AutoModel, CycleQuestion, CycleValue, choose_transmission_error};
-use gearset::{AutoQuantity, LoadCase, Scene};
+use scene::{AutoQuantity, LoadCase, Scene};
 
 use super::set::{self, SetOutput};
 use crate::arguments::{ContactSolver, Format, Static};

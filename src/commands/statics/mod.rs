@@ -13,7 +13,7 @@ pub(crate) use set::SetOutput;
 
 use std::io::Write;
 
-use gearset::{Scene, SceneKind, Verb};
+use scene::{Scene, SceneKind, Verb};
 
 use crate::arguments::Static;
 use crate::error::{CommandError, refused, unfit};

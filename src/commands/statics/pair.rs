@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use fe_contact::statics::{Bodies, PairAtPhase, PairCycle, pair_cycle};
-use gearset::Scene;
+use scene::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
 

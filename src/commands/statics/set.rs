@@ -4,7 +4,8 @@ use std::io::Write;
 
 use experiments::auto::Choice;
 use fe_contact::statics::{Bodies, Imperfections, MeshState, SetCycle, SetState, StaticSet};
-use gearset::{LoadCase, Member, Scene};
+use gearset::Member;
+use scene::{LoadCase, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
 

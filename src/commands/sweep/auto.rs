@@ -4,7 +4,7 @@ use std::io::Write;
 
 use experiments::auto::{AmplitudeQuestion, choose_amplitude};
 use experiments::sweep::Plan;
-use gearset::{AutoQuantity, AutoResponse, LoadCase, Scene};
+use scene::{AutoQuantity, AutoResponse, LoadCase, Scene};
 
 use super::result::SweepOutput;
 use crate::arguments::{Format, Model, Sweep};

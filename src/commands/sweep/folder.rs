@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use experiments::sweep::Plan;
-use gearset::read_text;
+use scene::read_text;
 use serde::Serialize;
 use serde_json::Value;
 

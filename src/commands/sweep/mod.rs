@@ -15,8 +15,8 @@ use experiments::sweep::{
     Sweep, SweepModel, even_speeds, fidelity_name, run as run_plan,
 };
 use fe_contact::statics::Bodies;
-use gearset::{Fidelity, LoadCase, Scene, Verb};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use scene::{Fidelity, LoadCase, Scene, Verb};
 
 use super::turning;
 use crate::arguments::{Format, Model, Sweep as SweepArguments};

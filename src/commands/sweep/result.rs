@@ -7,7 +7,7 @@ use experiments::sweep::{
     Attraction, Attractors, FailedPoint, InertiaError, LargestMultiplier, Line, MOST_REPEATS,
     SearchStart, SteadyMethod, SteadySettings, StepError, Sweep, SweepPoint,
 };
-use gearset::Scene;
+use scene::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -443,7 +443,7 @@ fn loses(largest: &LargestMultiplier) -> String {
 mod tests {
     use super::*;
     use experiments::sweep::{Coordinate, Line, SteadyState};
-    use gearset::LoadCase;
+    use scene::LoadCase;
 
     /// A sweep of three chains: two speeds found, the first in the second chain, and one that failed.
     fn sweep() -> Sweep {
@@ -509,7 +509,7 @@ mod tests {
     }
 
     fn result() -> SweepOutput {
-        let scene = gearset::template(gearset::SceneKind::Planetary);
+        let scene = scene::template(scene::SceneKind::Planetary);
         let scene = Scene::from_toml(scene).unwrap();
         SweepOutput::new(&scene, 1130.0, &SteadySettings::default(), &sweep())
     }

@@ -58,11 +58,11 @@ fn draw(verdict: &Verdict, folder: &Path) -> Result<(), CommandError> {
 #[cfg(feature = "charts")]
 /// γ of the published four-planet set, cycles.
 fn paper_gamma() -> Result<f64, ValidationError> {
-    use gearset::{Geometry, Phasing};
+    use gearset::Phasing;
     use validation::{PublishedScene, scene};
     let scene = scene(PublishedScene::Oh58FourPlanets)?;
     let incomplete = || ValidationError::Incomplete("geometry");
-    let geometry = Geometry::from_scene(&scene).ok().ok_or_else(incomplete)?;
+    let geometry = scene.tooth_geometry().ok().ok_or_else(incomplete)?;
     Ok(Phasing::new(&geometry, &scene.planets).ok_or_else(incomplete)?.gamma())
 }
 

@@ -6,8 +6,9 @@ use experiments::modal::{
     Preload, linear_modes, lumped_frequencies, lumped_from_fe, majority, preloaded,
 };
 use fe_contact::statics::Bodies;
-use gearset::{Kinematics, PlanetPositions, Scene};
+use gearset::PlanetPositions;
 use lumped::{LumpedModel, campbell};
+use scene::Scene;
 use serde::Serialize;
 
 use crate::catalogue::scene;
@@ -189,7 +190,7 @@ fn effect_of(base: &Rows, rows: &Rows) -> Vec<Effect> {
 /// Frequencies of a lumped scene in the frame of its rotating carrier.
 fn turning(scene: &Scene) -> Result<Vec<NaturalMode>, ValidationError> {
     let missing = || ValidationError::Incomplete("operating speed");
-    let kinematics = Kinematics::from_scene(scene).ok().ok_or_else(missing)?;
+    let kinematics = scene.kinematics().ok().ok_or_else(missing)?;
     let speed = kinematics.speeds_rad_per_s.carrier;
     let model = LumpedModel::from_scene(scene)?;
     let list = campbell(&model, &[speed])?;

@@ -2,7 +2,8 @@
 
 use experiments::modal::Preload;
 use fe_contact::statics::Bodies;
-use gearset::{LoadCase, PlaneState, PlanetPositions, Scene, ThicknessInput};
+use gearset::{PlanetPositions, ThicknessInput};
+use scene::{LoadCase, PlaneState, Scene};
 use serde::Serialize;
 
 use crate::error::ValidationError;
@@ -173,7 +174,7 @@ impl Variant {
 
 #[cfg(test)]
 mod tests {
-    use gearset::PlanetOverride;
+    use scene::PlanetOverride;
 
     use super::*;
     use crate::catalogue::{PublishedScene, scene};

@@ -2,8 +2,8 @@
 
 use experiments::models::Changed;
 use experiments::{ModalModel, frequencies_of};
-use gearset::Scene;
 use lumped::ModeType;
+use scene::Scene;
 
 use crate::error::ValidationError;
 use crate::reference::Reference;

@@ -3,8 +3,9 @@
 
 use experiments::models::{Changed, Lumped};
 use experiments::{ModalModel, NaturalMode, distinct, frequencies_of};
-use gearset::{PlanetPositions, Scene};
+use gearset::PlanetPositions;
 use lumped::ModeType;
+use scene::Scene;
 use serde::Serialize;
 
 use crate::catalogue::{PublishedScene, scene};

@@ -6,7 +6,8 @@ use experiments::models::{FeContact, Lumped};
 use experiments::{BodiesCache, ModelError};
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, PairCycle, SetCycle, StaticSet, pair_cycle};
-use gearset::{LoadCase, MeshKind, Scene};
+use gearset::MeshKind;
+use scene::{LoadCase, Scene};
 
 use crate::Profile;
 use crate::catalogue::{PublishedScene, scene};

@@ -17,7 +17,7 @@ use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use experiments::{ModalModel, StaticModel, SteadyStateModel};
-use gearset::Scene;
+use scene::Scene;
 
 use crate::Profile;
 use crate::catalogue::{PublishedScene, scene};

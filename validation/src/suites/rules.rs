@@ -3,9 +3,10 @@
 use std::num::NonZeroU32;
 
 use gearset::{
-    AllowedKinds, DiametricalRule, ExcitationStrengths, Scene, Spacing, diametrical_rule,
-    excitation, excitation_of_scene, table4,
+    AllowedKinds, DiametricalRule, ExcitationStrengths, Spacing, diametrical_rule, excitation,
+    table4,
 };
+use scene::{Scene, excitation_of_scene};
 
 use crate::error::ValidationError;
 use crate::reference::Reference;

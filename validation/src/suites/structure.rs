@@ -2,8 +2,9 @@
 
 use experiments::models::Changed;
 use experiments::{ModalModel, frequencies_of};
-use gearset::{PerBody, PlanetPositions, Scene, Torsional};
+use gearset::PlanetPositions;
 use lumped::{LumpedModel, ModeType, NaturalModes};
+use scene::{PerBody, Scene, Torsional};
 
 use crate::error::ValidationError;
 use crate::reference::Reference;

@@ -1,6 +1,7 @@
 //! Consistency of Table 1: one base pitch, two operating pressure angles, one centre distance.
 
-use gearset::{Facing, Geometry, LoadCase, Mesh, MeshKind, MeshMember, Phasing, Scene};
+use gearset::{Facing, Geometry, Mesh, MeshKind, MeshMember, Phasing};
+use scene::{LoadCase, Scene};
 
 use crate::check::Check;
 use crate::error::ValidationError;

@@ -6,7 +6,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use fe_contact::FeError;
-use gearset::LoadCase;
+use scene::LoadCase;
 
 use super::super::attraction::Attraction;
 use super::super::marching::{Effort, Marching};

@@ -1,9 +1,8 @@
 //! Tables of mesh force, computed from the contact cells.
 
-use gearset::{
-    CurveKey, Facing, FlankSide, MeshCurve, MeshKind, MeshLaw, MeshLawPlan, MeshStart, Scene,
-};
+use gearset::{CurveKey, Facing, FlankSide, MeshCurve, MeshKind, MeshLaw, MeshLawPlan, MeshStart};
 use rayon::prelude::*;
+use scene::Scene;
 
 use super::deflected_mesh::{Approaches, DeflectedMesh, at, deflection_for, first_contact};
 use super::share::damped_share;

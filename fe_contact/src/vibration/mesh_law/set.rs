@@ -7,8 +7,9 @@ use dynamics::{
     AverageAcceleration, CarriedChange, Coupled, CoupledState, Coupling, CyclePart, LinearPart,
     MapDerivative, Motion, Number, PassedSteps, Renumbering,
 };
-use gearset::{Facing, MeshLaw, Scene, Symmetry};
+use gearset::{Facing, MeshLaw, Symmetry};
 use nalgebra::{DMatrix, DVector};
+use scene::Scene;
 
 use super::super::build::body_mass;
 use super::super::gyroscopic::{GyroscopicTerms, carrier_speed};

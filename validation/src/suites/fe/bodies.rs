@@ -3,7 +3,8 @@
 use fe_contact::Elastic;
 use fe_contact::body::CarrierBody;
 use fe_contact::fe_mesh::{Elements, FeGearMesh};
-use gearset::{Gear, Geometry, Scene, ThicknessInput};
+use gearset::{Gear, ThicknessInput};
+use scene::Scene;
 
 use crate::catalogue::{PublishedScene, scene};
 use crate::error::ValidationError;
@@ -15,7 +16,7 @@ const FLANK_ELEMENTS: usize = 6;
 /// Mass (kg) and polar inertia (kg m²) of sun and planet, beside the scene's lumped values.
 fn gears(scene: &Scene) -> Result<[(f64, f64); 4], ValidationError> {
     let missing = || ValidationError::Incomplete("sun, or lumped mass or inertia of it");
-    let geometry = Geometry::from_scene(scene).ok().ok_or_else(missing)?;
+    let geometry = scene.tooth_geometry().ok().ok_or_else(missing)?;
     let material = Elastic::new(&scene.material, scene.fe_contact.plane);
     let lumped = scene.lumped.as_ref().ok_or_else(missing)?;
     let of = |name, gear: &Gear| -> Result<(f64, f64), ValidationError> {

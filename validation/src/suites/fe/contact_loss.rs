@@ -4,7 +4,7 @@
 use experiments::branches::{Branch, BranchPoint, BranchSettings, Branches, branches};
 use experiments::sweep::{Coordinate, DampedModel, FeModel, MeshLawModel, Part, SweepModel};
 use fe_contact::statics::{Bodies, Imperfections};
-use gearset::Scene;
+use scene::Scene;
 
 use super::sweeps::under;
 use crate::check::Check;

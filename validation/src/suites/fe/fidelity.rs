@@ -1,7 +1,7 @@
 //! The fidelities against bodies with every degree of freedom, whose impulse tests are kept.
 
 use experiments::modal::{FeMode, ImpulseSettings, impulse_test};
-use gearset::{Fidelity, LoadCase};
+use scene::{Fidelity, LoadCase};
 
 use crate::own_truth::FullImpulseSet;
 use crate::published_table::Table;

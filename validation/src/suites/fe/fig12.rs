@@ -1,7 +1,8 @@
 //! Fig. 12: static deflection of the sun against torque, four planets.
 
 use experiments::{StaticModel, SunRms};
-use gearset::{LoadCase, PlaneState, Scene, ThicknessInput};
+use gearset::ThicknessInput;
+use scene::{LoadCase, PlaneState, Scene};
 
 use crate::error::ValidationError;
 use crate::reference::Reference;

@@ -1,8 +1,9 @@
 //! Mesh stiffness against the standard's formula for c_γ.
 
 use fe_contact::statics::Bodies;
+use gearset::MeshKind;
 use gearset::iso6336::{BasicRack, mean_mesh_stiffness};
-use gearset::{Geometry, MeshKind, Scene};
+use scene::Scene;
 
 use crate::error::ValidationError;
 use crate::suites::lab::MESHES;
@@ -16,7 +17,7 @@ const OH58: BasicRack = BasicRack { module: 25.4e-3 / 9.0, pressure_angle_deg: 2
 
 /// Stiffness c_γ of a mesh of OH-58 gears per face width by ISO 6336-1, N/(mm µm); `None` without geometry or mesh.
 pub fn iso6336_mean_stiffness(scene: &Scene, kind: MeshKind) -> Option<f64> {
-    Some(mean_mesh_stiffness(Geometry::from_scene(scene).ok()?.mesh(kind)?, &OH58))
+    Some(mean_mesh_stiffness(scene.tooth_geometry().ok()?.mesh(kind)?, &OH58))
 }
 
 pub(crate) fn checks(lab: &Lab<'_>) -> Checks {

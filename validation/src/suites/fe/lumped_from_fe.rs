@@ -2,7 +2,7 @@
 //! middle of the way from the published lumped frequencies to FE/contact.
 
 use experiments::modal::{Agreement, Preload, agreement, agreement_after};
-use gearset::LoadCase;
+use scene::LoadCase;
 
 use crate::Profile;
 use crate::catalogue::scene;

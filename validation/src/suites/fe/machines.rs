@@ -5,7 +5,8 @@ use experiments::sweep::{
     Coordinate, Direction, FeModel, Memory, Part, Plan, SteadyState, Sweep, run,
 };
 use fe_contact::statics::Imperfections;
-use gearset::{Geometry, Kinematics, LoadCase, Member, Scene};
+use gearset::{Geometry, Member};
+use scene::{LoadCase, Scene};
 
 use super::sweeps::{marches, order, steady_settings};
 use crate::catalogue::{PublishedScene, scene};
@@ -63,7 +64,7 @@ fn torques_off(
     state: &SteadyState,
 ) -> Result<f64, ValidationError> {
     let operation = machine.operation.ok_or(ValidationError::Incomplete("operation"))?;
-    let torques = Kinematics::from_scene(machine)?.torques_nm(operation.torque_nm);
+    let torques = machine.kinematics()?.torques_nm(operation.torque_nm);
     let planets = machine.planets.count();
     let off = [
         (Member::Sun, geometry.sun.as_ref(), Part::SunMesh as fn(usize) -> Part),

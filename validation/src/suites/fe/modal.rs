@@ -6,8 +6,8 @@ use experiments::modal::{
 use experiments::models::{Changed, FeContact, ModalRoute};
 use experiments::{ModalModel, NaturalMode};
 use fe_contact::statics::Races;
-use gearset::{LoadCase, Scene};
 use lumped::ModeType;
+use scene::{LoadCase, Scene};
 
 use crate::check::Check;
 use crate::error::ValidationError;

@@ -3,7 +3,8 @@
 use experiments::models::FeContact;
 use experiments::{MeshCycle, RestState, StaticModel};
 use fe_contact::statics::{Imperfections, PitchError, SetCycle};
-use gearset::{LoadCase, MeshKind, Scene};
+use gearset::MeshKind;
+use scene::{LoadCase, Scene};
 
 use crate::check::{Check, Status};
 use crate::error::ValidationError;

@@ -3,7 +3,8 @@
 use dynamics::{Window, spectrum};
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{Loading, NominalRotation, Prepared, VibratingSet};
-use gearset::{Facing, LoadCase, PathDirection, Scene};
+use gearset::{Facing, PathDirection};
+use scene::{LoadCase, Scene};
 
 use crate::check::Check;
 use crate::error::ValidationError;

@@ -12,7 +12,8 @@ use experiments::sweep::{
 use experiments::{ModalModel, NaturalMode, SteadyStateModel};
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Imperfections, PitchError, StaticSet};
-use gearset::{ExcitationStrengths, LoadCase, PlanetOverride, Scene, excitation_of_scene};
+use gearset::ExcitationStrengths;
+use scene::{LoadCase, PlanetOverride, Scene, excitation_of_scene};
 
 use crate::Profile;
 use crate::catalogue::{PublishedScene, scene};

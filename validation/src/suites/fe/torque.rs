@@ -4,7 +4,7 @@
 use experiments::sweep::Part;
 use experiments::torque::{Followed, Series, follow, lowest_series, static_growth};
 use experiments::{ModalModel, SteadyStateModel};
-use gearset::Scene;
+use scene::Scene;
 
 use super::sweeps::under;
 use crate::catalogue::{PublishedScene, scene};

@@ -1,7 +1,7 @@
 //! The fidelities over speed against bodies with every degree of freedom, whose steady states are kept.
 
 use fe_contact::statics::Imperfections;
-use gearset::Fidelity;
+use scene::Fidelity;
 
 use super::sweeps::under;
 use crate::error::ValidationError;

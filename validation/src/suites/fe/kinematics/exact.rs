@@ -3,7 +3,7 @@
 
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, SetCycle};
-use gearset::Scene;
+use scene::Scene;
 
 use super::{HARMONICS, POSITIONS, control, sun_lines, unloaded};
 use crate::catalogue::{PublishedScene, scene};

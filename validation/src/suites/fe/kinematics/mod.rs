@@ -10,7 +10,8 @@ pub(crate) mod work;
 
 use dynamics::{Window, spectrum};
 use fe_contact::statics::{Bodies, Imperfections, SetCycle, StaticSet};
-use gearset::{Facing, Scene};
+use gearset::Facing;
+use scene::Scene;
 
 use crate::check::Check;
 use crate::error::ValidationError;

@@ -9,7 +9,7 @@
 
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{PLANETS, SUN, SetCycle, SetState};
-use gearset::Scene;
+use scene::Scene;
 
 use super::{HARMONICS, POSITIONS, control, sun_lines, unloaded};
 use crate::error::ValidationError;

@@ -12,7 +12,7 @@
 
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{SetCycle, SetState};
-use gearset::Scene;
+use scene::Scene;
 
 use super::{POSITIONS, control, unloaded};
 use crate::catalogue::{PublishedScene, scene};

@@ -1,0 +1,149 @@
+//! The `[planets]` table.
+
+use gearset::{PlanetPositions, assembly};
+
+use crate::read::document::Section;
+use crate::read::{MOST_PLANETS, TeethRead};
+use crate::scene::SceneKind;
+
+/// Reads the positions; `kind` is `None` where the file does not say it.
+pub(crate) fn planets(
+    root: &Section<'_, '_>,
+    kind: Option<SceneKind>,
+    teeth: &TeethRead,
+) -> Option<PlanetPositions> {
+    let is_pair = kind == Some(SceneKind::GearPair);
+    let Some(s) = root.section("planets") else {
+        if is_pair {
+            return Some(PlanetPositions::equally_spaced(1));
+        }
+        if kind.is_some() && !root.has("planets") {
+            root.fault("planets", "[planets] with count", "a planetary set has planets");
+        }
+        return None;
+    };
+    if is_pair {
+        root.fault("planets", "nothing here", "a gear pair has one planet, at zero");
+        return Some(PlanetPositions::equally_spaced(1));
+    }
+    let count = s.required_integer("count", (1, MOST_PLANETS), "number of planets N");
+    let steps = s.integers("position_steps", "assembly steps of 360°/(Z_s+Z_r) from planet 0");
+    let degrees = s.numbers("positions_deg", "planet positions, counter-clockwise from planet 0");
+    let is_asked = s.may_hold("position_steps") || s.may_hold("positions_deg");
+    let result = positions(root, &s, count, steps, degrees, teeth);
+    s.finish();
+    let sun_ring = teeth.sun.zip(teeth.ring);
+    match (result, is_asked) {
+        (Some(found), _) => Some(found),
+        (None, true) => None,
+        (None, false) => {
+            let n = usize::try_from(count?).ok()?;
+            equal_positions(root, n, sun_ring)
+        }
+    }
+}
+
+/// Positions given explicitly, checked against count and assembly.
+fn positions(
+    root: &Section<'_, '_>,
+    s: &Section<'_, '_>,
+    count: Option<i64>,
+    steps: Option<Vec<i64>>,
+    degrees: Option<Vec<f64>>,
+    teeth: &TeethRead,
+) -> Option<PlanetPositions> {
+    let sun_ring = teeth.sun.zip(teeth.ring);
+    if s.has("position_steps") && s.has("positions_deg") {
+        s.fault("positions_deg", "one of positions_deg and position_steps", "both say the same");
+        return None;
+    }
+    let length_is_right = |key: &str, length: usize| match count {
+        Some(n) if n as usize == length => true,
+        Some(n) => {
+            s.fault(key, format!("{n} entries, as in count"), "one position a planet");
+            false
+        }
+        None => false,
+    };
+    if let Some(steps) = steps {
+        let ok = length_is_right("position_steps", steps.len());
+        if ok && steps[0] != 0 {
+            s.fault("position_steps", "0 first", "angles are counted from planet 0");
+            return None;
+        }
+        let Some((z_s, z_r)) = sun_ring else {
+            // Numbers of teeth that are at fault, or absent beside [geometry], have a fault of their own.
+            if !root.may_hold("teeth") && !root.has("geometry") {
+                let why = "a step is 360°/(Z_s+Z_r)";
+                s.fault("position_steps", "with [teeth] sun and ring given", why);
+            }
+            return None;
+        };
+        let step = assembly::assembly_step_rad(z_s, z_r);
+        let psi_rad = steps.iter().map(|&k| k as f64 * step).collect();
+        return ok.then_some(PlanetPositions { psi_rad, steps: Some(steps) });
+    }
+    let degrees = degrees?;
+    if !length_is_right("positions_deg", degrees.len()) {
+        return None;
+    }
+    if degrees[0] != 0.0 {
+        s.fault("positions_deg", "0 first", "angles are counted from planet 0");
+        return None;
+    }
+    if let Some(&far) = degrees.iter().find(|d| d.abs() > 360.0) {
+        let why = format!("{far} is more than one turn");
+        s.fault("positions_deg", "angles from -360 to 360", why);
+        return None;
+    }
+    let psi_rad: Vec<f64> = degrees.iter().map(|d| d.to_radians()).collect();
+    let Some((z_s, z_r)) = sun_ring else {
+        return Some(PlanetPositions { psi_rad, steps: None });
+    };
+    let mut steps = Vec::new();
+    let mut all_fit = true;
+    for (&degree, &psi) in degrees.iter().zip(&psi_rad) {
+        let (nearest, off) = assembly::nearest_steps(psi, z_s, z_r);
+        steps.push(nearest);
+        // Rounding of degrees written with 8 decimals; anything more misplaces teeth.
+        if off.abs() > 1e-6 {
+            all_fit = false;
+            let exact = nearest as f64 * 360.0 / f64::from(z_s + z_r);
+            let allowed = format!("multiples of 360°/{}", z_s + z_r);
+            let why = format!(
+                "{degree}° cannot be assembled: the nearest position that can is {nearest} steps, {exact:.8}°; write position_steps"
+            );
+            s.fault("positions_deg", allowed, why);
+        }
+    }
+    let step = assembly::assembly_step_rad(z_s, z_r);
+    let psi_rad = steps.iter().map(|&k| k as f64 * step).collect();
+    all_fit.then_some(PlanetPositions { psi_rad, steps: Some(steps) })
+}
+
+/// Equal spacing; with teeth known it must be possible to assemble it.
+fn equal_positions(
+    root: &Section<'_, '_>,
+    n: usize,
+    sun_ring: Option<(u32, u32)>,
+) -> Option<PlanetPositions> {
+    let mut positions = PlanetPositions::equally_spaced(n);
+    let Some((z_s, z_r)) = sun_ring else {
+        return Some(positions);
+    };
+    let total = u64::from(z_s) + u64::from(z_r);
+    if total % n as u64 != 0 {
+        let n = n as u64;
+        // n·total/N, rounded in whole numbers.
+        let nearest: Vec<_> = (0..n).map(|i| ((2 * i * total + n) / (2 * n)).to_string()).collect();
+        let why = format!(
+            "(Z_s+Z_r)/N = {total}/{n} is not whole, so equal spacing cannot be assembled; nearest: position_steps = [{}]",
+            nearest.join(", ")
+        );
+        root.fault("planets", "positions that can be assembled", why);
+        return None;
+    }
+    let each = (total / n as u64) as i64;
+    positions.steps = Some((0..n as i64).map(|i| i * each).collect());
+    Some(positions)
+}

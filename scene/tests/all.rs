@@ -1,0 +1,6 @@
+//! Tests of the scene file. One program for all files, which is built faster:
+//! `cargo test --release -p epicyclic-scene --test all needs` runs those whose name has the word.
+
+mod gear_pair;
+mod needs;
+mod scene_faults;
