@@ -178,66 +178,75 @@ fn table<'r>() -> Table<'r, &'r BodyOutput> {
     let teeth = |value: fn(&TeethOutput) -> f64| move |b: &Body<'_>| b.teeth.as_ref().map(value);
     let excess = |given: Option<f64>, meshed: f64| Some(100.0 * (meshed / given? - 1.0));
     Table::new()
-.column("body", "", |b: &Body<'_>| &b.body).shown("body", Plain).key()
-.column("elements", "number of finite elements", |b| b.elements).shown("elements", Plain)
-.column("degrees_of_freedom", "number of free nodal displacements", |b| {
+        .column("body", "", |b: &Body<'_>| &b.body)
+        .shown("body", Plain)
+        .key()
+        .column("elements", "number of finite elements", |b| b.elements)
+        .shown("elements", Plain)
+        .column("degrees_of_freedom", "number of free nodal displacements", |b| {
             b.degrees_of_freedom
         })
         .shown("free", Plain)
-.column("mass_kg", "of the finite-element mesh, kg", |b| b.mass_kg)
-            .shown("mass kg", Fixed(4))
-.column("lumped_mass_kg", "the scene's value in [lumped], kg", |b| b.lumped_mass_kg)
-            .shown("lumped kg", Power(4))
-.words("above %", Notation::Signed(1), move |b: &Body<'_>| {
+        .column("mass_kg", "of the finite-element mesh, kg", |b| b.mass_kg)
+        .shown("mass kg", Fixed(4))
+        .column("lumped_mass_kg", "the scene's value in [lumped], kg", |b| b.lumped_mass_kg)
+        .shown("lumped kg", Power(4))
+        .words("above %", Notation::Signed(1), move |b: &Body<'_>| {
             excess(b.lumped_mass_kg, b.mass_kg)
         })
         .meaning("by how much the mesh's value is above that in [lumped]")
-.column(
+        .column(
             "polar_inertia_kg_m2",
             "of the finite-element mesh, about the body's centre, kg m²",
             |b| b.polar_inertia_kg_m2,
         )
         .shown("inertia kg m²", Power(4))
-.column("lumped_inertia_kg_m2", "the scene's value in [lumped], kg m²", |b| {
+        .column("lumped_inertia_kg_m2", "the scene's value in [lumped], kg m²", |b| {
             b.lumped_inertia_kg_m2
         })
         .shown("lumped kg m²", Power(4))
-.words("above %", Notation::Signed(1), move |b: &Body<'_>| {
+        .words("above %", Notation::Signed(1), move |b: &Body<'_>| {
             excess(b.lumped_inertia_kg_m2, b.polar_inertia_kg_m2)
         })
-.column(
+        .column(
             "flank_error_um",
             "largest distance of a meshed flank from its involute, µm",
             teeth(|t| t.flank_error_um),
         )
         .shown("flank error µm", Fixed(4))
-.column("least_corner_angle_deg", "least corner of an element, °", teeth(|t| t.least_corner_angle_deg))
-            .shown("angle °", Fixed(0))
-.column(
+        .column(
+            "least_corner_angle_deg",
+            "least corner of an element, °",
+            teeth(|t| t.least_corner_angle_deg),
+        )
+        .shown("angle °", Fixed(0))
+        .column(
             "largest_corner_angle_deg",
             "largest corner of an element, °",
             teeth(|t| t.largest_corner_angle_deg),
         )
         .shown("to °", Fixed(0))
-.column(
+        .column(
             "largest_aspect_ratio",
             "largest ratio of two sides of an element",
             teeth(|t| t.largest_aspect_ratio),
         )
         .shown("aspect", Fixed(1))
-.column(
+        .column(
             "least_jacobian_ratio",
-            "least ratio of the smallest to the largest Jacobian determinant within one element, 1 without distortion",
+            "least ratio of the smallest to the largest Jacobian determinant within one \
+             element, 1 without distortion",
             teeth(|t| t.least_jacobian_ratio),
         )
         .shown("det J ratio", Fixed(2))
-.column(
+        .column(
             "flexibility_m_per_n",
-            "normal displacement below mid-flank, at the matching depth, under a unit force there; carrier: of a pin seat",
+            "normal displacement below mid-flank, at the matching depth, under a unit force \
+             there; carrier: of a pin seat",
             |b| b.teeth.as_ref().map(|t| t.flexibility_m_per_n).or(b.seat_flexibility_m_per_n),
         )
         .scaled("flexibility µm/kN", 1e9, Fixed(4))
-.column(
+        .column(
             "neighbour_share",
             "displacement of the same point of the next tooth, over that of the loaded one",
             teeth(|t| t.neighbour_share),

@@ -8,7 +8,7 @@ mod wrapped;
 
 pub(crate) use column::Notation;
 pub(crate) use table::Table;
-pub(crate) use wrapped::WIDTH;
+pub(crate) use wrapped::{WIDTH, paragraph};
 
 use std::io::Write;
 

@@ -13,9 +13,16 @@ fn line(line: &str) -> String {
         return line.to_owned();
     }
     let indent = &line[..line.len() - line.trim_start().len()];
-    let further = format!("{indent}  ");
-    let options = textwrap::Options::new(WIDTH).initial_indent(indent).subsequent_indent(&further);
-    textwrap::fill(line.trim_start(), options)
+    paragraph(line.trim_start(), indent, &format!("{indent}  "))
+}
+
+/// Lines of at most [`WIDTH`] columns, the first and the further ones behind an indent.
+pub(crate) fn paragraph(text: &str, first: &str, further: &str) -> String {
+    let options = textwrap::Options::new(WIDTH)
+        .initial_indent(first)
+        .subsequent_indent(further)
+        .word_splitter(textwrap::WordSplitter::NoHyphenation);
+    textwrap::fill(text, options)
 }
 
 #[cfg(test)]

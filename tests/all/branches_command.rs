@@ -141,7 +141,7 @@ fn folders_of_something_else_are_refused() {
         ("1000:1010", "--start 1000", "--start 1010, not 1000"),
         ("1000:1010", "--damping-factor 2", "--damping-factor 1, not 2"),
         ("1000:1010", "--max-points 9", "--max-points 500, not 9"),
-        ("1000:1010", "--switch", "--switch: without, not with"),
+        ("1000:1010", "--switch", "--switch no, not yes"),
     ] {
         let (code, _, err) = call(line(range, more));
         assert_eq!(code, 2, "{err}");
@@ -153,7 +153,7 @@ fn folders_of_something_else_are_refused() {
             .map(str::to_owned)
             .collect();
     let (code, _, err) = call(sweep);
-    assert!(code == 2 && err.contains("of branches, not of a sweep"), "{err}");
+    assert!(code == 2 && err.contains("it is of something else, not of a sweep"), "{err}");
     assert_eq!((results(&out), steps(&out)), before);
     // The same again, from the folder.
     let (code, again, err) = call(line("1000:1010", ""));

@@ -16,6 +16,11 @@ pub(crate) fn run(arguments: &[&str]) -> (u8, String, String) {
     (code, String::from_utf8(out).unwrap(), String::from_utf8(err).unwrap())
 }
 
+/// A text with single spaces for all white space: sentences as they were before their lines were broken.
+pub(crate) fn sentences(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// The result as JSON of a call that succeeds.
 pub(crate) fn json(arguments: &[&str]) -> Value {
     let (code, out, err) = run(arguments);

@@ -3,13 +3,7 @@
 use scene::{SceneKind, template};
 use serde_json::Value;
 
-/// Exit code, stdout and stderr of one in-process run.
-fn run(arguments: &[&str]) -> (u8, String, String) {
-    let (mut out, mut err) = (Vec::new(), Vec::new());
-    let all = std::iter::once("epicyclic").chain(arguments.iter().copied());
-    let code = epicyclic::run(all, &mut out, &mut err);
-    (code, String::from_utf8(out).unwrap(), String::from_utf8(err).unwrap())
-}
+use super::harness::{run, sentences};
 
 /// Writes a scene; the name of its file.
 fn written(folder: &tempfile::TempDir, text: &str) -> String {
@@ -176,12 +170,12 @@ fn it_says_verb_by_verb_what_is_lacking() {
     let (code, out, _) = run(&["scene", "check", &written(&folder, text)]);
     assert_eq!(code, 0);
     for words in [
-        "verbs that run: rules, mesh, static\n",
-        "modes, compare cannot run:\n  `geometry.carrier`: ",
+        "verbs that run: rules, mesh, static ",
+        "modes, compare cannot run: `geometry.carrier`: ",
         "; or numbers in [lumped], which are then taken from there",
-        "branches (modal) cannot run:\n  `geometry.carrier`: ",
+        "branches (modal) cannot run: `geometry.carrier`: ",
     ] {
-        assert!(out.contains(words), "{words}: {out}");
+        assert!(sentences(&out).contains(words), "{words}: {out}");
     }
 }
 

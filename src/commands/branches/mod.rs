@@ -322,16 +322,15 @@ fn case(
 mod tests {
     use super::*;
 
+    fn parts(branches: &BranchSettings) -> Kept<'_> {
+        let search = Search { switch: false };
+        Kept { speed_rpm: 150.0, damping_factor: 1.0, branches, search }
+    }
+
     #[test]
     fn what_differs_is_named() {
         let settings = BranchSettings::over([100.0, 200.0]);
-        let (scene, switch) = ("a = 1\nb = 2\n", false);
-        let parts = |branches| Kept {
-            speed_rpm: 150.0,
-            damping_factor: 1.0,
-            branches,
-            search: Search { switch },
-        };
+        let scene = "a = 1\nb = 2\n";
         let made = |parts: &Kept<'_>, model: &str, torque| {
             Manifest::new(&BRANCHES, (scene, model, torque), parts).unwrap()
         };

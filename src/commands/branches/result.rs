@@ -177,54 +177,59 @@ impl BranchesOutput {
             (_, unit) => unit,
         };
         let table = Table::new()
-.column("scene", "title of the scene", |r: &Row<'_>| &r.result.scene)
-.column("fidelity", "fidelity or model", |r| &r.branch.fidelity)
-.column("sun_torque_nm", "torque on the sun, N m", |r| r.point.state.case.sun_torque_nm)
-.column("speed_rpm", "speed of the input member, rpm", |r| r.point.state.case.speed_rpm)
-.column("mesh_frequency_hz", "mesh frequency, Hz", |r| {
+            .column("scene", "title of the scene", |r: &Row<'_>| &r.result.scene)
+            .column("fidelity", "fidelity or model", |r| &r.branch.fidelity)
+            .column("sun_torque_nm", "torque on the sun, N m", |r| r.point.state.case.sun_torque_nm)
+            .column("speed_rpm", "speed of the input member, rpm", |r| r.point.state.case.speed_rpm)
+            .column("mesh_frequency_hz", "mesh frequency, Hz", |r| {
                 r.point.state.case.mesh_frequency_hz
             })
-.column("damping_factor", "factor on every damping of the scene", |r| {
+            .column("damping_factor", "factor on every damping of the scene", |r| {
                 r.point.damping_factor
             })
-.column("parameter", "", |r| r.point.parameter)
-                .shown_as(heading, move |r| match over {
-                    BranchParameter::Speed => format!("{:.3}", r.point.parameter),
-                    BranchParameter::Torque | BranchParameter::Damping => {
-                        format!("{:.5}", r.point.parameter)
-                    }
-                    BranchParameter::Key(_) => format!("{:.5e}", r.point.parameter),
-                })
-                .key()
-.column("branch", "number of the branch", |r| r.index)
-.column("repeats_after", "mesh cycles after which the motions repeat", |r| {
+            .column("parameter", "", |r| r.point.parameter)
+            .shown_as(heading, move |r| match over {
+                BranchParameter::Speed => format!("{:.3}", r.point.parameter),
+                BranchParameter::Torque | BranchParameter::Damping => {
+                    format!("{:.5}", r.point.parameter)
+                }
+                BranchParameter::Key(_) => format!("{:.5e}", r.point.parameter),
+            })
+            .key()
+            .column("branch", "number of the branch", |r| r.index)
+            .column("repeats_after", "mesh cycles after which the motions repeat", |r| {
                 r.branch.repeats_after
             })
-.column("point", "number of the point along the branch", |r| r.number)
-.column("kind", "", |r| r.point.kind.name()).shown_as("point", |r| match r.point.kind {
+            .column("point", "number of the point along the branch", |r| r.number)
+            .column("kind", "", |r| r.point.kind.name())
+            .shown_as("point", |r| match r.point.kind {
                 BranchPointKind::Regular => String::new(),
                 other => other.name().replace('_', " "),
             })
-.column("is_stable", "", |r| r.point.is_stable).shown("stable", Plain)
-.column(
+            .column("is_stable", "", |r| r.point.is_stable)
+            .shown("stable", Plain)
+            .column(
                 "largest_multiplier",
                 "size of the largest Floquet multiplier, below 1 if the motion is stable",
                 |r| r.point.largest_multiplier(),
             )
             .shown("μ", Fixed(4))
-.words("mode", Plain, |r: &Row<'_>| {
+            .words("mode", Plain, |r: &Row<'_>| {
                 r.point.critical.as_ref().map(|critical| critical.mode_type.clone())
             })
-            .meaning("type, by kinetic energy, of the perturbation whose multiplier is nearest in size to 1")
-.column("arc", "length along the branch from its start", |r| r.point.arc)
-.column("body", "body or mesh", move |r| line(r).map(|l| l.part.name()))
-.column("coordinate", "quantity", move |r| line(r).map(|l| l.coordinate.name()))
-.column("harmonic", "harmonic; 0 is the mean", move |r| line(r).map(|l| l.harmonic))
-.column("amplitude", "amplitude in the unit of the next column", move |r| {
+            .meaning(
+                "type, by kinetic energy, of the perturbation whose multiplier is nearest in \
+             size to 1",
+            )
+            .column("arc", "length along the branch from its start", |r| r.point.arc)
+            .column("body", "body or mesh", move |r| line(r).map(|l| l.part.name()))
+            .column("coordinate", "quantity", move |r| line(r).map(|l| l.coordinate.name()))
+            .column("harmonic", "harmonic; 0 is the mean", move |r| line(r).map(|l| l.harmonic))
+            .column("amplitude", "amplitude in the unit of the next column", move |r| {
                 line(r).map(|l| l.amplitude)
             })
-.column("unit", "unit", move |r| line(r).map(|l| l.coordinate.unit()))
-.column("phase_rad", "phase, rad", move |r| line(r).map(|l| l.phase_rad));
+            .column("unit", "unit", move |r| line(r).map(|l| l.coordinate.unit()))
+            .column("phase_rad", "phase, rad", move |r| line(r).map(|l| l.phase_rad));
         turning::with_strongest(table, |r| (&r.point.state, r.result.harmonics))
             .words("lowest N", Fixed(0), |r: &Row<'_>| r.point.lowest_force_n)
             .meaning("lowest force of any mesh during a cycle, N")
@@ -232,7 +237,8 @@ impl BranchesOutput {
             .meaning("largest part of the time in which a mesh carries nothing; – for never")
             .words("grazing", Fixed(3), |r: &Row<'_>| r.point.grazing_margin)
             .meaning(
-                "least of lowest over mean force of the meshes that never part; – where all part",
+                "least of lowest over mean force of the meshes that never part; – where all \
+             part",
             )
             .words("residual", Power(0), |r: &Row<'_>| r.point.residual)
     }

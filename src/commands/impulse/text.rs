@@ -30,7 +30,8 @@ fn text(result: &ImpulseOutput, out: &mut dyn Write) -> std::io::Result<()> {
     writeln!(out, "{}", result.title)?;
     writeln!(
         out,
-        "{} N·m on the sun at position {} of the mesh cycle; decays of {} ms in steps of {} µs",
+        "{} N·m on the sun at position {} of the mesh cycle; decays of {} ms in steps \
+             of {} µs",
         plain(result.sun_torque_nm),
         plain(result.position),
         plain(result.duration_ms),
@@ -105,7 +106,8 @@ fn table<'r>() -> Table<'r, Row<'r>> {
         .scaled("ζ %", 100.0, Fixed(3))
         .column(
             "rotational",
-            "share of the kinetic energy, as the next two, by kind of motion; – below 0.0005",
+            "share of the kinetic energy, as the next two, by kind of motion; – below \
+             0.0005",
             found(|m| m.shares.rotational),
         )
         .shown_as("rot.", share(|s| s.rotational))
@@ -141,15 +143,17 @@ fn pulses<'r>() -> Table<'r, &'r PulseEntry> {
     use Notation::{Fixed, Plain, Power};
     type Pulse<'r> = &'r PulseEntry;
     Table::new()
-.words("pulse", Plain, |p: &Pulse<'_>| &p.pulse)
-.words("force N", Fixed(3), |p: &Pulse<'_>| p.force_n)
-            .meaning("acts for one time step; of a torque, over the base radius")
-.words("force change", Power(1), |p: &Pulse<'_>| p.force_change)
-            .meaning("of a mesh, over the largest mesh force")
-.words("nonlinearity", Power(1), |p: &Pulse<'_>| p.nonlinearity).meaning(
-            "of half the pulse, the response less half the response to the whole, over its largest value",
+        .words("pulse", Plain, |p: &Pulse<'_>| &p.pulse)
+        .words("force N", Fixed(3), |p: &Pulse<'_>| p.force_n)
+        .meaning("acts for one time step; of a torque, over the base radius")
+        .words("force change", Power(1), |p: &Pulse<'_>| p.force_change)
+        .meaning("of a mesh, over the largest mesh force")
+        .words("nonlinearity", Power(1), |p: &Pulse<'_>| p.nonlinearity)
+        .meaning(
+            "of half the pulse, the response less half the response to the whole, over \
+             its largest value",
         )
-.words("the sun's other motion", Plain, |p: &Pulse<'_>| {
+        .words("the sun's other motion", Plain, |p: &Pulse<'_>| {
             // With planets in phase a force excites no rotation and a torque no translation.
             let (t, r) = p.sun_translation_um.zip(p.sun_rotation_um)?;
             Some(match p.pulse.ends_with("torque") {
@@ -158,7 +162,8 @@ fn pulses<'r>() -> Table<'r, &'r PulseEntry> {
             })
         })
         .meaning(
-            "the one that the pulse on it would not excite with planets in phase (rotation as r_b θ)",
+            "the one that the pulse on it would not excite with planets in phase \
+             (rotation as r_b θ)",
         )
 }
 
@@ -191,7 +196,8 @@ fn band(band: &BandOutput, out: &mut dyn Write) -> std::io::Result<()> {
     match band.modes.iter().find(is_changing) {
         Some(first) => writeln!(
             out,
-            "types change from state to state above {:.0} Hz: places there are not one mode throughout",
+            "types change from state to state above {:.0} Hz: places there are not one \
+             mode throughout",
             first.lowest_hz
         ),
         None => Ok(()),

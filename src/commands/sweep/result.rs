@@ -153,106 +153,118 @@ pub(super) fn table<'r>() -> Table<'r, Row<'r>> {
     let line = |r: &Row<'_>| r.line.clone();
     let largest = |r: &Row<'_>| r.point.largest_multiplier.clone();
     let table = Table::new()
-.column("scene", "title of the scene", |r: &Row<'_>| &r.result.scene)
-.column("fidelity", "fidelity of the fidelity ladder", |r| &r.result.fidelity)
-.column("sun_torque_nm", "torque on the sun, N m", move |r| case(r).sun_torque_nm)
-.column("speed_rpm", "speed of the input member, rpm", move |r| case(r).speed_rpm)
-            .shown("rpm", Fixed(1))
-            .key()
-.column("mesh_frequency_hz", "mesh frequency, Hz", move |r| case(r).mesh_frequency_hz)
-            .shown("f_m Hz", Fixed(1))
-.column(
-            "chain",
-            "chain of the plan: up, down, about a peak, or from a random start",
-            |r| r.chain,
-        )
+        .column("scene", "title of the scene", |r: &Row<'_>| &r.result.scene)
+        .column("fidelity", "fidelity of the fidelity ladder", |r| &r.result.fidelity)
+        .column("sun_torque_nm", "torque on the sun, N m", move |r| case(r).sun_torque_nm)
+        .column("speed_rpm", "speed of the input member, rpm", move |r| case(r).speed_rpm)
+        .shown("rpm", Fixed(1))
+        .key()
+        .column("mesh_frequency_hz", "mesh frequency, Hz", move |r| case(r).mesh_frequency_hz)
+        .shown("f_m Hz", Fixed(1))
+        .column("chain", "chain of the plan: up, down, about a peak, or from a random start", |r| {
+            r.chain
+        })
         .shown("chain", Plain)
         .key()
-.column("body", "carrier, ring, sun, planet_n, sun_mesh_n, ring_mesh_n", move |r| {
+        .column("body", "carrier, ring, sun, planet_n, sun_mesh_n, ring_mesh_n", move |r| {
             line(r).map(|l| l.part.name())
         })
-.column("coordinate", COORDINATE, move |r| line(r).map(|l| l.coordinate.name()))
-.column(
+        .column("coordinate", COORDINATE, move |r| line(r).map(|l| l.coordinate.name()))
+        .column(
             "harmonic",
-            "harmonic of the mesh frequency; 0 is the mean, and stands beside quantities without harmonics",
+            "harmonic of the mesh frequency; 0 is the mean, and stands beside quantities \
+             without harmonics",
             move |r| line(r).map(|l| l.harmonic),
         )
-.column("amplitude", "amplitude in the unit of the next column", move |r| {
+        .column("amplitude", "amplitude in the unit of the next column", move |r| {
             line(r).map(|l| l.amplitude)
         })
-.column("unit", "unit", move |r| line(r).map(|l| l.coordinate.unit()))
-.column(
+        .column("unit", "unit", move |r| line(r).map(|l| l.coordinate.unit()))
+        .column(
             "phase_rad",
-            "phase of A cos(2 pi l f_m t + phase), t from position 0, rad; 0 for quantities without phase",
+            "phase of A cos(2 pi l f_m t + phase), t from position 0, rad; 0 for \
+             quantities without phase",
             move |r| line(r).map(|l| l.phase_rad),
         );
     turning::with_strongest(table, |r| (&r.point.state, r.result.harmonics))
-.words("lowest N", Fixed(0), |r: &Row<'_>| r.point.lowest_force_n)
-            .meaning("lowest force of any mesh during a cycle, N")
-.words("no contact", Share, |r: &Row<'_>| r.point.contact_loss)
-            .meaning("largest part of the time in which a mesh carries nothing; – for never")
-.words("backside", Plain, |r: &Row<'_>| {
+        .words("lowest N", Fixed(0), |r: &Row<'_>| r.point.lowest_force_n)
+        .meaning("lowest force of any mesh during a cycle, N")
+        .words("no contact", Share, |r: &Row<'_>| r.point.contact_loss)
+        .meaning("largest part of the time in which a mesh carries nothing; – for never")
+        .words("backside", Plain, |r: &Row<'_>| {
             r.point.backside_contact.map_or("n/a".into(), |part| Share.number(part))
         })
         .right()
         .meaning(
-            "part of the time in which backside flanks of any mesh press; n/a for a model without backside flanks",
+            "part of the time in which backside flanks of any mesh press; n/a for a model \
+             without backside flanks",
         )
-.words("grazing", Fixed(3), |r: &Row<'_>| r.point.grazing_margin).meaning(
-            "least of lowest over mean force of the meshes that never part, near 0 of which μ loses its meaning; – where all part",
+        .words("grazing", Fixed(3), |r: &Row<'_>| r.point.grazing_margin)
+        .meaning(
+            "least of lowest over mean force of the meshes that never part, near 0 of \
+             which μ loses its meaning; – where all part",
         )
-.column("cycles", "mesh cycles marched", |r| r.point.cycles).shown("cycles", Plain)
-.column(
+        .column("cycles", "mesh cycles marched", |r| r.point.cycles)
+        .shown("cycles", Plain)
+        .column(
             "residual",
-            "change of the last two periods, with shooting from the last to the next one, over the largest peak-to-peak vibration",
+            "change of the last two periods, with shooting from the last to the next one, \
+             over the largest peak-to-peak vibration",
             |r| r.point.residual,
         )
         .shown("residual", Power(0))
-.column(
+        .column(
             "repeats_after",
-            "mesh cycles after which the motion repeats; none up to 8: not periodic, or not settled yet",
+            "mesh cycles after which the motion repeats; none up to 8: not periodic, or \
+             not settled yet",
             |r| r.point.repeats_after,
         )
         .shown("repeats", Plain)
-.column(
+        .column(
             "attracts",
-            "by_multipliers (yes), by_decay (decay, as changes were seen to fall), repels (no), neutral (a multiplier of size 1), \
-             not_shown (–)",
+            "by_multipliers (yes), by_decay (decay, as changes were seen to fall), \
+             repels (no), neutral (a multiplier of size 1), not_shown (–)",
             |r| r.point.attracts.name(),
         )
         .shown_as("attracts", |r| attracts(r.point.attracts).into())
-.column(
+        .column(
             "multiplier",
-            "size of the largest Floquet multiplier of one period, below 1 if the motion attracts; none without multipliers",
+            "size of the largest Floquet multiplier of one period, below 1 if the motion \
+             attracts; none without multipliers",
             |r| r.point.largest_multiplier(),
         )
         .shown("μ", Fixed(3))
-.column(
+        .column(
             "multiplier_kind",
-            "fold (+1), period_doubling (−1), neimark_sacker (a complex pair): how stability is lost where it becomes 1 in size, \
-             and the type of the motion that it multiplies",
+            "fold (+1), period_doubling (−1), neimark_sacker (a complex pair): how stability \
+             is lost where it becomes 1 in size, and the type of the motion that it multiplies",
             move |r| largest(r).map_or(String::new(), |m| m.kind),
         )
         .shown_as("loses it", move |r| largest(r).map_or("–".into(), |m| loses(&m)))
-.column(
+        .column(
             "mode_type",
-            "type of the motion that it multiplies: rotational, translational, planet, mixed",
+            "type of the motion that it multiplies: rotational, translational, planet, \
+             mixed",
             move |r| largest(r).and_then(|m| m.mode_type).unwrap_or_default(),
         )
-.column(
+        .column(
             "start",
-            "where the search began: rest, the speed before, an unstable motion, pushed, or a random start",
+            "where the search began: rest, the speed before, an unstable motion, pushed, \
+             or a random start",
             |r| r.point.start.to_string(),
         )
-.column(
-            "sun_turns",
-            "sense in which the sun turns relative to the carrier",
-            move |r| case(r).sun_turns.name(),
-        )
+        .column("sun_turns", "sense in which the sun turns relative to the carrier", move |r| {
+            case(r).sun_turns.name()
+        })
 }
 
 /// What the column of coordinates holds.
-const COORDINATE: &str = "radial, tangential (m; central bodies: towards planet 0), rotation (rad), translation (m; square root of the sum of the squared amplitudes of radial and tangential), force (N); with harmonic 0 alone: share (largest load share of the mesh), contact_loss (part of the time without force), backside_contact (part of the time in which backside flanks press), lowest_force (N)";
+const COORDINATE: &str = "radial, tangential (m; central bodies: towards planet 0), rotation (rad), \
+             translation (m; square root of the sum of the squared amplitudes of radial \
+             and tangential), force (N); with harmonic 0 alone: share (largest load share \
+             of the mesh), contact_loss (part of the time without force), \
+             backside_contact (part of the time in which backside flanks press), \
+             lowest_force (N)";
 
 impl Report for SweepOutput {
     fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
@@ -277,91 +289,114 @@ impl Report for SweepOutput {
 impl SweepOutput {
     /// What is worth saying of some of the speeds.
     fn remarks(&self, out: &mut dyn Write) -> Result<(), CommandError> {
-        let result = self;
-        let count = |is: fn(&SweepPoint) -> bool| {
-            result.points.iter().filter(|ChainPoint { point, .. }| is(point)).count()
-        };
-        let beyond = count(|p| p.is_beyond_linear);
+        let points = || self.points.iter().map(|chained| &chained.point);
+        let count = |is: fn(&SweepPoint) -> bool| points().filter(|p| is(p)).count();
+        let usual = self.steps_per_cycle as usize;
+        let at_speeds = [
+            (
+                count(|p| p.contact_loss > 0.0),
+                "teeth part: a mesh carries nothing for part of the time".into(),
+            ),
+            (
+                count(|p| p.repeats_after.is_some_and(|cycles| cycles > 1)),
+                format!(
+                    "the motion is subharmonic: it repeats only after 2 to {MOST_REPEATS} mesh \
+                     cycles, and the harmonics are those of the mean one"
+                ),
+            ),
+            (
+                count(|p| p.why_marched.is_some()),
+                "shooting found no motion that attracts from the state before, or the model has \
+                 no derivative of its steps: the set was marched; JSON has the reasons"
+                    .into(),
+            ),
+            (
+                count(|p| p.start == SearchStart::Unstable),
+                "the march began at an unstable motion, pushed: none that attracts was found from \
+                 the state before"
+                    .into(),
+            ),
+            (
+                count(|p| !p.attracts.is_shown() && p.attracts != Attraction::Neutral),
+                format!(
+                    "no motion that repeats after 1 to {MOST_REPEATS} mesh cycles and attracts was \
+                     found within {} cycles from any start: the motion is not periodic or has not \
+                     settled; see its residual",
+                    self.most_cycles
+                ),
+            ),
+            (
+                points().filter(|p| p.steps_per_cycle > usual).count(),
+                format!(
+                    "the vibrations of the set need more than {usual} steps in a mesh cycle, and \
+                     as many were taken"
+                ),
+            ),
+            (
+                count(|p| p.attracts == Attraction::Neutral),
+                "motions near the one found neither come to it nor leave it, as without damping"
+                    .into(),
+            ),
+        ];
+        for (count, words) in at_speeds.into_iter().filter(|(count, _)| *count > 0) {
+            writeln!(out, "At {count} of these speeds {words}.")?;
+        }
+        for here in self.attractors.iter().filter(|here| here.motions.len() > 1) {
+            let motions = here.motions.iter().map(|motion| motion.chains.join(" "));
+            let motions: Vec<String> = motions.collect();
+            let (rpm, count) = (here.speed_rpm, motions.len());
+            let chains = motions.join("; ");
+            writeln!(
+                out,
+                "At {rpm:.1} rpm {count} motions attract, reached in the chains: {chains}."
+            )?;
+        }
+        let mut faster = points().filter_map(|p| p.computed_at_rpm);
+        if let Some(rpm) = faster.next() {
+            writeln!(
+                out,
+                "At {} of these speeds, below {rpm:.1} rpm, inertia has no part in the motion: it \
+                 is that at {rpm:.1} rpm, the mesh cycle at rest to the square of the highest \
+                 harmonic over the lowest natural frequency.",
+                1 + faster.count()
+            )?;
+        }
+        self.warnings(out)
+    }
+
+    /// What may be wrong at some of the speeds.
+    fn warnings(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        let points = || self.points.iter().map(|chained| &chained.point);
+        let beyond = points().filter(|p| p.is_beyond_linear).count();
         if beyond > 0 {
             writeln!(
                 out,
-                "Warning: at {beyond} of these speeds approaches of tooth pairs are off their linear form about the mean loaded configuration by more than 1 % of the sun's motion; `dynamics.kinematics` = \"exact\" sweeps without it, slowly."
+                "Warning: at {beyond} of these speeds approaches of tooth pairs are off their \
+                 linear form about the mean loaded configuration by more than 1 % of the sun's \
+                 motion; `dynamics.kinematics` = \"exact\" sweeps without it, slowly."
             )?;
         }
-        let apart = count(|p| p.contact_loss > 0.0);
-        if apart > 0 {
-            writeln!(
-                out,
-                "At {apart} of these speeds teeth part: a mesh carries nothing for part of the time."
-            )?;
-        }
-        let subharmonic = count(|p| p.repeats_after.is_some_and(|cycles| cycles > 1));
-        if subharmonic > 0 {
-            writeln!(
-                out,
-                "At {subharmonic} of these speeds the motion is subharmonic: it repeats only after 2 to {MOST_REPEATS} mesh cycles, and the harmonics are those of the mean one."
-            )?;
-        }
-        let marched = count(|p| p.why_marched.is_some());
-        if marched > 0 {
-            writeln!(
-                out,
-                "At {marched} of these speeds shooting found no motion that attracts from the state before, or the model has no derivative of its steps: the set was marched; JSON has the reasons."
-            )?;
-        }
-        let pushed = count(|p| p.start == SearchStart::Unstable);
-        if pushed > 0 {
-            writeln!(
-                out,
-                "At {pushed} of these speeds the march began at an unstable motion, pushed: none that attracts was found from the state before."
-            )?;
-        }
-        for here in result.attractors.iter().filter(|here| here.motions.len() > 1) {
-            let motions = here.motions.iter().map(|motion| motion.chains.join(" "));
-            let motions: Vec<String> = motions.collect();
-            writeln!(
-                out,
-                "At {:.1} rpm {} motions attract, reached in the chains: {}.",
-                here.speed_rpm,
-                motions.len(),
-                motions.join("; ")
-            )?;
-        }
-        let none = count(|p| !p.attracts.is_shown() && p.attracts != Attraction::Neutral);
-        if none > 0 {
-            writeln!(
-                out,
-                "At {none} of these speeds no motion that repeats after 1 to {MOST_REPEATS} mesh cycles and attracts was found within {} cycles from any start: the motion is not periodic or has not settled; see its residual.",
-                result.most_cycles
-            )?;
-        }
-        let usual = result.steps_per_cycle as usize;
-        let finer = result.points.iter().filter(|p| p.point.steps_per_cycle > usual).count();
-        if finer > 0 {
-            writeln!(
-                out,
-                "At {finer} of these speeds the vibrations of the set need more than {} steps in a mesh cycle, and as many were taken.",
-                result.steps_per_cycle
-            )?;
-        }
-        let limited = result.points.iter().filter_map(|p| Some((&p.point, p.point.step_error?)));
+        let limited = points().filter_map(|p| Some((p, p.step_error?)));
         let largest = limited.clone().max_by(|(_, a), (_, b)| a.share.total_cmp(&b.share));
         if let Some((point, StepError { harmonic, natural_hz, share, steps })) = largest {
             writeln!(
                 out,
-                "At {} of these speeds the length of the steps may change the sun's strong harmonics by more than 1 %, most at {:.1} rpm: harmonic {harmonic} beside {natural_hz:.0} Hz by up to {:.1} % (1 % with {steps} steps in a mesh cycle, `dynamics.steps_per_cycle`).",
+                "At {} of these speeds the length of the steps may change the sun's strong \
+                 harmonics by more than 1 %, most at {:.1} rpm: harmonic {harmonic} beside \
+                 {natural_hz:.0} Hz by up to {:.1} % (1 % with {steps} steps in a mesh cycle, \
+                 `dynamics.steps_per_cycle`).",
                 limited.count(),
                 point.state.case.speed_rpm,
                 100.0 * share,
             )?;
         }
-        let unsure = result.points.iter().filter_map(|p| Some((&p.point, p.point.inertia_error?)));
+        let unsure = points().filter_map(|p| Some((p, p.inertia_error?)));
         // Where no share is known it may be any.
         let size = |error: &InertiaError| error.share.unwrap_or(f64::INFINITY);
         let largest = unsure.clone().max_by(|(_, a), (_, b)| size(a).total_cmp(&size(b)));
         if let Some((point, InertiaError { harmonic, natural_hz, share })) = largest {
             let (count, rpm) = (unsure.count(), point.state.case.speed_rpm);
-            let beside = match share {
+            let near = match share {
                 Some(share) => {
                     format!("beside the set's {natural_hz:.0} Hz by up to {:.0} %", 100.0 * share)
                 }
@@ -369,28 +404,13 @@ impl SweepOutput {
             };
             writeln!(
                 out,
-                "Warning: at {count} of these speeds the inertia of the bodies behind the teeth, which quasi_static lacks, may change the sun's strong harmonics by more than 5 %, most at {rpm:.1} rpm: harmonic {harmonic} {beside}; `dynamics.fidelity` = \"modal\" has it."
+                "Warning: at {count} of these speeds the inertia of the bodies behind the teeth, \
+                 which quasi_static lacks, may change the sun's strong harmonics by more than \
+                 5 %, most at {rpm:.1} rpm: harmonic {harmonic} {near}; `dynamics.fidelity` = \
+                 \"modal\" has it."
             )?;
         }
-        let mut faster = result
-            .points
-            .iter()
-            .filter_map(|p| p.point.computed_at_rpm.map(|rpm| (p.point.state.case.speed_rpm, rpm)));
-        if let Some((_, rpm)) = faster.next() {
-            writeln!(
-                out,
-                "At {} of these speeds, below {rpm:.1} rpm, inertia has no part in the motion: it is that at {rpm:.1} rpm, the mesh cycle at rest to the square of the highest harmonic over the lowest natural frequency.",
-                1 + faster.count()
-            )?;
-        }
-        let neutral = count(|p| p.attracts == Attraction::Neutral);
-        if neutral > 0 {
-            writeln!(
-                out,
-                "At {neutral} of these speeds motions near the one found neither come to it nor leave it, as without damping."
-            )?;
-        }
-        let mut cautions = result.points.iter().filter_map(|p| p.point.caution());
+        let mut cautions = points().filter_map(SweepPoint::caution);
         if let Some(first) = cautions.next() {
             let others = match cautions.count() {
                 0 => String::new(),
@@ -442,7 +462,7 @@ fn loses(largest: &LargestMultiplier) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use experiments::sweep::{Coordinate, Line, SteadyState};
+    use experiments::sweep::{Coordinate, MultipliersOf, SteadyState};
     use scene::LoadCase;
 
     /// A sweep of three chains: two speeds found, the first in the second chain, and one that failed.
@@ -522,8 +542,8 @@ mod tests {
 
     #[test]
     fn a_failed_speed_is_in_every_output() {
-        let last =
-            "1 of 3 speeds could not be computed:\n  1600.0 rpm (up_00): the motion diverges\n";
+        let last = "1 of 3 speeds could not be computed:\n  1600.0 rpm (up_00): the motion \
+             diverges\n";
         assert!(text().ends_with(last), "{}", text());
         let json = serde_json::to_value(result()).unwrap();
         assert_eq!(json["failed"][0]["speed_rpm"], 1600.0);
@@ -552,7 +572,8 @@ mod tests {
         for words in [
             "At 2 of these speeds teeth part",
             "At 1 of these speeds the motion is subharmonic",
-            "At 1 of these speeds no motion that repeats after 1 to 8 mesh cycles and attracts was found",
+            "At 1 of these speeds no motion that repeats after 1 to 8 mesh cycles and \
+             attracts was found",
             "n/a",
         ] {
             assert!(text.contains(words), "{words}: {text}");

@@ -5,7 +5,7 @@ use std::io::Write;
 use validation::{Check, Miss, Status, Value, Verdict};
 
 use super::check_cells::{cells, coloured};
-use crate::output::WIDTH;
+use crate::output::{WIDTH, paragraph};
 
 /// Longest name of a suite that is not cut.
 const LONGEST_NAME: usize = 33;
@@ -153,10 +153,8 @@ fn in_full(
     ));
     paragraphs.push(format!("source: {}", check.source));
     paragraphs.extend(miss.map(|miss| miss.analysis.clone()));
-    for paragraph in paragraphs {
-        for line in textwrap::wrap(&paragraph, WIDTH - 2) {
-            writeln!(out, "  {line}")?;
-        }
+    for text in paragraphs {
+        writeln!(out, "{}", paragraph(&text, "  ", "  "))?;
     }
     writeln!(out)
 }
