@@ -191,6 +191,14 @@ pub struct PerBody {
     pub planet: Option<f64>,
 }
 
+impl PerBody {
+    /// The values with the names of the bodies in scene files.
+    pub fn by_name(&self) -> [(&'static str, Option<f64>); 4] {
+        let Self { carrier, ring, sun, planet } = *self;
+        [("carrier", carrier), ("ring", ring), ("sun", sun), ("planet", planet)]
+    }
+}
+
 /// One value for each kind of mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PerMesh {

@@ -27,6 +27,25 @@ fn per_mesh(s: &Section<'_, '_>, key: &'static str, is_pair: bool) -> Option<Per
     Some(PerMesh { sun_planet, ring_planet: 0.0 })
 }
 
+/// r of u = r·θ: the base radius of a gear, the centre distance for the carrier.
+pub(crate) fn radii(geometry: &Geometry) -> PerBody {
+    PerBody {
+        carrier: Some(geometry.center_distance),
+        ring: geometry.ring.as_ref().map(|ring| ring.base_radius),
+        sun: geometry.sun.as_ref().map(|sun| sun.base_radius),
+        planet: Some(geometry.planet.base_radius),
+    }
+}
+
+/// Operating pressure angles; 0 for the ring–planet meshes of a pair, which has none.
+pub(crate) fn pressure_angles(geometry: &Geometry, is_pair: bool) -> Option<PerMesh> {
+    let ring_planet = match &geometry.ring_planet {
+        _ if is_pair => 0.0,
+        mesh => mesh.as_ref()?.pressure_angle,
+    };
+    Some(PerMesh { sun_planet: geometry.sun_planet.as_ref()?.pressure_angle, ring_planet })
+}
+
 /// The entry of one body.
 type Entry = fn(&mut PerBody) -> &mut Option<f64>;
 
@@ -57,23 +76,13 @@ pub(crate) fn lumped(
         let why = "without [geometry] the operating pressure angles must be given";
         s.fault("pressure_angle_deg", "{ sun_planet = …, ring_planet = … }", why);
     }
-    let pressure_angle = given_angle.or_else(|| {
-        let g = geometry?;
-        Some(PerMesh {
-            sun_planet: g.sun_planet.as_ref()?.pressure_angle,
-            ring_planet: match &g.ring_planet {
-                _ if is_pair => 0.0,
-                mesh => mesh.as_ref()?.pressure_angle,
-            },
-        })
-    });
-    // u = r·θ with the base radius of a gear and the centre distance for the carrier.
-    let base = |gear: &gearset::Gear| gear.base_radius;
+    let pressure_angle = given_angle.or_else(|| pressure_angles(geometry?, is_pair));
+    let from_geometry = geometry.map(radii).unwrap_or_default();
     let radius = PerBody {
-        carrier: given_radius.carrier.or(geometry.map(|g| g.center_distance)),
-        ring: given_radius.ring.or(geometry.and_then(|g| g.ring.as_ref().map(base))),
-        sun: given_radius.sun.or(geometry.and_then(|g| g.sun.as_ref().map(base))),
-        planet: given_radius.planet.or(geometry.map(|g| base(&g.planet))),
+        carrier: given_radius.carrier.or(from_geometry.carrier),
+        ring: given_radius.ring.or(from_geometry.ring),
+        sun: given_radius.sun.or(from_geometry.sun),
+        planet: given_radius.planet.or(from_geometry.planet),
     };
     let mut inertia_over_r2 = over_r2;
     let planet = supports.pair.map_or(Freedom::Free, |pair| pair.planet.motion);

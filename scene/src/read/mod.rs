@@ -5,7 +5,7 @@ mod dynamics;
 pub(crate) mod fault;
 mod fe_contact;
 mod geometry;
-mod lumped;
+pub(crate) mod lumped;
 mod planets;
 mod supports;
 pub(crate) mod text_file;
@@ -19,7 +19,7 @@ use crate::check;
 use crate::choices::FeContactInput;
 use crate::read::document::{Document, Section};
 use crate::read::dynamics::dynamics;
-use crate::read::fault::{Fault, SceneError, printable};
+use crate::read::fault::{Fault, SceneError, SceneFaults, printable};
 use crate::read::fe_contact::fe_contact;
 use crate::read::geometry::geometry;
 use crate::read::planets::planets;
@@ -53,6 +53,30 @@ impl Scene {
         match scene {
             Some(scene) if faults.is_empty() => Ok(scene),
             _ => Err(SceneError::Invalid { text: printable(text), faults: or_unknown(faults) }),
+        }
+    }
+}
+
+impl Scene {
+    /// Whether a scene that was built or changed in a program is one: judged as its file ([`Scene::to_toml`]) is.
+    ///
+    /// # Errors
+    /// [`SceneFaults`] with every fault, each with its key and the value in the unit of the key.
+    pub fn check(&self) -> Result<(), SceneFaults> {
+        match Self::from_toml(&self.to_toml()) {
+            Ok(read)
+                if self.planets.steps.is_some() && self.planets.steps != read.planets.steps =>
+            {
+                Err(SceneFaults(vec![Fault {
+                    key: "planets.position_steps".into(),
+                    value: format!("{:?}", self.planets.steps.as_deref().unwrap_or_default()),
+                    allowed: "the steps that the angles are".into(),
+                    why: "steps and angles both say where the planets stand".into(),
+                    span: 0..0,
+                }]))
+            }
+            Ok(_) => Ok(()),
+            Err(error) => Err(SceneFaults(error.faults().to_vec())),
         }
     }
 }
