@@ -1,10 +1,10 @@
 //! Tooth geometry as it is given: circles, rack, relief and backlash or profile shift. [`Geometry`](crate::Geometry)
 //! is worked out from it.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Tooth geometry as given in the scene; `Geometry` is worked out from it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GeometryInput {
     /// a, m.
     pub center_distance: f64,
@@ -27,7 +27,7 @@ pub struct GeometryInput {
 }
 
 /// The carrier as an annulus with round pin seats at the planets' centres.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CarrierInput {
     /// Radius of the bore, which is its race, m.
     pub bore_radius: f64,
@@ -40,7 +40,7 @@ pub struct CarrierInput {
 }
 
 /// Generating rack.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Rack {
     /// Module m, m.
     pub module: f64,
@@ -49,7 +49,7 @@ pub struct Rack {
 }
 
 /// Circles and edges of one gear.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GearInput {
     /// Tip radius, m.
     pub tip_radius: f64,
@@ -69,7 +69,7 @@ pub struct GearInput {
 /// action when the point is in contact. With s the roll length of the point, s₀ that at the start
 /// and s_a that at the tip circle, it is amount · (s − s₀)/(s_a − s₀) with the shape `Linear`,
 /// amount · ((s − s₀)/(s_a − s₀))² with `Parabolic`, and 0 between the root and the start.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TipRelief {
     /// Radius where the relief starts, m; key `start_diameter_mm`.
     pub start_radius: f64,
@@ -80,7 +80,7 @@ pub struct TipRelief {
 }
 
 /// How tip relief grows with roll length.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ReliefShape {
     /// Proportional to the roll length past the start.
@@ -90,7 +90,7 @@ pub enum ReliefShape {
 }
 
 /// Where the tooth thicknesses come from.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ThicknessInput {
     /// From circumferential backlash at the operating pitch circles.

@@ -1,9 +1,9 @@
 //! The two meshes of a planet and their members.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Which mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MeshKind {
     /// Sun drives planet.

@@ -27,7 +27,7 @@ impl Member {
 }
 
 /// Operating point: one member held, one turned at a given speed with a given torque.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Operation {
     /// The member that stands still.
     pub fixed: Member,

@@ -1,9 +1,9 @@
 //! Where the planets stand.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Where the planets stand on the carrier.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PlanetPositions {
     /// ψ_n, counter-clockwise from planet 0, rad. Planet 0 is at zero.
     pub psi_rad: Vec<f64>,

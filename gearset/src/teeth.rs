@@ -1,9 +1,9 @@
 //! Numbers of teeth.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Numbers of teeth; a gear pair lacks the sun or the ring.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Teeth {
     /// Z_s.
     pub sun: Option<u32>,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::scene::PerMesh;
 
 /// Level of detail of the bodies behind the teeth when the set vibrates.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fidelity {
     /// As `QuasiStatic`, but each mesh force is read from a table over deflection and phase.
@@ -19,7 +19,7 @@ pub enum Fidelity {
 }
 
 /// Choices for simulation in time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct DynamicsInput {
     /// Level of detail of the bodies.
     pub fidelity: Fidelity,
@@ -35,7 +35,7 @@ pub struct DynamicsInput {
 }
 
 /// A quantity and how accurate it is to be: settings are chosen for it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct AutoInput {
     /// The quantity.
     pub quantity: AutoQuantity,
@@ -44,7 +44,7 @@ pub struct AutoInput {
 }
 
 /// A quantity for which settings can be chosen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum AutoQuantity {
     /// A natural frequency about the operating torque at position 0 of the mesh cycle.
@@ -79,7 +79,7 @@ impl AutoQuantity {
 }
 
 /// Response of a turning set whose amplitude is asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum AutoResponse {
     /// Dynamic transmission error r_b θ of the sun.
@@ -89,7 +89,7 @@ pub enum AutoResponse {
 }
 
 /// Type of a mode, by the larger part of its kinetic energy.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum AutoModeType {
     /// Central members rotate, planets move alike.
@@ -101,7 +101,7 @@ pub enum AutoModeType {
 }
 
 /// How approaches of tooth pairs follow from displacements of the gears.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MeshKinematics {
     /// Exact in the mean configuration under load; linear (at tip corners quadratic) in the displacements
@@ -111,21 +111,8 @@ pub enum MeshKinematics {
     Exact,
 }
 
-impl Default for DynamicsInput {
-    fn default() -> Self {
-        let kinematics = MeshKinematics::AboutMean;
-        Self {
-            fidelity: Fidelity::QuasiStatic,
-            steps_per_cycle: 140,
-            gyroscopic: false,
-            kinematics,
-            auto: None,
-        }
-    }
-}
-
 /// State of a two-dimensional continuum.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PlaneState {
     /// No strain along the face width.
@@ -135,7 +122,7 @@ pub enum PlaneState {
 }
 
 /// Displacement field of the quadrilaterals behind the Hermite flanks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ElementFamily {
     /// Four nodes, bilinear, as in Parker, Agashe & Vijayakar (2000); too stiff in bending.
@@ -169,7 +156,7 @@ pub enum FlankLayer {
 }
 
 /// Choices of the FE/contact model; a value of `None` is derived from the geometry.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FeContactInput {
     /// Plane strain or plane stress.
     pub plane: PlaneState,
@@ -202,24 +189,6 @@ impl FeContactInput {
         match self.flank_layer {
             FlankLayer::Whole => self.flank_elements,
             FlankLayer::Divided => 3 * self.flank_elements,
-        }
-    }
-}
-
-impl Default for FeContactInput {
-    fn default() -> Self {
-        Self {
-            plane: PlaneState::Strain,
-            element: ElementFamily::Quadratic,
-            flank_elements: 14,
-            flank_layer: FlankLayer::Whole,
-            contact_cells: 40,
-            cell_layout: CellLayout::Graded,
-            cell_layout_at_rest: CellLayout::Even,
-            matching_depth: None,
-            matching_depth_elements: None,
-            matching_points: 2,
-            flexibility_factor: PerMesh { sun_planet: 1.0, ring_planet: 1.0 },
         }
     }
 }

@@ -10,6 +10,7 @@ mod read;
 mod scene;
 mod templates;
 mod warnings;
+mod write;
 
 pub use choices::*;
 pub use gear_set::{GeometryError, excitation_of_scene};
@@ -21,7 +22,7 @@ pub use load::size::{LoadSize, SPEEDS_RPM, is_speed};
 pub use load::torque_path::NoTorquePath;
 pub use needs::{Lack, Verb};
 pub use read::MOST_SCENE_BYTES;
-pub use read::fault::{Fault, SceneError};
+pub use read::fault::{Fault, SceneError, SceneFaults};
 pub use read::text_file::read_text;
 pub use scene::*;
 pub use templates::template;

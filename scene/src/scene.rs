@@ -1,12 +1,12 @@
 //! The scene: plain types, SI units, everything one run needs to know about a gear set.
 
 use gearset::{GeometryInput, MeshKind, Operation, PlanetPositions, Teeth};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::choices::{DynamicsInput, FeContactInput, PlaneState};
 
 /// What the scene describes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SceneKind {
     /// A whole planetary set.
@@ -16,7 +16,7 @@ pub enum SceneKind {
 }
 
 /// A validated scene. Lengths in m, angles in rad, masses in kg, stiffnesses in N/m.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
     /// Whole set or one mesh.
     pub kind: SceneKind,
@@ -51,7 +51,7 @@ pub struct Scene {
 }
 
 /// Elastic constants and density.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Material {
     /// E, Pa.
     pub young_modulus_pa: f64,
@@ -74,7 +74,7 @@ impl Material {
 }
 
 /// How a central member may move.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Freedom {
     /// Translates and rotates.
@@ -100,7 +100,7 @@ impl Freedom {
 }
 
 /// Support of one central member.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Support {
     /// Which coordinates exist.
     pub motion: Freedom,
@@ -123,7 +123,7 @@ impl Support {
 }
 
 /// Torsional stiffness of a central member.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Torsional {
     /// Per u = r·θ, N/m.
@@ -133,7 +133,7 @@ pub enum Torsional {
 }
 
 /// Supports of all members.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Supports {
     /// Carrier.
     pub carrier: Support,
@@ -150,7 +150,7 @@ pub struct Supports {
 }
 
 /// The gears of a sun–planet pair in time, beyond the sun's support.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PairSupports {
     /// Support of the planet, to ground.
     pub planet: Support,
@@ -161,7 +161,7 @@ pub struct PairSupports {
 }
 
 /// Mass and inertia of a gear with its shaft; what is `None` follows from the finite-element mesh of the gear.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct GivenInertia {
     /// Mass, kg.
     pub mass_kg: Option<f64>,
@@ -170,7 +170,7 @@ pub struct GivenInertia {
 }
 
 /// A rigid piece fixed to a race, centred on it; none by default.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct AddedMass {
     /// Mass, kg.
     pub mass_kg: f64,
@@ -179,7 +179,7 @@ pub struct AddedMass {
 }
 
 /// One value for each kind of body; `None` where the scene gives none.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct PerBody {
     /// Carrier.
     pub carrier: Option<f64>,
@@ -191,8 +191,16 @@ pub struct PerBody {
     pub planet: Option<f64>,
 }
 
+impl PerBody {
+    /// The values with the names of the bodies in scene files.
+    pub fn by_name(&self) -> [(&'static str, Option<f64>); 4] {
+        let Self { carrier, ring, sun, planet } = *self;
+        [("carrier", carrier), ("ring", ring), ("sun", sun), ("planet", planet)]
+    }
+}
+
 /// One value for each kind of mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PerMesh {
     /// Sun–planet.
     pub sun_planet: f64,
@@ -211,7 +219,7 @@ impl PerMesh {
 }
 
 /// Parameters of the Lin–Parker model.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LumpedInput {
     /// Masses, kg.
     pub mass: PerBody,
@@ -226,7 +234,7 @@ pub struct LumpedInput {
 }
 
 /// One planet that differs from the others; `None` keeps the common value.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct PlanetOverride {
     /// Index n of the planet.
     pub planet: usize,
@@ -243,7 +251,7 @@ pub struct PlanetOverride {
 }
 
 /// Proportional damping C = αM + βK.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Damping {
     /// α, 1/s.
     pub mass_proportional_per_s: f64,

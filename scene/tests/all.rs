@@ -1,6 +1,7 @@
 //! Tests of the scene file. One program for all files, which is built faster:
 //! `cargo test --release -p epicyclic-scene --test all needs` runs those whose name has the word.
 
+mod built_scenes;
 mod gear_pair;
 mod needs;
 mod scene_faults;

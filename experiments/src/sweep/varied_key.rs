@@ -74,7 +74,7 @@ impl VariedKey {
 
     /// Its path.
     pub fn path(self) -> &'static str {
-        self.0.path
+        &self.0.path
     }
 
     /// Its unit; empty for a pure number.

@@ -1,75 +1,70 @@
 //! Faults of the tooth geometry that show only when several keys are seen together.
 
 use gearset::{
-    Gear, Geometry, GeometryInput, Mesh, MeshKind, MeshMember, PlanetPositions, Teeth,
-    ThicknessInput, assembly,
+    CarrierInput, Gear, GearInput, Geometry, GeometryInput, Mesh, MeshKind, MeshMember,
+    PlanetPositions, Teeth, ThicknessInput, assembly,
 };
 
 use crate::read::TeethRead;
 use crate::read::document::Document;
-use crate::read::geometry::{CarrierRead, GearRead, GeometryRead};
 
 /// Judges what is there of the tooth geometry; faults go to the document. Of what is absent or at fault no
 /// consequence is reported.
 pub(crate) fn shape(
     document: &Document<'_>,
-    shape: &GeometryRead,
+    shape: &GeometryInput,
     teeth: &TeethRead,
     positions: Option<&PlanetPositions>,
 ) {
     let gears = [
         ("sun", shape.sun.as_ref(), teeth.sun),
-        ("planet", shape.planet.as_ref(), teeth.planet),
+        ("planet", Some(&shape.planet), teeth.planet),
         ("ring", shape.ring.as_ref(), teeth.ring),
     ];
     for (name, gear, z) in gears {
         if let Some(gear) = gear {
             let is_z_known = !document.is_doubtful(&format!("teeth.{name}"));
             // 2π r_b = Z p_b
-            let base = z.filter(|_| is_z_known).zip(shape.base_pitch);
-            let base = base.map(|(z, pitch)| f64::from(z) * pitch / std::f64::consts::TAU);
-            circles(document, name, gear, base);
+            let base = z.filter(|_| is_z_known).map_or(f64::NAN, f64::from);
+            circles(document, name, gear, base * shape.base_pitch / std::f64::consts::TAU);
         }
     }
     let is_known = |key: &str| !document.is_doubtful(&format!("planets.{key}"));
     let positions = positions.filter(|_| is_known("position_steps") && is_known("positions_deg"));
-    if let Some(a) = shape.center_distance
-        && !meshes(document, shape, teeth, a)
-    {
-        if let Some(found) = &shape.carrier {
-            carrier(document, found, a, positions);
-        }
-        let tip = shape.planet.as_ref().and_then(|planet| planet.tip_radius);
-        if let (Some(tip), Some(positions)) = (tip, positions)
-            && !document.is_doubtful("geometry.planet.tip_diameter_mm")
-        {
-            planets_apart(document, positions, a, tip);
-        }
+    let a = shape.center_distance;
+    if a.is_nan() || meshes(document, shape, teeth) {
+        return;
+    }
+    if let Some(found) = &shape.carrier {
+        carrier(document, found, a, positions);
+    }
+    let is_tip_known = !document.is_doubtful("geometry.planet.tip_diameter_mm");
+    if let Some(positions) = positions.filter(|_| is_tip_known) {
+        planets_apart(document, positions, a, shape.planet.tip_radius);
     }
 }
 
 /// Checks teeth and meshes of the gears that are there without a fault; whether the centre distance leaves no
 /// mesh at all.
-fn meshes(document: &Document<'_>, shape: &GeometryRead, teeth: &TeethRead, a: f64) -> bool {
+fn meshes(document: &Document<'_>, shape: &GeometryInput, teeth: &TeethRead) -> bool {
     let is_sound = |name: &str| {
         !document.is_doubtful(&format!("geometry.{name}"))
             && !document.is_doubtful(&format!("teeth.{name}"))
     };
-    let sound = |name: &str, gear: &Option<GearRead>, z: Option<u32>| {
-        let gear = gear.as_ref().filter(|_| is_sound(name)).and_then(GearRead::complete);
-        gear.zip(z)
+    let sound = |name: &str, gear: &Option<GearInput>, z: Option<u32>| {
+        gear.clone().zip(z).filter(|_| is_sound(name))
     };
     let sun = sound("sun", &shape.sun, teeth.sun);
     let ring = sound("ring", &shape.ring, teeth.ring);
-    let Some((planet, z_planet)) = sound("planet", &shape.planet, teeth.planet) else {
+    let (Some(z_planet), true) =
+        (teeth.planet.filter(|_| is_sound("planet")), !shape.base_pitch.is_nan())
+    else {
         return false;
     };
-    let Some(base_pitch) = shape.base_pitch else { return false };
-    let thickness = shape.thickness.filter(|_| {
-        !document.is_doubtful("geometry.thickness") && !document.is_doubtful("geometry.rack")
-    });
+    let is_thickness_known =
+        !document.is_doubtful("geometry.thickness") && !document.is_doubtful("geometry.rack");
     // The tooth thickness of one gear follows from those of its mates.
-    let is_whole = thickness.is_some()
+    let is_whole = is_thickness_known
         && sun.is_some() == shape.sun.is_some()
         && ring.is_some() == shape.ring.is_some();
     let no_backlash =
@@ -80,15 +75,10 @@ fn meshes(document: &Document<'_>, shape: &GeometryRead, teeth: &TeethRead, a: f
         ring: ring.as_ref().map(|r| r.1),
     };
     let input = GeometryInput {
-        center_distance: a,
-        base_pitch,
-        rack: shape.rack,
-        face_width: shape.face_width.unwrap_or(1.0),
         sun: sun.map(|s| s.0),
-        planet,
         ring: ring.map(|r| r.0),
-        carrier: None,
-        thickness: thickness.unwrap_or(no_backlash),
+        thickness: if is_thickness_known { shape.thickness } else { no_backlash },
+        ..shape.clone()
     };
     let geometry = match Geometry::new(&input, &known_teeth) {
         Ok(geometry) => geometry,
@@ -146,7 +136,7 @@ fn planets_apart(document: &Document<'_>, positions: &PlanetPositions, a: f64, t
 /// Checks that the carrier's annulus contains its pin seats and that the seats do not overlap.
 fn carrier(
     document: &Document<'_>,
-    carrier: &CarrierRead,
+    carrier: &CarrierInput,
     a: f64,
     positions: Option<&PlanetPositions>,
 ) {
@@ -156,11 +146,11 @@ fn carrier(
     let seat = carrier.pin_seat_radius;
     let (bore, outer) = (carrier.bore_radius, carrier.outer_radius);
     let why = "the pin seats stand at the centre distance, inside the annulus";
-    if bore.is_some_and(|bore| bore >= a - seat) {
+    if bore >= a - seat {
         let allowed = format!("below {}", mm(2.0 * (a - seat)));
         document.fault("geometry.carrier.bore_diameter_mm", allowed, why);
     }
-    if outer.is_some_and(|outer| outer <= a + seat) {
+    if outer <= a + seat {
         let allowed = format!("above {}", mm(2.0 * (a + seat)));
         document.fault("geometry.carrier.outer_diameter_mm", allowed, why);
     }
@@ -174,39 +164,29 @@ fn carrier(
     }
 }
 
-/// Checks the order of one gear's circles, as far as they are known; the base radius in m.
-fn circles(document: &Document<'_>, name: &str, gear: &GearRead, base: Option<f64>) {
+/// Checks the order of one gear's circles; the base radius in m. What is not known is NaN, and in no wrong order.
+fn circles(document: &Document<'_>, name: &str, gear: &GearInput, base: f64) {
     let fault = |k: &str, allowed: String, why: &str| {
         document.fault(&format!("geometry.{name}.{k}"), allowed, why);
     };
     let is_ring = name == "ring";
     let (tip, root, body) = (gear.tip_radius, gear.root_radius, gear.body_radius);
     let diameter = |r: f64| mm(2.0 * r);
-    // One circle outside another, seen from the teeth: outwards on an external gear, inwards on the ring.
-    let is_beyond = |x: f64, y: f64| if is_ring { x < y } else { x > y };
+    // One circle not outside another, seen from the teeth: outwards on an external gear, inwards on the ring.
+    let is_within = |x: f64, y: f64| if is_ring { x >= y } else { x <= y };
     let words = |beyond: bool| if beyond != is_ring { "above" } else { "below" };
-    if let (Some(tip), Some(root)) = (tip, root)
-        && !is_beyond(tip, root)
-    {
+    if is_within(tip, root) {
         let allowed = format!("{} the root diameter {}", words(true), diameter(root));
         let why =
             if is_ring { "internal teeth point inwards" } else { "external teeth point outwards" };
         fault("tip_diameter_mm", allowed, why);
     }
-    if let (Some(tip), Some(base)) = (tip, base) {
-        let why = "there is no involute inside the base circle";
-        if is_ring && tip < base {
-            let allowed = format!("at least the base diameter {}", diameter(base));
-            fault("tip_diameter_mm", allowed, why);
-        }
-        if !is_ring && tip <= base {
-            let allowed = format!("above the base diameter {}", diameter(base));
-            fault("tip_diameter_mm", allowed, why);
-        }
+    if if is_ring { tip < base } else { tip <= base } {
+        let least = if is_ring { "at least" } else { "above" };
+        let allowed = format!("{least} the base diameter {}", diameter(base));
+        fault("tip_diameter_mm", allowed, "there is no involute inside the base circle");
     }
-    if let (Some(body), Some(root)) = (body, root)
-        && !is_beyond(root, body)
-    {
+    if body.is_some_and(|body| is_within(root, body)) {
         let key = if is_ring { "rim_diameter_mm" } else { "bore_diameter_mm" };
         let allowed = format!("{} the root diameter {}", words(false), diameter(root));
         fault(key, allowed, "the teeth stand on a rim");

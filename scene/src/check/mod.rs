@@ -6,6 +6,8 @@ pub(crate) mod load;
 use gearset::{PlanetPositions, assembly};
 
 use crate::choices::{DynamicsInput, FeContactInput, Fidelity};
+use crate::keys::{KEYS, SceneKey};
+use crate::read::default_fe_contact;
 use crate::read::document::Document;
 
 /// Refuses flexibility factors at every fidelity but `quasi_static`: elastic states of a body act in several
@@ -37,53 +39,34 @@ pub(crate) fn auto_chooses(
     if dynamics.auto.is_none() {
         return;
     }
-    let default = FeContactInput::default();
+    let Some(default) = default_fe_contact() else { return };
+    let depth = "matching depth";
     let settings = [
-        (
-            "element",
-            own.element != default.element,
-            "\"quadratic\"".to_owned(),
-            "family of elements",
-        ),
-        (
-            "flank_elements",
-            own.flank_elements != default.flank_elements,
-            default.flank_elements.to_string(),
-            "number of elements",
-        ),
+        ("element", own.element != default.element, "family of elements"),
+        ("flank_elements", own.flank_elements != default.flank_elements, "number of elements"),
         (
             "flank_layer",
             own.flank_layer != default.flank_layer,
-            "\"whole\"".to_owned(),
             "layer of elements next to the flanks",
         ),
         (
             "cell_layout_at_rest",
             own.cell_layout_at_rest != default.cell_layout_at_rest,
-            "\"even\"".to_owned(),
             "layout of contact cells at rest",
         ),
-        (
-            "contact_cells",
-            own.contact_cells != default.contact_cells,
-            default.contact_cells.to_string(),
-            "number of contact cells",
-        ),
-        ("matching_depth_mm", own.matching_depth.is_some(), String::new(), "matching depth"),
-        (
-            "matching_depth_elements",
-            own.matching_depth_elements.is_some(),
-            String::new(),
-            "matching depth",
-        ),
+        ("contact_cells", own.contact_cells != default.contact_cells, "number of contact cells"),
+        ("matching_depth_mm", own.matching_depth.is_some(), depth),
+        ("matching_depth_elements", own.matching_depth_elements.is_some(), depth),
     ];
-    for (key, _, default, what) in settings.into_iter().filter(|(_, is_given, ..)| *is_given) {
-        let allowed = match default.as_str() {
-            "" => "no value with dynamics.fidelity = \"auto\"".to_owned(),
-            value => format!("no value, or its default {value}, with dynamics.fidelity = \"auto\""),
-        };
+    for (key, _, what) in settings.into_iter().filter(|(_, is_given, _)| *is_given) {
+        let path = format!("fe_contact.{key}");
+        let declared = KEYS.iter().find(|declared| declared.path == path);
+        let or_default = declared
+            .and_then(SceneKey::default_as_written)
+            .map_or(String::new(), |value| format!(", or its default {value},"));
+        let allowed = format!("no value{or_default} with dynamics.fidelity = \"auto\"");
         let why = format!("the {what} is among the settings that are chosen");
-        document.fault(&format!("fe_contact.{key}"), allowed, why);
+        document.fault(&path, allowed, why);
     }
 }
 

@@ -1,11 +1,15 @@
-//! Every key of a scene file: from this list come the JSON schema and the page of keys, and tests hold it against
-//! what the reader asks for.
+//! Every key of a scene file, declared once: the reader, its faults, the JSON schema and the page of keys follow this
+//! list. One row a key, which no line break would make easier to compare; the reason that a fault gives is the first clause
+//! of the meaning, unless the row says why.
+
+use std::sync::LazyLock;
 
 use crate::keys::KeyKind::{Choice, Integer, Integers, Number, Numbers, Table, Tables, Text};
-use crate::keys::Presence::{Default, Optional, Required};
-use crate::keys::SceneKey;
-use crate::keys::bound::Bound;
+use crate::keys::bound::Bound::{Between, Finite, NonNegative, Positive};
+use crate::keys::key::{SceneKey, key};
 
+/// Verbs that need a key.
+const NONE: &str = "–";
 const ALL: &str = "all";
 const FE: &str = "mesh, static, impulse, sweep, branches";
 const LUMPED: &str = "modes, compare";
@@ -13,170 +17,238 @@ const RULES_FE: &str = "rules, mesh, static, impulse, sweep, branches";
 const MOTION: &str = "impulse, sweep, branches";
 const SWEEP: &str = "sweep, branches";
 const LOAD: &str = "static, impulse, sweep, branches";
-const PAIR: &str = "all";
-const NONE: &str = "–";
 
 /// Every key, each table before its keys.
-#[rustfmt::skip]
-pub(crate) const KEYS: &[SceneKey] = &[
-    SceneKey { path: "format", kind: Integer(1, 1), unit: "–", presence: Required, meaning: "version of the file format", needed_by: ALL },
-    SceneKey { path: "kind", kind: Choice(&["planetary", "gear_pair"]), unit: "–", presence: Required, meaning: "a whole planetary set, or one mesh alone", needed_by: ALL },
-    SceneKey { path: "mesh", kind: Choice(&["sun_planet", "ring_planet"]), unit: "–", presence: Optional("only, and always, of a gear pair"), meaning: "which mesh a gear pair is", needed_by: PAIR },
-    SceneKey { path: "title", kind: Text, unit: "–", presence: Default("untitled"), meaning: "name of the set; results carry it", needed_by: NONE },
-    SceneKey { path: "source", kind: Text, unit: "–", presence: Optional("none"), meaning: "where the numbers come from", needed_by: NONE },
-    SceneKey { path: "planets", kind: Table, unit: "–", presence: Optional("always of a planetary set, never of a gear pair"), meaning: "planets on the carrier", needed_by: ALL },
-    SceneKey { path: "planets.count", kind: Integer(1, 64), unit: "–", presence: Required, meaning: "number of planets N", needed_by: ALL },
-    SceneKey { path: "planets.position_steps", kind: Integers, unit: "360°/(Z_s+Z_r)", presence: Optional("equal spacing; not beside positions_deg"), meaning: "planet positions counter-clockwise from planet 0, in assembly steps; the first is 0", needed_by: NONE },
-    SceneKey { path: "planets.positions_deg", kind: Numbers, unit: "°", presence: Optional("equal spacing; not beside position_steps"), meaning: "planet positions counter-clockwise from planet 0, from -360 to 360; the first is 0; with [teeth] they must be possible to assemble", needed_by: NONE },
-    SceneKey { path: "teeth", kind: Table, unit: "–", presence: Optional("a set without it and without [geometry] has parameters only"), meaning: "numbers of teeth", needed_by: RULES_FE },
-    SceneKey { path: "teeth.sun", kind: Integer(5, 10000), unit: "–", presence: Optional("always of a planetary set; of a gear pair that of its mesh"), meaning: "number of teeth Z_s", needed_by: RULES_FE },
-    SceneKey { path: "teeth.planet", kind: Integer(5, 10000), unit: "–", presence: Required, meaning: "number of teeth Z_p", needed_by: RULES_FE },
-    SceneKey { path: "teeth.ring", kind: Integer(5, 10000), unit: "–", presence: Optional("always of a planetary set; of a gear pair that of its mesh"), meaning: "number of teeth Z_r, above Z_p", needed_by: RULES_FE },
-    SceneKey { path: "geometry", kind: Table, unit: "–", presence: Optional("a set without it has parameters only"), meaning: "tooth geometry", needed_by: FE },
-    SceneKey { path: "geometry.center_distance_mm", kind: Number(Bound::Positive), unit: "mm", presence: Required, meaning: "distance a from the sun to a planet", needed_by: FE },
-    SceneKey { path: "geometry.face_width_mm", kind: Number(Bound::Positive), unit: "mm", presence: Required, meaning: "width b of the teeth", needed_by: FE },
-    SceneKey { path: "geometry.base_pitch_mm", kind: Number(Bound::Positive), unit: "mm", presence: Optional("exactly one of base_pitch_mm, planet_base_diameter_mm and rack"), meaning: "base pitch p_b of every gear", needed_by: FE },
-    SceneKey { path: "geometry.planet_base_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Optional("exactly one of base_pitch_mm, planet_base_diameter_mm and rack"), meaning: "base diameter of the planet: p_b = π d_b/Z_p", needed_by: FE },
-    SceneKey { path: "geometry.rack", kind: Table, unit: "–", presence: Optional("exactly one of base_pitch_mm, planet_base_diameter_mm and rack"), meaning: "generating rack: p_b = π m cos α₀", needed_by: FE },
-    SceneKey { path: "geometry.rack.module_mm", kind: Number(Bound::Positive), unit: "mm", presence: Required, meaning: "module m of the rack", needed_by: FE },
-    SceneKey { path: "geometry.rack.pressure_angle_deg", kind: Number(Bound::Between(0.0, 45.0)), unit: "°", presence: Required, meaning: "pressure angle α₀ of the rack", needed_by: FE },
-    SceneKey { path: "geometry.sun", kind: Table, unit: "–", presence: Optional("always where [teeth] names this gear"), meaning: "circles of the sun", needed_by: FE },
-    SceneKey { path: "geometry.sun.tip_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Required, meaning: "tip circle", needed_by: FE },
-    SceneKey { path: "geometry.sun.root_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Required, meaning: "root circle", needed_by: FE },
-    SceneKey { path: "geometry.sun.bore_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Optional("always for FE/contact"), meaning: "bore, its rigid race", needed_by: FE },
-    SceneKey { path: "geometry.sun.fillet_radius_mm", kind: Number(Bound::NonNegative), unit: "mm", presence: Optional("0.3 p_b/π; above 0 for FE/contact"), meaning: "radius of the root fillet", needed_by: FE },
-    SceneKey { path: "geometry.sun.tip_relief", kind: Table, unit: "–", presence: Optional("no relief"), meaning: "material taken off the flank near the tip", needed_by: NONE },
-    SceneKey { path: "geometry.sun.tip_relief.start_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Required, meaning: "where the relief starts, between form circle and tip circle", needed_by: NONE },
-    SceneKey { path: "geometry.sun.tip_relief.amount_um", kind: Number(Bound::NonNegative), unit: "µm", presence: Required, meaning: "material taken off at the tip circle, measured along the line of action", needed_by: NONE },
-    SceneKey { path: "geometry.sun.tip_relief.shape", kind: Choice(&["linear", "parabolic"]), unit: "–", presence: Default("linear"), meaning: "growth with the roll length past the start: proportional to it, or to its square", needed_by: NONE },
-    SceneKey { path: "geometry.planet", kind: Table, unit: "–", presence: Required, meaning: "circles of the planet", needed_by: FE },
-    SceneKey { path: "geometry.planet.tip_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Required, meaning: "tip circle", needed_by: FE },
-    SceneKey { path: "geometry.planet.root_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Required, meaning: "root circle", needed_by: FE },
-    SceneKey { path: "geometry.planet.bore_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Optional("always for FE/contact"), meaning: "bore, its rigid race", needed_by: FE },
-    SceneKey { path: "geometry.planet.fillet_radius_mm", kind: Number(Bound::NonNegative), unit: "mm", presence: Optional("0.3 p_b/π; above 0 for FE/contact"), meaning: "radius of the root fillet", needed_by: FE },
-    SceneKey { path: "geometry.planet.tip_relief", kind: Table, unit: "–", presence: Optional("no relief"), meaning: "material taken off the flank near the tip", needed_by: NONE },
-    SceneKey { path: "geometry.planet.tip_relief.start_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Required, meaning: "where the relief starts, between form circle and tip circle", needed_by: NONE },
-    SceneKey { path: "geometry.planet.tip_relief.amount_um", kind: Number(Bound::NonNegative), unit: "µm", presence: Required, meaning: "material taken off at the tip circle, measured along the line of action", needed_by: NONE },
-    SceneKey { path: "geometry.planet.tip_relief.shape", kind: Choice(&["linear", "parabolic"]), unit: "–", presence: Default("linear"), meaning: "growth with the roll length past the start: proportional to it, or to its square", needed_by: NONE },
-    SceneKey { path: "geometry.ring", kind: Table, unit: "–", presence: Optional("always where [teeth] names this gear"), meaning: "circles of the ring", needed_by: FE },
-    SceneKey { path: "geometry.ring.tip_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Required, meaning: "tip circle", needed_by: FE },
-    SceneKey { path: "geometry.ring.root_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Required, meaning: "root circle", needed_by: FE },
-    SceneKey { path: "geometry.ring.rim_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Optional("always for FE/contact"), meaning: "outer circle of the ring, its rigid race", needed_by: FE },
-    SceneKey { path: "geometry.ring.fillet_radius_mm", kind: Number(Bound::NonNegative), unit: "mm", presence: Optional("0.3 p_b/π; above 0 for FE/contact"), meaning: "radius of the root fillet", needed_by: FE },
-    SceneKey { path: "geometry.ring.tip_relief", kind: Table, unit: "–", presence: Optional("no relief"), meaning: "material taken off the flank near the tip", needed_by: NONE },
-    SceneKey { path: "geometry.ring.tip_relief.start_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Required, meaning: "where the relief starts, between form circle and tip circle", needed_by: NONE },
-    SceneKey { path: "geometry.ring.tip_relief.amount_um", kind: Number(Bound::NonNegative), unit: "µm", presence: Required, meaning: "material taken off at the tip circle, measured along the line of action", needed_by: NONE },
-    SceneKey { path: "geometry.ring.tip_relief.shape", kind: Choice(&["linear", "parabolic"]), unit: "–", presence: Default("linear"), meaning: "growth with the roll length past the start: proportional to it, or to its square", needed_by: NONE },
-    SceneKey { path: "geometry.carrier", kind: Table, unit: "–", presence: Optional("a rigid carrier; its mass is then lumped.mass_kg.carrier"), meaning: "the carrier as an annulus with pin seats", needed_by: MOTION },
-    SceneKey { path: "geometry.carrier.bore_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Required, meaning: "bore, its rigid race", needed_by: MOTION },
-    SceneKey { path: "geometry.carrier.outer_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Required, meaning: "edge of the annulus", needed_by: MOTION },
-    SceneKey { path: "geometry.carrier.pin_seat_diameter_mm", kind: Number(Bound::Positive), unit: "mm", presence: Default("20"), meaning: "rigid seat of each planet's pin", needed_by: NONE },
-    SceneKey { path: "geometry.carrier.body", kind: Choice(&["flexible", "rigid"]), unit: "–", presence: Default("flexible"), meaning: "whether the annulus gives way between bore and seats", needed_by: NONE },
-    SceneKey { path: "geometry.thickness", kind: Table, unit: "–", presence: Optional("its defaults"), meaning: "tooth thickness, from backlash or from profile shifts", needed_by: NONE },
-    SceneKey { path: "geometry.thickness.sun_planet_backlash_mm", kind: Number(Bound::NonNegative), unit: "mm", presence: Optional("0.04 p_b/π"), meaning: "circumferential backlash of the sun–planet mesh at its operating pitch circles", needed_by: NONE },
-    SceneKey { path: "geometry.thickness.ring_planet_backlash_mm", kind: Number(Bound::NonNegative), unit: "mm", presence: Optional("0.04 p_b/π"), meaning: "circumferential backlash of the ring–planet mesh at its operating pitch circles", needed_by: NONE },
-    SceneKey { path: "geometry.thickness.planet_share", kind: Number(Bound::Between(0.0, 1.0)), unit: "–", presence: Default("0.5"), meaning: "planet's share of the sum of sun and planet tooth thickness", needed_by: NONE },
-    SceneKey { path: "geometry.thickness.profile_shift", kind: Table, unit: "–", presence: Optional("backlash gives the thickness"), meaning: "profile shift coefficients, with geometry.rack and without backlash keys", needed_by: NONE },
-    SceneKey { path: "geometry.thickness.profile_shift.sun", kind: Number(Bound::Between(-5.0, 5.0)), unit: "module", presence: Default("0"), meaning: "profile shift x of the sun", needed_by: NONE },
-    SceneKey { path: "geometry.thickness.profile_shift.planet", kind: Number(Bound::Between(-5.0, 5.0)), unit: "module", presence: Default("0"), meaning: "profile shift x of the planet", needed_by: NONE },
-    SceneKey { path: "geometry.thickness.profile_shift.ring", kind: Number(Bound::Between(-5.0, 5.0)), unit: "module", presence: Default("0"), meaning: "profile shift x of the ring (internal-gear sign)", needed_by: NONE },
-    SceneKey { path: "material", kind: Table, unit: "–", presence: Optional("its defaults"), meaning: "elastic constants and density of every body", needed_by: NONE },
-    SceneKey { path: "material.young_modulus_pa", kind: Number(Bound::Positive), unit: "Pa", presence: Default("206e9"), meaning: "Young's modulus E", needed_by: NONE },
-    SceneKey { path: "material.poisson_ratio", kind: Number(Bound::Between(-1.0, 0.5)), unit: "–", presence: Default("0.3"), meaning: "Poisson's ratio ν", needed_by: NONE },
-    SceneKey { path: "material.density_kg_per_m3", kind: Number(Bound::Positive), unit: "kg/m³", presence: Default("7850"), meaning: "density ρ", needed_by: NONE },
-    SceneKey { path: "sun", kind: Table, unit: "–", presence: Optional("free, without bearing; of a gear pair with a rigid bearing"), meaning: "support of the sun; of gear pairs only with mesh = \"sun_planet\"", needed_by: LOAD },
-    SceneKey { path: "sun.motion", kind: Choice(&["free", "rotation_held", "held"]), unit: "–", presence: Default("free"), meaning: "free; rotation held; held in all directions. Torques of static, impulse, sweep and branches need one of sun, ring and carrier free without torsional stiffness, on which they act, and the other two held or with a torsional stiffness", needed_by: LOAD },
-    SceneKey { path: "sun.bearing_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "bearing stiffness to ground, equal in all directions; not of a held member; of a gear pair above 0, and left out the bearing is rigid", needed_by: NONE },
-    SceneKey { path: "sun.torsional_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "torsional stiffness to ground per u = r·θ; r is the base radius, of the carrier the centre distance; only with motion = \"free\"", needed_by: NONE },
-    SceneKey { path: "sun.torsional_nm_per_rad", kind: Number(Bound::NonNegative), unit: "N·m/rad", presence: Optional("torsional_n_per_m holds"), meaning: "the same per θ, instead of torsional_n_per_m", needed_by: NONE },
-    SceneKey { path: "sun.mass_kg", kind: Number(Bound::Positive), unit: "kg", presence: Optional("that of the finite-element mesh; only of a gear pair"), meaning: "mass of the gear with its shaft in the FE/contact model, at \"quasi_static\" and \"mesh_law\"", needed_by: NONE },
-    SceneKey { path: "sun.inertia_kg_m2", kind: Number(Bound::Positive), unit: "kg·m²", presence: Optional("that of the finite-element mesh; only of a gear pair"), meaning: "polar inertia of the gear with its shaft, as mass_kg", needed_by: NONE },
-    SceneKey { path: "ring", kind: Table, unit: "–", presence: Optional("free, without bearing; never of a gear pair"), meaning: "support of the ring", needed_by: NONE },
-    SceneKey { path: "ring.motion", kind: Choice(&["free", "rotation_held", "held"]), unit: "–", presence: Default("free"), meaning: "free; rotation held; held in all directions. Torques: as `sun.motion`", needed_by: LOAD },
-    SceneKey { path: "ring.bearing_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "bearing stiffness to ground, equal in all directions; not of a held member", needed_by: NONE },
-    SceneKey { path: "ring.torsional_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "torsional stiffness to ground per u = r·θ; r is the base radius, of the carrier the centre distance; only with motion = \"free\"", needed_by: NONE },
-    SceneKey { path: "ring.torsional_nm_per_rad", kind: Number(Bound::NonNegative), unit: "N·m/rad", presence: Optional("torsional_n_per_m holds"), meaning: "the same per θ, instead of torsional_n_per_m", needed_by: NONE },
-    SceneKey { path: "carrier", kind: Table, unit: "–", presence: Optional("free, without bearing; never of a gear pair"), meaning: "support of the carrier", needed_by: NONE },
-    SceneKey { path: "carrier.motion", kind: Choice(&["free", "rotation_held", "held"]), unit: "–", presence: Default("free"), meaning: "free; rotation held; held in all directions. Torques: as `sun.motion`", needed_by: LOAD },
-    SceneKey { path: "carrier.bearing_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "bearing stiffness to ground, equal in all directions; not of a held member", needed_by: NONE },
-    SceneKey { path: "carrier.torsional_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Default("0"), meaning: "torsional stiffness to ground per u = r·θ; r is the base radius, of the carrier the centre distance; only with motion = \"free\"", needed_by: NONE },
-    SceneKey { path: "carrier.torsional_nm_per_rad", kind: Number(Bound::NonNegative), unit: "N·m/rad", presence: Optional("torsional_n_per_m holds"), meaning: "the same per θ, instead of torsional_n_per_m", needed_by: NONE },
-    SceneKey { path: "planet", kind: Table, unit: "–", presence: Optional("always of a planetary set; of a gear pair with a rigid bearing"), meaning: "every planet on its pin; of a gear pair with mesh = \"sun_planet\" the support of its planet", needed_by: ALL },
-    SceneKey { path: "planet.bearing_n_per_m", kind: Number(Bound::Positive), unit: "N/m", presence: Optional("always of a planetary set; of a gear pair a rigid bearing"), meaning: "stiffness between planet and carrier, of a gear pair to ground, equal in all directions", needed_by: ALL },
-    SceneKey { path: "planet.added_mass_kg", kind: Number(Bound::NonNegative), unit: "kg", presence: Default("0"), meaning: "mass fixed to each planet's race, beside the meshed or lumped mass; not of a gear pair", needed_by: NONE },
-    SceneKey { path: "planet.added_inertia_kg_m2", kind: Number(Bound::NonNegative), unit: "kg·m²", presence: Default("0"), meaning: "polar inertia of the added mass; not of a gear pair", needed_by: NONE },
-    SceneKey { path: "planet.motion", kind: Choice(&["free", "rotation_held", "held"]), unit: "–", presence: Optional("free; only of a gear pair"), meaning: "as `sun.motion`. A planet of a gear pair that turns freely carries the torque that balances the sun's; one that is held or sprung passes it to its support", needed_by: NONE },
-    SceneKey { path: "planet.torsional_n_per_m", kind: Number(Bound::NonNegative), unit: "N/m", presence: Optional("0; only of a gear pair"), meaning: "stiffness of the planet's shaft to ground per u = r·θ; only with motion = \"free\"", needed_by: NONE },
-    SceneKey { path: "planet.torsional_nm_per_rad", kind: Number(Bound::NonNegative), unit: "N·m/rad", presence: Optional("torsional_n_per_m holds; only of a gear pair"), meaning: "the same per θ, instead of torsional_n_per_m", needed_by: NONE },
-    SceneKey { path: "planet.mass_kg", kind: Number(Bound::Positive), unit: "kg", presence: Optional("that of the finite-element mesh; only of a gear pair"), meaning: "mass of the gear with its shaft in the FE/contact model, at \"quasi_static\" and \"mesh_law\"", needed_by: NONE },
-    SceneKey { path: "planet.inertia_kg_m2", kind: Number(Bound::Positive), unit: "kg·m²", presence: Optional("that of the finite-element mesh; only of a gear pair"), meaning: "polar inertia of the gear with its shaft, as mass_kg", needed_by: NONE },
-    SceneKey { path: "lumped", kind: Table, unit: "–", presence: Optional("of a planetary set with [geometry] parameters in closed form; otherwise no lumped model"), meaning: "parameters of the Lin–Parker model, or of the lumped sun–planet pair", needed_by: LUMPED },
-    SceneKey { path: "lumped.from", kind: Choice(&["geometry"]), unit: "–", presence: Optional("numbers are given, unless the whole table is left out"), meaning: "parameters in closed form from [geometry], as without [lumped]; alone in its table, of a planetary set", needed_by: NONE },
-    SceneKey { path: "lumped.mass_kg", kind: Table, unit: "–", presence: Optional("of every body that can move"), meaning: "mass of each body", needed_by: LUMPED },
-    SceneKey { path: "lumped.mass_kg.carrier", kind: Number(Bound::Positive), unit: "kg", presence: Optional("of every body that can move"), meaning: "mass of the carrier", needed_by: LUMPED },
-    SceneKey { path: "lumped.mass_kg.ring", kind: Number(Bound::Positive), unit: "kg", presence: Optional("of every body that can move"), meaning: "mass of the ring", needed_by: LUMPED },
-    SceneKey { path: "lumped.mass_kg.sun", kind: Number(Bound::Positive), unit: "kg", presence: Optional("of every body that can move"), meaning: "mass of the sun", needed_by: LUMPED },
-    SceneKey { path: "lumped.mass_kg.planet", kind: Number(Bound::Positive), unit: "kg", presence: Optional("of every body that can move"), meaning: "mass of the planet", needed_by: LUMPED },
-    SceneKey { path: "lumped.inertia_kg_m2", kind: Table, unit: "–", presence: Optional("of every body that can rotate, or inertia_over_r2_kg"), meaning: "polar moment of inertia I of each body", needed_by: LUMPED },
-    SceneKey { path: "lumped.inertia_kg_m2.carrier", kind: Number(Bound::Positive), unit: "kg·m²", presence: Optional("of every body that can rotate, or inertia_over_r2_kg"), meaning: "polar moment of inertia I of the carrier", needed_by: LUMPED },
-    SceneKey { path: "lumped.inertia_kg_m2.ring", kind: Number(Bound::Positive), unit: "kg·m²", presence: Optional("of every body that can rotate, or inertia_over_r2_kg"), meaning: "polar moment of inertia I of the ring", needed_by: LUMPED },
-    SceneKey { path: "lumped.inertia_kg_m2.sun", kind: Number(Bound::Positive), unit: "kg·m²", presence: Optional("of every body that can rotate, or inertia_over_r2_kg"), meaning: "polar moment of inertia I of the sun", needed_by: LUMPED },
-    SceneKey { path: "lumped.inertia_kg_m2.planet", kind: Number(Bound::Positive), unit: "kg·m²", presence: Optional("of every body that can rotate, or inertia_over_r2_kg"), meaning: "polar moment of inertia I of the planet", needed_by: LUMPED },
-    SceneKey { path: "lumped.inertia_over_r2_kg", kind: Table, unit: "–", presence: Optional("instead of inertia_kg_m2"), meaning: "I/r², with the r of u = r·θ of each body", needed_by: NONE },
-    SceneKey { path: "lumped.inertia_over_r2_kg.carrier", kind: Number(Bound::Positive), unit: "kg", presence: Optional("instead of inertia_kg_m2"), meaning: "I/r², with the r of u = r·θ of the carrier", needed_by: NONE },
-    SceneKey { path: "lumped.inertia_over_r2_kg.ring", kind: Number(Bound::Positive), unit: "kg", presence: Optional("instead of inertia_kg_m2"), meaning: "I/r², with the r of u = r·θ of the ring", needed_by: NONE },
-    SceneKey { path: "lumped.inertia_over_r2_kg.sun", kind: Number(Bound::Positive), unit: "kg", presence: Optional("instead of inertia_kg_m2"), meaning: "I/r², with the r of u = r·θ of the sun", needed_by: NONE },
-    SceneKey { path: "lumped.inertia_over_r2_kg.planet", kind: Number(Bound::Positive), unit: "kg", presence: Optional("instead of inertia_kg_m2"), meaning: "I/r², with the r of u = r·θ of the planet", needed_by: NONE },
-    SceneKey { path: "lumped.radius_mm", kind: Table, unit: "–", presence: Optional("base radius, of the carrier the centre distance, from [geometry]"), meaning: "r in u = r·θ of each body", needed_by: NONE },
-    SceneKey { path: "lumped.radius_mm.carrier", kind: Number(Bound::Positive), unit: "mm", presence: Optional("base radius, of the carrier the centre distance, from [geometry]"), meaning: "r in u = r·θ of the carrier", needed_by: NONE },
-    SceneKey { path: "lumped.radius_mm.ring", kind: Number(Bound::Positive), unit: "mm", presence: Optional("base radius, of the carrier the centre distance, from [geometry]"), meaning: "r in u = r·θ of the ring", needed_by: NONE },
-    SceneKey { path: "lumped.radius_mm.sun", kind: Number(Bound::Positive), unit: "mm", presence: Optional("base radius, of the carrier the centre distance, from [geometry]"), meaning: "r in u = r·θ of the sun", needed_by: NONE },
-    SceneKey { path: "lumped.radius_mm.planet", kind: Number(Bound::Positive), unit: "mm", presence: Optional("base radius, of the carrier the centre distance, from [geometry]"), meaning: "r in u = r·θ of the planet", needed_by: NONE },
-    SceneKey { path: "lumped.mesh_n_per_m", kind: Table, unit: "–", presence: Optional("only with from"), meaning: "constant mesh stiffnesses along the line of action", needed_by: LUMPED },
-    SceneKey { path: "lumped.mesh_n_per_m.sun_planet", kind: Number(Bound::Positive), unit: "N/m", presence: Required, meaning: "stiffness of each sun–planet mesh", needed_by: LUMPED },
-    SceneKey { path: "lumped.mesh_n_per_m.ring_planet", kind: Number(Bound::Positive), unit: "N/m", presence: Optional("always of a planetary set, never of a gear pair"), meaning: "stiffness of each ring–planet mesh; not of a gear pair", needed_by: LUMPED },
-    SceneKey { path: "lumped.pressure_angle_deg", kind: Table, unit: "–", presence: Optional("from [geometry]"), meaning: "operating pressure angles", needed_by: NONE },
-    SceneKey { path: "lumped.pressure_angle_deg.sun_planet", kind: Number(Bound::Between(0.0, 60.0)), unit: "°", presence: Required, meaning: "operating pressure angle of the sun–planet meshes", needed_by: NONE },
-    SceneKey { path: "lumped.pressure_angle_deg.ring_planet", kind: Number(Bound::Between(0.0, 60.0)), unit: "°", presence: Optional("always of a planetary set, never of a gear pair"), meaning: "operating pressure angle of the ring–planet meshes; not of a gear pair", needed_by: NONE },
-    SceneKey { path: "planet_override", kind: Tables, unit: "–", presence: Optional("all planets alike; with [lumped]"), meaning: "one planet that differs from the others; values left out stay those of the others", needed_by: NONE },
-    SceneKey { path: "planet_override.planet", kind: Integer(0, 63), unit: "–", presence: Required, meaning: "index of the planet, from 0 and below planets.count; each once", needed_by: NONE },
-    SceneKey { path: "planet_override.mass_kg", kind: Number(Bound::Positive), unit: "kg", presence: Optional("as of the others"), meaning: "mass of this planet in the lumped model", needed_by: NONE },
-    SceneKey { path: "planet_override.inertia_over_r2_kg", kind: Number(Bound::Positive), unit: "kg", presence: Optional("as of the others"), meaning: "I/r² of this planet in the lumped model", needed_by: NONE },
-    SceneKey { path: "planet_override.bearing_n_per_m", kind: Number(Bound::Positive), unit: "N/m", presence: Optional("as of the others"), meaning: "bearing stiffness of this planet", needed_by: NONE },
-    SceneKey { path: "planet_override.sun_planet_n_per_m", kind: Number(Bound::Positive), unit: "N/m", presence: Optional("as of the others"), meaning: "sun mesh stiffness of this planet in the lumped model", needed_by: NONE },
-    SceneKey { path: "planet_override.ring_planet_n_per_m", kind: Number(Bound::Positive), unit: "N/m", presence: Optional("as of the others"), meaning: "ring mesh stiffness of this planet in the lumped model", needed_by: NONE },
-    SceneKey { path: "damping", kind: Table, unit: "–", presence: Optional("its defaults"), meaning: "proportional damping C = αM + βK of the FE/contact model", needed_by: NONE },
-    SceneKey { path: "damping.mass_proportional_per_s", kind: Number(Bound::NonNegative), unit: "1/s", presence: Default("142.9"), meaning: "α", needed_by: NONE },
-    SceneKey { path: "damping.stiffness_proportional_s", kind: Number(Bound::NonNegative), unit: "s", presence: Default("2.21e-6"), meaning: "β", needed_by: NONE },
-    SceneKey { path: "damping.bearing_s", kind: Number(Bound::NonNegative), unit: "s", presence: Optional("β"), meaning: "viscous damping of every bearing over its stiffness", needed_by: NONE },
-    SceneKey { path: "operation", kind: Table, unit: "–", presence: Optional("no torque, speed or mesh frequency of its own"), meaning: "operating point", needed_by: LOAD },
-    SceneKey { path: "operation.fixed", kind: Choice(&["sun", "ring", "carrier"]), unit: "–", presence: Default("ring"), meaning: "member that stands still, which gives speeds and the ratio of torques; not of a gear pair, whose bearings do. Supports (`motion`) rule the vibrations: the torque acts on the member that turns without support, which must not be this one", needed_by: NONE },
-    SceneKey { path: "operation.input", kind: Choice(&["sun", "ring", "carrier"]), unit: "–", presence: Default("sun"), meaning: "member whose speed and torque are given; another than fixed; of a gear pair the sun", needed_by: NONE },
-    SceneKey { path: "operation.speed_rpm", kind: Number(Bound::Finite), unit: "rpm", presence: Required, meaning: "speed of the input member, counter-clockwise positive; --speeds-rpm and --rpm are magnitudes in this sense. With a torque of the same sign the member drives, with one of the other sign it is braked", needed_by: SWEEP },
-    SceneKey { path: "operation.torque_nm", kind: Number(Bound::Finite), unit: "N·m", presence: Required, meaning: "external torque on the input member, counter-clockwise positive; 0 needs the argument --sun-torque-nm", needed_by: LOAD },
-    SceneKey { path: "fe_contact", kind: Table, unit: "–", presence: Optional("its defaults"), meaning: "choices of the FE/contact model", needed_by: NONE },
-    SceneKey { path: "fe_contact.plane", kind: Choice(&["strain", "stress"]), unit: "–", presence: Default("strain"), meaning: "plane strain or plane stress", needed_by: NONE },
-    SceneKey { path: "fe_contact.element", kind: Choice(&["linear", "incompatible", "quadratic"]), unit: "–", presence: Default("quadratic"), meaning: "quadrilaterals behind the flanks: bilinear (too stiff in bending), with incompatible bending modes, or of eight nodes", needed_by: NONE },
-    SceneKey { path: "fe_contact.flank_elements", kind: Integer(3, 64), unit: "–", presence: Default("14"), meaning: "elements along one flank; the rest of the mesh follows their size", needed_by: NONE },
-    SceneKey { path: "fe_contact.flank_layer", kind: Choice(&["whole", "divided"]), unit: "–", presence: Default("whole"), meaning: "elements next to the flanks: as large as the others, or divided in three along and across the flanks, so that three times as many touch the surface (docs/fe_contact.md)", needed_by: NONE },
-    SceneKey { path: "fe_contact.contact_cells", kind: Integer(8, 400), unit: "–", presence: Default("40"), meaning: "contact cells of one tooth pair", needed_by: NONE },
-    SceneKey { path: "fe_contact.cell_layout", kind: Choice(&["graded", "even"]), unit: "–", presence: Default("graded"), meaning: "contact cells in time and for the slopes of the flanks: narrower towards a flank's end and a quarter of a cell off the middle, or all of one width about the contact point", needed_by: NONE },
-    SceneKey { path: "fe_contact.cell_layout_at_rest", kind: Choice(&["graded", "even"]), unit: "–", presence: Default("even"), meaning: "contact cells of a set at rest, of which pressures are asked as well: graded ones give the peak to peak of transmission errors with a third of the cells (docs/auto.md)", needed_by: NONE },
-    SceneKey { path: "fe_contact.matching_depth_mm", kind: Number(Bound::Positive), unit: "mm", presence: Optional("0.07 p_b, at least matching_depth_elements, at most what the tooth allows"), meaning: "depth d below the flank at which half-plane and finite elements are matched", needed_by: NONE },
-    SceneKey { path: "fe_contact.matching_depth_elements", kind: Number(Bound::Positive), unit: "–", presence: Optional("0.85"), meaning: "least depth d of the default in elements of a flank: 1.3 makes meshes of six and ten elements more accurate (docs/auto.md); not beside matching_depth_mm", needed_by: NONE },
-    SceneKey { path: "fe_contact.matching_points", kind: Integer(1, 2), unit: "–", presence: Default("2"), meaning: "1: matched at d; 2: at d and 2d, extrapolated to the surface", needed_by: NONE },
-    SceneKey { path: "fe_contact.flexibility_factor", kind: Table, unit: "–", presence: Optional("1 for both meshes"), meaning: "factors on the FE part of each mesh's flexibility, the half-plane part unchanged; 1 at every fidelity but quasi_static", needed_by: NONE },
-    SceneKey { path: "fe_contact.flexibility_factor.sun_planet", kind: Number(Bound::Positive), unit: "–", presence: Default("1"), meaning: "factor of the sun–planet meshes", needed_by: NONE },
-    SceneKey { path: "fe_contact.flexibility_factor.ring_planet", kind: Number(Bound::Positive), unit: "–", presence: Default("1"), meaning: "factor of the ring–planet meshes", needed_by: NONE },
-    SceneKey { path: "dynamics", kind: Table, unit: "–", presence: Optional("its defaults"), meaning: "choices of motion in time", needed_by: NONE },
-    SceneKey { path: "dynamics.fidelity", kind: Choice(&["mesh_law", "quasi_static", "modal", "full", "auto"]), unit: "–", presence: Default("quasi_static"), meaning: "inertia of the bodies behind the teeth: quasi_static none of their own, modal that of some modes, full all of it; mesh_law: mesh forces from a table, in sweep and branches only; auto: the cheapest settings are chosen for one quantity", needed_by: NONE },
-    SceneKey { path: "dynamics.modes", kind: Integer(1, 400), unit: "–", presence: Optional("always, and only, with fidelity = \"modal\""), meaning: "modes of each body with its race held", needed_by: NONE },
-    SceneKey { path: "dynamics.quantity", kind: Choice(&["natural_frequency", "transmission_error", "mean_transmission_error", "amplitude"]), unit: "–", presence: Optional("always, and only, with fidelity = \"auto\""), meaning: "quantity for which settings are chosen: a natural frequency (modes), the peak-to-peak value or the mean of the loaded transmission error at rest (static), or the largest root mean square of a response over the speeds of a sweep", needed_by: NONE },
-    SceneKey { path: "dynamics.mode_type", kind: Choice(&["rotational", "translational", "planet"]), unit: "–", presence: Optional("always, and only, with quantity = \"natural_frequency\""), meaning: "type of the mode, by the larger part of its kinetic energy", needed_by: NONE },
-    SceneKey { path: "dynamics.mode_number", kind: Integer(1, 1000), unit: "–", presence: Optional("always, and only, with quantity = \"natural_frequency\""), meaning: "number of the mode among those of its type by ascending frequency; a frequency that occurs twice counts twice", needed_by: NONE },
-    SceneKey { path: "dynamics.response", kind: Choice(&["transmission_error", "sun_translation"]), unit: "–", presence: Optional("always, and only, with quantity = \"amplitude\""), meaning: "motion whose amplitude is asked for: r_b times the rotation of the sun, or its translation", needed_by: NONE },
-    SceneKey { path: "dynamics.tolerance_percent", kind: Number(Bound::Between(0.0, 100.0)), unit: "%", presence: Optional("always, and only, with fidelity = \"auto\""), meaning: "largest estimated error of the quantity that is accepted", needed_by: NONE },
-    SceneKey { path: "dynamics.steps_per_cycle", kind: Integer(16, 100000), unit: "–", presence: Default("140"), meaning: "time steps in a mesh cycle; chosen, and not to be given, with quantity = \"amplitude\"", needed_by: NONE },
-    SceneKey { path: "dynamics.gyroscopic", kind: Choice(&["off", "on"]), unit: "–", presence: Default("off"), meaning: "gyroscopic and centripetal terms of the turning carrier frame; off of a gear pair", needed_by: NONE },
-    SceneKey { path: "dynamics.kinematics", kind: Choice(&["about_mean", "exact"]), unit: "–", presence: Default("about_mean"), meaning: "how approaches of tooth pairs follow from displacements in a sweep: exact only about the mean configuration under load, or at every step (slow; quasi_static only)", needed_by: NONE },
-];
+pub(crate) static KEYS: LazyLock<Vec<SceneKey>> = LazyLock::new(|| {
+    let bodies = [
+        per_body("mass_kg", "kg", "mass", "of every body that can move"),
+        per_body("inertia_kg_m2", "kg·m²", "polar moment of inertia I", "of every body that can rotate, or inertia_over_r2_kg"),
+        per_body("inertia_over_r2_kg", "kg", "I/r², with the r of u = r·θ", "instead of inertia_kg_m2"),
+        per_body("radius_mm", "mm", "r in u = r·θ", "base radius, of the carrier the centre distance, from [geometry]"),
+    ];
+    let gears = ["sun", "planet", "ring"].map(gear).concat();
+    let supports = [support("sun"), shaft("sun"), support("ring"), support("carrier"), planet(), shaft("planet")].concat();
+    let set = [set(), geometry(), gears, carrier_and_thickness(), material(), supports].concat();
+    let lumped = [lumped(), bodies.concat(), lumped_meshes(), planet_override()].concat();
+    [set, lumped, damping(), operation(), fe_contact(), dynamics()].concat()
+});
+
+/// The set: top of the file, planets, teeth.
+fn set() -> Vec<SceneKey> {
+    vec![
+        key("format", Integer(1, 1), "–", "version of the file format").required().why("the number says how to read the file").needed_by(ALL),
+        key("kind", Choice(&["planetary", "gear_pair"]), "–", "a whole planetary set, or one mesh alone").required().needed_by(ALL),
+        key("mesh", Choice(&["sun_planet", "ring_planet"]), "–", "which mesh a gear pair is").left_out("only, and always, of a gear pair").needed_by(ALL),
+        key("title", Text, "–", "name of the set; results carry it").default_is("untitled"),
+        key("source", Text, "–", "where the numbers come from").left_out("none"),
+        key("planets", Table, "–", "planets on the carrier").left_out("always of a planetary set, never of a gear pair").needed_by(ALL),
+        key("planets.count", Integer(1, 64), "–", "number of planets N").required().needed_by(ALL),
+        key("planets.position_steps", Integers, "360°/(Z_s+Z_r)", "planet positions counter-clockwise from planet 0, in assembly steps; the first is 0").left_out("equal spacing; not beside positions_deg"),
+        key("planets.positions_deg", Numbers, "°", "planet positions counter-clockwise from planet 0, from -360 to 360; the first is 0; with [teeth] they must be possible to assemble").left_out("equal spacing; not beside position_steps"),
+        key("teeth", Table, "–", "numbers of teeth").left_out("a set without it and without [geometry] has parameters only").needed_by(RULES_FE),
+        key("teeth.sun", Integer(5, 10000), "–", "number of teeth Z_s").left_out("always of a planetary set; of a gear pair that of its mesh").needed_by(RULES_FE),
+        key("teeth.planet", Integer(5, 10000), "–", "number of teeth Z_p").required().needed_by(RULES_FE),
+        key("teeth.ring", Integer(5, 10000), "–", "number of teeth Z_r, above Z_p").left_out("always of a planetary set; of a gear pair that of its mesh").needed_by(RULES_FE),
+    ]
+}
+
+/// Tooth geometry but for its gears.
+fn geometry() -> Vec<SceneKey> {
+    vec![
+        key("geometry", Table, "–", "tooth geometry").left_out("a set without it has parameters only").needed_by(FE),
+        key("geometry.center_distance_mm", Number(Positive), "mm", "distance a from the sun to a planet").required().needed_by(FE),
+        key("geometry.face_width_mm", Number(Positive), "mm", "width b of the teeth").required().needed_by(FE),
+        key("geometry.base_pitch_mm", Number(Positive), "mm", "base pitch p_b of every gear").left_out("exactly one of base_pitch_mm, planet_base_diameter_mm and rack").needed_by(FE),
+        key("geometry.planet_base_diameter_mm", Number(Positive), "mm", "base diameter of the planet: p_b = π d_b/Z_p").left_out("exactly one of base_pitch_mm, planet_base_diameter_mm and rack").needed_by(FE),
+        key("geometry.rack", Table, "–", "generating rack: p_b = π m cos α₀").left_out("exactly one of base_pitch_mm, planet_base_diameter_mm and rack").needed_by(FE),
+        key("geometry.rack.module_mm", Number(Positive), "mm", "module m of the rack").required().needed_by(FE),
+        key("geometry.rack.pressure_angle_deg", Number(Between(0.0, 45.0)), "°", "pressure angle α₀ of the rack").required().needed_by(FE),
+    ]
+}
+
+/// Circles and relief of one gear.
+fn gear(name: &str) -> Vec<SceneKey> {
+    let circles = key(format!("geometry.{name}"), Table, "–", format!("circles of the {name}")).needed_by(FE);
+    let circles = if name == "planet" { circles.required() } else { circles.left_out("always where [teeth] names this gear") };
+    let (body, meaning) = if name == "ring" { ("rim_diameter_mm", "outer circle of the ring, its rigid race") } else { ("bore_diameter_mm", "bore, its rigid race") };
+    vec![
+        circles,
+        key(format!("geometry.{name}.tip_diameter_mm"), Number(Positive), "mm", "tip circle").required().needed_by(FE),
+        key(format!("geometry.{name}.root_diameter_mm"), Number(Positive), "mm", "root circle").required().needed_by(FE),
+        key(format!("geometry.{name}.{body}"), Number(Positive), "mm", meaning).left_out("always for FE/contact").needed_by(FE),
+        key(format!("geometry.{name}.fillet_radius_mm"), Number(NonNegative), "mm", "radius of the root fillet").left_out("0.3 p_b/π; above 0 for FE/contact").needed_by(FE),
+        key(format!("geometry.{name}.tip_relief"), Table, "–", "material taken off the flank near the tip").left_out("no relief"),
+        key(format!("geometry.{name}.tip_relief.start_diameter_mm"), Number(Positive), "mm", "where the relief starts, between form circle and tip circle").required(),
+        key(format!("geometry.{name}.tip_relief.amount_um"), Number(NonNegative), "µm", "material taken off at the tip circle, measured along the line of action").required(),
+        key(format!("geometry.{name}.tip_relief.shape"), Choice(&["linear", "parabolic"]), "–", "growth with the roll length past the start: proportional to it, or to its square").default_is("linear"),
+    ]
+}
+
+/// Carrier and tooth thickness.
+fn carrier_and_thickness() -> Vec<SceneKey> {
+    vec![
+        key("geometry.carrier", Table, "–", "the carrier as an annulus with pin seats").left_out("a rigid carrier; its mass is then lumped.mass_kg.carrier").needed_by(MOTION),
+        key("geometry.carrier.bore_diameter_mm", Number(Positive), "mm", "bore, its rigid race").required().needed_by(MOTION),
+        key("geometry.carrier.outer_diameter_mm", Number(Positive), "mm", "edge of the annulus").required().needed_by(MOTION),
+        key("geometry.carrier.pin_seat_diameter_mm", Number(Positive), "mm", "rigid seat of each planet's pin").default_is("20"),
+        key("geometry.carrier.body", Choice(&["flexible", "rigid"]), "–", "whether the annulus gives way between bore and seats").default_is("flexible"),
+        key("geometry.thickness", Table, "–", "tooth thickness, from backlash or from profile shifts").left_out("its defaults"),
+        key("geometry.thickness.sun_planet_backlash_mm", Number(NonNegative), "mm", "circumferential backlash of the sun–planet mesh at its operating pitch circles").left_out("0.04 p_b/π").why("circumferential backlash at the operating pitch circles; below 0 the teeth jam"),
+        key("geometry.thickness.ring_planet_backlash_mm", Number(NonNegative), "mm", "circumferential backlash of the ring–planet mesh at its operating pitch circles").left_out("0.04 p_b/π").why("circumferential backlash at the operating pitch circles; below 0 the teeth jam"),
+        key("geometry.thickness.planet_share", Number(Between(0.0, 1.0)), "–", "planet's share of the sum of sun and planet tooth thickness").default_is("0.5"),
+        key("geometry.thickness.profile_shift", Table, "–", "profile shift coefficients, with geometry.rack and without backlash keys").left_out("backlash gives the thickness"),
+        key("geometry.thickness.profile_shift.sun", Number(Between(-5.0, 5.0)), "module", "profile shift x of the sun").default_is("0"),
+        key("geometry.thickness.profile_shift.planet", Number(Between(-5.0, 5.0)), "module", "profile shift x of the planet").default_is("0"),
+        key("geometry.thickness.profile_shift.ring", Number(Between(-5.0, 5.0)), "module", "profile shift x of the ring (internal-gear sign)").default_is("0"),
+    ]
+}
+
+/// Elastic constants and density.
+fn material() -> Vec<SceneKey> {
+    vec![
+        key("material", Table, "–", "elastic constants and density of every body").left_out("its defaults"),
+        key("material.young_modulus_pa", Number(Positive), "Pa", "Young's modulus E").default_is("206e9"),
+        key("material.poisson_ratio", Number(Between(-1.0, 0.5)), "–", "Poisson's ratio ν").default_is("0.3").why("an isotropic solid"),
+        key("material.density_kg_per_m3", Number(Positive), "kg/m³", "density ρ").default_is("7850"),
+    ]
+}
+
+/// Support of a central member.
+fn support(name: &str) -> Vec<SceneKey> {
+    let never = "free, without bearing; never of a gear pair";
+    let (meaning, left_out, torques, bearing) = match name {
+        "sun" => ("support of the sun; of gear pairs only with mesh = \"sun_planet\"", "free, without bearing; of a gear pair with a rigid bearing", "Torques of static, impulse, sweep and branches need one of sun, ring and carrier free without torsional stiffness, on which they act, and the other two held or with a torsional stiffness", "; of a gear pair above 0, and left out the bearing is rigid"),
+        "ring" => ("support of the ring", never, "Torques: as `sun.motion`", ""),
+        _ => ("support of the carrier", never, "Torques: as `sun.motion`", ""),
+    };
+    vec![
+        key(name, Table, "–", meaning).left_out(left_out).needed_by(if name == "sun" { LOAD } else { NONE }),
+        key(format!("{name}.motion"), Choice(&["free", "rotation_held", "held"]), "–", format!("free; rotation held; held in all directions. {torques}")).default_is("free").why("which coordinates the member has").needed_by(LOAD),
+        key(format!("{name}.bearing_n_per_m"), Number(NonNegative), "N/m", format!("bearing stiffness to ground, equal in all directions; not of a held member{bearing}")).default_is("0"),
+        key(format!("{name}.torsional_n_per_m"), Number(NonNegative), "N/m", "torsional stiffness to ground per u = r·θ; r is the base radius, of the carrier the centre distance; only with motion = \"free\"").default_is("0"),
+        key(format!("{name}.torsional_nm_per_rad"), Number(NonNegative), "N·m/rad", "the same per θ, instead of torsional_n_per_m").left_out("torsional_n_per_m holds"),
+    ]
+}
+
+/// Mass and inertia of a pair's gear with its shaft.
+fn shaft(name: &str) -> Vec<SceneKey> {
+    vec![
+        key(format!("{name}.mass_kg"), Number(Positive), "kg", "mass of the gear with its shaft in the FE/contact model, at \"quasi_static\" and \"mesh_law\"").left_out("that of the finite-element mesh; only of a gear pair"),
+        key(format!("{name}.inertia_kg_m2"), Number(Positive), "kg·m²", "polar inertia of the gear with its shaft, as mass_kg").left_out("that of the finite-element mesh; only of a gear pair"),
+    ]
+}
+
+/// Every planet on its pin.
+fn planet() -> Vec<SceneKey> {
+    vec![
+        key("planet", Table, "–", "every planet on its pin; of a gear pair with mesh = \"sun_planet\" the support of its planet").left_out("always of a planetary set; of a gear pair with a rigid bearing").needed_by(ALL),
+        key("planet.bearing_n_per_m", Number(Positive), "N/m", "stiffness between planet and carrier, of a gear pair to ground, equal in all directions").left_out("always of a planetary set; of a gear pair a rigid bearing").needed_by(ALL),
+        key("planet.added_mass_kg", Number(NonNegative), "kg", "mass fixed to each planet's race, beside the meshed or lumped mass; not of a gear pair").default_is("0"),
+        key("planet.added_inertia_kg_m2", Number(NonNegative), "kg·m²", "polar inertia of the added mass; not of a gear pair").default_is("0"),
+        key("planet.motion", Choice(&["free", "rotation_held", "held"]), "–", "as `sun.motion`. A planet of a gear pair that turns freely carries the torque that balances the sun's; one that is held or sprung passes it to its support").left_out("free; only of a gear pair").why("which coordinates the member has"),
+        key("planet.torsional_n_per_m", Number(NonNegative), "N/m", "stiffness of the planet's shaft to ground per u = r·θ; only with motion = \"free\"").left_out("0; only of a gear pair"),
+        key("planet.torsional_nm_per_rad", Number(NonNegative), "N·m/rad", "the same per θ, instead of torsional_n_per_m").left_out("torsional_n_per_m holds; only of a gear pair"),
+    ]
+}
+
+/// Parameters of the lumped model.
+fn lumped() -> Vec<SceneKey> {
+    vec![
+        key("lumped", Table, "–", "parameters of the Lin–Parker model, or of the lumped sun–planet pair").left_out("of a planetary set with [geometry] parameters in closed form; otherwise no lumped model").needed_by(LUMPED),
+        key("lumped.from", Choice(&["geometry"]), "–", "parameters in closed form from [geometry], as without [lumped]; alone in its table, of a planetary set").left_out("numbers are given, unless the whole table is left out"),
+    ]
+}
+
+/// A table of the lumped model with one value for each body.
+fn per_body(name: &str, unit: &'static str, meaning: &str, left_out: &'static str) -> Vec<SceneKey> {
+    let needed_by = if name == "mass_kg" || name == "inertia_kg_m2" { LUMPED } else { NONE };
+    let mut keys = vec![key(format!("lumped.{name}"), Table, "–", format!("{meaning} of each body")).left_out(left_out).needed_by(needed_by)];
+    keys.extend(["carrier", "ring", "sun", "planet"].map(|body| {
+        let meaning = format!("{meaning} of the {body}");
+        key(format!("lumped.{name}.{body}"), Number(Positive), unit, meaning).left_out(left_out).needed_by(needed_by)
+    }));
+    keys
+}
+
+/// Stiffnesses and pressure angles of the lumped model's meshes.
+fn lumped_meshes() -> Vec<SceneKey> {
+    vec![
+        key("lumped.mesh_n_per_m", Table, "–", "constant mesh stiffnesses along the line of action").left_out("only with from").needed_by(LUMPED),
+        key("lumped.mesh_n_per_m.sun_planet", Number(Positive), "N/m", "stiffness of each sun–planet mesh").required().needed_by(LUMPED),
+        key("lumped.mesh_n_per_m.ring_planet", Number(Positive), "N/m", "stiffness of each ring–planet mesh; not of a gear pair").left_out("always of a planetary set, never of a gear pair").needed_by(LUMPED),
+        key("lumped.pressure_angle_deg", Table, "–", "operating pressure angles").left_out("from [geometry]"),
+        key("lumped.pressure_angle_deg.sun_planet", Number(Between(0.0, 60.0)), "°", "operating pressure angle of the sun–planet meshes").required(),
+        key("lumped.pressure_angle_deg.ring_planet", Number(Between(0.0, 60.0)), "°", "operating pressure angle of the ring–planet meshes; not of a gear pair").left_out("always of a planetary set, never of a gear pair"),
+    ]
+}
+
+/// `[[planet_override]]`.
+fn planet_override() -> Vec<SceneKey> {
+    vec![
+        key("planet_override", Tables, "–", "one planet that differs from the others; values left out stay those of the others").left_out("all planets alike; with [lumped]"),
+        key("planet_override.planet", Integer(0, 63), "–", "index of the planet, from 0 and below planets.count; each once").required(),
+        key("planet_override.mass_kg", Number(Positive), "kg", "mass of this planet in the lumped model").left_out("as of the others"),
+        key("planet_override.inertia_over_r2_kg", Number(Positive), "kg", "I/r² of this planet in the lumped model").left_out("as of the others"),
+        key("planet_override.bearing_n_per_m", Number(Positive), "N/m", "bearing stiffness of this planet").left_out("as of the others"),
+        key("planet_override.sun_planet_n_per_m", Number(Positive), "N/m", "sun mesh stiffness of this planet in the lumped model").left_out("as of the others"),
+        key("planet_override.ring_planet_n_per_m", Number(Positive), "N/m", "ring mesh stiffness of this planet in the lumped model").left_out("as of the others"),
+    ]
+}
+
+/// `[damping]`.
+fn damping() -> Vec<SceneKey> {
+    vec![
+        key("damping", Table, "–", "proportional damping C = αM + βK of the FE/contact model").left_out("its defaults"),
+        key("damping.mass_proportional_per_s", Number(NonNegative), "1/s", "α").default_is("142.9").why("α in C = αM + βK"),
+        key("damping.stiffness_proportional_s", Number(NonNegative), "s", "β").default_is("2.21e-6").why("β in C = αM + βK"),
+        key("damping.bearing_s", Number(NonNegative), "s", "viscous damping of every bearing over its stiffness").left_out("β"),
+    ]
+}
+
+/// `[operation]`.
+fn operation() -> Vec<SceneKey> {
+    vec![
+        key("operation", Table, "–", "operating point").left_out("no torque, speed or mesh frequency of its own").needed_by(LOAD),
+        key("operation.fixed", Choice(&["sun", "ring", "carrier"]), "–", "member that stands still, which gives speeds and the ratio of torques; not of a gear pair, whose bearings do. Supports (`motion`) rule the vibrations: the torque acts on the member that turns without support, which must not be this one").default_is("ring"),
+        key("operation.input", Choice(&["sun", "ring", "carrier"]), "–", "member whose speed and torque are given; another than fixed; of a gear pair the sun").default_is("sun"),
+        key("operation.speed_rpm", Number(Finite), "rpm", "speed of the input member, counter-clockwise positive; --speeds-rpm and --rpm are magnitudes in this sense. With a torque of the same sign the member drives, with one of the other sign it is braked").required().needed_by(SWEEP),
+        key("operation.torque_nm", Number(Finite), "N·m", "external torque on the input member, counter-clockwise positive; 0 needs the argument --sun-torque-nm").required().needed_by(LOAD),
+    ]
+}
+
+/// `[fe_contact]`.
+fn fe_contact() -> Vec<SceneKey> {
+    vec![
+        key("fe_contact", Table, "–", "choices of the FE/contact model").left_out("its defaults"),
+        key("fe_contact.plane", Choice(&["strain", "stress"]), "–", "plane strain or plane stress").default_is("strain"),
+        key("fe_contact.element", Choice(&["linear", "incompatible", "quadratic"]), "–", "quadrilaterals behind the flanks: bilinear (too stiff in bending), with incompatible bending modes, or of eight nodes").default_is("quadratic"),
+        key("fe_contact.flank_elements", Integer(3, 64), "–", "elements along one flank; the rest of the mesh follows their size").default_is("14"),
+        key("fe_contact.flank_layer", Choice(&["whole", "divided"]), "–", "elements next to the flanks: as large as the others, or divided in three along and across the flanks, so that three times as many touch the surface (docs/fe_contact.md)").default_is("whole"),
+        key("fe_contact.contact_cells", Integer(8, 400), "–", "contact cells of one tooth pair").default_is("40"),
+        key("fe_contact.cell_layout", Choice(&["graded", "even"]), "–", "contact cells in time and for the slopes of the flanks: narrower towards a flank's end and a quarter of a cell off the middle, or all of one width about the contact point").default_is("graded"),
+        key("fe_contact.cell_layout_at_rest", Choice(&["graded", "even"]), "–", "contact cells of a set at rest, of which pressures are asked as well: graded ones give the peak to peak of transmission errors with a third of the cells (docs/auto.md)").default_is("even"),
+        key("fe_contact.matching_depth_mm", Number(Positive), "mm", "depth d below the flank at which half-plane and finite elements are matched").left_out("0.07 p_b, at least matching_depth_elements, at most what the tooth allows"),
+        key("fe_contact.matching_depth_elements", Number(Positive), "–", "least depth d of the default in elements of a flank: 1.3 makes meshes of six and ten elements more accurate (docs/auto.md); not beside matching_depth_mm").left_out("0.85"),
+        key("fe_contact.matching_points", Integer(1, 2), "–", "1: matched at d; 2: at d and 2d, extrapolated to the surface").default_is("2").why("1: the paper's eq. (1); 2: extrapolated"),
+        key("fe_contact.flexibility_factor", Table, "–", "factors on the FE part of each mesh's flexibility, the half-plane part unchanged; 1 at every fidelity but quasi_static").left_out("1 for both meshes"),
+        key("fe_contact.flexibility_factor.sun_planet", Number(Positive), "–", "factor of the sun–planet meshes").default_is("1"),
+        key("fe_contact.flexibility_factor.ring_planet", Number(Positive), "–", "factor of the ring–planet meshes").default_is("1"),
+    ]
+}
+
+/// `[dynamics]`.
+fn dynamics() -> Vec<SceneKey> {
+    vec![
+        key("dynamics", Table, "–", "choices of motion in time").left_out("its defaults"),
+        key("dynamics.fidelity", Choice(&["mesh_law", "quasi_static", "modal", "full", "auto"]), "–", "inertia of the bodies behind the teeth: quasi_static none of their own, modal that of some modes, full all of it; mesh_law: mesh forces from a table, in sweep and branches only; auto: the cheapest settings are chosen for one quantity").default_is("quasi_static"),
+        key("dynamics.modes", Integer(1, 400), "–", "modes of each body with its race held").left_out("always, and only, with fidelity = \"modal\""),
+        key("dynamics.quantity", Choice(&["natural_frequency", "transmission_error", "mean_transmission_error", "amplitude"]), "–", "quantity for which settings are chosen: a natural frequency (modes), the peak-to-peak value or the mean of the loaded transmission error at rest (static), or the largest root mean square of a response over the speeds of a sweep").left_out("always, and only, with fidelity = \"auto\""),
+        key("dynamics.mode_type", Choice(&["rotational", "translational", "planet"]), "–", "type of the mode, by the larger part of its kinetic energy").left_out("always, and only, with quantity = \"natural_frequency\""),
+        key("dynamics.mode_number", Integer(1, 1000), "–", "number of the mode among those of its type by ascending frequency; a frequency that occurs twice counts twice").left_out("always, and only, with quantity = \"natural_frequency\""),
+        key("dynamics.response", Choice(&["transmission_error", "sun_translation"]), "–", "motion whose amplitude is asked for: r_b times the rotation of the sun, or its translation").left_out("always, and only, with quantity = \"amplitude\""),
+        key("dynamics.tolerance_percent", Number(Between(0.0, 100.0)), "%", "largest estimated error of the quantity that is accepted").left_out("always, and only, with fidelity = \"auto\""),
+        key("dynamics.steps_per_cycle", Integer(16, 100000), "–", "time steps in a mesh cycle; chosen, and not to be given, with quantity = \"amplitude\"").default_is("140"),
+        key("dynamics.gyroscopic", Choice(&["off", "on"]), "–", "gyroscopic and centripetal terms of the turning carrier frame; off of a gear pair").default_is("off"),
+        key("dynamics.kinematics", Choice(&["about_mean", "exact"]), "–", "how approaches of tooth pairs follow from displacements in a sweep: exact only about the mean configuration under load, or at every step (slow; quasi_static only)").default_is("about_mean"),
+    ]
+}

@@ -7,13 +7,16 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use serde::de::DeserializeOwned;
+use serde::de::IntoDeserializer;
+use serde::de::value::Error;
 use strsim::levenshtein;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::keys::bound::Bound;
+use crate::keys::{KEYS, KeyKind, Presence, SceneKey};
 use crate::read::fault::{Fault, printable};
-use crate::read::unread::{Unread, unfinished_above};
+use crate::read::unread::{Unread, unfinished_above, without_indices};
 
 /// Magnitudes beyond these are slips of unit or exponent, and would overflow when squared.
 const LARGEST: f64 = 1e30;
@@ -26,9 +29,9 @@ pub(crate) struct Document<'s> {
     spans: RefCell<BTreeMap<String, Range<usize>>>,
     /// What errors of syntax leave unknown.
     unread: RefCell<Unread>,
-    /// Every key that was asked for, with what it may hold.
+    /// Every key that was asked for.
     #[cfg(test)]
-    pub(crate) asked: RefCell<BTreeMap<String, std::collections::BTreeSet<String>>>,
+    pub(crate) asked: RefCell<std::collections::BTreeSet<String>>,
 }
 
 impl<'s> Document<'s> {
@@ -155,25 +158,11 @@ fn is_within(key: &str, table: &str) -> bool {
     key.strip_prefix(table).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
-/// What a string may be.
-pub(crate) const TEXT: &str = "a string of one line in quotes, without control characters";
-/// What a list of numbers may be.
-pub(crate) const NUMBERS: &str = "a list of finite numbers";
-/// What a list of whole numbers may be.
-pub(crate) const INTEGERS: &str = "a list of whole numbers";
-/// What a table is.
-pub(crate) const TABLE: &str = "a table";
-/// What an array of tables is.
-pub(crate) const TABLES: &str = "an array of tables";
-
-/// What a whole number between two limits may be.
-pub(crate) fn whole_number(low: i64, high: i64) -> String {
-    format!("a whole number from {low} to {high}")
-}
-
-/// One table of the document. Every key asked for counts as known; `finish` refuses the others.
+/// One table of the document, read by the list of keys. Every key asked for counts as known; when the table is
+/// dropped, the others are refused. A value that is absent or at fault is the default of the list, or NaN where there is
+/// none: a scene with faults is never given away.
 pub(crate) struct Section<'d, 's> {
-    document: &'d Document<'s>,
+    pub(crate) document: &'d Document<'s>,
     path: String,
     entries: BTreeMap<String, (Range<usize>, &'d Spanned<DeValue<'s>>)>,
     known: RefCell<Vec<&'static str>>,
@@ -190,43 +179,9 @@ impl<'d, 's> Section<'d, 's> {
         section
     }
 
-    /// Whether the value of a key of this table, of any key below it or of this table is at fault or unknown.
-    pub(crate) fn is_doubtful(&self, key: &str) -> bool {
-        self.document.is_doubtful(&self.full(key))
-    }
-
     /// Full dotted path of a key of this table.
-    pub(crate) fn full(&self, key: &str) -> String {
-        if self.path.is_empty() { key.to_owned() } else { format!("{}.{key}", self.path) }
-    }
-
-    /// The value of a key; `words` say what it may be.
-    fn get(&self, key: &'static str, words: &str) -> Option<&'d DeValue<'s>> {
-        self.ask(key, words);
-        self.entries.get(key).map(|(_, value)| value.get_ref())
-    }
-
-    /// Makes a key known without reading it.
-    pub(crate) fn skip(&self, key: &'static str) {
-        self.known.borrow_mut().push(key);
-    }
-
-    fn ask(&self, key: &'static str, words: &str) {
-        self.known.borrow_mut().push(key);
-        #[cfg(test)]
-        {
-            let full = self.full(key);
-            let steps = full.split('.').filter(|step| step.parse::<usize>().is_err());
-            let path = steps.collect::<Vec<_>>().join(".");
-            self.document.asked.borrow_mut().entry(path).or_default().insert(words.to_owned());
-        }
-        #[cfg(not(test))]
-        let _ = words;
-    }
-
-    /// Whether this table holds `key`, or may hold it on a line that cannot be read.
-    pub(crate) fn may_hold(&self, key: &str) -> bool {
-        self.has(key) || self.document.may_hold(&self.full(key))
+    fn full(&self, key: &str) -> String {
+        full_path(&self.path, key)
     }
 
     /// Whether this table holds `key` (without making the key known).
@@ -234,130 +189,170 @@ impl<'d, 's> Section<'d, 's> {
         self.entries.contains_key(key)
     }
 
+    /// Whether this table holds a table `key`.
+    pub(crate) fn has_table(&self, key: &str) -> bool {
+        self.entries.get(key).is_some_and(|(_, value)| value.get_ref().is_table())
+    }
+
+    /// Whether this table holds `key`, or may hold it on a line that cannot be read.
+    pub(crate) fn may_hold(&self, key: &str) -> bool {
+        self.document.may_hold(&self.full(key))
+    }
+
+    /// Whether the value of a key of this table, of any key below it or of this table is at fault or unknown.
+    pub(crate) fn is_doubtful(&self, key: &str) -> bool {
+        self.document.is_doubtful(&self.full(key))
+    }
+
     /// Adds a fault about one key of this table.
     pub(crate) fn fault(&self, key: &str, allowed: impl Into<String>, why: impl Into<String>) {
         self.document.fault(&self.full(key), allowed, why);
     }
 
-    /// A number, if the key is there and admissible; otherwise a fault has been noted.
-    pub(crate) fn number(&self, key: &'static str, bound: Bound, why: &str) -> Option<f64> {
-        let words = bound.words();
-        let value = as_f64(self.get(key, &words)?);
-        let Some(x) = value else {
-            self.fault(key, words, why);
-            return None;
-        };
-        if !bound.admits(x) {
-            self.fault(key, bound.words(), why);
-            return None;
+    /// Makes a key known without reading it.
+    pub(crate) fn skip(&self, key: &'static str) {
+        self.known.borrow_mut().push(key);
+    }
+
+    /// Refuses a key if it is there.
+    pub(crate) fn refuse(&self, key: &'static str, why: &str) {
+        self.refuse_as(key, "nothing here", why);
+    }
+
+    /// Refuses a key if it is there, and says what is allowed.
+    pub(crate) fn refuse_as(&self, key: &'static str, allowed: &str, why: &str) {
+        self.skip(key);
+        if self.has(key) {
+            self.fault(key, allowed, why);
         }
+    }
+
+    /// The declaration of a key, which is known from here on.
+    fn declared(&self, key: &'static str) -> Option<&'static SceneKey> {
+        self.known.borrow_mut().push(key);
+        let path = without_indices(&self.full(key));
+        let declared = KEYS.iter().find(|declared| declared.path == path);
+        debug_assert!(declared.is_some(), "{path} is not in the list of keys");
+        #[cfg(test)]
+        self.document.asked.borrow_mut().insert(path);
+        declared
+    }
+
+    /// Reports a key that must be there and is not.
+    pub(crate) fn demand(&self, key: &'static str) {
+        let why = self.declared(key).map_or("", SceneKey::reason);
+        self.demand_because(key, why);
+    }
+
+    /// Reports a key that must be there for a reason and is not.
+    pub(crate) fn demand_because(&self, key: &'static str, why: &str) {
+        if let Some(declared) = self.declared(key).filter(|_| !self.has(key)) {
+            self.fault(key, declared.kind.words(), why);
+        }
+    }
+
+    /// The value of a key as `read` understands it; a fault if it is there and not understood, or must be there.
+    fn value<T>(
+        &self,
+        key: &'static str,
+        read: impl Fn(KeyKind, &'d DeValue<'s>) -> Option<T>,
+    ) -> Option<T> {
+        let declared = self.declared(key)?;
+        if declared.presence == Presence::Required {
+            self.demand(key);
+        }
+        let (_, value) = self.entries.get(key)?;
+        let found = read(declared.kind, value.get_ref());
+        if found.is_none() {
+            self.fault(key, declared.kind.words(), declared.reason());
+        }
+        found
+    }
+
+    /// A number in SI units, if the key is there and admissible.
+    pub(crate) fn optional(&self, key: &'static str) -> Option<f64> {
+        Some(self.declared(key)?.to_si(self.in_its_unit(key)?))
+    }
+
+    /// A number in the unit of the key, if it is there and admissible.
+    pub(crate) fn in_its_unit(&self, key: &'static str) -> Option<f64> {
+        let x = self.value(key, |kind, value| {
+            as_f64(value).filter(|x| matches!(kind, KeyKind::Number(bound) if bound.admits(*x)))
+        })?;
+        let declared = self.declared(key)?;
         if x.abs() > LARGEST || (x != 0.0 && x.abs() < SMALLEST) {
             let allowed = format!("a magnitude between {SMALLEST:e} and {LARGEST:e}");
-            self.fault(key, allowed, format!("{why}; anything beyond is a slip of unit"));
+            let why = format!("{}; anything beyond is a slip of unit", declared.reason());
+            self.fault(key, allowed, why);
             return None;
         }
         Some(x)
     }
 
-    /// A number that must be there.
-    pub(crate) fn required(&self, key: &'static str, bound: Bound, why: &str) -> Option<f64> {
-        if !self.has(key) {
-            self.ask(key, &bound.words());
-            self.fault(key, bound.words(), why);
-            return None;
-        }
-        self.number(key, bound, why)
+    /// A number in SI units, or its default.
+    pub(crate) fn number(&self, key: &'static str) -> f64 {
+        self.optional(key).or_else(|| self.declared(key)?.default_si()).unwrap_or(f64::NAN)
     }
 
-    /// A whole number between two limits (both allowed).
-    pub(crate) fn integer(
-        &self,
-        key: &'static str,
-        (low, high): (i64, i64),
-        why: &str,
-    ) -> Option<i64> {
-        let words = whole_number(low, high);
-        let value = as_i64(self.get(key, &words)?);
-        let value = value.filter(|i| (low..=high).contains(i));
-        if value.is_none() {
-            self.fault(key, words, why);
-        }
-        value
+    /// A whole number, or its default.
+    pub(crate) fn integer<T: TryFrom<i64>>(&self, key: &'static str) -> Option<T> {
+        let given = self.value(key, |kind, value| {
+            let KeyKind::Integer(low, high) = kind else { return None };
+            as_i64(value).filter(|i| (low..=high).contains(i))
+        });
+        given.or_else(|| self.declared(key)?.default()?.parse().ok())?.try_into().ok()
     }
 
-    /// A whole number that must be there, between two limits (both allowed).
-    pub(crate) fn required_integer(
-        &self,
-        key: &'static str,
-        (low, high): (i64, i64),
-        why: &str,
-    ) -> Option<i64> {
-        if !self.has(key) {
-            self.fault(key, whole_number(low, high), why);
-        }
-        self.integer(key, (low, high), why)
-    }
-
-    /// A string of one line without control characters.
+    /// A string of one line without control characters, or its default.
     pub(crate) fn string(&self, key: &'static str) -> Option<String> {
-        let value = self.get(key, TEXT)?.as_str().map(str::to_owned);
-        let Some(value) = value else {
-            self.fault(key, TEXT, "it is shown as it stands");
-            return None;
+        let declared = self.declared(key)?;
+        let default = declared.default().map(str::to_owned);
+        let Some((_, value)) = self.entries.get(key) else { return default };
+        let text = value.get_ref().as_str();
+        let why = match text.map(|text| text.chars().find(|c| c.is_control())) {
+            Some(None) => return text.map(str::to_owned),
+            Some(Some(found)) => {
+                let code = u32::from(found);
+                format!("it holds the control character U+{code:04X}, and is shown as it stands")
+            }
+            None => "it is shown as it stands".to_owned(),
         };
-        if let Some(found) = value.chars().find(|c| c.is_control()) {
-            let code = u32::from(found);
-            let why =
-                format!("it holds the control character U+{code:04X}, and is shown as it stands");
-            self.fault(key, TEXT, why);
-            return None;
-        }
-        Some(value)
+        self.fault(key, declared.kind.words(), why);
+        default
     }
 
-    /// One of a fixed list of words.
-    pub(crate) fn choice<T: Copy>(
-        &self,
-        key: &'static str,
-        choices: &[(&str, T)],
-        why: &str,
-    ) -> Option<T> {
-        let words: Vec<_> = choices.iter().map(|(word, _)| format!("\"{word}\"")).collect();
-        let words = words.join(", ");
-        let value = self.get(key, &words)?.as_str();
-        let found = choices.iter().find(|(word, _)| Some(*word) == value).map(|c| c.1);
-        if found.is_none() {
-            self.fault(key, words, why);
-        }
-        found
+    /// One of the words of the list, or the default.
+    pub(crate) fn word(&self, key: &'static str) -> Option<&'static str> {
+        let given = self.value(key, |kind, value| {
+            let KeyKind::Choice(words) = kind else { return None };
+            words.iter().find(|word| Some(**word) == value.as_str()).copied()
+        });
+        given.or_else(|| self.declared(key)?.default())
+    }
+
+    /// What the word given, or the default, names.
+    pub(crate) fn choice<T: DeserializeOwned>(&self, key: &'static str) -> Option<T> {
+        let word = self.word(key)?;
+        T::deserialize(IntoDeserializer::<Error>::into_deserializer(word)).ok()
     }
 
     /// A list of numbers.
-    pub(crate) fn numbers(&self, key: &'static str, why: &str) -> Option<Vec<f64>> {
-        let list = self.get(key, NUMBERS)?.as_array().and_then(|array| {
-            array.iter().map(|v| as_f64(v.get_ref()).filter(|x| x.abs() < LARGEST)).collect()
-        });
-        if list.is_none() {
-            self.fault(key, NUMBERS, why);
-        }
-        list
+    pub(crate) fn numbers(&self, key: &'static str) -> Option<Vec<f64>> {
+        let one = |v: &Spanned<DeValue<'_>>| as_f64(v.get_ref()).filter(|x| x.abs() < LARGEST);
+        self.value(key, |_, value| value.as_array()?.iter().map(one).collect())
     }
 
     /// A list of whole numbers.
-    pub(crate) fn integers(&self, key: &'static str, why: &str) -> Option<Vec<i64>> {
-        let list = self.get(key, INTEGERS)?.as_array().and_then(|array| {
-            let whole = |v: &Spanned<DeValue<'_>>| as_i64(v.get_ref());
-            array.iter().map(|v| whole(v).filter(|i| i.abs() < 1_000_000)).collect()
-        });
-        if list.is_none() {
-            self.fault(key, INTEGERS, why);
-        }
-        list
+    pub(crate) fn integers(&self, key: &'static str) -> Option<Vec<i64>> {
+        let one = |v: &Spanned<DeValue<'_>>| as_i64(v.get_ref()).filter(|i| i.abs() < 1_000_000);
+        self.value(key, |_, value| value.as_array()?.iter().map(one).collect())
     }
 
     /// A table of its own, if it is there.
-    pub(crate) fn section(&self, key: &'static str) -> Option<Section<'d, 's>> {
-        match self.get(key, TABLE)? {
+    pub(crate) fn section(&self, key: &'static str) -> Option<Self> {
+        self.declared(key)?;
+        let (_, value) = self.entries.get(key)?;
+        match value.get_ref() {
             DeValue::Table(table) => Some(Section::new(self.document, &self.full(key), table)),
             _ => {
                 self.fault(key, format!("a table: [{}]", self.full(key)), "it holds several keys");
@@ -366,39 +361,42 @@ impl<'d, 's> Section<'d, 's> {
         }
     }
 
+    /// A table of its own; without a key if it is not there.
+    pub(crate) fn table(&self, key: &'static str) -> Self {
+        self.section(key).unwrap_or_else(|| Self {
+            document: self.document,
+            path: self.full(key),
+            entries: BTreeMap::new(),
+            known: RefCell::default(),
+        })
+    }
+
     /// The tables of an array of tables (`[[key]]`).
-    pub(crate) fn sections(&self, key: &'static str) -> Vec<Section<'d, 's>> {
-        let Some(value) = self.get(key, TABLES) else {
-            return Vec::new();
+    pub(crate) fn sections(&self, key: &'static str) -> Vec<Self> {
+        self.declared(key);
+        let Some((_, value)) = self.entries.get(key) else { return Vec::new() };
+        let one = |(i, v): (usize, &'d Spanned<DeValue<'s>>)| match v.get_ref() {
+            DeValue::Table(t) => {
+                Some(Section::new(self.document, &format!("{}.{i}", self.full(key)), t))
+            }
+            _ => None,
         };
-        let tables: Option<Vec<_>> = value.as_array().and_then(|array| {
-            let one = |(i, v): (usize, &'d Spanned<DeValue<'s>>)| match v.get_ref() {
-                DeValue::Table(t) => {
-                    Some(Section::new(self.document, &format!("{}.{i}", self.full(key)), t))
-                }
-                _ => None,
-            };
-            array.iter().enumerate().map(one).collect()
-        });
+        let array = value.get_ref().as_array();
+        let tables = array.and_then(|array| array.iter().enumerate().map(one).collect());
         tables.unwrap_or_else(|| {
             self.fault(key, format!("tables: [[{}]]", self.full(key)), "one table each");
             Vec::new()
         })
     }
+}
 
-    /// Whether the file holds a key, by its full path, or may hold it on a line that cannot be read.
-    pub(crate) fn is_in_document(&self, full: &str) -> bool {
-        self.document.may_hold(full)
-    }
-
-    /// Refuses every key of this table that was never asked for; nothing is read from it afterwards.
-    pub(crate) fn finish(self) {
-        self.check_keys();
-    }
-
-    /// Refuses every key of this table that was never asked for.
-    pub(crate) fn check_keys(&self) {
-        let known = self.known.borrow();
+impl Drop for Section<'_, '_> {
+    /// Refuses every key that was never asked for.
+    fn drop(&mut self) {
+        let known = self.known.get_mut();
+        let mut allowed = known.clone();
+        allowed.sort_unstable();
+        allowed.dedup();
         for (key, (span, _)) in &self.entries {
             if known.iter().any(|k| k == key) || self.document.unread.borrow().covers(span.start) {
                 continue;
@@ -410,12 +408,9 @@ impl<'d, 's> Section<'d, 's> {
                 }
                 _ => "unknown key".to_owned(),
             };
-            let mut allowed: Vec<_> = known.clone();
-            allowed.sort_unstable();
-            allowed.dedup();
             let shown = if key.is_empty() { "\"\"" } else { key.as_str() };
             self.document.faults.borrow_mut().push(Fault {
-                key: self.full(shown),
+                key: full_path(&self.path, shown),
                 value: "not a key of a scene".into(),
                 allowed: allowed.join(", "),
                 why: hint,
@@ -423,6 +418,10 @@ impl<'d, 's> Section<'d, 's> {
             });
         }
     }
+}
+
+fn full_path(table: &str, key: &str) -> String {
+    if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") }
 }
 
 fn as_f64(value: &DeValue<'_>) -> Option<f64> {

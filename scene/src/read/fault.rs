@@ -47,6 +47,11 @@ pub enum SceneError {
     },
 }
 
+/// What is wrong with a scene that was built in a program: the faults that its file would have.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{} fault{} in the scene: {}", .0.len(), if .0.len() == 1 { "" } else { "s" }, join(.0))]
+pub struct SceneFaults(pub Vec<Fault>);
+
 /// The text with every control character but line ends and tabs replaced, byte for byte, so that it can be
 /// shown on a terminal and spans into it stay valid.
 pub(crate) fn printable(text: &str) -> String {

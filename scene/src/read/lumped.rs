@@ -2,23 +2,48 @@
 
 use gearset::Geometry;
 
-use crate::keys::bound::Bound;
-use crate::read::document::{Document, Section};
+use crate::read::document::Section;
 use crate::scene::*;
 
-fn per_body(s: Option<Section<'_, '_>>, why: &str, scale: f64) -> PerBody {
-    let Some(s) = s else {
-        return PerBody::default();
+fn per_body(s: &Section<'_, '_>, key: &'static str) -> PerBody {
+    let s = s.table(key);
+    PerBody {
+        carrier: s.optional("carrier"),
+        ring: s.optional("ring"),
+        sun: s.optional("sun"),
+        planet: s.optional("planet"),
+    }
+}
+
+/// Values of both meshes, if the table is there; those of the ring–planet meshes are 0 of a gear pair, which has none.
+fn per_mesh(s: &Section<'_, '_>, key: &'static str, is_pair: bool) -> Option<PerMesh> {
+    let s = s.section(key)?;
+    let sun_planet = s.number("sun_planet");
+    if !is_pair {
+        s.demand("ring_planet");
+        return Some(PerMesh { sun_planet, ring_planet: s.number("ring_planet") });
+    }
+    s.refuse("ring_planet", "a sun–planet pair has no ring");
+    Some(PerMesh { sun_planet, ring_planet: 0.0 })
+}
+
+/// r of u = r·θ: the base radius of a gear, the centre distance for the carrier.
+pub(crate) fn radii(geometry: &Geometry) -> PerBody {
+    PerBody {
+        carrier: Some(geometry.center_distance),
+        ring: geometry.ring.as_ref().map(|ring| ring.base_radius),
+        sun: geometry.sun.as_ref().map(|sun| sun.base_radius),
+        planet: Some(geometry.planet.base_radius),
+    }
+}
+
+/// Operating pressure angles; 0 for the ring–planet meshes of a pair, which has none.
+pub(crate) fn pressure_angles(geometry: &Geometry, is_pair: bool) -> Option<PerMesh> {
+    let ring_planet = match &geometry.ring_planet {
+        _ if is_pair => 0.0,
+        mesh => mesh.as_ref()?.pressure_angle,
     };
-    let value = |key| s.number(key, Bound::Positive, why).map(|x| x * scale);
-    let found = PerBody {
-        carrier: value("carrier"),
-        ring: value("ring"),
-        sun: value("sun"),
-        planet: value("planet"),
-    };
-    s.finish();
-    found
+    Some(PerMesh { sun_planet: geometry.sun_planet.as_ref()?.pressure_angle, ring_planet })
 }
 
 /// The entry of one body.
@@ -27,62 +52,37 @@ type Entry = fn(&mut PerBody) -> &mut Option<f64>;
 /// Reads the table. Pressure angles and radii that are not given are taken from the geometry; in a scene without
 /// geometry the angles must be given.
 pub(crate) fn lumped(
-    s: Section<'_, '_>,
-    document: &Document<'_>,
+    s: &Section<'_, '_>,
     geometry: Option<&Geometry>,
     supports: &Supports,
 ) -> Option<LumpedInput> {
     let is_pair = supports.pair.is_some();
-    if follows_geometry(&s, document, is_pair) {
-        s.finish();
+    if follows_geometry(s, is_pair) {
         return None;
     }
     // A geometry at fault would give angles and radii once it is mended.
-    let has_geometry = document.may_hold("geometry");
-    let mass = per_body(s.section("mass_kg"), "mass", 1.0);
-    let inertia = per_body(s.section("inertia_kg_m2"), "polar moment of inertia I", 1.0);
-    let over_r2 = per_body(s.section("inertia_over_r2_kg"), "I/r²", 1.0);
-    let given_radius = per_body(s.section("radius_mm"), "r in u = r·θ", 1e-3);
-    let mesh = s.section("mesh_n_per_m").and_then(|m| {
-        let why = "constant stiffness along the line of action";
-        let sun_planet = m.required("sun_planet", Bound::Positive, why);
-        let ring_planet = other_mesh(&m, is_pair, Bound::Positive, why);
-        m.finish();
-        Some(PerMesh { sun_planet: sun_planet?, ring_planet: ring_planet? })
-    });
+    let has_geometry = s.document.may_hold("geometry");
+    let mass = per_body(s, "mass_kg");
+    let inertia = per_body(s, "inertia_kg_m2");
+    let over_r2 = per_body(s, "inertia_over_r2_kg");
+    let given_radius = per_body(s, "radius_mm");
+    let mesh = per_mesh(s, "mesh_n_per_m", is_pair);
     if !s.has("mesh_n_per_m") {
         let why = "the lumped model needs both mesh stiffnesses";
         s.fault("mesh_n_per_m", "{ sun_planet = …, ring_planet = … }", why);
     }
-    let given_angle = s.section("pressure_angle_deg").and_then(|a| {
-        let why = "operating pressure angle";
-        let sun_planet = a.required("sun_planet", Bound::Between(0.0, 60.0), why);
-        let ring_planet = other_mesh(&a, is_pair, Bound::Between(0.0, 60.0), why);
-        a.finish();
-        let (sun_planet, ring_planet) = (sun_planet?.to_radians(), ring_planet?.to_radians());
-        Some(PerMesh { sun_planet, ring_planet })
-    });
+    let given_angle = per_mesh(s, "pressure_angle_deg", is_pair);
     if !s.has("pressure_angle_deg") && !has_geometry {
         let why = "without [geometry] the operating pressure angles must be given";
         s.fault("pressure_angle_deg", "{ sun_planet = …, ring_planet = … }", why);
     }
-    let pressure_angle = given_angle.or_else(|| {
-        let g = geometry?;
-        Some(PerMesh {
-            sun_planet: g.sun_planet.as_ref()?.pressure_angle,
-            ring_planet: match &g.ring_planet {
-                _ if is_pair => 0.0,
-                mesh => mesh.as_ref()?.pressure_angle,
-            },
-        })
-    });
-    // u = r·θ with the base radius of a gear and the centre distance for the carrier.
-    let base = |gear: &gearset::Gear| gear.base_radius;
+    let pressure_angle = given_angle.or_else(|| pressure_angles(geometry?, is_pair));
+    let from_geometry = geometry.map(radii).unwrap_or_default();
     let radius = PerBody {
-        carrier: given_radius.carrier.or(geometry.map(|g| g.center_distance)),
-        ring: given_radius.ring.or(geometry.and_then(|g| g.ring.as_ref().map(base))),
-        sun: given_radius.sun.or(geometry.and_then(|g| g.sun.as_ref().map(base))),
-        planet: given_radius.planet.or(geometry.map(|g| base(&g.planet))),
+        carrier: given_radius.carrier.or(from_geometry.carrier),
+        ring: given_radius.ring.or(from_geometry.ring),
+        sun: given_radius.sun.or(from_geometry.sun),
+        planet: given_radius.planet.or(from_geometry.planet),
     };
     let mut inertia_over_r2 = over_r2;
     let planet = supports.pair.map_or(Freedom::Free, |pair| pair.planet.motion);
@@ -94,13 +94,13 @@ pub(crate) fn lumped(
     ];
     let (mut own_mass, mut inertia, mut over_r2, mut own_radius) = (mass, inertia, over_r2, radius);
     for (name, motion, of) in bodies {
-        if (name != "planet" || is_pair) && document.is_doubtful(&format!("{name}.motion")) {
+        if (name != "planet" || is_pair) && s.document.is_doubtful(&format!("{name}.motion")) {
             continue; // Whether it can move is not known.
         }
         let is_doubtful = |table: &str| s.is_doubtful(&format!("{table}.{name}"));
         if motion.translates() && of(&mut own_mass).is_none() && !is_doubtful("mass_kg") {
             let why = format!("the {name} can move");
-            fault_in(&s, "mass_kg", name, "a mass above 0", &why);
+            fault_in(s, "mass_kg", name, "a mass above 0", &why);
         }
         if is_doubtful("inertia_kg_m2") || is_doubtful("inertia_over_r2_kg") {
             continue;
@@ -108,32 +108,31 @@ pub(crate) fn lumped(
         match (*of(&mut inertia), *of(&mut over_r2), *of(&mut own_radius)) {
             (Some(_), Some(_), _) => {
                 let allowed = "one of inertia_kg_m2 and inertia_over_r2_kg";
-                fault_in(&s, "inertia_over_r2_kg", name, allowed, "both say the same");
+                fault_in(s, "inertia_over_r2_kg", name, allowed, "both say the same");
             }
             (None, None, _) if motion.rotates() => {
                 let allowed = "inertia_kg_m2, or inertia_over_r2_kg";
                 let why = format!("the {name} can rotate");
-                fault_in(&s, "inertia_kg_m2", name, allowed, &why);
+                fault_in(s, "inertia_kg_m2", name, allowed, &why);
             }
             (Some(_), None, None)
                 if motion.rotates() && !has_geometry && !is_doubtful("radius_mm") =>
             {
                 let why = format!("I/r² of the {name} needs r, and no [geometry] gives it");
-                fault_in(&s, "radius_mm", name, "a radius above 0", &why);
+                fault_in(s, "radius_mm", name, "a radius above 0", &why);
             }
             (Some(i), None, Some(r)) => *of(&mut inertia_over_r2) = Some(i / (r * r)),
             _ => {}
         }
     }
     if !has_geometry {
-        torsional_needs_radius(&s, supports, &radius);
+        torsional_needs_radius(s, supports, &radius);
         let is_known = !s.is_doubtful("radius_mm.planet");
         if supports.planet_added.inertia_kg_m2 > 0.0 && radius.planet.is_none() && is_known {
             let why = "added_inertia_kg_m2 of the planet needs r";
-            fault_in(&s, "radius_mm", "planet", "a radius above 0", why);
+            fault_in(s, "radius_mm", "planet", "a radius above 0", why);
         }
     }
-    s.finish();
     Some(LumpedInput {
         mass,
         inertia_over_r2,
@@ -155,39 +154,24 @@ const NUMBERS: [&str; 6] = [
 
 /// Whether the table says that the parameters follow from the geometry, as they do without the table; it then holds
 /// no numbers.
-fn follows_geometry(s: &Section<'_, '_>, document: &Document<'_>, is_pair: bool) -> bool {
-    let why = "parameters in closed form from the geometry";
-    let is_read = s.choice("from", &[("geometry", ())], why).is_some();
+fn follows_geometry(s: &Section<'_, '_>, is_pair: bool) -> bool {
+    let is_read = s.word("from").is_some();
     if !s.has("from") {
         return false;
     }
     for key in NUMBERS {
-        s.skip(key);
-        if is_read && s.has(key) {
-            s.fault(
-                key,
-                "nothing beside `from`",
-                "`lumped.from` = \"geometry\" gives every parameter",
-            );
+        let why = "`lumped.from` = \"geometry\" gives every parameter";
+        match is_read {
+            true => s.refuse_as(key, "nothing beside `from`", why),
+            false => s.skip(key),
         }
     }
     if is_read && is_pair {
         s.fault("from", "nothing here", "parameters in closed form are those of planetary sets");
-    } else if is_read && !document.may_hold("geometry") {
+    } else if is_read && !s.document.may_hold("geometry") {
         s.fault("from", "nothing, or [geometry] in the scene", "there is no geometry to follow");
     }
     true
-}
-
-/// A value of the ring–planet meshes; of a gear pair, which has none, 0.
-fn other_mesh(s: &Section<'_, '_>, is_pair: bool, bound: Bound, why: &str) -> Option<f64> {
-    if !is_pair {
-        return s.required("ring_planet", bound, why);
-    }
-    if s.number("ring_planet", bound, why).is_some() {
-        s.fault("ring_planet", "nothing here", "a sun–planet pair has no ring");
-    }
-    Some(0.0)
 }
 
 /// Adds a fault about the key `table.name`.

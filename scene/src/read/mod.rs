@@ -4,8 +4,8 @@ pub(crate) mod document;
 mod dynamics;
 pub(crate) mod fault;
 mod fe_contact;
-pub(crate) mod geometry;
-mod lumped;
+mod geometry;
+pub(crate) mod lumped;
 mod planets;
 mod supports;
 pub(crate) mod text_file;
@@ -16,12 +16,12 @@ use std::path::Path;
 use gearset::{Geometry, Member, MeshKind, Operation, PlanetPositions, Teeth};
 
 use crate::check;
-use crate::keys::bound::Bound;
+use crate::choices::FeContactInput;
 use crate::read::document::{Document, Section};
 use crate::read::dynamics::dynamics;
-use crate::read::fault::{Fault, SceneError, printable};
+use crate::read::fault::{Fault, SceneError, SceneFaults, printable};
 use crate::read::fe_contact::fe_contact;
-use crate::read::geometry::{GeometryRead, geometry};
+use crate::read::geometry::geometry;
 use crate::read::planets::planets;
 use crate::read::supports::supports;
 use crate::read::text_file::read_text;
@@ -29,9 +29,6 @@ use crate::scene::*;
 
 /// Longest scene file that is read, bytes; the longest of this project has some 4 kB.
 pub const MOST_SCENE_BYTES: u64 = 1_000_000;
-
-/// Most planets a scene may have; a circle of more would not fit any real set.
-pub(crate) const MOST_PLANETS: i64 = 64;
 
 impl Scene {
     /// Reads and validates a scene file.
@@ -60,6 +57,30 @@ impl Scene {
     }
 }
 
+impl Scene {
+    /// Whether a scene that was built or changed in a program is one: judged as its file ([`Scene::to_toml`]) is.
+    ///
+    /// # Errors
+    /// [`SceneFaults`] with every fault, each with its key and the value in the unit of the key.
+    pub fn check(&self) -> Result<(), SceneFaults> {
+        match Self::from_toml(&self.to_toml()) {
+            Ok(read)
+                if self.planets.steps.is_some() && self.planets.steps != read.planets.steps =>
+            {
+                Err(SceneFaults(vec![Fault {
+                    key: "planets.position_steps".into(),
+                    value: format!("{:?}", self.planets.steps.as_deref().unwrap_or_default()),
+                    allowed: "the steps that the angles are".into(),
+                    why: "steps and angles both say where the planets stand".into(),
+                    span: 0..0,
+                }]))
+            }
+            Ok(_) => Ok(()),
+            Err(error) => Err(SceneFaults(error.faults().to_vec())),
+        }
+    }
+}
+
 /// Reads a whole document; faults go to it. `None` where a part without which there is no scene is absent.
 pub(crate) fn read_document(document: &Document<'_>) -> Option<Scene> {
     let table = document.parse();
@@ -68,6 +89,13 @@ pub(crate) fn read_document(document: &Document<'_>) -> Option<Scene> {
         check::load::deflection(document, scene);
     }
     scene
+}
+
+/// `[fe_contact]` where it is left out.
+pub(crate) fn default_fe_contact() -> Option<FeContactInput> {
+    let document = Document::new("");
+    let table = document.parse();
+    fe_contact(&Section::new(&document, "", &table).table("fe_contact"))
 }
 
 /// Every missing value comes with a fault of its own; this only guards that promise.
@@ -99,54 +127,45 @@ impl TeethRead {
 }
 
 fn read(document: &Document<'_>, root: Section<'_, '_>) -> Option<Scene> {
-    root.required_integer("format", (1, 1), "the number says how to read the file");
-    let kinds = [("planetary", SceneKind::Planetary), ("gear_pair", SceneKind::GearPair)];
-    let why = "it says whether the scene is a whole set or one mesh";
-    let kind = root.choice("kind", &kinds, why);
-    if !root.has("kind") {
-        root.fault("kind", "\"planetary\" or \"gear_pair\"", why);
-    }
-    let title = root.string("title");
-    let source = root.string("source");
-    let meshes = [("sun_planet", MeshKind::SunPlanet), ("ring_planet", MeshKind::RingPlanet)];
-    let pair = root.choice("mesh", &meshes, "the mesh of a gear pair");
+    root.integer::<i64>("format");
+    let kind = root.choice("kind");
+    let pair = root.choice("mesh");
     let is_pair = kind == Some(SceneKind::GearPair);
-    if is_pair && !root.has("mesh") {
-        root.fault("mesh", "\"sun_planet\" or \"ring_planet\"", "a gear pair is one of the two");
+    if is_pair {
+        root.demand("mesh");
+    } else if kind.is_some() {
+        root.refuse("mesh", "only a gear pair names one mesh");
     }
-    if kind == Some(SceneKind::Planetary) && root.has("mesh") {
-        root.fault("mesh", "nothing here", "only a gear pair names one mesh");
-    }
-    let teeth = root.section("teeth").map(|s| teeth(s, kind, pair)).unwrap_or_default();
+    let (title, source) = (root.string("title"), root.string("source"));
+    let teeth = root.section("teeth").map(|s| teeth(&s, kind, pair)).unwrap_or_default();
     let planets = planets(&root, kind, &teeth);
-    let shape = root.section("geometry").map(|s| geometry(s, &teeth));
+    let geometry = root.section("geometry").map(|s| geometry(&s, &teeth));
     if root.has("geometry") && !root.has("teeth") {
         root.fault("teeth", "[teeth] with sun, planet, ring", "geometry needs numbers of teeth");
     }
     if is_pair && !root.has("geometry") {
         root.fault("geometry", "[geometry]", "a gear pair is nothing without its tooth geometry");
     }
-    let material = material(root.section("material"));
     let supports = supports(&root, kind, pair);
-    let dynamics = root.section("dynamics").map(dynamics).unwrap_or_default();
-    let fe_contact = root.section("fe_contact").map(fe_contact).unwrap_or_default();
-    let geometry = shape.as_ref().and_then(GeometryRead::complete);
+    let fe_contact = fe_contact(&root.table("fe_contact"));
+    let dynamics = dynamics(&root.table("dynamics"));
+    let (fe_contact, dynamics) = (fe_contact?, dynamics?);
     let whole_teeth = teeth.complete();
-    let resolved = geometry.as_ref().zip(whole_teeth.as_ref()).map(|(g, t)| Geometry::new(g, t));
-    let resolved = resolved.and_then(Result::ok);
-    let lumped = root.section("lumped");
-    let lumped = match lumped {
+    let is_sound = !document.is_doubtful("geometry") && !document.is_doubtful("teeth");
+    let resolved = geometry.as_ref().zip(whole_teeth.as_ref()).filter(|_| is_sound);
+    let resolved = resolved.and_then(|(g, t)| Geometry::new(g, t).ok());
+    let lumped = match root.section("lumped") {
         Some(_) if is_pair && pair == Some(MeshKind::RingPlanet) => {
             root.fault("lumped", "nothing here", "only a sun–planet pair has a lumped model");
             None
         }
-        Some(s) => lumped::lumped(s, document, resolved.as_ref(), &supports),
+        Some(s) => lumped::lumped(&s, resolved.as_ref(), &supports),
         None => None,
     };
     let overrides = overrides(&root, planets.as_ref());
-    let damping = damping(root.section("damping"));
-    let operation = root.section("operation").and_then(|s| operation(s, is_pair));
-    root.finish();
+    let material = material(&root.table("material"));
+    let damping = damping(&root.table("damping"));
+    let operation = root.section("operation").map(|s| operation(&s, is_pair));
     if let Some(positions) = &planets {
         check::distinct_positions(document, positions);
     }
@@ -156,13 +175,13 @@ fn read(document: &Document<'_>, root: Section<'_, '_>) -> Option<Scene> {
         let why = "the bearings of a gear pair stand still: there is no turning carrier frame";
         document.fault("dynamics.gyroscopic", "\"off\"", why);
     }
-    if let Some(shape) = &shape {
-        check::geometry::shape(document, shape, &teeth, planets.as_ref());
+    if let Some(geometry) = &geometry {
+        check::geometry::shape(document, geometry, &teeth, planets.as_ref());
     }
     Some(Scene {
         kind: kind?,
         pair,
-        title: title.unwrap_or_else(|| "untitled".into()),
+        title: title?,
         source,
         planets: planets?,
         teeth: whole_teeth,
@@ -172,71 +191,60 @@ fn read(document: &Document<'_>, root: Section<'_, '_>) -> Option<Scene> {
         lumped,
         overrides,
         damping,
-        operation,
+        operation: operation.flatten(),
         fe_contact,
         dynamics,
     })
 }
 
-fn teeth(s: Section<'_, '_>, kind: Option<SceneKind>, pair: Option<MeshKind>) -> TeethRead {
-    let limits = (5, 10_000);
-    let count = |key: &'static str, needed: bool| {
-        let why = "number of teeth";
-        let read =
-            if needed { s.required_integer(key, limits, why) } else { s.integer(key, limits, why) };
-        read.map(|z| z as u32)
+fn teeth(s: &Section<'_, '_>, kind: Option<SceneKind>, pair: Option<MeshKind>) -> TeethRead {
+    let count = |key, is_needed: bool| {
+        if is_needed {
+            s.demand(key);
+        }
+        s.integer(key)
     };
-    let whole = kind == Some(SceneKind::Planetary);
-    let sun = count("sun", whole || pair == Some(MeshKind::SunPlanet));
-    let planet = count("planet", true);
-    let ring = count("ring", whole || pair == Some(MeshKind::RingPlanet));
+    let is_whole = kind == Some(SceneKind::Planetary);
+    let sun = count("sun", is_whole || pair == Some(MeshKind::SunPlanet));
+    let planet = s.integer("planet");
+    let ring = count("ring", is_whole || pair == Some(MeshKind::RingPlanet));
     if let (Some(z_p), Some(z_r)) = (planet, ring)
         && z_r <= z_p
     {
         s.fault("ring", format!("more than the planet's {z_p} teeth"), "the planet runs inside");
     }
-    s.finish();
     TeethRead { sun, planet, ring }
 }
 
-fn material(s: Option<Section<'_, '_>>) -> Material {
-    let default =
-        Material { young_modulus_pa: 206e9, poisson_ratio: 0.3, density_kg_per_m3: 7850.0 };
-    let Some(s) = s else { return default };
-    let e = s.number("young_modulus_pa", Bound::Positive, "modulus of elasticity E");
-    let nu = s.number("poisson_ratio", Bound::Between(-1.0, 0.5), "an isotropic solid");
-    let rho = s.number("density_kg_per_m3", Bound::Positive, "density ρ");
-    s.finish();
+fn material(s: &Section<'_, '_>) -> Material {
     Material {
-        young_modulus_pa: e.unwrap_or(default.young_modulus_pa),
-        poisson_ratio: nu.unwrap_or(default.poisson_ratio),
-        density_kg_per_m3: rho.unwrap_or(default.density_kg_per_m3),
+        young_modulus_pa: s.number("young_modulus_pa"),
+        poisson_ratio: s.number("poisson_ratio"),
+        density_kg_per_m3: s.number("density_kg_per_m3"),
     }
 }
 
 fn overrides(root: &Section<'_, '_>, planets: Option<&PlanetPositions>) -> Vec<PlanetOverride> {
     let mut list: Vec<PlanetOverride> = Vec::new();
-    let count = planets.map_or(MOST_PLANETS as usize, PlanetPositions::count);
     for s in root.sections("planet_override") {
-        let why = "index of the planet, from 0";
-        let index = s.required_integer("planet", (0, MOST_PLANETS - 1), why);
-        if index.is_some_and(|i| i >= count as i64) {
+        let index = s.integer::<usize>("planet");
+        if let (Some(i), Some(count)) = (index, planets.map(PlanetPositions::count))
+            && i >= count
+        {
+            let why = "index of the planet, from 0";
             s.fault("planet", format!("a whole number from 0 to {}", count - 1), why);
         }
-        let value = |key, why| s.number(key, Bound::Positive, why);
-        let found = PlanetOverride {
-            planet: index.unwrap_or(0) as usize,
-            mass: value("mass_kg", "mass of this planet"),
-            inertia_over_r2: value("inertia_over_r2_kg", "I/r² of this planet"),
-            bearing: value("bearing_n_per_m", "bearing stiffness of this planet"),
-            sun_mesh: value("sun_planet_n_per_m", "sun mesh stiffness of this planet"),
-            ring_mesh: value("ring_planet_n_per_m", "ring mesh stiffness of this planet"),
-        };
-        if index.is_some() && list.iter().any(|o| o.planet == found.planet) {
+        if index.is_some() && list.iter().any(|o| Some(o.planet) == index) {
             s.fault("planet", "each planet once", "two tables for one planet contradict");
         }
-        s.finish();
-        list.push(found);
+        list.push(PlanetOverride {
+            planet: index.unwrap_or(0),
+            mass: s.optional("mass_kg"),
+            inertia_over_r2: s.optional("inertia_over_r2_kg"),
+            bearing: s.optional("bearing_n_per_m"),
+            sun_mesh: s.optional("sun_planet_n_per_m"),
+            ring_mesh: s.optional("ring_planet_n_per_m"),
+        });
     }
     if !list.is_empty() && !root.may_hold("lumped") {
         root.fault("planet_override", "with [lumped]", "its keys change the lumped model");
@@ -244,47 +252,33 @@ fn overrides(root: &Section<'_, '_>, planets: Option<&PlanetPositions>) -> Vec<P
     list
 }
 
-fn damping(s: Option<Section<'_, '_>>) -> Damping {
-    // 2 % of critical at 780 and 2100 Hz.
-    let (alpha, beta) = (142.9, 2.21e-6);
-    let default =
-        Damping { mass_proportional_per_s: alpha, stiffness_proportional_s: beta, bearing_s: beta };
-    let Some(s) = s else { return default };
-    let alpha = s.number("mass_proportional_per_s", Bound::NonNegative, "α in C = αM + βK");
-    let beta = s.number("stiffness_proportional_s", Bound::NonNegative, "β in C = αM + βK");
-    let why = "viscous damping of every bearing over its stiffness";
-    let bearing = s.number("bearing_s", Bound::NonNegative, why);
-    s.finish();
+fn damping(s: &Section<'_, '_>) -> Damping {
+    let stiffness_proportional_s = s.number("stiffness_proportional_s");
     Damping {
-        mass_proportional_per_s: alpha.unwrap_or(default.mass_proportional_per_s),
-        stiffness_proportional_s: beta.unwrap_or(default.stiffness_proportional_s),
+        mass_proportional_per_s: s.number("mass_proportional_per_s"),
+        stiffness_proportional_s,
         // With the same β the set as a whole is proportionally damped.
-        bearing_s: bearing.or(beta).unwrap_or(default.bearing_s),
+        bearing_s: s.optional("bearing_s").unwrap_or(stiffness_proportional_s),
     }
 }
 
-fn operation(s: Section<'_, '_>, is_pair: bool) -> Option<Operation> {
-    let members = [Member::Sun, Member::Ring, Member::Carrier].map(|m| (m.name(), m));
-    let mut fixed = s.choice("fixed", &members, "the member that stands still");
-    let input = s.choice("input", &members, "the member whose speed and torque are given");
-    if is_pair {
-        if s.has("fixed") {
-            let why = "the bearings of a gear pair stand still";
-            s.fault("fixed", "nothing here", why);
+fn operation(s: &Section<'_, '_>, is_pair: bool) -> Option<Operation> {
+    let input = s.choice("input");
+    let fixed = match is_pair {
+        true => {
+            s.refuse("fixed", "the bearings of a gear pair stand still");
+            Some(Member::Carrier)
         }
-        if input.is_some_and(|input| input != Member::Sun) {
-            let why = "speed and torque of a gear pair are those of the sun";
-            s.fault("input", "\"sun\", or nothing", why);
-        }
-        fixed = Some(Member::Carrier);
+        false => s.choice("fixed"),
+    };
+    if is_pair && input != Some(Member::Sun) {
+        let why = "speed and torque of a gear pair are those of the sun";
+        s.fault("input", "\"sun\", or nothing", why);
     }
     let is_known = !s.is_doubtful("fixed") && !s.is_doubtful("input");
-    let (fixed, input) = (fixed.unwrap_or(Member::Ring), input.unwrap_or(Member::Sun));
-    if fixed == input && is_known && !is_pair {
+    if fixed == input && is_known {
         s.fault("input", "another member than `fixed`", "a held member cannot be driven");
     }
-    let speed = s.required("speed_rpm", Bound::Finite, "speed of the input member");
-    let torque = s.required("torque_nm", Bound::Finite, "torque on the input member");
-    s.finish();
-    Some(Operation { fixed, input, speed_rpm: speed?, torque_nm: torque? })
+    let (speed_rpm, torque_nm) = (s.number("speed_rpm"), s.number("torque_nm"));
+    Some(Operation { fixed: fixed?, input: input?, speed_rpm, torque_nm })
 }

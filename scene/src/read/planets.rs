@@ -2,8 +2,8 @@
 
 use gearset::{PlanetPositions, assembly};
 
+use crate::read::TeethRead;
 use crate::read::document::Section;
-use crate::read::{MOST_PLANETS, TeethRead};
 use crate::scene::SceneKind;
 
 /// Reads the positions; `kind` is `None` where the file does not say it.
@@ -12,42 +12,29 @@ pub(crate) fn planets(
     kind: Option<SceneKind>,
     teeth: &TeethRead,
 ) -> Option<PlanetPositions> {
-    let is_pair = kind == Some(SceneKind::GearPair);
+    if kind == Some(SceneKind::GearPair) {
+        root.refuse("planets", "a gear pair has one planet, at zero");
+        return Some(PlanetPositions::equally_spaced(1));
+    }
     let Some(s) = root.section("planets") else {
-        if is_pair {
-            return Some(PlanetPositions::equally_spaced(1));
-        }
         if kind.is_some() && !root.has("planets") {
             root.fault("planets", "[planets] with count", "a planetary set has planets");
         }
         return None;
     };
-    if is_pair {
-        root.fault("planets", "nothing here", "a gear pair has one planet, at zero");
-        return Some(PlanetPositions::equally_spaced(1));
+    let count = s.integer("count");
+    let (steps, degrees) = (s.integers("position_steps"), s.numbers("positions_deg"));
+    if s.may_hold("position_steps") || s.may_hold("positions_deg") {
+        return positions(root, &s, count, steps, degrees, teeth);
     }
-    let count = s.required_integer("count", (1, MOST_PLANETS), "number of planets N");
-    let steps = s.integers("position_steps", "assembly steps of 360°/(Z_s+Z_r) from planet 0");
-    let degrees = s.numbers("positions_deg", "planet positions, counter-clockwise from planet 0");
-    let is_asked = s.may_hold("position_steps") || s.may_hold("positions_deg");
-    let result = positions(root, &s, count, steps, degrees, teeth);
-    s.finish();
-    let sun_ring = teeth.sun.zip(teeth.ring);
-    match (result, is_asked) {
-        (Some(found), _) => Some(found),
-        (None, true) => None,
-        (None, false) => {
-            let n = usize::try_from(count?).ok()?;
-            equal_positions(root, n, sun_ring)
-        }
-    }
+    equal_positions(root, count?, teeth.sun.zip(teeth.ring))
 }
 
 /// Positions given explicitly, checked against count and assembly.
 fn positions(
     root: &Section<'_, '_>,
     s: &Section<'_, '_>,
-    count: Option<i64>,
+    count: Option<usize>,
     steps: Option<Vec<i64>>,
     degrees: Option<Vec<f64>>,
     teeth: &TeethRead,
@@ -58,7 +45,7 @@ fn positions(
         return None;
     }
     let length_is_right = |key: &str, length: usize| match count {
-        Some(n) if n as usize == length => true,
+        Some(n) if n == length => true,
         Some(n) => {
             s.fault(key, format!("{n} entries, as in count"), "one position a planet");
             false

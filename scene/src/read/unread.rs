@@ -56,11 +56,15 @@ impl Unread {
         let is_above = |a: &str, b: &str| {
             a.is_empty() || b.strip_prefix(a).is_some_and(|r| r.is_empty() || r.starts_with('.'))
         };
-        // Tables of an array are told apart by numbers, which their headers do not have.
-        let steps = key.split('.').filter(|step| step.parse::<usize>().is_err());
-        let key = steps.collect::<Vec<_>>().join(".");
+        let key = without_indices(key);
         self.paths.iter().any(|path| is_above(path, &key) || is_above(&key, path))
     }
+}
+
+/// The path without the numbers that tell tables of an array apart, which their headers do not have.
+pub(crate) fn without_indices(key: &str) -> String {
+    let steps = key.split('.').filter(|step| step.parse::<usize>().is_err());
+    steps.collect::<Vec<_>>().join(".")
 }
 
 /// The line, as a byte range, whose list or table is unfinished when the line of byte `at` begins; only the nearest
