@@ -26,9 +26,13 @@ pub struct Extrapolated {
 }
 
 impl Extrapolated {
-    /// Estimated error of one value of the sequence, in its unit: the grid convergence index 1.25 |v∞ − v| where an
-    /// order was observed (Roache 1994, J. Fluids Eng. 116, 405–413), elsewhere U and the distance to the finest
+    /// `[eq:grid-convergence-index]` Estimated error of one value of the sequence, in its unit: the grid convergence
+    /// index 1.25 |v∞ − v| where an order was observed, but at least U; elsewhere U and the distance to the finest
     /// value.
+    ///
+    /// Source: Roache, J. Fluids Eng. 116 (1994) 405–413.
+    /// Checked by: `dynamics/src/convergence.rs::the_error_of_a_coarser_value_is_its_distance_to_the_limit`,
+    /// `fe.convergence.gci`.
     pub fn error_of(&self, value: f64) -> f64 {
         match self.order {
             Some(_) => self.uncertainty.max(SAFETY[0] * (self.value - value).abs()),
@@ -41,6 +45,10 @@ impl Extrapolated {
 /// from the `distances` of neighbours, coarse to fine, found at `refinements` as in [`extrapolate`]: one distance
 /// fewer. As if the answers came to the finest one by one from the same side, so that neighbours do not agree by
 /// chance.
+///
+/// `[eq:error-by-distances]` U = 1.25 d₂₃/(rᵖ − 1) for distances d of the answers, 3 d without a usable order.
+/// Source: Roache, J. Fluids Eng. 116 (1994) 405–413.
+/// Checked by: `dynamics/src/convergence.rs::distances_give_the_error_of_the_finest`.
 pub fn error_by_distances(distances: &[f64], refinements: &[f64], formal: Option<f64>) -> f64 {
     let mut values = vec![0.0];
     for distance in distances.iter().rev() {
@@ -53,9 +61,13 @@ pub fn error_by_distances(distances: &[f64], refinements: &[f64], formal: Option
 /// The limit of `values` (any unit), found at `refinements` n (steps, cells, elements: ascending, errors taken to fall
 /// as n⁻ᵖ), at least two of either. `formal` is the order that theory gives, if any.
 ///
-/// With three values of order p, v∞ = v₃ + (v₃ − v₂)/(rᵖ − 1) and U = 1.25 |v∞ − v₃|. Where the observed order is
-/// higher than the formal one by more than 0.5, the formal one is used, and where it is lower, the
-/// observed one: of the two the larger U. Of four values or more, U is at least the difference to the
+/// `[eq:richardson]` v∞ = v₃ + (v₃ − v₂)/(rᵖ − 1) and U = 1.25 |v∞ − v₃| with three values of order p.
+/// Source: Richardson; Roache, J. Fluids Eng. 116 (1994) 405–413; Celik et al., J. Fluids Eng. 130 (2008) 078001.
+/// Checked by: `dynamics/src/convergence.rs::a_pure_power_is_extrapolated_exactly`,
+/// `experiments/src/study/controls.rs::the_known_truth_lies_within_a_known_uncertainty`.
+///
+/// Where the observed order is higher than the formal one by more than 0.5, the formal one is used, and where it is
+/// lower, the observed one: of the two the larger U. Of four values or more, U is at least the difference to the
 /// limit of the sequence without its last value. Without a usable order, v∞ is the finest value and U three times the
 /// larger of the last two differences.
 pub fn extrapolate(values: &[f64], refinements: &[f64], formal: Option<f64>) -> Extrapolated {
@@ -99,9 +111,13 @@ fn limit(values: &[f64], refinements: &[f64], formal: Option<f64>) -> Extrapolat
     Extrapolated { value: v3 + step, uncertainty, order: Some(p) }
 }
 
-/// The order p at which (v₂ − v₁)/(v₃ − v₂) = s for refinement ratios r and q from the coarse to the middle and from
-/// the middle to the fine grid: s = qᵖ (rᵖ − 1)/(qᵖ − 1). The right side grows with p; `None` outside the usable
-/// orders.
+/// `[eq:observed-order]` The order p at which (v₂ − v₁)/(v₃ − v₂) = s for refinement ratios r and q from the coarse
+/// to the middle and from the middle to the fine grid: s = qᵖ (rᵖ − 1)/(qᵖ − 1). The right side grows with p; `None`
+/// outside the usable orders.
+///
+/// Source: derived here.
+/// Checked by: `dynamics/src/convergence.rs::a_pure_power_is_extrapolated_exactly`,
+/// `dynamics/src/convergence.rs::an_order_above_the_formal_one_is_not_believed`.
 fn order(s: f64, r: f64, q: f64) -> Option<f64> {
     let excess = |p: f64| q.powf(p) * (r.powf(p) - 1.0) / (q.powf(p) - 1.0) - s;
     let [mut low, mut high] = USABLE;

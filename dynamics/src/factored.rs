@@ -1,11 +1,9 @@
 //! The undamped eigenproblem of springs: K = Σ k b bᵀ, M diagonal, solved without forming K.
 //!
-//! With G = diag(√k) B diag(1/√m) the natural frequencies are the singular values of G. An eigenvalue routine on
-//! GᵀG finds ω² to a part of ω_max², so frequencies below 1e-8 ω_max drown in rounding; here each keeps its own
-//! relative accuracy, whatever the spread of stiffnesses and masses: a QR factorisation with column pivoting of
-//! the rows sorted by size, then one-sided Jacobi rotations (Demmel et al., *Linear Algebra Appl.* 299 (1999)
-//! 21–80; Drmač & Veselić, *SIAM J. Matrix Anal. Appl.* 29 (2008) 1322–1342). How many frequencies are zero follows
-//! from the rows alone, since no positive stiffness or mass changes the null space of B.
+//! An eigenvalue routine on GᵀG ([`factored_modes`]) finds ω² to a part of ω_max², so frequencies below 1e-8 ω_max
+//! drown in rounding; here each keeps its own relative accuracy, whatever the spread of stiffnesses and masses: a QR
+//! factorisation with column pivoting of the rows sorted by size, then one-sided Jacobi rotations. How many
+//! frequencies are zero follows from the rows alone, since no positive stiffness or mass changes the null space of B.
 
 use nalgebra::{DMatrix, DVector, SVD};
 
@@ -40,6 +38,13 @@ pub struct FactoredModes {
 }
 
 /// Solves K φ = ω² M φ for K = Σ k b bᵀ and M = diag(`mass`).
+///
+/// `[eq:factored-eigenproblem]` The natural frequencies ω are the singular values of G = diag(√k) B diag(1/√m).
+/// Source: Demmel et al., Linear Algebra Appl. 299 (1999) 21–80; Drmač & Veselić, SIAM J. Matrix Anal. Appl. 29
+/// (2008) 1322–1342.
+/// Checked by: `dynamics/src/factored.rs::agrees_with_the_eigenvalue_routine_where_nothing_is_spread`,
+/// `dynamics/src/factored.rs::small_frequencies_keep_their_digits_beside_large_ones`,
+/// `lumped/tests/spread.rs::every_frequency_is_as_sure_as_it_says`.
 ///
 /// # Errors
 /// For masses that are not positive, entries that are not finite, or rotations that do not converge.

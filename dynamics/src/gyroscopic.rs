@@ -23,6 +23,11 @@ pub struct GyroscopicMode {
 
 /// All n modes for M = diag(`mass`), skew `g` and symmetric `k` (n×n), by ascending ω.
 ///
+/// `[eq:gyroscopic-modes]` (s² M + s G + K) φ = 0 as d/dτ [q; q'] = [0 I; −K̃ −G̃] [q; q'] with τ = ω_ref t.
+/// Source: closed form.
+/// Checked by: `dynamics/src/gyroscopic.rs::isotropic_oscillator_in_a_turning_frame`,
+/// `dynamics/src/gyroscopic.rs::fast_spin_steadies_what_would_fall`.
+///
 /// Solved as the companion matrix of the mass-normalised problem, time scaled by the largest
 /// stiffness row so that displacement and velocity have like size. `k` may be singular or
 /// indefinite: a mode that drifts or diverges has ω = 0 and occurs once (s = ±a is one mode, of growth +a);
@@ -42,7 +47,6 @@ pub fn gyroscopic_modes(
     let scaled = |a: &DMatrix<f64>, i: usize, j: usize| a[(i, j)] / (root[i] * root[j]);
     let largest = (0..n).map(|i| scaled(k, i, i).abs()).fold(0.0f64, f64::max);
     let reference = if largest > 0.0 { largest.sqrt() } else { 1.0 };
-    // d/dτ [q; q'] = [0 I; −K̃ −G̃] [q; q'], τ = t·ω_ref
     let companion = Mat::from_fn(2 * n, 2 * n, |i, j| match (i < n, j < n) {
         (true, true) => 0.0,
         (true, false) => f64::from(u8::from(j - n == i)),

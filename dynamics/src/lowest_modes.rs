@@ -35,8 +35,10 @@ const EQUAL: f64 = 1e-7;
 
 /// The lowest `count` modes, or one or two more where the last belongs to a group of equal ones.
 ///
-/// Krylov subspaces of K⁻¹M in the M-inner product, fully reorthogonalised. The start vectors are fixed, so
-/// that results are reproducible to the bit.
+/// `[eq:block-lanczos]` Krylov subspaces V of K⁻¹M in the M-inner product, fully reorthogonalised: the eigenvalues of
+/// T = VᵀM K⁻¹M V are 1/λ. The start vectors are fixed, so that results are reproducible to the bit.
+/// Source: no publication cited.
+/// Checked by: `dynamics/src/lowest_modes.rs::double_modes_of_a_ring_come_in_pairs`.
 ///
 /// # Errors
 /// If the subspace reaches half the order of the matrices without converging.

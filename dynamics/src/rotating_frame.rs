@@ -1,14 +1,14 @@
 //! Translations seen from a frame that turns at a constant speed.
 //!
-//! A mass m at (x, y) in a frame turning at Ω has the kinetic energy ½ m [(ẋ − Ωy)² + (ẏ + Ωx)²], hence
-//!
-//! ```text
-//! m (ẍ − 2Ωẏ − Ω²x) = F_x,   m (ÿ + 2Ωẋ − Ω²y) = F_y
-//! ```
-//!
-//! Rotations about axes normal to the plane have no such terms.
+//! A mass m at (x, y) in a frame turning at Ω has the kinetic energy ½ m [(ẋ − Ωy)² + (ẏ + Ωx)²]. Rotations about
+//! axes normal to the plane have no such terms.
 
 /// A frame that turns counter-clockwise about the origin.
+///
+/// `[eq:rotating-frame]` m (ẍ − 2Ωẏ − Ω²x) = F_x, m (ÿ + 2Ωẋ − Ω²y) = F_y.
+/// Source: derived here.
+/// Checked by: `dynamics/src/rotating_frame.rs::a_body_at_rest_in_space_feels_no_force`,
+/// `fe_contact/tests/gyroscopic.rs::free_bodies_vibrate_in_planes_that_stand_still_in_space`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RotatingFrame {
     /// Ω, rad/s.

@@ -65,6 +65,11 @@ fn transform(length: usize) -> Arc<dyn Fft<f64>> {
 /// Spectrum of `record` (any length), sampled every `interval` s, padded with zeros to `padding`
 /// times its length (1: not padded).
 ///
+/// `[eq:spectrum]` X_j = (2 or 1) Σ w_k x_k exp(−i 2π jk/N) / Σ w_k.
+/// Source: definition.
+/// Checked by: `dynamics/src/spectrum.rs::a_sine_of_whole_periods_gives_its_amplitude_and_phase`,
+/// `dynamics/src/spectrum.rs::the_highest_line_is_not_doubled`, `sweep.static_limit`.
+///
 /// Amplitudes are those of sines, not their halves and not their rms: A cos(2πft + φ) over whole
 /// periods gives A exp(iφ) at its line. The lines at zero and, for an even padded length, at half
 /// the sampling rate have no conjugate and are not doubled: a constant c gives c. Lines are divided by the
@@ -102,7 +107,6 @@ pub fn spectrum(
     buffer.truncate(padded / 2 + 1);
     for (j, line) in buffer.iter_mut().enumerate() {
         let alone = j == 0 || 2 * j == padded;
-        // X_j = (2 or 1) Σ w_k x_k exp(−i 2π jk/N) / Σ w_k
         *line *= if alone { 1.0 / sum } else { 2.0 / sum };
     }
     Ok(Spectrum { step: 1.0 / (padded as f64 * interval), lines: buffer })

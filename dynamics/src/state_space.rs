@@ -32,6 +32,12 @@ impl StateMode {
 
 /// All modes of A (n×n), by ascending |s|; one of each conjugate pair.
 ///
+/// `[eq:state-space-modes]` ẏ = A y has the motions y e^{st} with A y = s y; natural frequency |s|, damping ratio −Re
+/// s/|s|.
+/// Source: closed form.
+/// Checked by: `dynamics/src/state_space.rs::a_damped_swing_and_a_decay`,
+/// `dynamics/src/state_space.rs::a_repeated_pair_keeps_sound_vectors`.
+///
 /// The caller scales states and time so that the entries of A are of similar size.
 ///
 /// # Errors

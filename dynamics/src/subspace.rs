@@ -70,6 +70,12 @@ pub struct SubspaceDirection {
 /// are the rows of B_kᵀ Q (d_k rows of length m). Pure directions come first, kind by kind; what is
 /// left is mixed.
 ///
+/// `[eq:kinds-as-subspaces]` A kind's pure directions are the eigenvectors of G_k = Qᵀ Π_k Q = (B_kᵀ Q)ᵀ (B_kᵀ Q)
+/// with eigenvalue one.
+/// Source: derived here.
+/// Checked by: `dynamics/src/subspace.rs::coinciding_modes_of_two_kinds_are_told_apart`,
+/// `dynamics/src/subspace.rs::a_direction_between_kinds_is_mixed`.
+///
 /// # Errors
 /// If a small eigenproblem does not converge.
 pub fn split(

@@ -42,7 +42,11 @@ impl Elastic {
         e / (1.0 - nu * nu)
     }
 
-    /// D of σ = D ε with ε = (ε_x, ε_y, γ_xy), 3×3, Pa.
+    /// `[eq:plane-elasticity]` D of σ = D ε with ε = (ε_x, ε_y, γ_xy), 3×3, Pa: D = E/((1 + ν)(1 − 2ν)) [1−ν, ν, 0;
+    /// ν, 1−ν, 0; 0, 0, ½−ν].
+    ///
+    /// Source: textbook; plane stress by the plane-strain body that behaves alike.
+    /// Checked by: `fe_contact/src/material.rs::plane_stress_is_the_textbook_matrix`.
     pub fn stiffness(&self) -> [[f64; 3]; 3] {
         let (e, nu) = self.plane_strain_equivalent();
         let c = e / ((1.0 + nu) * (1.0 - 2.0 * nu));

@@ -2,7 +2,10 @@
 
 use std::f64::consts::TAU;
 
-/// Assembly step 2π/(Z_s+Z_r), rad: planets fit only at whole multiples of it.
+/// `[eq:assembly]` Assembly step 2π/(Z_s + Z_r), rad: planets fit only where (Z_s + Z_r) ψ_n/2π is an integer.
+///
+/// Source: closed form.
+/// Checked by: `gearset/tests/scene_faults.rs::degrees_that_can_be_assembled_become_exact_steps`.
 pub fn assembly_step_rad(sun_teeth: u32, ring_teeth: u32) -> f64 {
     TAU / (f64::from(sun_teeth) + f64::from(ring_teeth))
 }
@@ -14,8 +17,11 @@ pub fn nearest_steps(psi_rad: f64, sun_teeth: u32, ring_teeth: u32) -> (i64, f64
     (steps as i64, exact - steps)
 }
 
-/// Clearance between the tip circles of every pair of neighbouring planets, m:
-/// 2 a sin(Δψ/2) − 2 r_a, as `(planet, next planet, clearance)`, in angular order.
+/// `[eq:planet-clearance]` Clearance between the tip circles of every pair of neighbouring planets, m: 2 a
+/// sin(Δψ/2) − 2 r_a, as `(planet, next planet, clearance)`, in angular order.
+///
+/// Source: closed form.
+/// Checked by: `gearset/tests/scene_faults.rs::each_kind_of_fault_names_its_key_and_says_why`.
 pub fn planet_clearances(
     psi_rad: &[f64],
     center_distance: f64,

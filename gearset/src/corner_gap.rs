@@ -9,11 +9,12 @@ impl Mesh {
     ///
     /// At the end of the path the flanks touch at the corner, with radii of curvature equal to their roll lengths s₁,
     /// s₂. Rolled on by e, they would touch s₁ e/r₁ of the corner's own flank beyond the corner, so that the corner is
-    /// away from the mating flank by
+    /// away from the mating flank by the gap:
     ///
-    /// ```text
-    /// ½ (s₁ e/r₁)² (1/s₁ ± 1/s₂),   + external, − internal (the larger radius is the ring's)
-    /// ```
+    /// `[eq:corner-gap-curvature]` ½ G'' e² = ½ (s₁ e/r₁)² (1/s₁ ± 1/s₂), + external, − internal (the larger radius
+    /// is the ring's).
+    /// Source: derived here.
+    /// Checked by: `gearset/tests/displaced.rs::corner_gaps_start_with_the_curvature_of_the_closed_form`.
     pub fn corner_gap_curvature(&self, corner: MeshMember) -> f64 {
         let gear = self.gear(corner);
         let own = gear.tip_roll_length();

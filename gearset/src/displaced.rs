@@ -2,15 +2,7 @@
 //! second derivatives.
 //!
 //! The relative position of two rigid involute gears enters their contact through three quantities only: δ, σ
-//! and a'. With D = c_planet − c_central, its length a' and direction λ, and the sum (external) or difference
-//! (internal) R of the base radii,
-//!
-//! ```text
-//! cos α' = R/a',  L = a' sin α' = √(a'² − R²)    operating angle, length between tangent points
-//! s₁, s₂ = roll lengths of driver and driven gear, each counted from its own tangent point
-//! external: tangent points at λ − α' and λ + π − α',  δ = s₁ + s₂ − L
-//! internal: tangent points at λ + α' on both gears,   δ = s₁ − s₂ + L
-//! ```
+//! and a' ([`Mesh::displaced`]).
 //!
 //! δ is the approach along the actual line of action (the overlap of all pairs on the path). σ = s₁ − δ/2 is
 //! the driver's roll length after each gear is turned back by half of δ, so that the flanks just touch. a'
@@ -101,6 +93,17 @@ impl Mesh {
     }
 
     /// The mesh with its gears displaced from where their flanks just touch at `phase` (cycles).
+    ///
+    /// `[eq:displaced-mesh]` With D = c_planet − c_central, its length a' and direction λ, the sum (external) or
+    /// difference (internal) R of the base radii, and the roll lengths s₁, s₂ of driver and driven gear, each from
+    /// its own tangent point:
+    /// ```text
+    /// cos α' = R/a',   L = a' sin α' = √(a'² − R²),   σ = s₁ − δ/2;
+    /// external: tangent points at λ − α' and λ + π − α',  δ = s₁ + s₂ − L;
+    /// internal: tangent points at λ + α' on both gears,  δ = s₁ − s₂ + L.
+    /// ```
+    /// Source: derived here.
+    /// Checked by: `gearset/tests/displaced.rs::clearances_are_those_of_displaced_polylines`.
     ///
     /// # Errors
     /// If the base circles leave no operating angle at the displaced centre distance.
@@ -282,10 +285,14 @@ impl DisplacedMesh {
     }
 
     /// Derivatives of δ and s₁ with respect to a' and λ.
+    ///
+    /// `[eq:displaced-mesh-derivatives]` ∂α'/∂a' = R/(a' L), ∂²α'/∂a'² = −R (2a'² − R²)/(a'² L³), in δ = … − R λ + R
+    /// α' − L (external) and δ = … − R (λ + α') + L (internal).
+    /// Source: derived here.
+    /// Checked by: `gearset/tests/displaced.rs::derivatives_are_difference_quotients`.
     fn of_centres(&self) -> [OfCentres; 2] {
         let (radii, reach, a) = (self.radii(), self.reach(), self.center_distance);
         let [r1, _] = self.base_radii;
-        // ∂α'/∂a' = R/(a' L),  ∂²α'/∂a'² = −R (2a'² − R²)/(a'² L³)
         let opening = radii / (a * reach);
         let bending = -radii * (2.0 * a * a - radii * radii) / (a * a * reach.powi(3));
         match self.kind {

@@ -50,7 +50,10 @@ impl Gear {
         TAU / f64::from(self.teeth)
     }
 
-    /// Half the lobe's angle at `radius`: β(r) = β_b − inv α(r).
+    /// `[eq:tooth-thickness]` Half the lobe's angle at `radius`: β(r) = β_b − inv α(r).
+    ///
+    /// Source: closed form.
+    /// Checked by: `gearset/tests/geometry.rs::backlash_given_is_backlash_found`.
     pub fn half_angle(&self, radius: f64) -> f64 {
         self.half_angle_base - inv(pressure_angle_at(self.base_radius, radius))
     }
@@ -77,9 +80,12 @@ impl Gear {
 
     /// Roll length where the fillet, tangent to flank and root circle, leaves the flank.
     ///
-    /// The fillet's centre lies on the base tangent through that point, ρ beyond the flank, and at
-    /// r_f ± ρ from the gear's centre; hence s = √((r_f ± ρ)² − r_b²) ∓ ρ (upper sign external).
-    /// `None` if an external fillet ends on the radial line below the base circle.
+    /// `None` if an external fillet ends on the radial line below the base circle. The fillet's centre lies on the base
+    /// tangent through that point, ρ beyond the flank, and at r_f ± ρ from the gear's centre.
+    ///
+    /// `[eq:form-circle]` s = √((r_f ± ρ)² − r_b²) ∓ ρ for a fillet of radius ρ (upper sign external).
+    /// Source: derived here.
+    /// Checked by: `gearset/tests/geometry.rs::fillets_land_where_a_drawn_circle_touches`.
     pub fn form_roll_length(&self) -> Option<f64> {
         let rho = self.fillet_radius;
         match self.side {
@@ -229,8 +235,11 @@ impl<'g> Flank<'g> {
     /// Gap from the unrelieved flank to a point, measured along the base tangent through the point,
     /// positive on the free side, m. `None` inside the base circle.
     ///
-    /// The point lies on an involute of the same base circle with origin angle θ₀'; along every base tangent
-    /// this involute and the flank are r_b (θ₀' − θ₀) apart.
+    /// `[eq:corner-gap]` g = r_b (θ₀' − θ₀): the point lies on an involute of the same base circle with origin angle
+    /// θ₀', and along every base tangent this involute and the flank are that far apart.
+    /// Source: derived here.
+    /// Checked by: `gearset/tests/rigid_polygons.rs::tip_gaps_are_distances_from_corner_to_polygon`,
+    /// `gearset/tests/geometry.rs::tip_gaps_are_nil_on_the_path_and_a_few_micrometres_just_outside`.
     pub fn gap_to(&self, point: [f64; 2]) -> Option<f64> {
         let [x, y] = [point[0] - self.centre[0], point[1] - self.centre[1]];
         let r = x.hypot(y);

@@ -50,6 +50,10 @@ impl Geometry {
 
     /// Computes gears and meshes from the scene's input.
     ///
+    /// `[eq:base-pitch]` r_b = Z p_b/2π with one base pitch p_b for all gears.
+    /// Source: closed form.
+    /// Checked by: `table1.base_diameter`, `table1.base_pitch`, `table1.gamma.closure`.
+    ///
     /// # Errors
     /// If the base circles leave no operating pressure angle at the centre distance.
     pub fn new(input: &GeometryInput, teeth: &Teeth) -> Result<Self, NoMesh> {
@@ -57,7 +61,6 @@ impl Geometry {
         let make = |gear: &GearInput, teeth: u32, side| Gear {
             teeth,
             side,
-            // 2π r_b = Z p_b
             base_radius: f64::from(teeth) * input.base_pitch / TAU,
             tip_radius: gear.tip_radius,
             root_radius: gear.root_radius,
@@ -108,8 +111,12 @@ impl Geometry {
         Some(self.backlash(kind)? * self.mesh(kind)?.pressure_angle.cos())
     }
 
-    /// Sums of profile shift for zero backlash with a rack of pressure angle `rack_angle` (rad):
-    /// x_s + x_p = (Z_s + Z_p)(inv α_s − inv α₀)/(2 tan α₀), and the internal counterpart.
+    /// `[eq:profile-shift-sums]` Sums of profile shift for zero backlash with a rack of pressure angle
+    /// α₀ = `rack_angle` (rad): x_s + x_p = (Z_s + Z_p)(inv α_s − inv α₀)/(2 tan α₀), x_r − x_p = (Z_r − Z_p)(inv
+    /// α_r − inv α₀)/(2 tan α₀).
+    ///
+    /// Source: closed form.
+    /// Checked by: `gearset/tests/geometry.rs::a_9_dp_rack_of_22_5_degrees_describes_the_same_set`.
     pub fn zero_backlash_shift_sums(&self, rack_angle: f64) -> Option<ProfileShiftSums> {
         let (sp, rp) = (self.sun_planet.as_ref()?, self.ring_planet.as_ref()?);
         let z = |g: &Gear| f64::from(g.teeth);
@@ -125,6 +132,12 @@ impl Geometry {
 }
 
 /// Fills in the half lobe angles on the base circles.
+///
+/// `[eq:backlash]` t_s + t_p + j = p' on the operating pitch circles with the operating circular pitch p', the planet
+/// with its share of p' − j; the ring's space is j wider than the planet's tooth.
+/// Source: definition.
+/// Checked by: `gearset/tests/geometry.rs::backlash_given_is_backlash_found`,
+/// `gearset/tests/rigid_polygons.rs::set_backlash_shows_on_both_flanks_of_every_mesh`.
 fn set_thickness(
     input: &GeometryInput,
     a: f64,
@@ -137,7 +150,6 @@ fn set_thickness(
             if let Some(sun) = sun {
                 let mesh = Mesh::sun_planet(sun, planet, a)?;
                 let r_planet = mesh.pitch_radius(MeshMember::Driven);
-                // t_s + t_p + j = p', the operating circular pitch.
                 let both = r_planet * planet.pitch_angle() - sun_planet;
                 set_arc(planet, r_planet, planet_share * both, mesh.pressure_angle);
                 let r_sun = mesh.pitch_radius(MeshMember::Driver);

@@ -1,6 +1,9 @@
 //! The involute of a circle: closed forms used by every part of the geometry.
 
-/// inv α = tan α − α.
+/// `[eq:involute]` inv α = tan α − α.
+///
+/// Source: closed form.
+/// Checked by: `gearset/src/involute.rs::inv_of_twenty_degrees_is_the_handbook_value`.
 pub fn inv(alpha: f64) -> f64 {
     alpha.tan() - alpha
 }
@@ -13,7 +16,11 @@ pub fn pressure_angle_at(base_radius: f64, radius: f64) -> f64 {
     (roll_length_at(base_radius, radius) / base_radius).atan()
 }
 
-/// Roll length at `radius`, the flank's radius of curvature: s = √(r² − r_b²).
+/// `[eq:roll-length]` Roll length at `radius`, the flank's radius of curvature: s = √(r² − r_b²), where cos
+/// α = r_b/r.
+///
+/// Source: closed form.
+/// Checked by: `gearset/src/involute.rs::roll_length_and_radius_are_inverse`.
 pub fn roll_length_at(base_radius: f64, radius: f64) -> f64 {
     ((radius - base_radius) * (radius + base_radius)).max(0.0).sqrt()
 }

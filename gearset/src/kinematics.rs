@@ -1,14 +1,5 @@
 //! Speeds, mesh frequency and external torques of a simple planetary set in steady motion.
 //!
-//! Willis: seen from the carrier the set is an ordinary gear train, so that with pitch-line speeds
-//! equal in both meshes
-//!
-//! ```text
-//! Z_s (ω_s − ω_c) = −Z_p (ω_p − ω_c)      external mesh, senses opposite
-//! Z_r (ω_r − ω_c) =  Z_p (ω_p − ω_c)      internal mesh, senses equal
-//! Z_s ω_s + Z_r ω_r = (Z_s + Z_r) ω_c     their sum
-//! ```
-//!
 //! Everything is absolute (inertial frame) and counter-clockwise positive unless a name says
 //! otherwise. The relations hold at any pressure angle and profile shift: they use tooth numbers
 //! alone, and Z_r = Z_s + 2 Z_p is not required.
@@ -130,12 +121,27 @@ pub struct Kinematics {
     pub speeds_rad_per_s: MemberSpeeds,
     /// ω_out / ω_in; defined by the teeth alone, also at rest.
     pub speed_ratio: f64,
-    /// f_m = Z_s |ω_s − ω_c| / 2π = Z_r |ω_r − ω_c| / 2π, the same in both meshes, Hz.
+    /// Mesh frequency f_m, the same in both meshes, Hz.
     pub mesh_frequency_hz: f64,
 }
 
 impl Kinematics {
     /// Motion with `fixed` held and `input` turning at `speed_rpm`.
+    ///
+    /// `[eq:willis]` Seen from the carrier the set is an ordinary gear train with equal pitch-line speeds in both
+    /// meshes:
+    /// ```text
+    /// Z_s (ω_s − ω_c) = −Z_p (ω_p − ω_c) of the external mesh,
+    /// Z_r (ω_r − ω_c) = Z_p (ω_p − ω_c) of the internal mesh,
+    /// Z_s ω_s + Z_r ω_r = (Z_s + Z_r) ω_c as their sum.
+    /// ```
+    /// Source: Willis; no edition cited.
+    /// Checked by: `gearset/tests/kinematics.rs::both_mesh_equations_hold_for_every_drive`,
+    /// `gearset/tests/kinematics.rs::a_common_speed_added_to_all_members_changes_no_mesh`.
+    ///
+    /// `[eq:mesh-frequency]` f_m = Z_s |ω_s − ω_c|/2π = Z_r |ω_r − ω_c|/2π.
+    /// Source: definition.
+    /// Checked by: `gearset/tests/kinematics.rs::both_mesh_equations_hold_for_every_drive`, `table1.mesh_frequency`.
     ///
     /// # Errors
     /// [`KinematicsError`] if `input` is `fixed`, the speed is not finite or a gear has no teeth.
@@ -191,13 +197,16 @@ impl Kinematics {
             speeds_rpm,
             speeds_rad_per_s: speeds_rpm.scaled(RAD_PER_S_IN_RPM),
             speed_ratio,
-            // f_m = Z_s |ω_s − ω_c| / 2π, and one rpm is 1/60 turn a second.
+            // One rpm is 1/60 turn a second.
             mesh_frequency_hz: passing.abs() / 60.0,
         })
     }
 
-    /// External torques in equilibrium when the input member gets `input_torque_nm`:
+    /// `[eq:member-torques]` External torques in equilibrium when the input member gets `input_torque_nm`:
     /// T_s : T_r : T_c = Z_s : Z_r : −(Z_s + Z_r).
+    ///
+    /// Source: Willis; no edition cited.
+    /// Checked by: `gearset/tests/kinematics.rs::external_torques_balance_and_lose_no_power`, `sweep.member_torques`.
     ///
     /// They sum to zero, and so does their power. Friction and dynamics are left out.
     pub fn torques_nm(&self, input_torque_nm: f64) -> MemberTorques {

@@ -24,7 +24,7 @@ pub struct Mesh {
     pub path_start: f64,
     /// Driver's roll length where it ends.
     pub path_end: f64,
-    /// ε = (path_end − path_start) / p_b.
+    /// Contact ratio ε.
     pub contact_ratio: f64,
     #[serde(skip)]
     driver: Gear,
@@ -49,7 +49,6 @@ impl Mesh {
     pub fn sun_planet(sun: &Gear, planet: &Gear, a: f64) -> Result<Self, NoMesh> {
         let kind = MeshKind::SunPlanet;
         let least = sun.base_radius + planet.base_radius;
-        // cos α_s = (r_bs + r_bp) / a
         let pressure_angle = operating_angle(kind, least, a)?;
         let reach = a * pressure_angle.sin();
         let (path_start, path_end) = (reach - planet.tip_roll_length(), sun.tip_roll_length());
@@ -60,13 +59,18 @@ impl Mesh {
     pub fn ring_planet(ring: &Gear, planet: &Gear, a: f64) -> Result<Self, NoMesh> {
         let kind = MeshKind::RingPlanet;
         let least = ring.base_radius - planet.base_radius;
-        // cos α_r = (r_br − r_bp) / a
         let pressure_angle = operating_angle(kind, least, a)?;
         let reach = a * pressure_angle.sin();
         let (path_start, path_end) = (ring.tip_roll_length() - reach, planet.tip_roll_length());
         Ok(Self::new(kind, pressure_angle, a, path_start, path_end, planet, ring))
     }
 
+    /// `[eq:contact-ratio]` ε = (path_end − path_start)/p_b, the path of contact between the tip circles over the
+    /// base pitch.
+    ///
+    /// Source: closed form.
+    /// Checked by: `gearset/tests/geometry.rs::operating_angles_and_contact_ratios_of_table_1`,
+    /// `table1.contact_ratio`.
     fn new(
         kind: MeshKind,
         pressure_angle: f64,
@@ -229,6 +233,12 @@ impl Mesh {
     }
 }
 
+/// `[eq:operating-angle]` cos α_s = (r_bs + r_bp)/a of a sun mesh, cos α_r = (r_br − r_bp)/a of a ring mesh; `least`
+/// is the numerator.
+///
+/// Source: closed form.
+/// Checked by: `gearset/tests/geometry.rs::operating_angles_and_contact_ratios_of_table_1`, `table1.pressure_angle`,
+/// `table1.center_distance`.
 fn operating_angle(kind: MeshKind, least: f64, a: f64) -> Result<f64, NoMesh> {
     if !(least > 0.0 && a > least) {
         return Err(NoMesh { kind, least });

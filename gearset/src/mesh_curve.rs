@@ -143,6 +143,11 @@ impl MeshCurve {
     }
 
     /// Force, tangent and the tangent's slope at a deflection (m).
+    ///
+    /// `[eq:mesh-curve]` F = f₀ + s m₀ + s² (3Δ − 2m₀ − m₁) + s³ (m₀ + m₁ − 2Δ) between two nodes, s from 0 to 1,
+    /// Δ = f₁ − f₀, m = h F'.
+    /// Source: definition (cubic Hermite pieces).
+    /// Checked by: `gearset/src/mesh_curve.rs::a_parabola_is_held_exactly_and_the_tangents_are_derivatives`.
     #[inline]
     pub fn at(&self, deflection_m: f64) -> CurvePoint {
         let t = (deflection_m - self.start) * self.per_step;
@@ -156,7 +161,6 @@ impl MeshCurve {
             return self.beyond(t);
         };
         let s = t - i as f64;
-        // F = f₀ + s m₀ + s² (3Δ − 2m₀ − m₁) + s³ (m₀ + m₁ − 2Δ), Δ = f₁ − f₀, m = h F'
         let rise = f1 - f0;
         let d = m0 + m1 - 2.0 * rise;
         let c = rise - m0 - d;

@@ -300,9 +300,12 @@ impl MeshLaw {
     /// The law of a prescribed mesh stiffness: every mesh is a spring whose stiffness depends on the phase
     /// alone. Front flanks that deflect by δ(F̄) under the force F̄ (`force_n`, N) in this law have
     ///
+    /// `[eq:prescribed-stiffness]` Force of the front flanks:
     /// ```text
     /// F = k δ for δ > 0, otherwise 0,   k = F̄/δ(F̄)
     /// ```
+    /// Source: definition.
+    /// Checked by: `gearset/src/mesh_law.rs::prescribed_stiffness_is_the_secant_under_the_given_force`.
     ///
     /// so that each mesh deflects under F̄ as before. Side loads stay; there are no backside flanks.
     ///

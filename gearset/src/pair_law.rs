@@ -1,8 +1,5 @@
 //! The mesh law of one gear pair from a stiffness and a displacement excitation over the mesh cycle, with backlash.
-//!
-//! ```text
-//! F(φ, δ) = k(φ) (δ − e(φ))₊ − k(φ) (−(δ − e(φ)) − j)₊,   (x)₊ = max(x, 0)
-//! ```
+//! ([`pair_law`]).
 //!
 //! With a rounding length s the corner of (x)₊ is the parabola (x + s/2)²/2s for |x| < s/2, so that the force has a
 //! continuous tangent: the derivative of a time step then does not jump when flanks meet, which following a branch of
@@ -10,8 +7,7 @@
 //!
 //! δ: approach along the line of action, m; k: mesh stiffness, N/m; e: displacement excitation (flank deviations;
 //! positive where material is missing), m; j: normal backlash between front and backside flanks, m. The second term
-//! is the force of the backside flanks, at the same k and e. Blankenship and Kahraman's model of a pair has this form
-//! with k and e of one to three harmonics (J. Sound Vib. 185(5), 1995, 743–765).
+//! is the force of the backside flanks, at the same k and e.
 
 use crate::mesh_curve::{CurveError, MeshCurve};
 use crate::mesh_kind::MeshKind;
@@ -68,6 +64,10 @@ const STEP_M: f64 = 1e-6;
 
 /// The law of one mesh with mesh stiffness (N/m) and displacement excitation (m) at each of the evenly spaced steps
 /// of a mesh cycle.
+///
+/// `[eq:pair-law]` F(φ, δ) = k(φ) (δ − e(φ))₊ − k(φ) (−(δ − e(φ)) − j)₊, (x)₊ = max(x, 0).
+/// Source: Blankenship & Kahraman, J. Sound Vib. 185 (1995) 743–765, with k and e of one to three harmonics.
+/// Checked by: `gearset/src/pair_law.rs::forces_are_those_of_the_equation_on_both_flanks_at_every_step`.
 ///
 /// # Errors
 /// [`PairLawError`] if the lists differ in length or are empty, or a number is out of range.

@@ -1,15 +1,7 @@
 //! Mesh phases: where each mesh stands in its cycle, for any sun angle and either loaded flank.
 //!
 //! A phase is counted in cycles and is zero where a pair starts the theoretical path of contact
-//! with the sun driving. Everything is taken in the carrier frame. With the sun's lobe 0 centred at
-//! θ_s, the counter-clockwise flanks loaded (+u_s presses the sun meshes):
-//!
-//! ```text
-//! φ_sn = Z_s (θ_s + β_s + α_s − ψ_n)/2π − s_start/p_b
-//! φ_rn = φ_sn + γ + (Z_s + Z_r) ψ_n/2π
-//! ```
-//!
-//! and with the clockwise flanks loaded, the mirror image: θ_s → −θ_s, ψ_n → −ψ_n.
+//! with the sun driving. Everything is taken in the carrier frame.
 
 use std::f64::consts::{PI, TAU};
 
@@ -65,8 +57,11 @@ impl<'g> Phasing<'g> {
         })
     }
 
-    /// γ measured from pitch point to pitch point, cycles in [0, 1):
+    /// `[eq:gamma-pitch-to-pitch]` γ measured from pitch point to pitch point, cycles in [0, 1):
     /// γ_pp = Z_p/2 + (Z_p/2π)(t_sp/r_sp + t_rp/r_rp)/2.
+    ///
+    /// Source: derived here.
+    /// Checked by: `table1.gamma.closure`.
     pub fn gamma_pitch_to_pitch(&self) -> f64 {
         let z_p = f64::from(self.planet.teeth);
         let half_angle = |mesh: &Mesh, member| self.planet.half_angle(mesh.pitch_radius(member));
@@ -77,8 +72,11 @@ impl<'g> Phasing<'g> {
 
     /// γ = φ_rn − φ_sn, path start to path start, cycles in [0, 1).
     ///
-    /// The pitch points stand r_bs tan α_s − s_start into the sun path and r_bp tan α_r − s_start
-    /// into the ring path; γ differs from γ_pp by the difference of the two.
+    /// `[eq:gamma]` γ = γ_pp + (r_bp tan α_r − r_start)/p_b − (r_bs tan α_s − s_start)/p_b with the places of the
+    /// pitch points on the paths of ring and sun mesh that start at the roll lengths r_start and s_start.
+    /// Source: derived here.
+    /// Checked by: `gearset/tests/rigid_polygons.rs::a_wrong_gamma_or_a_planet_off_its_step_does_not_pass`,
+    /// `table1.gamma.closure`.
     pub fn gamma(&self) -> f64 {
         let into_path = |mesh: &Mesh| {
             let pitch_point = mesh.gear(MeshMember::Driver).base_radius * mesh.pressure_angle.tan();
@@ -90,6 +88,16 @@ impl<'g> Phasing<'g> {
 
     /// Phases with the sun's tooth 0 at `sun_angle` (carrier frame, rad) and the flanks that face
     /// `loaded` on the sun in contact. Positions given in assembly steps enter exactly.
+    ///
+    /// `[eq:mesh-phase]` With the sun's lobe 0 centred at θ_s and the counter-clockwise flanks loaded (+u_s presses
+    /// the sun meshes):
+    /// ```text
+    /// φ_sn = Z_s (θ_s + β_s + α_s − ψ_n)/2π − s_start/p_b,   φ_rn = φ_sn + γ + (Z_s + Z_r) ψ_n/2π;
+    /// with the clockwise flanks loaded the mirror image, θ_s → −θ_s, ψ_n → −ψ_n.
+    /// ```
+    /// Source: derived here.
+    /// Checked by: `gearset/tests/rigid_polygons.rs::phases_follow_their_closed_form_and_start_the_path`,
+    /// `gearset/tests/rigid_polygons.rs::reversed_load_uses_the_other_flanks`.
     pub fn phases(&self, sun_angle: f64, loaded: Facing) -> MeshPhases {
         let sign = loaded.sign();
         let z_s = f64::from(self.sun.teeth);

@@ -7,19 +7,11 @@
 //! of the phase, so the conjugate a_n = e^{i l Z_s ψ_n} is used throughout. A planet whose mesh,
 //! bearing or load differs from the others' breaks the assumption, and with it every rule here.
 //!
-//! The central members feel the sums of the phasors,
-//!
-//! ```text
-//! net torque   |Σ e^{i l Z_s ψ_n}| / N          drives rotational modes
-//! net force ±  |Σ e^{i (l Z_s ± 1) ψ_n}| / N    either of the two drives translational modes
-//! ```
-//!
-//! and what is left of (a_n) once 1, cos ψ_n and sin ψ_n are projected out drives the planets
-//! against one another: planet modes only, none for N ≤ 3. That modes have these pure kinds is a
-//! property of equal planets that stand so that Σ e^{iψ_n} = 0 ([`Spacing::is_balanced`]): equally
-//! spaced, in diametrical pairs, or several such sets on one carrier (Lin & Parker 1999, 2000).
-//! With other spacings the strengths still say what the net forces are, but modes are mixed and
-//! nothing is forbidden.
+//! The central members feel the sums of the phasors ([`excitation`]), and what is left of (a_n) once 1, cos ψ_n and
+//! sin ψ_n are projected out drives the planets against one another: planet modes only, none for N ≤ 3. That modes
+//! have these pure kinds is a property of equal planets that stand so that Σ e^{iψ_n} = 0 ([`Spacing::is_balanced`]):
+//! equally spaced, in diametrical pairs, or several such sets on one carrier (Lin & Parker 1999, 2000). With other
+//! spacings the strengths still say what the net forces are, but modes are mixed and nothing is forbidden.
 //!
 //! Printed rules: Parker, Agashe & Vijayakar (2000), Table 4 (equal spacing) and its counterpart for
 //! diametrical pairs. Both follow from the sums; neither says how strong an allowed excitation is.
@@ -254,15 +246,19 @@ pub struct AllowedKinds {
 
 /// Strengths of harmonic l = `harmonic` of the mesh forces.
 ///
+/// `[eq:phasor-sums]` Net torque |Σ e^{i l Z_s ψ_n}|/N, which drives rotational modes; net forces |Σ e^{i (l Z_s ± 1)
+/// ψ_n}|/N, either of which drives translational modes; planet part ‖a − proj a‖/‖a‖ of a_n = e^{i l Z_s ψ_n},
+/// projected on span{1, cos ψ_n, sin ψ_n}.
+/// Source: derived here; kinds of modes from Lin & Parker (1999, 2000).
+/// Checked by: `gearset/tests/rules.rs`, `rules.table4.all`, `rules.strength`, `sweep.forbidden`.
+///
 /// `teeth` is Z_s. With Z_r instead and positions that can be assembled, the two net forces change
 /// places and everything else is the same.
 pub fn excitation(spacing: &Spacing, teeth: u32, harmonic: u32) -> ExcitationStrengths {
     let order = order(teeth, harmonic);
     ExcitationStrengths {
         harmonic,
-        // |Σ e^{i l Z_s ψ_n}| / N
         net_torque: mean_magnitude(&spacing.phasors(order)),
-        // |Σ e^{i (l Z_s ± 1) ψ_n}| / N
         net_force_plus: mean_magnitude(&spacing.phasors(order + 1)),
         net_force_minus: mean_magnitude(&spacing.phasors(order - 1)),
         planet: planet_part(spacing, order),
@@ -353,14 +349,19 @@ impl Table4 {
     }
 }
 
-/// Table 4 of Parker, Agashe & Vijayakar (2000) for N equally spaced planets, k = l Z_s mod N (the
-/// table prints mod(l Z_s / N)). `None` for N < 2: a single planet always gives both a net torque
-/// and a net force.
+/// `[eq:table-4]` k = l Z_s mod N for N equally spaced planets (the table prints mod(l Z_s / N)): 0 rotational only,
+/// 1 or N − 1 translational only, else neither.
+///
+/// Source: the paper, Table 4.
+/// Checked by: `gearset/tests/rules.rs::equally_spaced_planets_give_table_4_exactly`, `rules.table4`,
+/// `rules.forbidden`.
+///
+/// Table 4 of Parker, Agashe & Vijayakar (2000). `None` for N < 2: a single planet always gives both a net torque and
+/// a net force.
 pub fn table4(planets: u32, sun_teeth: u32, harmonic: u32) -> Option<Table4> {
     if planets < 2 {
         return None;
     }
-    // k = l Z_s mod N
     let k = (u64::from(sun_teeth) * u64::from(harmonic)) % u64::from(planets);
     Some(match k {
         0 => Table4::RotationalOnly,
@@ -381,9 +382,14 @@ pub enum DiametricalRule {
 
 /// The rule for sets of diametrical pairs ([`Spacing::is_diametrical`]), equally spaced or not.
 ///
-/// It follows from e^{i l Z_s (ψ + π)} = (−1)^{l Z_s} e^{i l Z_s ψ} and only forbids: whether and how
-/// strongly the other kind is excited is given by [`excitation`]. Examples with l Z_s even: the net torque of
-/// OH-58 is 0.62 at l = 2 and 0.22 at l = 4; that of four equally spaced planets with l Z_s = 30 is zero.
+/// `[eq:diametrical-rule]` e^{i l Z_s (ψ + π)} = (−1)^{l Z_s} e^{i l Z_s ψ}: an even l Z_s forbids the net force, an
+/// odd one the net torque.
+/// Source: the paper, counterpart of Table 4 for diametrical pairs.
+/// Checked by: `gearset/tests/rules.rs::diametrical_pairs_obey_the_odd_even_rule`, `rules.diametrical`.
+///
+/// The rule only forbids: whether and how strongly the other kind is excited is given by [`excitation`]. Examples
+/// with l Z_s even: the net torque of OH-58 is 0.62 at l = 2 and 0.22 at l = 4; that of four equally spaced planets
+/// with l Z_s = 30 is zero.
 pub fn diametrical_rule(sun_teeth: u32, harmonic: u32) -> DiametricalRule {
     if sun_teeth.is_multiple_of(2) || harmonic.is_multiple_of(2) {
         DiametricalRule::TranslationalForbidden

@@ -16,7 +16,11 @@ pub struct EnergyShare<T> {
     pub share: f64,
 }
 
-/// Kinetic energy of every body: Σ m_i φ_i² over its coordinates (M-normalised, so they sum to one).
+/// `[eq:kinetic-energy-shares]` Kinetic energy of every body: Σ m_i φ_i² over its coordinates (M-normalised, so they
+/// sum to one).
+///
+/// Source: closed form.
+/// Checked by: `lumped/tests/derivatives.rs::energies_add_up_to_one`.
 pub fn kinetic_energy(model: &LumpedModel, group: &ModeGroup) -> Vec<EnergyShare<Body>> {
     let planets = model.psi.len();
     let mut shares: Vec<_> = Body::all(planets).map(|of| EnergyShare { of, share: 0.0 }).collect();
@@ -27,7 +31,11 @@ pub fn kinetic_energy(model: &LumpedModel, group: &ModeGroup) -> Vec<EnergyShare
     shares
 }
 
-/// Strain energy of every spring: k (bᵀφ)²/λ. They sum to one; all zero for rigid-body modes.
+/// `[eq:strain-energy-shares]` Strain energy of every spring: k (bᵀφ)²/λ. They sum to one; all zero for rigid-body
+/// modes.
+///
+/// Source: closed form.
+/// Checked by: `lumped/tests/derivatives.rs::energies_add_up_to_one`.
 pub fn strain_energy(model: &LumpedModel, group: &ModeGroup) -> Vec<EnergyShare<SpringId>> {
     let share = |stretch: f64, stiffness: f64| match group.lambda > 0.0 {
         true => stiffness * stretch / (group.lambda * group.multiplicity as f64),

@@ -1,13 +1,7 @@
 //! Gyroscopic terms: modes in the frame that turns with the carrier, over carrier speed.
 //!
-//! With the terms of each body's translation ([`RotatingFrame`]),
-//!
-//! ```text
-//! M q̈ + Ω G q̇ + (K − Ω² K_Ω) q = 0,   G_xy = −2m, G_yx = +2m, K_Ω = diag(m, m, 0)
-//! ```
-//!
-//! for the central members and, in ζ and η, for the planets. Bearings are isotropic, so that a spring to
-//! ground has the same stiffness matrix in the rotating frame.
+//! The terms are those of each body's translation ([`RotatingFrame`]), of the central members and, in ζ and η, of the
+//! planets. Bearings are isotropic, so that a spring to ground has the same stiffness matrix in the rotating frame.
 //!
 //! The equations are those of bodies without steady centrifugal load. Planets that turn with the carrier load their
 //! bearings by m Ω² r, which turns with the carrier and so resists what K_Ω does to a common rotation: a set that
@@ -94,6 +88,11 @@ pub fn campbell(model: &LumpedModel, speeds: &[f64]) -> Result<Vec<SpeedModes>, 
     speeds.iter().map(|&speed| at_speed(model, &k, &kinds, speed)).collect()
 }
 
+/// `[eq:carrier-frame]` M q̈ + Ω G q̇ + (K − Ω² K_Ω) q = 0, G_xy = −2m, G_yx = +2m, K_Ω = diag(m, m, 0).
+///
+/// Source: derived here.
+/// Checked by: `lumped/tests/derivatives.rs::an_unsupported_set_seen_from_the_carrier_whirls_at_carrier_speed`,
+/// `lumped/tests/derivatives.rs::a_standing_carrier_gives_the_natural_frequencies`.
 fn at_speed(
     model: &LumpedModel,
     k: &DMatrix<f64>,

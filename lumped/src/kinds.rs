@@ -57,6 +57,11 @@ pub(crate) struct Kinds([Vec<Sparse>; 2]);
 
 impl Kinds {
     /// The kinds of a model.
+    ///
+    /// `[eq:mode-kinds]` Rotational: rotations of the central members, all planets alike. Translational: translations
+    /// of the central members, planets as cos ψ_n and sin ψ_n. Planet: what is M-orthogonal to both.
+    /// Source: Lin & Parker (1999; 2000 for unequal spacing).
+    /// Checked by: `structure.spectrum`, `structure.diametrical`, `structure.mirror`.
     pub(crate) fn of(model: &LumpedModel) -> Self {
         let index = |body, axis| model.coordinates.of(body, axis);
         let central = [Body::Carrier, Body::Ring, Body::Sun];

@@ -127,7 +127,12 @@ impl LumpedModel {
         }
     }
 
-    /// K = Σ k b bᵀ, n×n, N/m.
+    /// `[eq:lumped-matrices]` K = Σ k b bᵀ over the rows b of all springs, n×n, N/m; the mass matrix is diagonal, (m,
+    /// m, I/r²) of each body.
+    ///
+    /// Source: Lin & Parker (1999), J. Vib. Acoust. 121, 316–321.
+    /// Checked by: `lumped/tests/hand_matrices.rs::stiffness_matrix_of_one_planet_at_zero`, `lin_parker_1999`,
+    /// `table2.lumped`, `table3.lumped`.
     pub fn stiffness(&self) -> DMatrix<f64> {
         let n = self.coordinates.count();
         let mut matrix = DMatrix::zeros(n, n);

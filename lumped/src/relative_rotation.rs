@@ -2,13 +2,7 @@
 //!
 //! The motion without relative rotation has no stiffness, and balanced torques and a mesh force along the line of
 //! action leave it at rest: m_s u_s = m_p u_p at all times, with m = J/r². What remains of both rotations is one
-//! coordinate w = u_s + u_p, the transmission error along the line of action,
-//!
-//! ```text
-//! u_s = a_s w,  u_p = a_p w,   a_s = m_p/(m_s + m_p),  a_p = m_s/(m_s + m_p),   m_e = m_s m_p/(m_s + m_p)
-//! ```
-//!
-//! m_e = J_s J_p/(J_s r_p² + J_p r_s²).
+//! coordinate, the transmission error along the line of action.
 
 use nalgebra::DMatrix;
 
@@ -19,6 +13,12 @@ use crate::coordinates::{Axis, Body};
 use crate::model::LumpedModel;
 
 /// Rotations of sun and planet as one coordinate, at the sun's place; the planet's place falls away.
+///
+/// `[eq:relative-rotation]` w = u_s + u_p, u_s = a_s w, u_p = a_p w, a_s = m_p/(m_s + m_p), a_p = m_s/(m_s + m_p),
+/// with the effective mass m_e = m_s m_p/(m_s + m_p) = J_s J_p/(J_s r_p² + J_p r_s²).
+/// Source: derived here.
+/// Checked by: `lumped/tests/gear_pair.rs::the_relative_rotation_is_that_of_the_effective_mass`,
+/// `lumped/tests/gear_pair.rs::the_gears_share_the_relative_rotation_by_their_inertias`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RelativeRotation {
     sun: usize,

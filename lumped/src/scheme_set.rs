@@ -1,13 +1,9 @@
 //! The lumped set in time by any scheme of [`dynamics::benchmark_subjects`]: the equations of
 //! [`TimeVarying`](crate::TimeVarying), stepped by average acceleration there, without mesh damping.
 //!
-//! ```text
-//! M q̈ + C q̇ + (K_s + Σ k̄ b bᵀ) q = f − Σ b (P − k̄ δ),   P = F(phase, δ),   δ = bᵀ q
-//! ```
-//!
-//! k̄ is the mean tangent of each mesh over the cycle at rest, so that the forces on the right, which each step is
-//! iterated for, stay small beside those on the left. The law has two steps for each step of the scheme: Bathe's scheme
-//! balances forces in the middle, too.
+//! k̄ of [`SchemeSet`] is the mean tangent of each mesh over the cycle at rest, so that the forces on the right,
+//! which each step is iterated for, stay small beside those on the left. The law has two steps for each step of the
+//! scheme: Bathe's scheme balances forces in the middle, too.
 
 use std::sync::Arc;
 
@@ -26,6 +22,11 @@ use crate::time_varying::{Layout, Parts, TimeVarying};
 pub const LAW_STEPS_A_STEP: usize = 2;
 
 /// A lumped set stepped by a scheme, its mesh forces given by a mesh law.
+///
+/// `[eq:scheme-set]` M q̈ + C q̇ + (K_s + Σ k̄ b bᵀ) q = f − Σ b (P − k̄ δ), P = F(phase, δ), δ = bᵀ q.
+/// Source: derived here.
+/// Checked by: `lumped/tests/scheme_set.rs::average_acceleration_is_that_of_the_program`,
+/// `lumped/tests/scheme_set.rs::every_scheme_converges_to_harmonic_balance_with_its_order`.
 #[derive(Debug)]
 pub struct SchemeSet {
     layout: Layout,

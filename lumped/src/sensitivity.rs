@@ -1,9 +1,7 @@
 //! Sensitivities of natural frequencies to stiffnesses and inertias, in closed form.
 //!
-//! For M-orthonormal modes Φ of a group with eigenvalue λ and multiplicity m, a parameter p moves
-//! the group's eigenvalues at the rates given by the eigenvalues of Φᵀ(∂K/∂p − λ ∂M/∂p)Φ; their
-//! mean is trace/m. A common change of a family (all sun meshes, …) keeps the symmetry that makes the
-//! eigenvalues of the group equal; the mean is then the rate of each.
+//! A common change of a family (all sun meshes, …) keeps the symmetry that makes the eigenvalues of a group equal; the
+//! mean is then the rate of each.
 
 use std::collections::BTreeMap;
 
@@ -56,20 +54,25 @@ impl ModeGroup {
 }
 
 /// Sensitivities of a group to every spring, every inertia and every family of either.
+///
+/// `[eq:sensitivity]` For M-orthonormal modes Φ of a group with eigenvalue λ and multiplicity m, a parameter p moves
+/// the group's eigenvalues at the rates given by the eigenvalues of Φᵀ(∂K/∂p − λ ∂M/∂p)Φ, whose mean is trace/m:
+/// ∂λ/∂k = (bᵀφ)², ∂λ/∂m = −λ φ_i².
+/// Source: closed form.
+/// Checked by: `lumped/tests/derivatives.rs::sensitivities_are_the_differences_they_stand_for`,
+/// `lumped/tests/derivatives.rs::logarithmic_sensitivities_add_up_to_half`.
 pub fn sensitivities(model: &LumpedModel, group: &ModeGroup) -> Vec<Sensitivity> {
     let m = group.multiplicity as f64;
     let mut singles = Vec::new();
     // family → (Σ rates, Σ p × rate)
     let mut families: BTreeMap<(bool, String), (f64, f64)> = BTreeMap::new();
     for spring in &model.springs {
-        // ∂λ/∂k = (bᵀφ)²
         let rate = group.squared_stretch(spring) / m;
         let family = families.entry((false, spring.id.family())).or_default();
         *family = (family.0 + rate, family.1 + spring.stiffness * rate);
         singles.push((Parameter::Stiffness(spring.id), rate, spring.stiffness * rate));
     }
     for (i, &(body, axis)) in model.coordinates.free().iter().enumerate() {
-        // ∂λ/∂m = −λ φ_i²
         let squared: f64 = (0..group.multiplicity).map(|j| group.vectors[(i, j)].powi(2)).sum();
         let rate = -group.lambda * squared / m;
         let what = if axis == Axis::Rotation { "inertia" } else { "mass" };

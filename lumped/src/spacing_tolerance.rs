@@ -3,27 +3,14 @@
 //!
 //! The planets are displaced in angle by ε a_n. Their coordinates are in frames of their own, so that M does not
 //! change; only the rows b of meshes and planet bearings turn, and of these only the entries on translations of central
-//! members. With J the turn by a right angle of these entries,
+//! members. With J the turn by a right angle of these entries, b(ε) = b + ε a_n J b − ….
 //!
-//! ```text
-//! b(ε) = b + ε a_n J b − …,   K' = Σ k a_n (J b bᵀ + b (J b)ᵀ),   K'' = Σ k a_n² (J²b bᵀ + 2 J b (J b)ᵀ + b (J²b)ᵀ)
-//! λ_i(ε) = λ_i + ε φ_iᵀ K' φ_i + ε² (½ φ_iᵀ K'' φ_i + Σ_j (φ_jᵀ K' φ_i)²/(λ_i − λ_j))
-//! φ_i(ε) = φ_i + ε Σ_j (φ_jᵀ K' φ_i)/(λ_i − λ_j) φ_j
-//! ```
+//! φ are the M-orthonormal modes of a group that diagonalise the first of the matrices of first and second order in ε
+//! ([`change`]) that is not a multiple of the identity; j runs over the other groups. With equal spacing φ_jᵀ K' φ_i
+//! has the factor Σ_n a_n e^(imψ_n) with m = 1 between rotational and translational modes, 2 within and between
+//! translational ones: a pattern a_n without that component changes them to second order only.
 //!
-//! φ are the M-orthonormal modes of a group that diagonalise the first of these matrices that is not a multiple of the
-//! identity; j runs over the other groups. With equal spacing φ_jᵀ K' φ_i has the factor Σ_n a_n e^(imψ_n) with m = 1
-//! between rotational and translational modes, 2 within and between translational ones: a pattern a_n without that
-//! component changes them to second order only.
-//!
-//! A kind of modes is a space that follows the planets: patterns cos ψ_n and sin ψ_n turn by ε a_n, too. With T the
-//! basis of the translational kind at equal spacing and T' its change, the part of a mode outside its kind is
-//!
-//! ```text
-//! rotational     ε φ'_⊥                       φ' = Σ_j …, ⊥ outside the kind
-//! translational  ε (φ'_⊥ − T'_⊥ Tᵀφ)
-//! planet         ε (φ'_⊥ + T T'ᵀφ)
-//! ```
+//! A kind of modes is a space that follows the planets: patterns cos ψ_n and sin ψ_n turn by ε a_n, too.
 
 use dynamics::IMPURE;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
@@ -112,7 +99,12 @@ impl LumpedModel {
         Ok(modes.groups.iter().filter(pure).map(of).collect())
     }
 
-    /// K' and K'' by ε, n×n.
+    /// `[eq:displaced-planets-stiffness]` Derivatives of K by ε, n×n: K' = Σ k a_n (J b bᵀ + b (J b)ᵀ), K'' = Σ k
+    /// a_n² (J²b bᵀ + 2 J b (J b)ᵀ + b (J²b)ᵀ).
+    ///
+    /// Source: perturbation theory, derived here.
+    /// Checked by: `lumped/tests/spacing.rs::displaced_planets_are_those_of_a_scene_with_the_planets_there`,
+    /// `lumped/tests/spacing.rs::splits_have_the_order_of_symmetry_and_the_size_of_theory`.
     fn stiffness_by_spacing(&self, pattern: &[f64]) -> [DMatrix<f64>; 2] {
         let n = self.mass.len();
         let (mut first, mut second) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
@@ -224,7 +216,12 @@ impl KindsBySpacing {
         basis * (basis.transpose() * self.weighted(x))
     }
 
-    /// The part of modes φ with changes φ' that leaves their kind, to first order in ε.
+    /// `[eq:displaced-planets-kinds]` The part of modes φ with changes φ' that leaves their kind, to first order in
+    /// ε: rotational ε φ'_⊥, translational ε (φ'_⊥ − T'_⊥ Tᵀφ), planet ε (φ'_⊥ + T T'ᵀφ), with ⊥ outside the kind and
+    /// the basis T of the translational kind, which changes by T'.
+    ///
+    /// Source: perturbation theory, derived here.
+    /// Checked by: `lumped/tests/spacing.rs::modes_turn_mixed_at_the_displacement_of_theory`.
     fn left(&self, mode_type: ModeType, phi: &DMatrix<f64>, change: &DMatrix<f64>) -> DMatrix<f64> {
         let (r, t) = (&self.rotational, &self.translational);
         match mode_type {
@@ -262,6 +259,15 @@ fn pattern_of(model: &LumpedModel, axis: Axis, value: impl Fn(usize) -> f64) -> 
     (found[0], found[1])
 }
 
+/// `[eq:displaced-planets]` What displacing planets by ε a_n changes of the modes of one group:
+/// ```text
+/// λ_i(ε) = λ_i + ε φ_iᵀ K' φ_i + ε² (½ φ_iᵀ K'' φ_i + Σ_j (φ_jᵀ K' φ_i)²/(λ_i − λ_j)),
+/// φ_i(ε) = φ_i + ε Σ_j (φ_jᵀ K' φ_i)/(λ_i − λ_j) φ_j.
+/// ```
+///
+/// Source: perturbation theory, derived here.
+/// Checked by: `lumped/tests/spacing.rs::splits_have_the_order_of_symmetry_and_the_size_of_theory`,
+/// `lumped/tests/spacing.rs::symmetry_says_what_does_not_change`.
 fn change(
     modes: &NaturalModes,
     group: &ModeGroup,

@@ -63,11 +63,15 @@ impl Rows<'_> {
         entries.iter().filter_map(on_free).collect()
     }
 
-    /// Sun mesh of planet n at ψ, operating pressure angle α_s, ψ_sn = ψ_n − α_s:
+    /// `[eq:sun-mesh]` δ_sn = −x_s sin ψ_sn + y_s cos ψ_sn + u_s − ζ_n sin α_s − η_n cos α_s + u_n, sun mesh of
+    /// planet n at ψ with the operating pressure angle α_s and ψ_sn = ψ_n − α_s.
+    ///
+    /// Source: Lin & Parker (1999), J. Vib. Acoust. 121, 316–321.
+    /// Checked by: `lumped/tests/hand_matrices.rs::mesh_deflections_are_what_the_material_points_do`,
+    /// `lin_parker_1999`, `table2.lumped`, `table3.lumped`.
     pub(crate) fn sun_mesh(&self, n: usize, psi: f64, alpha: f64) -> Vec<(usize, f64)> {
         let (sin, cos) = (psi - alpha).sin_cos();
         let planet = Body::Planet(n);
-        // δ_sn = −x_s sin ψ_sn + y_s cos ψ_sn + u_s − ζ_n sin α_s − η_n cos α_s + u_n
         self.row(&[
             (Body::Sun, Axis::First, -sin),
             (Body::Sun, Axis::Second, cos),
@@ -78,11 +82,15 @@ impl Rows<'_> {
         ])
     }
 
-    /// Ring mesh of planet n at ψ, operating pressure angle α_r, ψ_rn = ψ_n + α_r:
+    /// `[eq:ring-mesh]` δ_rn = −x_r sin ψ_rn + y_r cos ψ_rn + u_r + ζ_n sin α_r − η_n cos α_r − u_n, ring mesh of
+    /// planet n at ψ with the operating pressure angle α_r and ψ_rn = ψ_n + α_r.
+    ///
+    /// Source: Lin & Parker (1999), J. Vib. Acoust. 121, 316–321.
+    /// Checked by: `lumped/tests/hand_matrices.rs::mesh_deflections_are_what_the_material_points_do`,
+    /// `lin_parker_1999`, `table2.lumped`, `table3.lumped`.
     pub(crate) fn ring_mesh(&self, n: usize, psi: f64, alpha: f64) -> Vec<(usize, f64)> {
         let (sin, cos) = (psi + alpha).sin_cos();
         let planet = Body::Planet(n);
-        // δ_rn = −x_r sin ψ_rn + y_r cos ψ_rn + u_r + ζ_n sin α_r − η_n cos α_r − u_n
         self.row(&[
             (Body::Ring, Axis::First, -sin),
             (Body::Ring, Axis::Second, cos),
@@ -104,17 +112,20 @@ impl Rows<'_> {
         turned(self.ring_mesh(n, psi, -alpha))
     }
 
-    /// Radial and tangential deflection of planet n's bearing.
+    /// `[eq:planet-bearing]` Deflection of planet n's bearing: radial x_c cos ψ_n + y_c sin ψ_n − ζ_n, tangential
+    /// −x_c sin ψ_n + y_c cos ψ_n + u_c − η_n.
+    ///
+    /// Source: Lin & Parker (1999), J. Vib. Acoust. 121, 316–321.
+    /// Checked by: `lumped/tests/hand_matrices.rs::stiffness_matrix_of_one_planet_at_zero`, `table2.lumped`,
+    /// `table3.lumped`.
     pub(crate) fn planet_bearing(&self, n: usize, psi: f64) -> Vec<Vec<(usize, f64)>> {
         let (sin, cos) = psi.sin_cos();
         let planet = Body::Planet(n);
-        // x_c cos ψ_n + y_c sin ψ_n − ζ_n
         let radial = self.row(&[
             (Body::Carrier, Axis::First, cos),
             (Body::Carrier, Axis::Second, sin),
             (planet, Axis::First, -1.0),
         ]);
-        // −x_c sin ψ_n + y_c cos ψ_n + u_c − η_n
         let tangential = self.row(&[
             (Body::Carrier, Axis::First, -sin),
             (Body::Carrier, Axis::Second, cos),

@@ -1,12 +1,5 @@
-//! The lumped set in time: mesh springs replaced by tables of mesh force over deflection and phase.
-//!
-//! ```text
-//! M q̈ + (α M + β_b K_s) q̇ + K_s q + Σ b P = f,   P = F(phase, δ + s β δ̇),   δ = bᵀ q
-//! ```
-//!
-//! with K_s of supports and bearings, rows b of the meshes as in the eigen model, F from the mesh law and s
-//! the damping share of the mesh. f is the torque on the sun and, if the law has them, the side loads.
-//! Integrated by Newmark's average acceleration, with as many steps per mesh cycle as the law has.
+//! The lumped set in time: mesh springs replaced by tables of mesh force over deflection and phase. Integrated by
+//! Newmark's average acceleration, with as many steps per mesh cycle as the law has.
 //!
 //! Computed with counter-clockwise torque on the sun: for clockwise torque the set is mirrored, and its
 //! displacements are mirrored back.
@@ -48,6 +41,14 @@ impl CouplingForce for MeshLawCouplings {
 }
 
 /// A lumped set in time, its mesh forces given by a mesh law.
+///
+/// `[eq:lumped-in-time]` M q̈ + (α M + β_b K_s) q̇ + K_s q + Σ b P = f, P = F(phase, δ + s β δ̇), δ = bᵀ q, with K_s
+/// of supports and bearings, rows b of the meshes as in the eigen model, F from the mesh law and the damping share s
+/// of the mesh. f is the torque on the sun and, if the law has them, the side loads.
+/// Source: derived here.
+/// Checked by: `lumped/tests/time_varying.rs::static_deflection_is_the_stiffness_matrix_solved`,
+/// `lumped/tests/time_varying.rs::natural_modes_are_those_of_the_eigen_model`,
+/// `lumped/tests/time_varying.rs::damping_of_a_mesh_is_that_of_its_bodies_share`.
 #[derive(Debug, Clone)]
 pub struct TimeVarying {
     layout: Layout,

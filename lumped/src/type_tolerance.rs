@@ -5,7 +5,6 @@
 //!
 //! ```text
 //! φ_i → φ_i − δ Σ_j λ_i e_ij/(λ_i − λ_j) φ_j
-//! lost share = δ² Σ_j (λ e_ij/(λ_i − λ_j))²,   over modes j of other kinds
 //! ```
 //!
 //! to leading order in the mixing of kinds; within its kind, where near frequencies mix most, the mode is that of the
@@ -122,6 +121,11 @@ fn tolerance(
 }
 
 /// Lost share over δ² of the worst mode of a group at δ, the part of it due to one other group, and that group.
+///
+/// `[eq:heavier-planet]` Share of a mode that a planet heavier by a part δ takes out of its kind: δ² Σ_j (λ
+/// e_ij/(λ_i − λ_j))² over modes j of other kinds.
+/// Source: perturbation theory, derived here.
+/// Checked by: `lumped/tests/type_tolerance.rs::modes_turn_mixed_where_perturbation_theory_says`.
 fn lost_rate<'m>(
     model: &LumpedModel,
     modes: &'m NaturalModes,

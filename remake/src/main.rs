@@ -5,6 +5,7 @@ mod assumptions;
 mod attraction;
 mod auto;
 mod effects;
+mod equations;
 mod exact_peaks;
 mod ladder;
 mod loaded_te;
@@ -25,7 +26,7 @@ type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
 type Remake = fn() -> Outcome;
 
 /// Name, what it makes, how.
-const ALL: [(&str, &str, Remake); 14] = [
+const ALL: [(&str, &str, Remake); 15] = [
     (
         "assumptions",
         "docs/assumptions.md from the ledger and the kept verdict",
@@ -42,6 +43,7 @@ const ALL: [(&str, &str, Remake); 14] = [
         "tables of docs/fe_dynamics_effects.md: what changes the tabled frequencies",
         effects::remake,
     ),
+    ("equations", "docs/equations.md from the tags in the code's comments", equations::remake),
     (
         "exact_peaks",
         "kept/exact_peaks.toml: peaks with exact kinematics at every step",

@@ -1,11 +1,4 @@
 //! Bathe's composite scheme: half a step by the trapezoidal rule, half by three-point backward differences.
-//!
-//! ```text
-//! x_m = x₀ + (h/4)(v₀ + v_m),       v_m = v₀ + (h/4)(a₀ + a_m)
-//! v₁ = (x₀ − 4 x_m + 3 x₁)/h,       a₁ = (v₀ − 4 v_m + 3 v₁)/h
-//! ```
-//!
-//! (Bathe 2007; balance and gap ≥ 0 at both instants.)
 
 use nalgebra::DVector;
 
@@ -47,6 +40,15 @@ impl Substep {
     }
 }
 
+/// `[eq:bathe-scheme]` Balance and gap ≥ 0 at both instants:
+/// ```text
+/// x_m = x₀ + (h/4)(v₀ + v_m),   v_m = v₀ + (h/4)(a₀ + a_m),
+/// v₁ = (x₀ − 4 x_m + 3 x₁)/h,   a₁ = (v₀ − 4 v_m + 3 v₁)/h.
+/// ```
+///
+/// Source: Bathe, Comput. Struct. 85 (2007) 437–445.
+/// Checked by: `dynamics/tests/integrators.rs::steps_amplify_as_the_closed_forms_say`,
+/// `dynamics/tests/integrators.rs::schemes_are_of_their_order`.
 #[derive(Debug)]
 pub(super) struct Bathe {
     system: VibratingSystem,

@@ -1,12 +1,5 @@
-//! Central difference, explicit in stiffness: stable up to Δt·ω_max = 2.
-//!
-//! ```text
-//! v_½ = v₀ + ½ h a₀ + h (M + ½ h C)⁻¹ Gᵀ λ,   x₁ = x₀ + h v_½,   0 ≤ λ ⟂ d + G x₁ ≥ 0
-//! (M + ½ h C) a₁ = f − C v_½ − K x₁,          v₁ = v_½ + ½ h a₁
-//! ```
-//!
-//! This is M (x₁ − 2x₀ + x₋₁)/h² + C (x₁ − x₋₁)/2h + K x₀ = f + Gᵀ λ with velocities and accelerations kept
-//! (contact as in Carpenter, Taylor & Katona 1991); v and a are those without the contact force of the instant.
+//! Central difference, explicit in stiffness: M (x₁ − 2x₀ + x₋₁)/h² + C (x₁ − x₋₁)/2h + K x₀ = f + Gᵀ λ with velocities
+//! and accelerations kept; v and a are those without the contact force of the instant.
 
 use nalgebra::DVector;
 
@@ -23,6 +16,15 @@ const NAME: &str = "central difference";
 /// Rounding of Δt·ω_max: a step at the limit itself is not refused for it.
 const ROUNDING: f64 = 1e-12;
 
+/// `[eq:central-difference]` Stable up to Δt·ω_max = 2:
+/// ```text
+/// v_½ = v₀ + ½ h a₀ + h (M + ½ h C)⁻¹ Gᵀ λ,   x₁ = x₀ + h v_½,   0 ≤ λ ⟂ d + G x₁ ≥ 0,
+/// (M + ½ h C) a₁ = f − C v_½ − K x₁,   v₁ = v_½ + ½ h a₁.
+/// ```
+///
+/// Source: closed form; contact as in Carpenter, Taylor & Katona, Int. J. Numer. Meth. Eng. 32 (1991).
+/// Checked by: `dynamics/tests/integrators.rs::central_difference_is_refused_beyond_its_limit_only`,
+/// `dynamics/tests/integrators.rs::schemes_are_of_their_order`.
 #[derive(Debug)]
 pub(super) struct CentralDifference {
     system: VibratingSystem,

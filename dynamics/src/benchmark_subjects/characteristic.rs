@@ -8,9 +8,13 @@ use super::scheme::Scheme;
 
 /// Of m ẍ + 2ξω m ẋ + ω² m x = 0 at ω Δt, from the scheme's characteristic equation.
 ///
-/// One-step rules for ẏ = s y have μ = R(s Δt) with s = ω (−ξ ± i √(1−ξ²)): trapezoidal rule
-/// R = (1 + z/2)/(1 − z/2), θ-method (1 + (1−θ) z)/(1 − θ z), Bathe's scheme (12 + 5z)/(12 − 7z + z²). The
-/// trapezoidal rule is what average acceleration and contact-stabilised Newmark are without contact.
+/// `[eq:amplification]` μ = R(s Δt) of one-step rules for ẏ = s y with s = ω (−ξ ± i √(1−ξ²)): trapezoidal rule
+/// R = (1 + z/2)/(1 − z/2), θ-method (1 + (1−θ) z)/(1 − θ z), Bathe's scheme (12 + 5z)/(12 − 7z + z²).
+/// Source: derived here.
+/// Checked by: `dynamics/tests/integrators.rs::steps_amplify_as_the_closed_forms_say`,
+/// `dynamics/tests/integrators.rs::radii_at_infinite_frequency_are_the_published_ones`.
+///
+/// The trapezoidal rule is what average acceleration and contact-stabilised Newmark are without contact.
 pub fn closed_form(scheme: &Scheme, omega_h: f64, ratio: f64) -> Amplification {
     let one = Complex::new(1.0, 0.0);
     let z = Complex::new(-ratio, (1.0 - ratio * ratio).sqrt()) * omega_h;
@@ -30,18 +34,22 @@ pub fn closed_form(scheme: &Scheme, omega_h: f64, ratio: f64) -> Amplification {
     Amplification::of(&values, omega_h, ratio)
 }
 
-/// (1 + ξΩ) μ² − (2 − Ω²) μ + (1 − ξΩ) = 0.
+/// `[eq:central-difference-amplification]` (1 + ξΩ) μ² − (2 − Ω²) μ + (1 − ξΩ) = 0.
+///
+/// Source: derived here.
+/// Checked by: `dynamics/tests/integrators.rs::steps_amplify_as_the_closed_forms_say`.
 fn explicit(omega_h: f64, ratio: f64) -> Vec<Complex<f64>> {
     let (a, b, c) = (1.0 + ratio * omega_h, 2.0 - omega_h * omega_h, 1.0 - ratio * omega_h);
     let root = Complex::new(b * b - 4.0 * a * c, 0.0).sqrt();
     [root, -root].map(|r| (r + b) / (2.0 * a)).to_vec()
 }
 
-/// With x, v, a going as μ^n the Newmark relations and the balance of Chung & Hulbert (1993) give
-///
+/// `[eq:characteristic-cubic]` With x, v, a going as μ^n the Newmark relations and the balance of Chung & Hulbert give
 /// ```text
 /// ((1−α_m) μ + α_m) (μ−1)² + ((1−α_f) μ + α_f) (2ξΩ (γμ + 1−γ) (μ−1) + Ω² (β μ² + (½+γ−2β) μ + ½−γ+β)) = 0
 /// ```
+/// Source: derived here from Chung & Hulbert (1993).
+/// Checked by: `dynamics/tests/integrators.rs::steps_amplify_as_the_closed_forms_say`.
 fn cubic(weights: &Weights, omega_h: f64, ratio: f64) -> Vec<Complex<f64>> {
     let Weights { alpha_m, alpha_f, beta, gamma } = *weights;
     // Coefficients from the constant upwards.

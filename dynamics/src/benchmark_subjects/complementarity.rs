@@ -1,6 +1,6 @@
 //! 0 ≤ λ ⟂ W λ + q ≥ 0 for a symmetric positive definite W, by principal pivoting with the least index.
 //!
-//! Murty, Opsearch 11 (1974) 123–130: for such W no set of active obstacles comes twice, so that the pivoting ends.
+//! For such W no set of active obstacles comes twice, so that the pivoting ends.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -9,7 +9,10 @@ use super::error::IntegratorError;
 /// Most pivots of a problem; 2^m is the theoretical bound.
 const MOST_PIVOTS: usize = 10_000;
 
-/// λ (m) for W (m×m) and q (m).
+/// `[eq:least-index-pivoting]` 0 ≤ λ ⟂ W λ + q ≥ 0 for λ (m), W (m×m) and q (m) by least-index principal pivoting.
+///
+/// Source: Murty, Opsearch 11 (1974) 123–130.
+/// Checked by: `dynamics/src/benchmark_subjects/complementarity.rs::the_solution_is_the_only_one_of_all_sets`.
 ///
 /// # Errors
 /// If W is not positive definite on a set of active obstacles, or the pivoting does not end.

@@ -1,13 +1,6 @@
 //! Newmark's method with implicit contact forces and a predictor that is projected onto what obstacles allow.
 //!
-//! ```text
-//! y* = argmin ½ ‖y − (x₀ + h v₀)‖²_M  with  d + G y ≥ 0
-//! M (x₁ − y*) = (h²/2) (f − C (x₁ − x₀)/h − K (x₀ + x₁)/2 + Gᵀ λ),   0 ≤ λ ⟂ d + G x₁ ≥ 0
-//! v₁ = v₀ + (2/h) (x₁ − y*)
-//! ```
-//!
-//! (Deuflhard, Krause & Ertel 2008.) Without obstacles it is the trapezoidal rule; with them the energy
-//! never grows.
+//! Without obstacles it is the trapezoidal rule; with them the energy never grows.
 
 use nalgebra::DVector;
 
@@ -20,6 +13,16 @@ use super::system::VibratingSystem;
 
 const NAME: &str = "contact-stabilised Newmark";
 
+/// `[eq:contact-stabilised-newmark]` Projected predictor y*, implicit contact force:
+/// ```text
+/// y* = argmin ½ ‖y − (x₀ + h v₀)‖²_M with d + G y ≥ 0,
+/// M (x₁ − y*) = (h²/2) (f − C (x₁ − x₀)/h − K (x₀ + x₁)/2 + Gᵀ λ),   0 ≤ λ ⟂ d + G x₁ ≥ 0,
+/// v₁ = v₀ + (2/h) (x₁ − y*).
+/// ```
+///
+/// Source: Deuflhard, Krause & Ertel, Int. J. Numer. Meth. Eng. 73 (2008) 1274–1290.
+/// Checked by: `dynamics/tests/integrators.rs::contact_changes_the_energy_by_what_theory_says`,
+/// `dynamics/tests/bouncing_bar.rs::dissipative_contact_never_gains`.
 #[derive(Debug)]
 pub(super) struct ContactStabilised {
     system: VibratingSystem,

@@ -1,9 +1,8 @@
 //! Steps under forces that depend on displacements: the force at the end of a step and its displacements are iterated
 //! until they agree.
 //!
-//! The forces f(t, x) stand beside the linear part of a system. A step maps forces to displacements with the tangent
-//! (h²/4) S⁻¹, S the matrix of the step, so that the iteration contracts if the system's stiffness K bounds their
-//! derivative, |φᵀ ∂f φ| ≤ φᵀ K φ: forces of springs between nothing and twice a mean stiffness that K contains.
+//! The forces f(t, x) stand beside the linear part of a system. The iteration contracts for forces of springs between
+//! nothing and twice a mean stiffness that the system's stiffness K contains ([`driven_step`]).
 
 use nalgebra::DVector;
 
@@ -28,6 +27,12 @@ const MOST: usize = 400;
 
 /// One step under the forces `force` (n, N) at the displacements (n, m) there, which are `at_start` at the start and on
 /// return those at the end; returns the number of solutions.
+///
+/// `[eq:driven-step]` x ← x(f(x)), whose tangent is (h²/4) S⁻¹ ∂f with the matrix S of the step: contracts if |φᵀ ∂f
+/// φ| ≤ φᵀ K φ.
+/// Source: derived here.
+/// Checked by: `lumped/tests/scheme_set.rs::average_acceleration_is_that_of_the_program`,
+/// `lumped/tests/scheme_set.rs::every_scheme_converges_to_harmonic_balance_with_its_order`.
 ///
 /// # Errors
 /// If the step fails or the iteration does not settle.

@@ -1,12 +1,4 @@
 //! The generalised-α family: average acceleration, HHT-α and Chung & Hulbert's scheme.
-//!
-//! ```text
-//! M a_(1−α_m) + C v_(1−α_f) + K x_(1−α_f) = f + Gᵀ λ_(1−α_f),   y_(1−α) = (1−α) y₁ + α y₀
-//! x₁ = x₀ + h v₀ + h² ((½−β) a₀ + β a₁),   v₁ = v₀ + h ((1−γ) a₀ + γ a₁)
-//! 0 ≤ λ₁ ⟂ d + G x₁ ≥ 0
-//! ```
-//!
-//! (Chung & Hulbert 1993.) Average acceleration: α_m = α_f = 0, γ = ½, β = ¼.
 
 use nalgebra::DVector;
 
@@ -51,6 +43,17 @@ impl Weights {
     }
 }
 
+/// `[eq:generalised-alpha]` Average acceleration (α_m = α_f = 0, γ = ½, β = ¼), HHT-α and Chung & Hulbert's scheme:
+/// ```text
+/// M a_(1−α_m) + C v_(1−α_f) + K x_(1−α_f) = f + Gᵀ λ_(1−α_f),   y_(1−α) = (1−α) y₁ + α y₀,
+/// x₁ = x₀ + h v₀ + h² ((½−β) a₀ + β a₁),   v₁ = v₀ + h ((1−γ) a₀ + γ a₁),
+/// 0 ≤ λ₁ ⟂ d + G x₁ ≥ 0.
+/// ```
+///
+/// Source: Chung & Hulbert, J. Appl. Mech. 60 (1993) 371–375; Hilber, Hughes & Taylor, Earthq. Eng. Struct. Dyn. 5
+/// (1977) 283–292.
+/// Checked by: `dynamics/tests/integrators.rs::steps_amplify_as_the_closed_forms_say`,
+/// `dynamics/tests/integrators.rs::schemes_are_of_their_order`.
 #[derive(Debug)]
 pub(super) struct GeneralizedAlpha {
     name: &'static str,

@@ -18,7 +18,11 @@
 //!
 //! Their spectral radius, period error and numerical damping are measured from these very steps
 //! ([`amplification`]) and known in closed form ([`closed_form`]). Energy is not a matter of the spectral radius where
-//! contacts open and close: the average acceleration gains ½ (g₁ λ₀ − g₀ λ₁) in a step, whatever its step.
+//! contacts open and close.
+//!
+//! `[eq:contact-energy-gain]` Average acceleration gains ½ (g₁ λ₀ − g₀ λ₁) in a step with contact, whatever its step.
+//! Source: derived here from the trapezoidal rule and complementarity.
+//! Checked by: `dynamics/tests/integrators.rs::contact_changes_the_energy_by_what_theory_says`.
 
 mod amplification;
 mod bathe;

@@ -1,11 +1,4 @@
 //! Moreau–Jean time stepping: the θ-method with impulses on velocities and Newton's impact law.
-//!
-//! ```text
-//! M (v₁ − v₀) + h C v_θ + h K x_θ = h f + Gᵀ p,   x₁ = x₀ + h v_θ,   y_θ = (1−θ) y₀ + θ y₁
-//! 0 ≤ p ⟂ G v₁ + e G v₀ ≥ 0   where d + G (x₀ + ½ h v₀) ≤ 0,   else p = 0
-//! ```
-//!
-//! (Acary 2016.) Without damping the energy changes by ½ (1 − e) (G v₀)ᵀ p ≤ 0 in a step for θ = ½.
 
 use nalgebra::DVector;
 
@@ -18,6 +11,16 @@ use super::system::VibratingSystem;
 
 const NAME: &str = "Moreau–Jean";
 
+/// `[eq:moreau-jean]` Impulses with Newton's impact law; without damping the energy changes by ½ (1 − e) (G v₀)ᵀ
+/// p ≤ 0 in a step for θ = ½:
+/// ```text
+/// M (v₁ − v₀) + h C v_θ + h K x_θ = h f + Gᵀ p,   x₁ = x₀ + h v_θ,   y_θ = (1−θ) y₀ + θ y₁,
+/// 0 ≤ p ⟂ G v₁ + e G v₀ ≥ 0 where d + G (x₀ + ½ h v₀) ≤ 0, else p = 0.
+/// ```
+///
+/// Source: Acary, Z. Angew. Math. Mech. 96 (2016) 585–603.
+/// Checked by: `dynamics/tests/integrators.rs::contact_changes_the_energy_by_what_theory_says`,
+/// `dynamics/tests/bouncing_bar.rs`.
 #[derive(Debug)]
 pub(super) struct MoreauJean {
     system: VibratingSystem,

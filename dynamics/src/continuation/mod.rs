@@ -1,15 +1,10 @@
 //! Branches of solutions of F(y, λ) = 0 by pseudo-arclength continuation.
 //!
 //! In scaled variables u = (y/s, λ/s_λ) a point is predicted along the unit tangent t of the last one and corrected
-//! by Newton's method in the hyperplane across it (Keller, in: *Applications of Bifurcation Theory*, 1977, 359–384):
-//!
-//! ```text
-//! u* = u + h t,   F(u) = 0,   tᵀ(u − u*) = 0;   next tangent: [∂F/∂u; tᵀ] t' = (0, 1)
-//! ```
-//!
-//! so that folds, where λ turns back, are points like any other. The step h follows the iterations needed and the
-//! turn between tangents. A fold is where the λ-component of the tangent changes sign, any other bifurcation where a
-//! test function of the family does; both are located along the arc by a bracketed secant iteration.
+//! by Newton's method in the hyperplane across it, so that folds, where λ turns back, are points like any other. The
+//! step h follows the iterations needed and the turn between tangents. A fold is where the λ-component of the tangent
+//! changes sign, any other bifurcation where a test function of the family does; both are located along the arc by a
+//! bracketed secant iteration.
 //!
 //! Equations with kinks are followed too: where the branch turns by less than a right angle as anywhere else, where it
 //! turns back along the tangent of the piece beyond (`kink.rs`).

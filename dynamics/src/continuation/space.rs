@@ -96,9 +96,11 @@ impl<'a, F: Family> Space<'a, F> {
 
     /// Sign of det [∂F/∂u; tᵀ] at u, 0 if it cannot be told.
     ///
-    /// Along a branch of piecewise smooth equations it stays the same, through folds and wherever the branch crosses a
-    /// kink at which only one of the smooth pieces changes (Eaves & Scarf, Math. Oper. Res. 1 (1976) 1–27); at a simple
-    /// branch point it changes.
+    /// `[eq:branch-orientation]` Along a branch of piecewise smooth equations the sign of det [∂F/∂u; tᵀ] stays the
+    /// same, through folds and wherever the branch crosses a kink at which only one of the smooth pieces changes; at
+    /// a simple branch point it changes.
+    /// Source: Eaves & Scarf, Math. Oper. Res. 1 (1976) 1–27.
+    /// Checked by: `dynamics/tests/continuation.rs::a_branch_goes_on_beyond_a_kink_at_which_it_turns_back`.
     pub(super) fn orientation(
         &mut self,
         u: &[f64],
@@ -185,6 +187,14 @@ impl<'a, F: Family> Space<'a, F> {
 
     /// Newton's method from u in the hyperplane across `border`; the tangent is that of the last matrix but one
     /// correction, which at the tolerance of the correction is that of the solution.
+    ///
+    /// `[eq:pseudo-arclength]` From the prediction u₀ = u + h t:
+    /// ```text
+    /// F(u) = 0,   tᵀ(u − u₀) = 0;   next tangent: [∂F/∂u; tᵀ] t' = (0, 1).
+    /// ```
+    /// Source: Keller, in: Applications of Bifurcation Theory (1977), 359–384.
+    /// Checked by: `dynamics/tests/continuation.rs::a_circle_closes_and_has_two_folds`,
+    /// `dynamics/tests/oscillators/branches.rs::both_folds_of_duffing_s_first_harmonic_are_the_closed_form`.
     pub(super) fn correct(
         &mut self,
         start: &[f64],

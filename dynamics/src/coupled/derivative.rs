@@ -1,11 +1,5 @@
 //! The derivative of the steps of a coupled system with respect to displacements and velocities of its modes at
 //! the start of a period.
-//!
-//! ```text
-//! x₁' = A⁻¹ (a*' + C v*') − A⁻¹ Rᵀ D z',   (I + g Y D) z' = g R A⁻¹ (a*' + C v*') − τ R v*',   g = 1 + 2τ/h
-//! ```
-//!
-//! with D the tangents of the couplings that act in the step, at the displacements found for its end.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -188,6 +182,15 @@ impl<L: CouplingForce> Coupled<L> {
         self.carry_to(d, self.present(), &mut Vec::new());
     }
 
+    /// `[eq:coupled-step-derivative]` With the tangents D of the couplings that act in the step, at the displacements
+    /// found for its end:
+    /// ```text
+    /// x₁' = A⁻¹ (a*' + C v*') − A⁻¹ Rᵀ D z',   (I + g Y D) z' = g R A⁻¹ (a*' + C v*') − τ R v*',   g = 1 + 2τ/h.
+    /// ```
+    ///
+    /// Source: derived here.
+    /// Checked by: `dynamics/tests/periodic.rs::the_derivative_is_that_of_the_map`,
+    /// `dynamics/tests/periodic.rs::multipliers_of_a_linear_system_are_those_of_the_rule`.
     fn carry_to<T: Number>(
         &self,
         d: &mut CoupledDerivative<T>,

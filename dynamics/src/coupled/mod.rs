@@ -1,21 +1,11 @@
 //! A linear system with a few scalar nonlinear couplings, in time.
 //!
-//! ```text
-//! M ẍ + C ẋ + K x + Σ_m r_m P_m = f,   δ_m = r_mᵀ x − o_m,   P_m = F_m(step, δ_m + τ_m δ̇_m)
-//! ```
-//!
-//! with forces F_m that do not fall with deflection; that of a one-sided coupling is zero up to first
+//! The forces F_m of [`Coupled`] do not fall with deflection; that of a one-sided coupling is zero up to first
 //! contact. To first order in the lag τ_m the force is F + τ F' δ̇: damping in proportion to the coupling's
 //! stiffness. It ends with contact, makes no force tensile, and dissipates energy since F does not fall.
 //!
-//! With Newmark's average acceleration a step is linear except for the couplings, so that with
-//! A = (4/h²) M + (2/h) C + K
-//!
-//! ```text
-//! δ = b − Y P(δ),   b_m = r_mᵀ A⁻¹ (history) − o_m,   Y = R A⁻¹ Rᵀ
-//! ```
-//!
-//! is all that is solved iteratively. Y is constant. In the modes of (K, M) A is diagonal if C is
+//! With Newmark's average acceleration a step is linear except for the couplings, so that only the deflections are
+//! solved for iteratively (`newton.rs`). Y is constant. In the modes of (K, M) A is diagonal if C is
 //! proportional, so that a step costs little more than the evaluation of the forces F_m.
 
 mod condensed;

@@ -32,6 +32,11 @@ pub(super) type Left = (usize, usize, f64);
 
 /// Solves for the coupling forces from the estimate in `forces`, which receives the solution; returns the
 /// number of iterations.
+///
+/// `[eq:coupled-step]` δ = b − Y P(δ), b_m = r_mᵀ A⁻¹ (history) − o_m, Y = R A⁻¹ Rᵀ, A = (4/h²) M + (2/h) C + K.
+/// Source: derived here.
+/// Checked by: `dynamics/tests/coupled.rs::a_coupling_of_constant_stiffness_is_a_spring`,
+/// `dynamics/tests/coupled.rs::unsymmetric_damping_is_solved_in_full`.
 #[inline]
 pub(super) fn solve<const W: usize, L: CouplingForce>(
     group: &Condensed,

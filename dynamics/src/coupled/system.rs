@@ -15,6 +15,12 @@ const ROUNDING: f64 = 1e-11;
 
 /// A linear system with couplings, stepped by Newmark's average acceleration.
 ///
+/// `[eq:coupled-system]` M ẍ + C ẋ + K x + Σ_m r_m P_m = f, δ_m = r_mᵀ x − o_m, P_m = F_m(step, δ_m + τ_m δ̇_m).
+/// Source: derived here.
+/// Checked by: `dynamics/tests/coupled.rs::the_linear_limit_is_the_closed_form_at_second_order`,
+/// `dynamics/tests/coupled.rs::a_bouncing_mass_follows_the_piecewise_solution`,
+/// `dynamics/tests/coupled.rs::energy_is_kept_to_second_order_and_a_lag_takes_it`.
+///
 /// Couplings come in two groups: those that usually act, and those that rarely do (backside flanks, stops).
 /// Of the latter only deflections are computed until one touches. The law numbers all couplings
 /// consecutively, the usual ones first.

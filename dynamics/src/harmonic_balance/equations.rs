@@ -14,6 +14,16 @@ const SINGULAR: f64 = 1e14;
 
 /// The equations of harmonic balance at one frequency with a fixed number of harmonics H.
 ///
+/// `[eq:harmonic-balance]` x = Re Σ X_l exp(i l θ), l = 0 … H, θ = ω t:
+/// ```text
+/// Z_l = K − (lω)² M + i lω C,   Δ_l = R Z_l⁻¹ (f_l − Rᵀ P_l)   (l ≥ 1),   K X_0 + Rᵀ P_0 = f_0.
+/// ```
+/// Source: Cameron & Griffin, J. Appl. Mech. 56 (1989) 149–154; Krack & Gross, Harmonic Balance for Nonlinear
+/// Vibration Problems, Springer (2019), ch. 2–3.
+/// Checked by: `dynamics/tests/oscillators/harmonic_balance.rs::a_linear_oscillator_is_the_closed_form`,
+/// `dynamics/tests/oscillators/harmonic_balance.rs::tangents_are_those_of_finite_differences`,
+/// `lumped/tests/balanced.rs`, `experiments/tests/balanced_law.rs`.
+///
 /// Unknowns y, all in m: the means of the n coordinates, then by harmonic l = 1 … H and coupling m the
 /// coefficients a, b of δ_m's a cos lθ + b sin lθ. Residuals: the balance of mean forces on the n coordinates (N),
 /// then the deflections' equations in the order of the unknowns (m).

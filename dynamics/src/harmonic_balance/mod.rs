@@ -1,24 +1,11 @@
 //! Periodic motions of a linear system with couplings by harmonic balance, without a time step.
 //!
-//! For the system of [`Coupled`](crate::Coupled),
-//!
-//! ```text
-//! M ẍ + C ẋ + K x + Rᵀ P = f(θ),   δ = R x − o,   P_m = F_m(θ, z_m),   z_m = δ_m + τ_m δ̇_m,   θ = ω t,
-//! ```
-//!
-//! motions of the period of the cycle are Fourier series, x = Re Σ X_l exp(i l θ), l = 0 … H. The linear part is
-//! condensed exactly, harmonic by harmonic:
-//!
-//! ```text
-//! Z_l = K − (lω)² M + i lω C,   Δ_l = R Z_l⁻¹ (f_l − Rᵀ P_l)   (l ≥ 1),   K X_0 + Rᵀ P_0 = f_0
-//! ```
-//!
-//! so that the coordinates' means and the deflections' harmonics are all that is solved for. The means stay as
-//! coordinates since K alone may be singular where only couplings hold the system. The forces' coefficients P_l
-//! are found by evaluating F at the S steps of the cycle and transforming back (alternating frequency/time:
-//! Cameron & Griffin, J. Appl. Mech. 56 (1989) 149–154), and their derivative from the transform of ∂F/∂z
-//! along the cycle, which is exact for the sampled equations (Krack & Gross, *Harmonic Balance for Nonlinear
-//! Vibration Problems*, Springer 2019, ch. 2–3).
+//! Of the system of [`Coupled`](crate::Coupled), motions of the period of the cycle are Fourier series. The linear
+//! part is condensed exactly, harmonic by harmonic ([`BalanceEquations`]), so that the coordinates' means and the
+//! deflections' harmonics are all that is solved for. The means stay as coordinates since K alone may be singular
+//! where only couplings hold the system. The forces' coefficients P_l are found by evaluating F at the S steps of the
+//! cycle and transforming back (alternating frequency/time), and their derivative from the transform of ∂F/∂z along
+//! the cycle, which is exact for the sampled equations.
 //!
 //! **Samples.** The law is known at the S steps of its cycle and at no others, so these are the samples. At least
 //! 4H + 1 are required: then no product of up to three harmonics is folded onto a harmonic that is kept. Forces

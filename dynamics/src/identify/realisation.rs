@@ -39,6 +39,12 @@ pub(super) struct RawPole {
 
 impl Realisation {
     /// Up to `highest` states.
+    ///
+    /// `[eq:eigensystem-realisation]` H = U S Vᵀ, A = S^−½ Uᵀ H' V S^−½, B = S^−½ Uᵀ [y(0); y(1); …], the first rows
+    /// of U S^½ are C.
+    /// Source: Juang & Pappa, J. Guidance 8 (1985); with correlations Juang, Cooper & Wright (1988).
+    /// Checked by: `dynamics/tests/identify.rs::close_and_repeated_modes_come_out_to_rounding_without_noise`,
+    /// `fe.modal.routes`.
     pub(super) fn new(
         matrices: &Compressed,
         outputs: usize,
@@ -46,7 +52,6 @@ impl Realisation {
     ) -> Result<Self, IdentifyError> {
         let Compressed { now, next, first } = matrices;
         let size = now.nrows().min(now.ncols());
-        // H = U S Vᵀ
         let svd = Svd::new_thin(now.as_ref()).map_err(|_| IdentifyError::NoConvergence { size })?;
         let (u, v, s) = (svd.U(), svd.V(), svd.S().column_vector());
         let largest = s[0];
@@ -62,10 +67,8 @@ impl Realisation {
         let residual = (off.norm_max() / largest).max(gram.norm_max());
         check_residual("singular vectors", residual)?;
         let root: Vec<f64> = (0..n).map(|k| s[k].sqrt()).collect();
-        // A = S^-½ Uᵀ H' V S^-½
         let middle = u.transpose() * (next * v);
         let a = Mat::from_fn(n, n, |i, j| middle[(i, j)] / (root[i] * root[j]));
-        // B = S^-½ Uᵀ [y(0); y(1); …]
         let start = u.transpose() * first;
         let b = Mat::from_fn(n, first.ncols(), |i, j| start[(i, j)] / root[i]);
         let observability = Mat::from_fn(u.nrows(), n, |i, j| u[(i, j)] * root[j]);
@@ -128,8 +131,11 @@ fn check_residual(of: &'static str, residual: f64) -> Result<(), IdentifyError> 
     }
 }
 
-/// Modal amplitude coherence on the outputs: |ā·o|² / (|a|²|o|²) of the rows o the realisation
-/// observes and the rows a = φ λ^i they should be (Juang & Pappa 1985, on the side of outputs).
+/// `[eq:modal-amplitude-coherence]` Modal amplitude coherence on the outputs: |ā·o|² / (|a|²|o|²) of the rows o the
+/// realisation observes and the rows a = φ λ^i they should be.
+///
+/// Source: Juang & Pappa (1985), on the side of outputs.
+/// Checked by: `dynamics/src/identify/realisation.rs::coherence_sees_rows_that_are_no_powers`.
 fn coherence(rows: &[c64], multiplier: c64, outputs: usize) -> f64 {
     let (mut product, mut ideal, mut found) = (c64::new(0.0, 0.0), 0.0, 0.0);
     let mut power = c64::new(1.0, 0.0);

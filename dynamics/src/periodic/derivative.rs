@@ -81,7 +81,11 @@ impl MapDerivative {
 }
 
 impl Correction {
-    /// Δy with (I − DΦ) Δy = r for r = Φ(y) − y, all n coordinates.
+    /// `[eq:shooting]` Δy with (I − DΦ) Δy = r for r = Φ(y) − y, all n coordinates.
+    ///
+    /// Source: derived here.
+    /// Checked by: `experiments/tests/shooting/derivative.rs::the_derivative_is_that_of_the_cycle`,
+    /// `experiments/tests/shooting/agreement.rs`, `dynamics/tests/periodic.rs::shooting_lands_where_marching_does`.
     pub fn of(&self, residual: &[f64]) -> Vec<f64> {
         let MapDerivative { active, scales, .. } = &self.derivative;
         let scaled = active.iter().map(|a| residual[*a] / scales[*a]);

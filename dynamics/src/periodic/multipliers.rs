@@ -122,6 +122,11 @@ pub fn floquet_vector(
 /// All multipliers that are not zero to rounding, by descending size; both of each conjugate pair, and each as
 /// often as its multiplicity.
 ///
+/// `[eq:floquet-multipliers]` det(DΦ − μ I) = 0; the product of all μ is that of the steps' determinants.
+/// Source: theorem (their product is Liouville's).
+/// Checked by: `dynamics/tests/periodic.rs::the_product_of_multipliers_is_that_of_the_steps_determinants`,
+/// `dynamics/tests/mathieu.rs::multipliers_leave_the_unit_circle_at_the_borders`.
+///
 /// # Errors
 /// If an entry is not finite or the iteration does not converge.
 pub fn multipliers(derivative: &MapDerivative) -> Result<Vec<Multiplier>, EigenError> {

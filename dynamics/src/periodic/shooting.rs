@@ -84,6 +84,12 @@ pub enum ShootingError<E> {
 
 /// Finds the periodic solution near the present state of a motion.
 ///
+/// `[eq:rough-derivatives]` Corrections by a derivative D' near D leave (I − D)⁻¹ (D' − D) of an error: single
+/// precision suffices for them.
+/// Source: Kelley, SIAM Review 64 (2022).
+/// Checked by: `experiments/tests/shooting/derivative.rs::the_rough_derivative_leaves_little_of_an_error`,
+/// `dynamics/tests/periodic.rs::corrections_by_rough_derivatives_lead_to_the_solution`.
+///
 /// # Errors
 /// If the map fails, its derivative is not finite, or the corrections do not approach a solution. The motion
 /// then stands at the start of some period.

@@ -1,23 +1,13 @@
 //! An elastic bar that falls on rigid ground and bounces: a contact problem with waves that has a closed-form solution.
 //!
 //! A bar of length L, density ρ, modulus E (per unit of cross-section), wave speed c = √(E/ρ), falls under gravity g
-//! with its lower end at height v₀²/2g. With τ = 2L/c, the time of a wave there and back, and u(z, t) measured from the
-//! unstrained bar on the ground, the wave equation ü = c² u'' − g gives for a bar that lands unstrained
+//! with its lower end at height v₀²/2g. τ = 2L/c is the time of a wave there and back. In landing 1 the lower end,
+//! seen from the falling frame, sends d'(s) = v₀ + g s up the bar; the free end returns it; at s = τ the ground would
+//! have to pull and lets go; what is left is a saw-tooth wave of velocity g (r − τ/2), which lands in phase after a
+//! flight of k whole periods and which landing 2 takes out. The solution holds for v₀ > g τ and whole k = 2v₀/(gτ).
+//! The total energy is constant.
 //!
-//! ```text
-//! landing 1,   0 ≤ s < τ:     lower end 0,  force (E/c) (v₀ + g s)
-//! flight 1,    0 ≤ s < kτ:    lower end v₀ s − ½ g s² + g r (r − τ),  r = s mod τ
-//! landing 2,   0 ≤ s < τ:     lower end 0,  force (E/c) (v₀ + g (τ − s))
-//! flight 2,    0 ≤ s < kτ:    lower end v₀ s − ½ g s²,  no strain
-//! ```
-//!
-//! and then the same again. In landing 1 the lower end, seen from the falling frame, sends d'(s) = v₀ + g s up the bar;
-//! the free end returns it; at s = τ the ground would have to pull and lets go; what is left is a saw-tooth wave of
-//! velocity g (r − τ/2), which lands in phase after a flight of k whole periods and which landing 2 takes out. The
-//! solution holds for v₀ > g τ and whole k = 2v₀/(gτ). The total energy is constant.
-//!
-//! The problem with L = 10, E = 900, ρ = 1, g = 10, v₀ = 10 (k = 3) is the bouncing bar of Doyen, Ern & Piperno, SIAM
-//! J. Sci. Comput. 33 (2011) 223–249; the solution above is derived here.
+//! The problem with L = 10, E = 900, ρ = 1, g = 10, v₀ = 10 (k = 3) is the bouncing bar of Doyen, Ern & Piperno (2011).
 
 use nalgebra::DMatrix;
 
@@ -83,6 +73,18 @@ impl BouncingBar {
     }
 
     /// Height of the lower end at a time after the release from rest, m.
+    ///
+    /// `[eq:bouncing-bar]` Of ü = c² u'' − g for a bar that lands unstrained, u(z, t) measured from the unstrained
+    /// bar on the ground:
+    /// ```text
+    /// landing 1, 0 ≤ s < τ: lower end 0, force (E/c) (v₀ + g s);
+    /// flight 1, 0 ≤ s < kτ: lower end v₀ s − ½ g s² + g r (r − τ), r = s mod τ;
+    /// landing 2, 0 ≤ s < τ: lower end 0, force (E/c) (v₀ + g (τ − s));
+    /// flight 2, 0 ≤ s < kτ: lower end v₀ s − ½ g s², no strain; then the same again.
+    /// ```
+    /// Source: problem: Doyen, Ern & Piperno, SIAM J. Sci. Comput. 33 (2011) 223–249; solution derived here.
+    /// Checked by: `dynamics/src/stability/bouncing_bar.rs::the_closed_form_keeps_momentum_and_complementarity`,
+    /// `dynamics/tests/bouncing_bar.rs::the_lower_end_converges_to_the_closed_form`.
     pub fn lower_end(&self, time: f64) -> f64 {
         let (g, v, tau) = (self.gravity, self.landing_speed, self.wave_period());
         let since = time - v / g;

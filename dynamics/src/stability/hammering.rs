@@ -1,12 +1,7 @@
 //! A gear pair that hammers under a light torque: one mass on a tooth spring without mass, thrown off and pressed back.
 //!
 //! A mass m is pressed by a constant force f towards a flank that it touches through the spring k of the teeth; apart
-//! from the flank nothing acts but f. With ω = √(k/m), δ = f/k and x towards the flank, 0 where it is just touched,
-//!
-//! ```text
-//! contact, 0 ≤ s < T_c:   x = δ (1 − cos ωs) + (v/ω) sin ωs,      T_c = (2/ω) (π − arctan(v/(ωδ)))
-//! flight,  0 ≤ s < T_f:   x = −v s + ½ (f/m) s²,                   T_f = 2 v m/f
-//! ```
+//! from the flank nothing acts but f ([`HammeringPair::place`]).
 //!
 //! The motion repeats after T_c + T_f for ever, and the energy ½ m v² is constant. Unlike the bouncing bar this problem
 //! has the inertia of gears: none at the flank, all of it behind the compliance of the teeth.
@@ -55,6 +50,15 @@ impl HammeringPair {
     }
 
     /// x/δ at a time (times ω) after the top of a flight.
+    ///
+    /// `[eq:hammering-pair]` With ω = √(k/m), δ = f/k and x towards the flank, 0 where it is just touched:
+    /// ```text
+    /// contact, 0 ≤ s < T_c: x = δ (1 − cos ωs) + (v/ω) sin ωs,   T_c = (2/ω) (π − arctan(v/(ωδ)));
+    /// flight, 0 ≤ s < T_f: x = −v s + ½ (f/m) s²,   T_f = 2 v m/f.
+    /// ```
+    /// Source: derived here.
+    /// Checked by: `dynamics/src/stability/hammering.rs::the_closed_form_obeys_newtons_law`,
+    /// `dynamics/tests/bouncing_bar.rs::average_acceleration_keeps_the_energy_of_a_pair_that_hammers`.
     pub fn place(&self, time: f64) -> f64 {
         let v = self.landing_speed;
         let s = (time - 0.5 * self.flight()).rem_euclid(self.bounce());

@@ -1,10 +1,8 @@
 //! The linearised FE/contact set with a rigid carrier against the lumped model with parameters from it.
 //!
-//! As long as every loaded pair is on the theoretical path, both models press along the same line of action:
-//! n = (sin α, cos α) in the mesh frame of a sun mesh, (sin α, −cos α) in that of a ring mesh, with lever
-//! arms of exactly r_b. A mesh then has the one stiffness 1ᵀS1, and the two models must agree to rounding. A
-//! pair in corner contact presses along the normal of the flank it touches: its approach is not the mesh's δ,
-//! and motions with δ = 0 change it as well.
+//! As long as every loaded pair is on the theoretical path, both models press along the same line of action. A mesh
+//! then has the one stiffness 1ᵀS1, and the two models must agree to rounding. A pair in corner contact presses along
+//! the normal of the flank it touches: its approach is not the mesh's δ, and motions with δ = 0 change it as well.
 
 use fe_contact::statics::{Bodies, PLANETS, RING, Races, SUN};
 use fe_contact::vibration::LinearSet;
@@ -39,6 +37,12 @@ const MESH_RULED_HZ: std::ops::RangeInclusive<f64> = 5e3..=15e3;
 const SAME_ROW: f64 = 1e-9;
 
 /// Compares the two models at one position and preload, with a rigid carrier.
+///
+/// `[eq:agreement-on-the-path]` n = (sin α, cos α) in the mesh frame of a sun mesh, (sin α, −cos α) in that of a ring
+/// mesh, with lever arms of r_b, is the row of every pair on the path in both models.
+/// Source: derived here.
+/// Checked by: `lumped_from_fe.line_of_action`,
+/// `validation/tests/lumped_from_fe.rs::where_all_pairs_press_along_the_line_of_action_the_models_are_one`.
 ///
 /// # Errors
 /// If the set has no equilibrium there or an eigenproblem fails.

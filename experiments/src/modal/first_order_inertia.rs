@@ -12,9 +12,13 @@ pub(crate) const SLOW: f64 = 0.5;
 /// What the inertia of elastic displacements and the flexibility between meshes, which quasi-static bodies lack,
 /// change of the frequencies of a set to first order, relative; by mode, in the order of `modes`.
 ///
+/// `[eq:first-order-inertia]` Changed frequency of a mode:
 /// ```text
 /// (f'/f)² = (1 + δλ/λ of the flexibility)/(1 + δm)
 /// ```
+/// Source: derived in `docs/fe_dynamics.md`.
+/// Checked by:
+/// `experiments/tests/elastic_inertia.rs::first_order_changes_have_sign_and_size_of_those_by_twelve_modes`.
 ///
 /// `None` for a mode near or above the first eigenvalue λ_1 of a body with its race held, and for all modes if the
 /// teeth of a gear are not meshed alike. Derived in `docs/fe_dynamics.md`.

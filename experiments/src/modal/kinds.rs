@@ -67,8 +67,11 @@ impl MotionKinds {
         Self { bases: [rotational, translational], root }
     }
 
-    /// Shares of rotational, translational and planet motion in the directions of a group of modes,
-    /// given by their race displacements (real vectors spanning the group).
+    /// `[eq:kinds-by-kinetic-energy]` Shares of rotational, translational and planet motion in the directions of a
+    /// group of modes, given by their race displacements (real vectors spanning the group).
+    ///
+    /// Source: as in the lumped model (`eq:mode-kinds`).
+    /// Checked by: `table2.fe_contact.types`, `table3.fe_contact.types`.
     pub(super) fn shares(&self, shapes: &[Vec<f64>]) -> Result<Vec<[f64; 3]>, EigenError> {
         let scaled: Vec<Vec<f64>> = shapes
             .iter()

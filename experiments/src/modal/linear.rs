@@ -105,8 +105,11 @@ pub struct MeshInfluence {
     pub all_meshes: f64,
 }
 
-/// ∂ln f/∂ln k_mesh = φᵀ Rᵀ S R φ / 2λ of every mode of a linearised set, in the order of its
+/// `[eq:mesh-influence]` ∂ln f/∂ln k_mesh = φᵀ Rᵀ S R φ / 2λ of every mode of a linearised set, in the order of its
 /// frequencies.
+///
+/// Source: closed form.
+/// Checked by: no check of its own.
 ///
 /// # Errors
 /// If the eigenproblem fails.

@@ -1,8 +1,6 @@
 //! The lumped model with parameters from finite elements: same equations, parameters from the meshes.
 //!
-//! Masses and polar inertias are those of the meshed bodies, mesh stiffnesses are the tangent stiffnesses
-//! 1ᵀS1 over the pairs of each mesh at one frozen position and preload, lines of action are those of the
-//! loaded set, bearings are the scene's. The linearised FE/contact set differs from this model by effects
+//! Bearings are the scene's. The linearised FE/contact set differs from this model by effects
 //! that a lumped model does not have: flexibility of the carrier, corner contacts that press along another
 //! normal than the line of action, slopes of the deformed flanks, and mesh forces that turn with their lines
 //! of action.
@@ -19,6 +17,13 @@ use crate::natural_mode::NaturalMode;
 
 /// The scene with lumped parameters from its meshed bodies at a position and preload; for clockwise torque it
 /// is the mirrored set.
+///
+/// `[eq:lumped-from-fe]` k = 1ᵀS1 over the pairs of a mesh at one frozen position and preload; masses and inertias of
+/// the meshed bodies, lines of action of the loaded set.
+/// Source: derived here.
+/// Checked by:
+/// `validation/tests/lumped_from_fe.rs::where_all_pairs_press_along_the_line_of_action_the_models_are_one`,
+/// `lumped_from_fe.line_of_action`, `lumped_from_fe.rigid_carrier`.
 ///
 /// # Errors
 /// If the set has no equilibrium there, or backside flanks press, which the lumped model does not have.

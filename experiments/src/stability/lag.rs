@@ -1,14 +1,6 @@
 //! The lag of flexibility without inertia behind its load, by rule of integration.
 //!
-//! Damped flexibility without mass follows β P̃' + P̃ = P. One step of length h = zβ multiplies what is left of a
-//! deviation by
-//!
-//! ```text
-//! exact e^(−z),   trapezoidal rule (1 − z/2)/(1 + z/2)
-//! ```
-//!
-//! which is below 0 for z > 2 and tends to −1: forces ring from step to step for as long as there are steps. Under a
-//! sine of ω the lagged force is 1/(1 + iωβ) of it.
+//! Damped flexibility without mass follows `eq:lag`. Under a sine of ω the lagged force is 1/(1 + iωβ) of it.
 
 use std::f64::consts::TAU;
 
@@ -68,6 +60,12 @@ impl Rule {
     }
 
     /// What is left of a jump in the step that ends `k` after it, of the jump.
+    ///
+    /// `[eq:ringing-lag]` One step of length h = zβ multiplies what is left of a deviation exactly by e^(−z), by the
+    /// trapezoidal rule (1 − z/2)/(1 + z/2), which is below 0 for z > 2 and tends to −1: forces ring from step to
+    /// step for as long as there are steps.
+    /// Source: derived here.
+    /// Checked by: `tests/all/stability_command.rs::the_lag_of_the_program_does_not_ring`.
     fn left_of_jump(self, z: f64) -> Result<Vec<f64>, ExperimentError> {
         let forces: Vec<f64> = (0..STEPS).map(|k| if k < 3 { 1.0 } else { 0.0 }).collect();
         Ok(self.lagged(z, &forces)?.split_off(3))

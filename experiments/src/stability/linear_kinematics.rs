@@ -1,15 +1,10 @@
 //! How far a set may be wound up by its load before kinematics linear about the unloaded, and about the mean loaded
 //! configuration are wrong.
 //!
-//! F is the force of a mesh, k_b the stiffness of a planet bearing. A planet gives way by η along the circle of the
-//! centres, its lines of centres turn by ψ, and the path is w farther on than in the unloaded set, in base pitches p_b:
-//!
-//! ```text
-//! η = F (cos α_s + cos α_r)/k_b,   ψ = η/a,   w = Z_r ψ/2π + (δ_s/2 + δ_r)/p_b,   δ = F/k of either mesh
-//! ```
+//! F is the force of a mesh, k_b the stiffness of a planet bearing, w the windup ([`Theory::windup`]).
 //!
 //! 1. A windup common to all meshes is a shift of time. What is linear about the unloaded configuration counts
-//!    positions without it: amplitudes stay, harmonic l is off by |1 − e^(2πi l w)| = 2 |sin πlw|.
+//!    positions without it: amplitudes stay, harmonics come late ([`SHIFTED`]).
 //! 2. It leaves the ends of the path where they were, and gaps of corners near them are off by up to ½ G'' (w p_b)².
 //!    Harmonics are off by the order of that over δ.
 //! 3. It presses along lines that do not turn, α_s − ψ and α_r + ψ, and has no stiffness Σ F ∂²δ of forces that turn
@@ -180,7 +175,12 @@ impl<'g> Theory<'g> {
         Some(Self { geometry, force, turned, approach })
     }
 
-    /// w = Z_r ψ/2π + (δ_s/2 + δ_r)/p_b
+    /// `[eq:windup]` w = Z_r ψ/2π + (δ_s/2 + δ_r)/p_b, ψ = η/a, η = F (cos α_s + cos α_r)/k_b, δ = F/k of either
+    /// mesh: a planet gives way by η along the circle of the centres, its lines of centres turn by ψ, and the path is
+    /// w base pitches p_b farther on than in the unloaded set.
+    ///
+    /// Source: derived here.
+    /// Checked by: `tests/all/stability_command.rs::kinematics_about_the_unloaded_set_are_off_as_theory_says`.
     fn windup(&self) -> Option<f64> {
         let [sun, ring] = self.approach?;
         let teeth = f64::from(self.geometry.ring.as_ref()?.teeth);
@@ -282,11 +282,14 @@ struct Quantity {
 const AT_REST: &str = "log₁₀ of the error of harmonics at rest";
 
 /// With the shift of time, which kinematics about the loaded configuration do not have.
+///
+/// `[eq:shift-of-time]` Harmonic l is off by |1 − e^(2πi l w)| = 2 |sin πlw|.
+/// Source: derived here.
+/// Checked by: `tests/all/stability_command.rs::kinematics_about_the_unloaded_set_are_off_as_theory_says`.
 const SHIFTED: Quantity = Quantity {
     panel: AT_REST,
     name: "largest harmonic of the sun's rotation, with its phase",
     measured: |own, _| own.shifted,
-    // |1 − e^(2πi l w)|
     theory: |l| Some(2.0 * (PI * l.found.strongest as f64 * l.found.windup).sin().abs()),
 };
 

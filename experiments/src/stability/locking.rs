@@ -1,14 +1,9 @@
 //! Locking of quadrilaterals in bending: the energy of one element that is bent, by family.
 //!
 //! A rectangle of 2a × 2b whose nodes follow pure bending by the curvature κ, u = κxy, v = −κ (x² + ν y²)/2 (plane
-//! stress), has the exact energy ½ κ² E t (4ab) b²/3. Bilinear functions make of it u = κxy, v = const: a shear κx that
-//! pure bending does not have, and no contraction across,
-//!
-//! ```text
-//! energy over exact = 1/(1 − ν²) + (a/b)²/(2(1 + ν))
-//! ```
-//!
-//! without bound as elements get longer. Incompatible modes and eight nodes contain the exact field: 1.
+//! stress), has the exact energy ½ κ² E t (4ab) b²/3. Bilinear functions make of it u = κxy, v = const: a shear κx
+//! that pure bending does not have, and no contraction across. The energy over the exact one ([`locked`]) has no bound
+//! as elements get longer. Incompatible modes and eight nodes contain the exact field: 1.
 
 use fe_contact::element::{Shape, matrices};
 use fe_contact::{Elastic, FeError};
@@ -60,7 +55,11 @@ fn map() -> Result<StabilityMap, MapError> {
     Ok(map)
 }
 
-/// 1/(1 − ν²) + (a/b)²/(2(1 + ν))
+/// `[eq:locking]` Energy of a bent bilinear element over the exact one: 1/(1 − ν²) + (a/b)²/(2(1 + ν)).
+///
+/// Source: derived here.
+/// Checked by: `tests/all/stability_command.rs::borders_that_have_a_closed_form_are_those_of_theory`,
+/// `tests/all/stability_command.rs::a_square_bilinear_element_is_as_stiff_as_the_warning_says`.
 fn locked(ratio: f64) -> f64 {
     let nu = STEEL.poisson;
     1.0 / (1.0 - nu * nu) + ratio * ratio / (2.0 * (1.0 + nu))

@@ -1,15 +1,7 @@
 //! Too few steps in a mesh cycle: resonances off their place, harmonics taken for one another, and phasing that no
 //! longer cancels.
 //!
-//! Average acceleration turns a mode's frequency ω into (2/h) atan(ωh/2). With S steps in a cycle of any length
-//! harmonic l has 2πl/S a step, so that it meets the mode at y/tan y of ω, y = πl/S. A mesh stiffness that switches
-//! between two values, sampled S times, has the harmonic
-//!
-//! ```text
-//! ŵ_l^S = Σ_k ŵ_(l+kS) = ŵ_l (πl/S)/sin(πl/S)
-//! ```
-//!
-//! if it switches at steps. Of two such meshes half a cycle apart the odd harmonics cancel; sampled, only if S is even.
+//! Of two meshes half a cycle apart the odd harmonics cancel; sampled, only if S is even.
 
 use std::f64::consts::{PI, TAU};
 
@@ -84,6 +76,11 @@ fn map() -> Result<StabilityMap, MapError> {
 
 /// By how much the step lowers the speed at which a harmonic meets a mode, as a part: the mode is found whose computed
 /// motion advances by 2πl/S a step.
+///
+/// `[eq:resonance-of-steps]` Average acceleration turns a mode's frequency ω into (2/h) atan(ωh/2). With S steps in a
+/// cycle of any length harmonic l has 2πl/S a step, so that it meets the mode at y/tan y of ω, y = πl/S.
+/// Source: derived here.
+/// Checked by: `tests/all/stability_command.rs::borders_that_have_a_closed_form_are_those_of_theory`.
 fn place(share: f64) -> Result<f64, MapError> {
     let wanted = TAU * share;
     let off = |step: f64| -> Result<f64, MapError> {
@@ -101,7 +98,11 @@ fn wave(phase: f64) -> MeshWave {
     MeshWave { contact_ratio: CONTACT_RATIO, phase: phase + 0.5 / f64::from(STEPS) }
 }
 
-/// Harmonic l of S samples.
+/// `[eq:sampled-harmonic]` ŵ_l^S = Σ_k ŵ_(l+kS) = ŵ_l (πl/S)/sin(πl/S): harmonic l of S samples of a mesh stiffness
+/// that switches between two values, at steps.
+///
+/// Source: derived here.
+/// Checked by: `tests/all/stability_command.rs::borders_that_have_a_closed_form_are_those_of_theory`.
 fn samples(steps: u32, l: u32, at: impl Fn(f64) -> f64) -> c64 {
     let one = |i: u32| {
         let t = f64::from(i) / f64::from(steps);

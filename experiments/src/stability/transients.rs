@@ -1,13 +1,8 @@
 //! Marches that end before their transient has died out, and pose as steady states.
 //!
-//! Near a periodic motion each part of a deviation is multiplied by its Floquet multiplier μ in every cycle. If cycles
-//! change by c, what is left of the deviation afterwards is at most
-//!
-//! ```text
-//! |d| = c max |μ|/|μ − 1|
-//! ```
-//!
-//! at a resonance, where μ ≈ e^(−2πζl) is real, about 1/(2πζl) times the change.
+//! Near a periodic motion each part of a deviation is multiplied by its Floquet multiplier μ in every cycle. If
+//! cycles change by c, what is left of the deviation afterwards is at most c times `eq:transient-left`: at a
+//! resonance, where μ ≈ e^(−2πζl) is real, about 1/(2πζl) times the change.
 
 use fe_contact::statics::Bodies;
 use scene::{LoadCase, Scene};

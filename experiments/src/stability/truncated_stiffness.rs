@@ -1,14 +1,8 @@
 //! A prescribed mesh stiffness of which only some harmonics are kept.
 //!
-//! k = k̄ (1 + ε w) with the rectangular wave w of one mesh, high while one more pair carries. Cut off after harmonic H
-//! it is k̄ (1 + ε w_H), and what a constant force deflects has the harmonics of
-//!
-//! ```text
-//! 1/(1 + ε w_H) = 1 − ε w_H + ε² w_H² − …
-//! ```
-//!
-//! Harmonic l of it is all but missing for l > H: to first order in ε nothing is left, to second order ε |(w_H²)_l/ŵ_l|
-//! of it. Near the hand-over w_H overshoots by 8.95 % of the jump however many harmonics are kept (Gibbs).
+//! k = k̄ (1 + ε w) with the rectangular wave w of one mesh, high while one more pair carries. Cut off after harmonic
+//! H it is k̄ (1 + ε w_H). Near the hand-over w_H overshoots by 8.95 % of the jump however many harmonics are kept
+//! (Gibbs).
 
 use std::f64::consts::TAU;
 
@@ -79,6 +73,12 @@ fn cut_off(kept: u32, time: f64) -> f64 {
 }
 
 /// Harmonic l of the deflection with the stiffness cut off, less the exact one, over the exact one.
+///
+/// `[eq:truncated-stiffness]` 1/(1 + ε w_H) = 1 − ε w_H + ε² w_H² − …: harmonic l of what a constant force deflects
+/// is all but missing for l > H; to first order in ε nothing is left, to second order ε |(w_H²)_l/ŵ_l| of it.
+/// Source: derived here.
+/// Checked by: `tests/all/stability_command.rs::borders_that_have_a_closed_form_are_those_of_theory`,
+/// `experiments/src/stability/truncated_stiffness.rs::the_overshoot_is_that_of_the_sine_integral`.
 fn error(l: u32, kept: u32, epsilon: f64) -> f64 {
     // 1/(1 + ε w) takes two values, so that it is linear in w: its harmonics are those of w times the slope.
     let (high, low) = (2.0 * (1.0 - WAVE.high_part()), -2.0 * WAVE.high_part());

@@ -210,8 +210,11 @@ impl Record {
         self.samples.iter().skip(channel).step_by(self.width()).copied().collect()
     }
 
-    /// Largest change from an earlier record of the same length, relative to the largest peak-to-peak value
-    /// of all bodies: the larger of the ratios of translations and of rotations.
+    /// `[eq:steady-state]` Largest change from an earlier record of the same length, relative to the largest
+    /// peak-to-peak value of all bodies: the larger of the ratios of translations and of rotations.
+    ///
+    /// Source: definition.
+    /// Checked by: `sweep.unsteady`, `sweep.between`.
     pub fn change_from(&self, before: &Record) -> f64 {
         if before.len() != self.len() {
             return f64::INFINITY;
@@ -272,8 +275,12 @@ impl Record {
         (0..self.shape().meshes()).filter_map(margin).min_by(f64::total_cmp)
     }
 
-    /// Complex amplitudes of the harmonics 0 to `harmonics` of one channel, from a record of `cycles` mesh
-    /// cycles: x(t) ≈ Re Σ X_l e^{i 2π l f_m t}, as real and imaginary parts.
+    /// `[eq:harmonics-of-a-record]` Complex amplitudes of the harmonics 0 to `harmonics` of one channel, from a
+    /// record of `cycles` mesh cycles: x(t) ≈ Re Σ X_l e^{i 2π l f_m t}, as real and imaginary parts.
+    ///
+    /// Source: definition.
+    /// Checked by: `sweep.static_limit`,
+    /// `dynamics/src/spectrum.rs::a_sine_of_whole_periods_gives_its_amplitude_and_phase`.
     ///
     /// # Errors
     /// If the record is too short or not finite.

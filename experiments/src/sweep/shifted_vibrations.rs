@@ -1,13 +1,7 @@
 //! What the inertia of the bodies behind the teeth, which quasi-static bodies lack, may change of a steady state.
 //!
 //! The inertia of elastic displacements moves a natural frequency ω of the set by c, in closed form
-//! ([`AnalyticSet::inertia_change`]), and its vibration answers a force at Ω = 2π l f_m with
-//!
-//! ```text
-//! |ω² + δ² − Ω² + 2iδΩ| / |(1 + c)² ω² + δ² − Ω² + 2iδΩ|
-//! ```
-//!
-//! of its amplitude. Near the first mode of a body with its race held nothing is known of it.
+//! ([`AnalyticSet::inertia_change`]). Near the first mode of a body with its race held nothing is known of it.
 
 use std::f64::consts::TAU;
 
@@ -62,6 +56,11 @@ impl ShiftedVibrations {
     /// The most that inertia may change of a strong motion of the sun in any harmonic up to `highest`, by a vibration
     /// of the kind that moves it, each with the decay rate of the one of the set that is nearest in frequency; `None`
     /// up to 5 %.
+    ///
+    /// `[eq:shifted-vibration]` A vibration of the decay rate δ answers a force at Ω = 2π l f_m with
+    /// |ω² + δ² − Ω² + 2iδΩ| / |(1 + c)² ω² + δ² − Ω² + 2iδΩ| of its amplitude.
+    /// Source: derived here (one degree of freedom).
+    /// Checked by: `experiments/tests/inertia_guard.rs`.
     pub(super) fn error(
         &self,
         state: &SteadyState,

@@ -161,8 +161,11 @@ impl Steady {
     }
 }
 
-/// What is left of a transient over the last change from cycle to cycle, at most: max |μ|/|μ − 1| over the Floquet
-/// multipliers μ; infinite without decay.
+/// `[eq:transient-left]` What is left of a transient over the last change from cycle to cycle, at most: max
+/// |μ|/|μ − 1| over the Floquet multipliers μ; infinite without decay.
+///
+/// Source: derived here.
+/// Checked by: `tests/all/stability_command.rs::an_unfinished_transient_is_as_large_as_multipliers_say`.
 pub fn left_of_transient(multipliers: &[Multiplier]) -> f64 {
     let left = |m: &Multiplier| m.size() / (m.re - 1.0).hypot(m.im);
     multipliers.iter().map(left).fold(0.0, f64::max)

@@ -52,6 +52,13 @@ impl CarrierBody {
 
     /// Meshes and solves the carrier for planets at ψ (rad).
     ///
+    /// `[eq:carrier-flexibility]` u = U + θ × (p − c) for the nodes p of a rigid seat about its centre c;
+    /// A = displacements of all seats under unit forces on them, with the bore held.
+    /// Source: derived here.
+    /// Checked by: `fe_contact/tests/fidelity.rs::a_ring_on_springs_and_a_rigid_carrier`,
+    /// `fe_contact/tests/fidelity.rs::full_bodies_turn_as_quasi_static_ones`,
+    /// `validation/tests/closed_forms.rs::closed_forms_hold_on_shipped_sets`.
+    ///
     /// # Errors
     /// If an element is distorted or the stiffness is not positive definite.
     pub fn new(
@@ -80,7 +87,6 @@ impl CarrierBody {
                 }
                 Hold::Seat(n) => {
                     let (first, c) = (seat_unknown[n], mesh.seats[n]);
-                    // u = U + θ × (p − c)
                     [
                         vec![(first, 1.0), (first + 2, c[1] - p[1])],
                         vec![(first + 1, 1.0), (first + 2, p[0] - c[0])],

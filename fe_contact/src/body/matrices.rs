@@ -9,12 +9,12 @@ use crate::material::Elastic;
 /// Stiffness and consistent mass of a body, the race's rigid motion split off.
 ///
 /// The displacement of a point is the race's (x, y, θ) carried along rigidly, plus what the n
-/// degrees of freedom u add, which vanish on the race:
+/// degrees of freedom u add, which vanish on the race.
 ///
-/// ```text
-/// [M_rr  M_rf] [q̈]   [0  0 ] [q]
-/// [M_fr  M_ff] [ü] + [0  K ] [u] = loads
-/// ```
+/// `[eq:body-matrices]` M_rr q̈ + M_rf ü = race loads, M_fr q̈ + M_ff ü + K u = loads.
+/// Source: definition.
+/// Checked by: `fe_contact/tests/statics.rs::a_ring_of_material_weighs_what_it_should`, `fe.bodies.mass`,
+/// `fe.bodies.inertia`.
 #[derive(Debug, Clone)]
 pub struct BodyMatrices {
     /// K, n×n, N/m.

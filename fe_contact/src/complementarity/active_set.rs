@@ -19,8 +19,13 @@ const SOUND: f64 = 1e-9;
 /// three block exchanges without a new minimum it exchanges one cell at a time by Murty's
 /// least-index rule, which ends for every positive definite compliance. If a block is singular, or
 /// rounding keeps the method from ending, [`Lemke`] is used. Without a guess it starts from the
-/// cells with negative gaps. Júdice & Pires, *Computers & Operations Research* 21 (1994) 587–596;
-/// Murty, *Opsearch* 11 (1974) 123–130.
+/// cells with negative gaps.
+///
+/// `[eq:block-principal-pivoting]` C_AA p_A = −g_A on the cells A in contact; all cells with p < 0 or w < 0 change
+/// sides until there are none.
+/// Source: Júdice & Pires, Comput. Oper. Res. 21 (1994) 587–596; Murty, Opsearch 11 (1974) 123–130.
+/// Checked by: `fe_contact/tests/complementarity.rs::the_solvers_agree_on_random_and_degenerate_problems`,
+/// `fe_contact/tests/complementarity.rs::a_problem_solved_by_hand_comes_out`, `fe.convergence.solvers`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct ActiveSet;
 

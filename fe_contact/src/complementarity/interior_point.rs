@@ -19,13 +19,16 @@ const RIDGE: f64 = 1e-12;
 /// Largest KKT residual that needs no second attempt.
 const SOUND: f64 = 1e-9;
 
-/// Solves min ½ pᵀ C p + gᵀ p, p ≥ 0, whose conditions of optimality are the complementarity
+/// `[eq:interior-point]` Solves min ½ pᵀ C p + gᵀ p, p ≥ 0, whose conditions of optimality are the complementarity
 /// problem, by the interior-point method of Clarabel.
+///
+/// Source: Goulart & Chen, Clarabel (2024); Cottle, Pang & Stone (1992), ch. 1.
+/// Checked by: `fe_contact/tests/complementarity.rs::the_solvers_agree_on_random_and_degenerate_problems`,
+/// `fe_contact/tests/complementarity.rs::a_problem_solved_by_hand_comes_out`, `fe.convergence.solvers`.
 ///
 /// It shares no algebra with the pivoting solvers and is the independent check on them. Where
 /// contact is just lost, the error of the forces is of the order of √(tolerance/smallest eigenvalue
-/// of C); outside contact forces may be tiny instead of 0. Ignores the warm start. Goulart & Chen,
-/// *Clarabel* (2024); Cottle, Pang & Stone, ch. 1.
+/// of C); outside contact forces may be tiny instead of 0. Ignores the warm start.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct InteriorPoint;
 

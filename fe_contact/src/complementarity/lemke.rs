@@ -20,8 +20,12 @@ const SOLVABLE: f64 = 1e-10;
 ///
 /// For a positive semidefinite compliance it ends at a solution, or in a ray if there is none. The
 /// final forces are computed again from the original compliance, so that they do not contain the
-/// rounding errors of the tableau. Ignores the warm start. Lemke, *Management Science* 11 (1965)
-/// 681–689; Cottle, Pang & Stone, ch. 4.
+/// rounding errors of the tableau. Ignores the warm start.
+///
+/// `[eq:lemke-pivoting]` w − C p − 1 z₀ = g: z₀ enters first, then the complement of what left, until z₀ leaves.
+/// Source: Lemke, Management Science 11 (1965) 681–689; Cottle, Pang & Stone (1992), ch. 4.
+/// Checked by: `fe_contact/tests/complementarity.rs::the_solvers_agree_on_random_and_degenerate_problems`,
+/// `fe_contact/tests/complementarity.rs::a_problem_solved_by_hand_comes_out`, `fe.convergence.solvers`.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Lemke;
 

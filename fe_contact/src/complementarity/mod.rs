@@ -1,15 +1,9 @@
 //! Frictionless contact as a linear complementarity problem.
 //!
-//! Given a symmetric positive (semi-)definite compliance C (n×n) and gaps g (n), find forces p with
-//!
-//! ```text
-//! p ≥ 0,   w = C p + g ≥ 0,   pᵀ w = 0.
-//! ```
-//!
-//! Any consistent units will do; in contact p is in N, C in m/N, and g and the separation w in m.
+//! Given a symmetric positive (semi-)definite compliance C (n×n) and gaps g (n), find forces p that solve the
+//! [`Problem`]. Any consistent units will do; in contact p is in N, C in m/N, and g and the separation w in m.
 //! The problem is the optimality condition of min ½ pᵀ C p + gᵀ p, p ≥ 0, so w is unique wherever a
-//! solution exists, and p too if C is definite (Cottle, Pang & Stone, *The Linear Complementarity
-//! Problem*, Academic Press 1992, ch. 3).
+//! solution exists, and p too if C is definite.
 //!
 //! Three independent solvers: [`ActiveSet`] (the default), [`Lemke`] and, with the feature
 //! `interior_point`, `InteriorPoint`.
@@ -30,6 +24,11 @@ use nalgebra::{Cholesky, DMatrix, Dyn};
 const RESIDUAL_LIMIT: f64 = 1e-6;
 
 /// A problem, borrowed.
+///
+/// `[eq:complementarity]` p ≥ 0, w = C p + g ≥ 0, pᵀ w = 0.
+/// Source: Cottle, Pang & Stone, The Linear Complementarity Problem, Academic Press (1992), ch. 3.
+/// Checked by: `fe_contact/tests/complementarity.rs::the_solvers_agree_on_random_and_degenerate_problems`,
+/// `fe_contact/tests/complementarity.rs::a_problem_solved_by_hand_comes_out`, `fe.convergence.solvers`.
 #[derive(Debug, Clone, Copy)]
 pub struct Problem<'a> {
     /// Compliance C, n×n, symmetric positive semidefinite, e.g. m/N. Neither property is checked.

@@ -1,8 +1,7 @@
 //! Elastic half-plane under a strip of uniform pressure.
 //!
-//! Johnson, Contact Mechanics (1985), §2.3 and §2.5. Displacements in the plane are known up to a
-//! rigid motion only (ln r does not vanish far away), so that only their differences have a
-//! meaning.
+//! Displacements in the plane are known up to a rigid motion only (ln r does not vanish far away), so that only their
+//! differences have a meaning.
 
 use crate::material::Elastic;
 
@@ -24,9 +23,11 @@ impl HalfPlane {
     /// Normal displacement at (x, z), into the body, under unit pressure on |x| ≤ h, up to a
     /// constant, m/Pa.
     ///
-    /// Flamant's u_z = (1 + ν)/(πE) [z²/r² − 2 (1 − ν) ln r] for a unit line load, integrated
-    /// over the strip:
-    /// ∫ = [−(1 − ν)(ξ ln(ξ² + z²) − 2ξ) − (1 − 2ν) z atan(ξ/z)] from ξ = x − h to x + h.
+    /// `[eq:half-plane-strip]` Flamant's u_z = (1 + ν)/(πE) [z²/r² − 2 (1 − ν) ln r] for a unit line load, integrated
+    /// over the strip: ∫ = [−(1 − ν)(ξ ln(ξ² + z²) − 2ξ) − (1 − 2ν) z atan(ξ/z)] from ξ = x − h to x + h.
+    /// Source: Johnson, Contact Mechanics (1985), §2.3 and §2.5.
+    /// Checked by: `fe_contact/src/contact/half_plane.rs::line_load_on_its_axis`,
+    /// `fe_contact/src/contact/half_plane.rs::field_is_in_equilibrium`.
     pub fn strip(&self, x: f64, z: f64, h: f64) -> f64 {
         self.scale * (self.up_to(x + h, z) - self.up_to(x - h, z))
     }
@@ -49,8 +50,10 @@ impl HalfPlane {
     /// Displacement at (x, z) under a unit force per length on a strip whose width squared is `width2` (m²) and which
     /// is narrow beside its distance r = √(x² + z²), up to a constant, m/(N/m).
     ///
-    /// Mean over the strip of Flamant's f = (1 + ν)/(πE) [z²/r² − 2 (1 − ν) ln r]: f + w²/24 ∂²f/∂x², whose first
-    /// term left out is of the order (w/r)⁴/1920.
+    /// `[eq:narrow-strip]` Mean over the strip of Flamant's f = (1 + ν)/(πE) [z²/r² − 2 (1 − ν) ln r]: f + w²/24
+    /// ∂²f/∂x², whose first term left out is of the order (w/r)⁴/1920.
+    /// Source: derived here.
+    /// Checked by: `fe_contact/src/contact/half_plane.rs::a_narrow_strip_is_a_strip`.
     pub(super) fn narrow_strip(&self, x: f64, z: f64, width2: f64) -> f64 {
         let (x2, z2) = (x * x, z * z);
         let (r2, nu) = (x2 + z2, self.poisson);

@@ -1,6 +1,4 @@
 //! Hertz's line contact in closed form.
-//!
-//! Johnson, Contact Mechanics (1985), §4.2(c) and §5.6.
 
 use std::f64::consts::PI;
 
@@ -17,10 +15,13 @@ pub struct Hertz {
 
 impl Hertz {
     /// Contact under `line_load` (N/m) with 1/R = 1/R₁ ± 1/R₂ given as `radius` (m).
+    ///
+    /// `[eq:hertz-line-contact]` a² = 4 P R/(π E\*), p₀ = 2P/(π a), 1/E\* = 2/E'.
+    /// Source: Johnson, Contact Mechanics (1985), §4.2(c).
+    /// Checked by: `fe_contact/tests/hertz.rs::profile_half_width_and_approach`, `fe.hertz.cylinders`,
+    /// `fe.hertz.mid_flank`.
     pub fn new(line_load: f64, radius: f64, material: &Elastic) -> Self {
-        // 1/E* = 2/E'
         let e = 0.5 * material.plane_modulus();
-        // a² = 4 P R/(π E*), p₀ = 2P/(π a)
         let half_width = (4.0 * line_load * radius / (PI * e)).sqrt();
         let peak_pressure =
             if half_width > 0.0 { 2.0 * line_load / (PI * half_width) } else { 0.0 };
@@ -35,9 +36,11 @@ impl Hertz {
     /// Compression of one body between the centre of its surface and the point at `depth` (m) below
     /// it, m.
     ///
-    /// ε_z integrated along the axis with σ_z = −p₀ a/√(a² + z²) and
-    /// σ_x = −p₀ [(a² + 2z²)/(a√(a² + z²)) − 2z/a]:
-    /// (p₀/E') [a asinh(d/a) − ν/(1 − ν) (d√(a² + d²) − d²)/a].
+    /// `[eq:hertz-compression]` (p₀/E') [a asinh(d/a) − ν/(1 − ν) (d√(a² + d²) − d²)/a] down to the depth d: ε_z
+    /// integrated along the axis with σ_z = −p₀ a/√(a² + z²) and σ_x = −p₀ [(a² + 2z²)/(a√(a² + z²)) − 2z/a].
+    /// Source: Johnson, Contact Mechanics (1985), §5.6.
+    /// Checked by: `fe_contact/src/contact/hertz.rs::deep_compression_is_johnsons_5_57`,
+    /// `fe_contact/tests/hertz.rs::approach_between_matched_points`.
     pub fn compression(&self, depth: f64, material: &Elastic) -> f64 {
         let (a, d) = (self.half_width, depth);
         let (_, nu) = material.plane_strain_equivalent();

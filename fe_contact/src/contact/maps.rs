@@ -1,13 +1,8 @@
 //! Contact of one mesh as affine maps, one for each set of touching cells met so far.
 //!
-//! With a given set A of touching cells the cells' forces follow the pairs' approaches δ linearly,
-//!
-//! ```text
-//! p_A = C_AA⁻¹ (E_A δ − g_A),   P = E_Aᵀ p_A = S δ + P₀,   ½ pᵀCp = ½ δᵀ S δ + P₀ᵀ δ + ½ g_Aᵀ C_AA⁻¹ g_A
-//! ```
-//!
-//! (E: which pair a cell belongs to, g: gaps at δ = 0). The map holds while p_A ≥ 0 and the other
-//! cells' gaps g − E δ + C p ≥ 0; only when none of the known ones does is contact solved anew.
+//! With a given set A of touching cells the cells' forces follow the pairs' approaches δ linearly ([`ContactMap`]).
+//! The map holds while p_A ≥ 0 and the other cells' gaps g − E δ + C p ≥ 0; only when none of the known ones does is
+//! contact solved anew.
 
 use std::sync::{Arc, PoisonError, RwLock};
 
@@ -29,6 +24,13 @@ const MOST_SHARED: usize = 64;
 const REMEMBERED: usize = 8;
 
 /// Affine law of one set of touching cells.
+///
+/// `[eq:contact-map]` With E, which pair a cell belongs to, and the gaps g at δ = 0:
+/// ```text
+/// p_A = C_AA⁻¹ (E_A δ − g_A),   P = E_Aᵀ p_A = S δ + P₀,   ½ pᵀCp = ½ δᵀ S δ + P₀ᵀ δ + ½ g_Aᵀ C_AA⁻¹ g_A.
+/// ```
+/// Source: derived here.
+/// Checked by: `fe_contact/src/contact/maps.rs::maps_answer_as_the_solver_does`.
 #[derive(Debug, Clone)]
 pub struct ContactMap {
     /// δ at which the set was found (k, m), P₀ (k, N), S (k×k by rows, N/m), then how far δ may change before the set

@@ -32,11 +32,14 @@ pub struct CellSettings {
 
 /// Matching of half-plane and FE below each cell.
 ///
-/// The paper's eq. (1) matches at one point q: u(r) = u_hs(r) + (u_fe − u_hs)(q). The bracket, the
-/// part of the field that knows the tooth's shape, is smooth but not constant between q and the
-/// surface; taking it at q leaves an error of first order in the depth (for OH-58 about 0.1 µm a
-/// millimetre and body). Two points at d and 2d extrapolate it linearly to the surface,
-/// u(r) = u_hs(r) + 2 (u_fe − u_hs)(q₁) − (u_fe − u_hs)(q₂), with an error of second order.
+/// `[eq:matched-compliance]` u(r) = u_hs(r) + (u_fe − u_hs)(q), matched at one point q; at two points at the depths d
+/// and 2d: u(r) = u_hs(r) + 2 (u_fe − u_hs)(q₁) − (u_fe − u_hs)(q₂).
+/// Source: the paper, eq. (1); extrapolation from two depths derived here.
+/// Checked by: `fe.convergence.depth`, `fe.resolved`, `fe.calculix`.
+///
+/// The bracket, the part of the field that knows the tooth's shape, is smooth but not constant between q and the
+/// surface; taking it at q leaves an error of first order in the depth (for OH-58 about 0.1 µm a millimetre and body).
+/// Two points extrapolate it linearly to the surface, with an error of second order.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Matching {
     /// Depth d of the (first) matching point, m.

@@ -101,9 +101,14 @@ fn couple(d: &[[f64; 3]; 3], a: [f64; 2], b: [f64; 2]) -> [[f64; 2]; 2] {
 /// Stiffness and mass of an element with generalised nodes `points` (positions, and arc-length
 /// derivatives of position for Hermite functions).
 ///
-/// `incompatible` adds the bending modes 1 − ξ², 1 − η² of Taylor, Beresford & Wilson (Int. J.
-/// Numer. Methods Eng. 10 (1976) 1211–1219), with their gradients taken at the centre so that the
-/// patch test holds, and condenses them.
+/// `incompatible` adds the bending modes 1 − ξ², 1 − η², with their gradients taken at the centre so that the patch
+/// test holds, and condenses them.
+///
+/// `[eq:element-matrices]` K = ∫ Bᵀ D B dA, M = ρ ∫ Nᵀ N dA, B = [∂x 0; 0 ∂y; ∂y ∂x]; incompatible modes with their
+/// stiffness H and coupling G leave K − Gᵀ H⁻¹ G.
+/// Source: Taylor, Beresford & Wilson, Int. J. Numer. Methods Eng. 10 (1976) 1211–1219.
+/// Checked by: `fe_contact/tests/elements.rs::three_rigid_motions_and_no_other_free_one`,
+/// `fe_contact/tests/elements.rs::the_plain_quadrilateral_locks_in_bending_and_the_others_do_not`.
 ///
 /// # Errors
 /// If det J is not positive at an integration point.
@@ -176,7 +181,6 @@ pub fn matrices(
         }
     }
     if incompatible {
-        // K ← K − Gᵀ H⁻¹ G
         let solved = inner.cholesky().map(|c| c.solve(&coupling)).ok_or(DistortedElement {
             determinant: least,
             xi: 0.0,

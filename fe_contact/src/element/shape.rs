@@ -1,9 +1,8 @@
 //! Shape functions of quadrilaterals whose edges differ: straight, quadratic or C¹ Hermite.
 //!
-//! The field is the bilinear one plus, for each curved edge, the edge's departure from the straight
-//! line, blended linearly to nothing at the opposite edge (Gordon & Hall, Numer. Math. 21 (1973)
-//! 109–129). With four quadratic edges this is the eight-node serendipity element. Geometry and
-//! displacement use the same functions, so rigid motions and constant strains are exact.
+//! The field is the bilinear one plus, for each curved edge, the edge's departure from the straight line, blended
+//! linearly to nothing at the opposite edge. With four quadratic edges this is the eight-node serendipity element.
+//! Geometry and displacement use the same functions, so rigid motions and constant strains are exact.
 
 /// How geometry and displacement run along an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,7 +62,13 @@ impl Shape {
         self.edges.iter().all(|e| *e == Edge::Linear)
     }
 
-    /// Functions at (ξ, η).
+    /// `[eq:shape-functions]` Functions at (ξ, η): the bilinear ¼ (1 ± ξ)(1 ± η), plus for each curved edge its
+    /// departure from the straight line times the weight ½ (1 ± ξ) or ½ (1 ± η) that falls to 0 at the opposite edge.
+    ///
+    /// Source: Gordon & Hall, Numer. Math. 21 (1973) 109–129.
+    /// Checked by: `fe_contact/tests/elements.rs::patch_test`,
+    /// `fe_contact/tests/elements.rs::orders_of_convergence_on_a_manufactured_solution`,
+    /// `fe_contact/src/element/shape.rs::four_quadratic_edges_are_the_serendipity_element`.
     pub fn at(&self, xi: f64, eta: f64) -> Values {
         let mut v = Values { count: self.count(), ..Values::default() };
         for (corner, (sx, sy)) in

@@ -1,14 +1,7 @@
 //! Equilibrium of a set at one position.
 //!
-//! The races' coordinates q minimise the convex potential
-//!
-//! ```text
-//! Φ(q) = ½ qᵀ K q − fᵀ q + Σ_meshes Ψ(B q),   Ψ(δ) = max over p ≥ 0 of pᵀ(δ − g) − ½ pᵀ C p
-//! ```
-//!
-//! whose gradient is K q − f + Σ P b (forces P of the pairs, rows b) and whose Hessian is
-//! K + Σ bᵀ S b with the meshes' tangents S; K holds the bearings and, about a loaded reference,
-//! the turning of the mesh forces with their lines of action. Newton's method with a line search
+//! The races' coordinates q minimise a convex potential ([`StaticSet::balance`]). K holds the bearings and, about a
+//! loaded reference, the turning of the mesh forces with their lines of action. Newton's method with a line search
 //! ends in finitely many steps, since Ψ is piecewise quadratic.
 
 use nalgebra::{Cholesky, DMatrix, DVector};
@@ -199,6 +192,14 @@ impl StaticSet<'_> {
 
     /// Newton's method from q; answers of all meshes with the residual, and the iterations it took.
     /// Cells that touch in the `known` answers of the first of the meshes are the first guess.
+    ///
+    /// `[eq:static-equilibrium]` Least of the potential with the gradient K q − f + Σ P b (forces P of the pairs,
+    /// rows b) and the Hessian K + Σ bᵀ S b with the meshes' tangents S:
+    /// ```text
+    /// Φ(q) = ½ qᵀ K q − fᵀ q + Σ_meshes Ψ(B q),   Ψ(δ) = max over p ≥ 0 of pᵀ(δ − g) − ½ pᵀ C p.
+    /// ```
+    /// Source: derived here.
+    /// Checked by: `fe.sets.balance`, `fe.sets.sharing`, `fe.sets.mirror`, `fe.kinematics.bearings`.
     pub(super) fn balance(
         &self,
         system: &System,

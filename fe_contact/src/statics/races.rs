@@ -59,13 +59,13 @@ impl Races {
     ///
     /// The gears of a pair have supports to ground, and no seats. If both turn freely, the motion without relative
     /// rotation has no stiffness; balanced torques and a force along the line of action do not excite it
-    /// (m_s u_s = m_p u_p at all times, m = J/r_b²). Both rotations are then one coordinate
+    /// (m_s u_s = m_p u_p at all times, m = J/r_b²). Both rotations are then one coordinate w.
     ///
-    /// ```text
-    /// w = u_s + u_p,   u_s = a_s w,  u_p = a_p w,   a_s = m_p/(m_s + m_p),  a_p = m_s/(m_s + m_p)
-    /// ```
-    ///
-    /// of mass m_s m_p/(m_s + m_p).
+    /// `[eq:pair-rotation]` w = u_s + u_p of mass m_s m_p/(m_s + m_p), u_s = a_s w, u_p = a_p w,
+    /// a_s = m_p/(m_s + m_p), a_p = m_s/(m_s + m_p).
+    /// Source: derived here.
+    /// Checked by: `experiments/tests/gear_pair_modes.rs::rigid_bearings_leave_the_frequency_of_the_effective_mass`,
+    /// `experiments/tests/gear_pair.rs::at_a_low_speed_the_transmission_error_is_the_static_one`.
     ///
     /// # Errors
     /// If the carrier's mesh fails or a radius is not known.
@@ -224,8 +224,12 @@ impl Races {
         self.psi.len()
     }
 
-    /// Planet bearings in series with the carrier: (I/k + A)⁻¹ on the elongations
-    /// planet race − rigid seat, radial and tangential.
+    /// `[eq:bearings-on-a-flexible-carrier]` (I/k + A)⁻¹: planet bearings in series with the carrier, on the
+    /// elongations planet race − rigid seat, radial and tangential.
+    ///
+    /// Source: derived here.
+    /// Checked by: `fe_contact/tests/fidelity.rs::a_ring_on_springs_and_a_rigid_carrier`,
+    /// `fe_contact/tests/fidelity.rs::full_bodies_turn_as_quasi_static_ones`.
     fn planet_bearings(&mut self, scene: &Scene) -> Result<(), FeError> {
         let n = self.seated;
         let rigid = || DMatrix::zeros(2 * n, 2 * n);

@@ -4,16 +4,7 @@
 //! a mesh is computed by exact kinematics ([`gearset::DisplacedMesh`]): approach δ, roll length σ
 //! and centre distance a' of every mesh are those of the displaced gears, and the contact tables
 //! are laid out for them. Only displacements about this configuration, as they occur within a mesh
-//! cycle, enter linearly,
-//!
-//! ```text
-//! approach of pair k = A_k·(δ, σ, a') at the reference + b_kᵀ (q − q_ref),
-//! b_k = A_δ ∂δ + (A_σ − κ_σ) ∂σ + (A_a − κ_a) ∂a'
-//! ```
-//!
-//! with A_k the pair's own derivatives (1, 0, 0 on the path) and κ the slope of the deformed flanks
-//! ([`Slopes`]). The turning of the mean mesh forces F̄ with their lines of action adds the
-//! stiffness Σ F̄ ∂²δ.
+//! cycle, enter linearly ([`ReferenceConfiguration`]).
 
 use gearset::{DisplacedMesh, Displacements, Mesh, MeshGradients, MeshKind};
 use nalgebra::{DMatrix, DVector};
@@ -84,6 +75,16 @@ impl BacksidePose {
 }
 
 /// The configuration about which a set is linearised.
+///
+/// `[eq:loaded-linearisation]` With the pair's own derivatives A_k (1, 0, 0 on the path) and the slope κ of the
+/// deformed flanks (`eq:flank-slopes`):
+/// ```text
+/// approach of pair k = A_k·(δ, σ, a') at the reference + b_kᵀ (q − q_ref),
+/// b_k = A_δ ∂δ + (A_σ − κ_σ) ∂σ + (A_a − κ_a) ∂a';
+/// the turning of the mean mesh forces F̄ with their lines of action adds the stiffness Σ F̄ ∂²δ.
+/// ```
+/// Source: derived here.
+/// Checked by: `fe.kinematics.turned`, `fe.kinematics.exact`.
 #[derive(Debug, Clone)]
 pub struct ReferenceConfiguration {
     /// Torque on the sun (magnitude) under which it is the mean configuration, N·m.

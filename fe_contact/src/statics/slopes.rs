@@ -1,14 +1,7 @@
 //! Slopes of the deformed flanks: how the compliance of a mesh changes as its pairs move along
 //! them.
 //!
-//! With W(P, σ, a') the elastic energy of a mesh whose pairs carry P, and E_k = ∂W/∂P_k the elastic
-//! approach of pair k (the gap of tip relief included),
-//!
-//! ```text
-//! κ_k = ∂E_k/∂σ,  rest = ∂W/∂σ − κᵀP        (and the same for a')
-//! ```
-//!
-//! κ is the slope that a pair meets as it moves along the deformed flanks. It contributes two to
+//! κ ([`Slopes`]) is the slope that a pair meets as it moves along the deformed flanks. It contributes two to
 //! five per cent of the second harmonic of the sun's rotation at rest; without it the forces of a
 //! mesh are not the gradient of its energy. κ and rest are differences between contact tables to
 //! either side: distributed loads, as at ports, would miss the effect of the tip edge on a patch
@@ -25,6 +18,11 @@ use crate::contact::{CellSettings, MeshAnswer, MeshTable};
 use crate::error::FeError;
 
 /// Slopes of the flanks of one mesh under the forces of its pairs.
+///
+/// `[eq:flank-slopes]` κ_k = ∂E_k/∂σ, `rest` = ∂W/∂σ − κᵀP, and the same for a', with the elastic energy W(P, σ, a')
+/// of a mesh whose pairs carry P and the elastic approach E_k = ∂W/∂P_k of pair k (the gap of tip relief included).
+/// Source: derived here.
+/// Checked by: `fe.kinematics.potential`, `fe_contact/src/statics/slopes.rs::slopes_at_tips_need_graded_cells`.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Slopes {
     /// κ of each pair with respect to σ and a', m/m.

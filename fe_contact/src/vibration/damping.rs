@@ -4,7 +4,11 @@ use dynamics::AverageAcceleration;
 
 use super::body::RaceMotion;
 
-/// C = αM + βK.
+/// `[eq:proportional-damping]` C = αM + βK.
+///
+/// Source: definition.
+/// Checked by: `fe_contact/tests/vibration.rs::linear_damping_is_near_that_of_proportional_damping`,
+/// `fe.modal.routes.damping`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Proportional {
     /// α, 1/s.

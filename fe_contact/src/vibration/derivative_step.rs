@@ -1,14 +1,8 @@
 //! The derivative of the steps of a set with respect to its state at the start of a mesh cycle.
 //!
 //! A step is affine while the touching cells are the same, apart from the second-order terms of corner gaps.
-//! Its derivative follows the step line by line, with gradients in place of numbers:
-//!
-//! ```text
-//! (A + Rᵀ S' R) x₁' = L' − Rᵀ S' b',   P' = S' (R x₁' + b'),   b' = free' − opened' − F known'
-//! ```
-//!
-//! where L is the load that the histories leave, and S' the change of the forces of the touching pairs with
-//! their approaches ([`Combination`](super::combination::Combination)). The coordinates are displacements, velocities
+//! Its derivative follows the step line by line, with gradients in place of numbers
+//! ([`VibratingSet::carry_derivative`]). The coordinates are displacements, velocities
 //! and accelerations of the races and of the bodies' modes, and the state of the lag of every pair; bearings follow
 //! from these. Frames keep the cells that touched in the last step to their position and the second-order terms, so
 //! that a whole cycle can be differentiated after it was marched.
@@ -27,6 +21,14 @@ use crate::statics::CARRIER;
 
 impl VibratingSet<'_> {
     /// Carries the derivative over a step, 1 to the number of steps, of the cycle after `cycles` whole ones.
+    ///
+    /// `[eq:contact-step-derivative]` With the load L that the histories leave and the change S' of the forces of the
+    /// touching pairs with their approaches (`Combination`):
+    /// ```text
+    /// (A + Rᵀ S' R) x₁' = L' − Rᵀ S' b',   P' = S' (R x₁' + b'),   b' = free' − opened' − F known'.
+    /// ```
+    /// Source: derived here.
+    /// Checked by: `experiments/tests/shooting/derivative.rs::the_derivative_is_that_of_the_cycle`.
     pub(super) fn carry_derivative<T: Number>(
         &self,
         d: &mut SetDerivative<T>,

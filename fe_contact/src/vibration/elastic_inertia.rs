@@ -8,15 +8,9 @@
 //! (K − λ M_ff) u = −Σ_a ℓ_aᵀ P_a + λ M_fr q,     u_s = −K⁻¹ Σ_a ℓ_aᵀ P_a,   K w = M_fr q,   u_1 = u_s + λ w
 //! ```
 //!
-//! Eliminating u leaves the races with the additional mass, exactly,
-//!
-//! ```text
-//! δm = 2 qᵀM_rf u_s + λ qᵀM_rf w + R,     0 ≤ R ≤ u_1ᵀM_ff u_1 /(1 − λ/λ_1)      (λ < λ_1)
-//! qᵀM_rf u_s = −Σ_a P_a ℓ_a w
-//! ```
-//!
-//! λ_1 is the first eigenvalue with the race held. R is the series u_1ᵀ M_ff (1 + λK⁻¹M_ff + …) u_1. By Rayleigh's
-//! quotient of the mode, δλ/λ = −Σ δm for a shape of unit modal mass, to first order in δm.
+//! Eliminating u leaves the races with the additional mass, exactly, δm of [`ElasticInertia::of_mode`]. λ_1 is the
+//! first eigenvalue with the race held. R is the series u_1ᵀ M_ff (1 + λK⁻¹M_ff + …) u_1. By Rayleigh's quotient of
+//! the mode, δλ/λ = −Σ δm for a shape of unit modal mass, to first order in δm.
 //!
 //! Flexibility X_ab = ℓ_a K⁻¹ ℓ_bᵀ between pairs of different meshes of a body takes −PᵀX P from the stiffness of the
 //! mode.
@@ -121,6 +115,16 @@ impl ElasticInertia {
 
     /// The change of a mode of unit modal mass (`shape`, on the races' coordinates) at `lambda` (rad/s)² of the set of
     /// quasi-static bodies `set`, linearised as `linear`.
+    ///
+    /// `[eq:elastic-inertia]` With K w = M_fr q and u_s = −K⁻¹ Σ_a ℓ_aᵀ P_a:
+    /// ```text
+    /// δm = 2 qᵀM_rf u_s + λ qᵀM_rf w + R,   0 ≤ R ≤ u_1ᵀM_ff u_1 /(1 − λ/λ_1)   (λ < λ_1),
+    /// qᵀM_rf u_s = −Σ_a P_a ℓ_a w.
+    /// ```
+    /// Source: derived in `docs/fe_dynamics.md`.
+    /// Checked by: `experiments/tests/elastic_inertia.rs::first_order_changes_are_those_by_a_hundred_modes`,
+    /// `fe_contact/tests/sector_ring.rs::an_accelerated_race_displaces_a_ring_of_sectors_as_the_whole_gear`,
+    /// `fe_contact/src/vibration/elastic_inertia.rs::a_bar_on_a_spring_changes_as_by_its_exact_frequency`.
     ///
     /// # Errors
     /// If the set has no pairs at its present position.

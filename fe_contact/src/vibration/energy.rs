@@ -143,13 +143,12 @@ impl VibratingSet<'_> {
         }
     }
 
-    /// Work and dissipation of the step since `start`, for which
+    /// Work and dissipation of the step since `start`.
     ///
-    /// ```text
-    /// T₁ − T₀ + V₁ − V₀ = external − damped − against_contact
-    /// ```
-    ///
-    /// holds to rounding for the average-acceleration method, V the bearings' energy.
+    /// `[eq:energy-of-a-step]` T₁ − T₀ + V₁ − V₀ = `external` − `damped` − `against_contact` to rounding for the
+    /// average-acceleration method, V the bearings' energy.
+    /// Source: derived here.
+    /// Checked by: `fe.stepping.energy`, `fe_contact/tests/vibration.rs::the_discrete_energy_identity_holds`.
     pub fn work_since(&self, start: &StepStart) -> StepWork {
         let m = self.motion();
         let x = DVector::from_column_slice(&m.x);

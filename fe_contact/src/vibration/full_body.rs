@@ -12,12 +12,16 @@ use crate::body::{BodyMatrices, Factor};
 use crate::error::FeError;
 
 /// Factors that all bodies of one kind share.
+///
+/// `[eq:full-body-step]` A u = …, A = (4/h² + 2α/h) M + (1 + 2β/h) K.
+/// Source: derived here from Newmark's method.
+/// Checked by: `fe_contact/tests/fidelity.rs::full_bodies_turn_as_quasi_static_ones`.
 #[derive(Debug, Clone)]
 pub struct SharedFactors {
     matrices: Arc<BodyMatrices>,
     /// K.
     stiff: Arc<Factor>,
-    /// (4/h² + 2α/h) M + (1 + 2β/h) K.
+    /// A.
     dynamic: Arc<Factor>,
     /// (4/h² + 2α/h) · dynamic⁻¹ M_fr, by columns.
     carried: Arc<[Vec<f64>; 3]>,
@@ -68,9 +72,13 @@ impl SharedFactors {
 
 /// A body whose elastic displacement u is stepped in full:
 ///
+/// `[eq:full-body]` Every degree of freedom of the body:
 /// ```text
 /// M_ff ü + (αM_ff + βK) u̇ + K u + M_fr (q̈ + α q̇) = −Σ_a ℓ_aᵀ P_a
 /// ```
+/// Source: definition.
+/// Checked by: `fe_contact/tests/vibration.rs::modes_and_full_bodies_answer_alike`,
+/// `fe_contact/tests/vibration.rs::equilibrium_is_that_of_full_bodies_with_any_number_of_modes`.
 #[derive(Debug, Clone)]
 pub struct FullBody {
     shared: SharedFactors,

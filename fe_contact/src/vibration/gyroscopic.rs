@@ -17,6 +17,13 @@ pub(super) struct GyroscopicTerms {
 
 impl GyroscopicTerms {
     /// Of races with masses (kg) by coordinate, in a carrier frame that turns at `speed` (rad/s).
+    ///
+    /// `[eq:gyroscopic-races]` Ω G q̇ − Ω² K_Ω q in the equations of the races as rigid bodies, by
+    /// `eq:rotating-frame` for each body's translation.
+    /// Source: derived here.
+    /// Checked by: `fe_contact/tests/gyroscopic.rs::free_bodies_vibrate_in_planes_that_stand_still_in_space`,
+    /// `fe_contact/tests/gyroscopic.rs::peaks_of_a_turning_set_are_those_of_its_gyroscopic_modes`,
+    /// `fe_contact/tests/vibration.rs::a_mirrored_set_under_reversed_torque_moves_as_the_mirror`.
     pub(super) fn new(races: &Races, mass: &[f64], speed: f64) -> Self {
         let frame = RotatingFrame { speed };
         let n = races.count;

@@ -1,12 +1,6 @@
 //! The lag of flexibility without inertia behind its load, caused by stiffness-proportional
 //! damping.
 //!
-//! Where FE flexibility F follows forces P without inertia of its own, βK leaves
-//!
-//! ```text
-//! β u̇ + u = −F P,   so  u = −F P̃  with  β P̃' + P̃ = P
-//! ```
-//!
 //! β is some microseconds, shorter than a step, so that the trapezoidal rule would oscillate.
 //! Instead the forces are interpolated by a parabola through the end of the step, its start and the
 //! start of the step before, for which the equation is solved exactly. This is of second order for
@@ -55,12 +49,16 @@ impl LagRule {
         if square < 0.0 { product.sqrt() } else { half.abs() + square.sqrt() }
     }
 
+    /// `[eq:lag]` β u̇ + u = −F P where FE flexibility F follows forces P without inertia of its own, so u = −F P̃
+    /// with β P̃' + P̃ = P: exact for a parabolic P through s = −1, 0, 1 by I_n = ∫₀¹ z e^{−z(1−s)} sⁿ ds, z = h/β.
+    ///
+    /// Source: derived here.
+    /// Checked by: `fe_contact/src/vibration/lag.rs::a_parabola_is_followed_exactly`, `fe.stepping.ringing`.
     pub(super) fn new(beta: f64, rule: &AverageAcceleration) -> Self {
         if beta <= 0.0 {
             return Self { end: 1.0, start: 0.0, before: 0.0, state: 0.0 };
         }
         let z = rule.step() / beta;
-        // I_n = ∫₀¹ z e^{−z(1−s)} sⁿ ds
         let i0 = -(-z).exp_m1();
         let (i1, i2) = if z > 0.1 {
             let i1 = 1.0 - i0 / z;
@@ -77,7 +75,6 @@ impl LagRule {
             };
             (series(1), series(2))
         };
-        // Parabola through s = −1, 0, 1.
         Self { end: 0.5 * (i2 + i1), start: i0 - i2, before: 0.5 * (i2 - i1), state: (-z).exp() }
     }
 }

@@ -11,9 +11,13 @@ use crate::statics::CARRIER;
 
 /// Matrices of the linearised set on z = (races, then modes of carrier, ring, sun, planets).
 ///
+/// `[eq:linearised-set]` Equations of the linearised set:
 /// ```text
 /// M z̈ + C ż + K z + Rᵀ P = f,   P = S_c (R z − F P̃),   β P̃' + P̃ = P
 /// ```
+/// Source: derived here.
+/// Checked by: `fe_contact/tests/vibration.rs::linearisation_is_the_derivative_of_statics`,
+/// `fe.modal.routes.frequency`.
 ///
 /// K: stiffness without contact; R: approaches of the pairs; S_c: their stiffness S with the
 /// lagging FE flexibility F taken out. In slow motion P = S R z.
@@ -217,12 +221,11 @@ impl LinearSet {
         0.5 * (&sum + sum.transpose())
     }
 
-    /// Damping of slow motion, N s/m: C, and to first order in β the lag of the FE flexibility, which makes of
-    /// P = S R z the force S R z + β S F S R ż.
+    /// `[eq:slow-damping]` Damping of slow motion, N s/m: C + β Rᵀ S F S R, since to first order in β the lag of the
+    /// FE flexibility makes of P = S R z the force S R z + β S F S R ż.
     ///
-    /// ```text
-    /// C + β Rᵀ S F S R
-    /// ```
+    /// Source: derived here.
+    /// Checked by: `fe_contact/tests/vibration.rs::slow_damping_is_that_of_the_lagging_set`.
     pub fn slow_damping(&self) -> DMatrix<f64> {
         let forces = &self.contact * &self.rows;
         &self.damping + self.beta * (forces.transpose() * &self.lagging * &forces)

@@ -8,10 +8,13 @@ use super::fixed_race_mode::FixedRaceMode;
 
 /// A rigid race and n modes of the body with its race held.
 ///
+/// `[eq:modal-body]` Equations of race and modes:
 /// ```text
-/// M_rr (q̈ + α q̇) + Σ_j Γ_j (η̈_j + α η̇_j)                  = race loads
+/// M_rr (q̈ + α q̇) + Σ_j Γ_j (η̈_j + α η̇_j) = race loads,
 /// Γ_jᵀ (q̈ + α q̇) + η̈_j + (α + β ω_j²) η̇_j + ω_j² η_j = −Σ_a (ℓ_a φ_j) P_a
 /// ```
+/// Source: derived here; no publication cited.
+/// Checked by: `fe_contact/tests/vibration.rs::modes_and_full_bodies_answer_alike`, `fe.fidelity`, `truth.height`.
 #[derive(Debug, Clone)]
 pub struct ModalBody {
     /// Mass, mass, polar inertia over r², kg.

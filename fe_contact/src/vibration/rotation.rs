@@ -34,7 +34,11 @@ impl NominalRotation {
         }
     }
 
-    /// Position at which a step of the cycle ends, cycles: 0 to ±1.
+    /// `[eq:direction-of-positions]` Position at which a step of the cycle ends, cycles, 0 to ±1: step k ends at d
+    /// k/S, d of `eq:path-direction`.
+    ///
+    /// Source: definition.
+    /// Checked by: `experiments/tests/direction.rs::slow_sets_pass_the_same_positions_in_reverse`.
     pub(super) fn position(&self, step_in_cycle: usize) -> f64 {
         match *self {
             Self::Standing { position, .. } => position,

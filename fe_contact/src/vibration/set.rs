@@ -1,14 +1,8 @@
 //! A set in time: Newmark's method with contact solved inside every step.
 //!
 //! The nominal rotation is exact kinematics; the vibration about it is computed, in the carrier
-//! frame. Within a step everything but contact is linear, so the approaches of all tooth pairs are
-//!
-//! ```text
-//! δ = b − Y P,   P = S δ + P₀ on the cells that touch
-//! ```
-//!
-//! with b from the state at the start of the step. The set of touching cells is changed until all
-//! complementarity conditions hold.
+//! frame. Within a step everything but contact is linear ([`VibratingSet::step`]). The set of touching cells is changed
+//! until all complementarity conditions hold.
 
 use std::sync::Arc;
 

@@ -114,6 +114,12 @@ impl VibratingSet<'_> {
     }
 
     /// Solves for the pairs' forces and the races' displacements.
+    ///
+    /// `[eq:contact-step]` δ = b − Y P, P = S δ + P₀ on the cells that touch, with b from the state at the start of
+    /// the step.
+    /// Source: derived here.
+    /// Checked by: `fe_contact/tests/vibration.rs::newmark_is_of_second_order_with_and_without_lag`,
+    /// `fe.stepping.energy`.
     pub(super) fn solve_contact(&mut self, frame: &mut Frame) -> Result<(), FeError> {
         let count = frame.offsets.len();
         self.bodies.fill_ports(frame, self.clock.cycles);

@@ -1,8 +1,7 @@
 //! The [symmetry](Symmetry) after a part of a mesh cycle, found in the equations of a set: frames, loads and the matrix
 //! of a step must be equal under the renumbering.
 //!
-//! The map of a part, with the renumbering, then has the same periodic motion as that of the whole cycle, and the map
-//! of the whole cycle is the p-th power of it.
+//! The map of a part, with the renumbering, then has the same periodic motion as that of the whole cycle.
 
 use std::sync::Arc;
 
@@ -91,7 +90,12 @@ impl VibratingSet<'_> {
         })
     }
 
-    /// P of x(start of the next part) = P x(end of a part), for the internal, possibly mirrored frame.
+    /// `[eq:symmetry-after-a-part]` x_{n+s}(t + T/p) = x_n(t) of planets shifted by s after one of p parts; with R,
+    /// or P for the internal, possibly mirrored frame, that renumbers them at the end of a part, DΦ = (R DΦ_part)^p.
+    ///
+    /// Source: derived here.
+    /// Checked by: `experiments/tests/shooting/symmetry.rs::parts_of_a_cycle_are_the_whole_of_symmetric_sets`,
+    /// `experiments/tests/shooting/symmetry.rs::multipliers_of_parts_are_those_of_the_whole`.
     fn renumbering(&self, internal: &Symmetry) -> Option<DMatrix<f64>> {
         let races = &self.statics.races;
         let entries = internal.renumbering(races.planets(), |body, axis| races.of(body, axis))?;

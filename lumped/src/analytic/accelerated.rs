@@ -1,23 +1,7 @@
 //! Static displacement of an annulus that its race accelerates, in closed form.
 //!
 //! A body of density ρ that vibrates with its race as λ = ω² has the inertial forces λρq of the rigid motion q, under
-//! which it yields by λw. For a race at r = a and a free edge at r = b, rotation by θ about the centre gives the
-//! tangential displacement
-//!
-//! ```text
-//! w = ρ θ r/(4G) [b⁴/2 (1/a² − 1/r²) − (r² − a²)/2]
-//! ```
-//!
-//! and translation by 1 along x, with the notation of `carrier.rs`,
-//!
-//! ```text
-//! w = W₀ + W₂ e^{2iϑ},    2G W₀ = 2κA ln(r/a) − 2(A₂ − D)(r² − a²),    2G W₂ = −A + κA₂ r² − B/r²
-//! D = −ρ (κ − 1)/(4κ),    A = ρ b²/(2(1 + κ)),    B = a²(κ A₂ a² − A)
-//! A₂ (2b + 2κ a⁴/b³) = 2A a²/b³ − 2A/b − 2D b/(κ − 1)
-//! ```
-//!
-//! where 2D z z̄ is a particular solution of the equations of equilibrium and the rest leaves the race at rest and the
-//! free edge without traction.
+//! which it yields by λw, for a race at r = a and a free edge at r = b.
 
 use std::f64::consts::PI;
 
@@ -53,6 +37,11 @@ impl Accelerated {
     }
 
     /// w at r under a unit rotation, m per rad and (rad/s)².
+    ///
+    /// `[eq:annulus-turned]` w = ρ θ r/(4G) [b⁴/2 (1/a² − 1/r²) − (r² − a²)/2], tangential, of a rotation by θ about
+    /// the centre.
+    /// Source: derived here.
+    /// Checked by: `lumped/src/analytic/accelerated.rs::displacements_are_in_equilibrium`.
     pub(super) fn by_rotation(&self, r: f64) -> f64 {
         let (a, b) = (self.race, self.free);
         let shown = 0.5 * b.powi(4) * (1.0 / (a * a) - 1.0 / (r * r)) - 0.5 * (r * r - a * a);
@@ -60,6 +49,18 @@ impl Accelerated {
     }
 
     /// W₀ and W₂ at r under a unit translation, m per m and (rad/s)².
+    ///
+    /// `[eq:annulus-moved]` w of a translation by 1 along x:
+    /// ```text
+    /// w = W₀ + W₂ e^{2iϑ},   2G W₀ = 2κA ln(r/a) − 2(A₂ − D)(r² − a²),   2G W₂ = −A + κA₂ r² − B/r²,
+    /// D = −ρ (κ − 1)/(4κ),   A = ρ b²/(2(1 + κ)),   B = a²(κ A₂ a² − A),
+    /// A₂ (2b + 2κ a⁴/b³) = 2A a²/b³ − 2A/b − 2D b/(κ − 1).
+    /// ```
+    /// Source: derived here; notation of `carrier.rs`.
+    /// Checked by: `lumped/src/analytic/accelerated.rs::displacements_are_in_equilibrium`.
+    ///
+    /// 2D z z̄ is a particular solution of the equations of equilibrium; the rest leaves the race at rest and the
+    /// free edge without traction.
     pub(super) fn by_translation(&self, r: f64) -> [f64; 2] {
         let [log, square, inverse, d] = self.terms;
         let apart = r * r - self.race * self.race;

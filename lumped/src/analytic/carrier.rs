@@ -1,27 +1,13 @@
 //! Flexibility of the carrier between the pin seats and its bore, in closed form: forces in an annulus that is held at
 //! its bore and free at its outside.
 //!
-//! With complex displacement u + iv of the plane (Muskhelishvili, Some Basic Problems of the Mathematical Theory of
-//! Elasticity, 1953, §§ 32, 56 and 59), κ = 3 − 4ν and a force F at z = c on the real axis, f = F/(2π(1 + κ)), all
-//! lengths over c:
-//!
-//! ```text
-//! 2G (u + iv) = κφ − z φ̄' − ψ̄
-//! φ = −f ln(z − 1) + f ln z + Σ a_n zⁿ,    ψ = κ f̄ ln(z − 1) + f/(z − 1) − κ f̄ ln z + Σ b_n zⁿ
-//! |z| = a: u + iv = 0,      |z| = b: φ + z φ̄' + ψ̄ = constant
-//! ```
-//!
-//! Each harmonic σᵏ = e^{ikθ} of both conditions holds a_k, ā_{2−k} and b̄_{−k}, so that k and 2 − k are solved
-//! together ([`Field::new`]).
+//! Each harmonic σᵏ = e^{ikθ} of both conditions of [`Field`] holds a_k, ā_{2−k} and b̄_{−k}, so that k and 2 − k are
+//! solved together ([`Field::new`]).
 //!
 //! A rigid seat of radius ρ with a uniform traction on its circle moves by the mean of the displacement over the
 //! circle, 2κ f ln(1/ρ) of it from the force itself and that of the rest of the field to ρ² by its Laplacian, once for
 //! the seat that moves and once for the one that is loaded. A rigid seat resists the strain ε of the rest of the field
-//! as a rigid inclusion in a dilute suspension does; both seats' forces have such strain at every seat s:
-//!
-//! ```text
-//! A_ij ← A_ij − πρ² b Σ_s [(K + G) tr ε_i tr ε_j + 2G (κ + 1)/κ e_i : e_j],     K = 2G/(κ − 1)
-//! ```
+//! as a rigid inclusion in a dilute suspension does ([`seat_flexibility`]).
 
 use std::f64::consts::{PI, TAU};
 
@@ -45,6 +31,15 @@ const NEAREST: f64 = 0.6;
 /// Displacement of every seat along unit forces on every seat, 2N×2N, m/N: radial and tangential of each planet in
 /// turn, for planets at ψ (rad) on the radius `center_distance` (m). `None` for seats that are not small, or too thin
 /// an annulus.
+///
+/// `[eq:rigid-seats]` Rigid seats of radius ρ, at each of which (s) the forces on seats i and j have the strains ε_i
+/// and ε_j with deviators e:
+/// ```text
+/// A_ij ← A_ij − πρ² b Σ_s [(K + G) tr ε_i tr ε_j + 2G (κ + 1)/κ e_i : e_j],   K = 2G/(κ − 1).
+/// ```
+/// Source: derived here.
+/// Checked by: `validation/tests/closed_forms.rs::closed_forms_hold_on_shipped_sets`,
+/// `lumped/tests/analytic.rs::a_rigid_carrier_is_the_limit_of_small_seats_flexibility`.
 pub(super) fn seat_flexibility(
     carrier: &CarrierInput,
     center_distance: f64,
@@ -134,6 +129,17 @@ struct Seen {
 }
 
 /// The field of a unit force on a seat: a_n and b_n.
+///
+/// `[eq:annulus-field]` Complex displacement u + iv of the plane, κ = 3 − 4ν, under a force F at z = c on the real
+/// axis, f = F/(2π(1 + κ)), all lengths over c:
+/// ```text
+/// 2G (u + iv) = κφ − z φ̄' − ψ̄,
+/// φ = −f ln(z − 1) + f ln z + Σ a_n zⁿ,   ψ = κ f̄ ln(z − 1) + f/(z − 1) − κ f̄ ln z + Σ b_n zⁿ,
+/// |z| = a: u + iv = 0,   |z| = b: φ + z φ̄' + ψ̄ = constant.
+/// ```
+/// Source: Muskhelishvili, Some Basic Problems of the Mathematical Theory of Elasticity (1953), §§ 32, 56 and 59.
+/// Checked by: `validation/tests/closed_forms.rs::closed_forms_hold_on_shipped_sets`,
+/// `lumped/tests/analytic.rs::a_rigid_carrier_is_the_limit_of_small_seats_flexibility`.
 struct Field {
     force: C,
     /// a_n by power.

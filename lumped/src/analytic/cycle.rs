@@ -1,18 +1,13 @@
 //! The loaded transmission error of a set in closed form: rigid bodies on bearings and pin seats, and meshes whose
 //! tooth pairs touch or not.
 //!
-//! At every position of the mesh cycle, with the approach δ_i = b_iᵀq and the force F_i(δ_i) of every mesh at its own
-//! phase (`mesh.rs`), the displacements obey
-//!
-//! ```text
-//! (K + G) q + Σ [b_i F_i(b_iᵀ q) − κ_i R_i(b_iᵀ q)] = f + G q̄
-//! ```
-//!
-//! K: bearings, pin seats and supports; G: mesh forces that turn with their lines of action (`line.rs`) about the mean
-//! configuration q̄; R = −∂Ψ/∂σ: what the energy Ψ of the pairs changes by as they roll on by σ = κᵀq at the same
-//! approach, since flanks lean under load; f: the torque on the sun. Newton's method from q̄. In the mean configuration
-//! gears mesh at other centre distances, and elsewhere on their paths ([`gearset::DisplacedMesh`]); phases count from
-//! where planet 0's sun mesh starts its path there, as in FE/contact.
+//! At every position of the mesh cycle every mesh has an approach δ_i = b_iᵀq and a force F_i(δ_i) at its own phase
+//! (`mesh.rs`), which [`AnalyticCycle::equilibrium`] balances. K: bearings, pin seats and supports; G: mesh forces
+//! that turn with their lines of action (`line.rs`) about the mean configuration q̄; R = −∂Ψ/∂σ: what the energy Ψ of
+//! the pairs changes by as they roll on by σ = κᵀq at the same approach, since flanks lean under load; f: the torque
+//! on the sun. Newton's method from q̄. In the mean configuration gears mesh at other centre distances, and elsewhere
+//! on their paths ([`gearset::DisplacedMesh`]); phases count from where planet 0's sun mesh starts its path there, as
+//! in FE/contact.
 
 use std::collections::BTreeMap;
 
@@ -239,6 +234,14 @@ impl AnalyticCycle {
         self.force * (self.rows.len() / 2) as f64
     }
 
+    /// `[eq:loaded-transmission-error]` Displacements q of the loaded set:
+    /// ```text
+    /// (K + G) q + Σ [b_i F_i(b_iᵀ q) − κ_i R_i(b_iᵀ q)] = f + G q̄.
+    /// ```
+    ///
+    /// Source: derived here.
+    /// Checked by: `validation/tests/closed_forms.rs::mean_transmission_errors_hold_on_shipped_sets`,
+    /// `lumped/tests/analytic.rs::a_set_of_twice_the_width_yields_as_much_under_twice_the_torque`.
     fn equilibrium(
         &self,
         meshes: &[&PressedMesh],

@@ -1,12 +1,6 @@
 //! What the inertia of elastic displacements changes of a natural frequency, to first order and in closed form.
 //!
 //! Bodies yield under their own inertial forces by λw (`accelerated.rs`), which the forces F of springs on them feel.
-//! With the rigid motion q of a body in a mode of unit modal mass (as `docs/fe_dynamics.md` derives for FE/contact),
-//!
-//! ```text
-//! δm = Σ_bodies (2 Σ F·w + λ qᵀM w),      f'/f = 1/√(1 + δm)
-//! ```
-//!
 //! The carrier is its annulus; a gear is an annulus from its race to the middle of its teeth.
 
 use gearset::{Gear, Geometry};
@@ -104,6 +98,11 @@ impl OnRadius {
 impl AnalyticSet {
     /// Relative change of the frequency of a group of modes, its mean, by the inertia of elastic displacements; 0 for a
     /// rigid-body mode.
+    ///
+    /// `[eq:annulus-inertia]` δm = Σ_bodies (2 Σ F·w + λ qᵀM w), f'/f = 1/√(1 + δm), with the rigid motion q of a
+    /// body in a mode of unit modal mass.
+    /// Source: derived in `docs/fe_dynamics.md` for FE/contact.
+    /// Checked by: `validation/tests/closed_forms.rs::stated_errors_hold_with_modes_of_the_bodies`.
     pub fn inertia_change(&self, group: &ModeGroup) -> f64 {
         let count = group.multiplicity as f64;
         let added: f64 = (0..group.multiplicity)

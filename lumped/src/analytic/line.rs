@@ -1,20 +1,14 @@
 //! Lines of action that turn as the centres move, and flanks that lean as they are deformed.
 //!
-//! Let n be the direction of the force on the driven gear, m that direction turned counter-clockwise by a quarter, and
-//! L = a sin α the distance between the points where the line of action touches both base circles. It stays tangent to
-//! both: if the planet's centre moves by d against the other centre, the line turns by m·d/L. With the row t of −m·d
-//! for a ring mesh and m·d for a sun mesh, the force F adds the stiffness −F/L t tᵀ of a sun mesh, a strut that is
-//! pressed, and +F/L t tᵀ of a ring mesh, whose force pulls the points of contact with the base circles together.
+//! Let n be the direction of the force on the driven gear, m that direction turned counter-clockwise by a quarter,
+//! and L = a sin α the distance between the points where the line of action touches both base circles. It stays
+//! tangent to both: if the planet's centre moves by d against the other centre, the line turns by m·d/L
+//! ([`Line::turn`]). A sun mesh is a strut that is pressed; the force of a ring mesh pulls the points of contact with
+//! the base circles together.
 //!
 //! The force of a mesh depends on its approach δ = bᵀq and on where along its path it touches, the driver's roll length
-//! σ = κᵀq. Under a constant force the approach changes by s = ∂δ/∂σ, hence
-//!
-//! ```text
-//! ∂F/∂q = k (b − s κ),  K = k (b − sκ)(b − sκ)ᵀ + c κκᵀ,      σ = ±u − r_b m·d/L  (+ sun, which drives; a planet drives the ring the other way round)
-//! ```
-//!
-//! It also changes with the centre distance a' = ζᵀq, by s_a = ∂δ/∂a': the row is b − sκ − s_a ζ. In modes that hardly
-//! press a mesh, this is a good part of what does.
+//! σ = κᵀq. Under a constant force the approach changes by s = ∂δ/∂σ ([`Line::lean`]), and with the centre distance
+//! a' = ζᵀq by s_a = ∂δ/∂a'. In modes that hardly press a mesh, this is a good part of what does.
 
 use gearset::{Mesh, MeshMember};
 use nalgebra::DMatrix;
@@ -82,6 +76,12 @@ impl Line {
     }
 
     /// Leans the row of the mesh by slopes s and s_a.
+    ///
+    /// `[eq:leaning-flanks]` ∂F/∂q = k (b − s κ − s_a ζ), K = k (b − sκ)(b − sκ)ᵀ + c κκᵀ, σ = ±u − r_b m·d/L (+ sun,
+    /// which drives; a planet drives the ring the other way round).
+    /// Source: derived here.
+    /// Checked by: `validation/tests/closed_forms.rs::modes_hardly_pressed_follow_the_load`,
+    /// `validation/tests/closed_forms.rs::closed_forms_hold_on_shipped_sets`.
     pub(super) fn lean(&self, model: &mut LumpedModel, slopes: [f64; 2]) {
         let Some(spring) = model.springs.iter_mut().find(|s| s.id == self.id) else { return };
         for (row, slope) in [&self.roll, &self.apart].into_iter().zip(slopes) {
@@ -101,6 +101,11 @@ impl Line {
 
     /// Adds what a force (N) that turns with its line of action does to a stiffness, and the stiffness c against
     /// rolling on, N/m.
+    ///
+    /// `[eq:turning-line-of-action]` K = ∓F/L t tᵀ (− sun mesh, + ring mesh), L = a sin α, with the row t of m·d for
+    /// a sun mesh and −m·d for a ring mesh.
+    /// Source: derived here.
+    /// Checked by: `lumped/tests/analytic.rs::turning_lines_of_action_have_the_second_derivatives_of_the_approach`.
     pub(super) fn turn(&self, stiffness: &mut DMatrix<f64>, force: f64, rolling: f64) {
         for (factor, row) in [(self.strut * force, &self.across), (rolling, &self.roll)] {
             for (i, a) in row {

@@ -1,25 +1,13 @@
 //! Tangent stiffness of a mesh at one phase under its mean force, in closed form: tooth pairs with gaps share the
 //! force.
 //!
-//! ```text
-//! δ − g_i = Σ_j C_ij f_j + h_i(f_i),   f_i ≥ 0,   Σ f_i = F,     k = 1ᵀ (C + diag h_i')⁻¹ 1 over the pairs that touch
-//! h_i = 2 f/(π E' b) [ln(2 d₁/a) + ln(2 d₂/a) − ν/(1 − ν)],   a = √(8 f R/(π E' b))
-//! ```
+//! C_ii ([`Near`]): both teeth (`tooth.rs`); C_ij of neighbouring pairs: a fixed share of √(C_ii C_jj). h: what two
+//! half-planes yield between the flanks and the depths d of both axes, with the relative radius R of the flanks. The
+//! gap of a pair beyond an end of the path grows with the square of the distance ([`Mesh::corner_gap_curvature`]);
+//! tip relief adds to it.
 //!
-//! C_ii: both teeth (`tooth.rs`); C_ij of neighbouring pairs: a fixed share of √(C_ii C_jj). h: what two half-planes
-//! yield between the flanks and the depths d of both axes (Weber & Banaschek 1953; Johnson, Contact Mechanics 1985, eq.
-//! 5.57), with the relative radius R of the flanks. The gap of a pair beyond an end of the path grows with the square
-//! of the distance ([`Mesh::corner_gap_curvature`]); tip relief adds to it.
-//!
-//! As the set rolls on by σ, gaps and flexibilities change: g' = ∂(g_i + C_ii f_i)/∂σ. The energy ½ (δ − g)ᵀ K (δ − g)
-//! of the pairs, K = (C + diag h')⁻¹, has the second derivatives
-//!
-//! ```text
-//! k = 1ᵀK 1,    −k s = −1ᵀK g',    c + k s² = g'ᵀK g' − Σ f_i g_i''
-//! ```
-//!
-//! with respect to δ, to δ and σ, and to σ; g'' is that of the corners. The slope s_a over the centre distance, where
-//! the driver's roll length stays and the driven gear's changes by 1/sin α, is found alike.
+//! As the set rolls on by σ, gaps and flexibilities change ([`mesh_tangent`]). The slope s_a over the centre distance,
+//! where the driver's roll length stays and the driven gear's changes by 1/sin α, is found alike.
 
 use std::f64::consts::PI;
 
@@ -137,11 +125,12 @@ fn relative_radius(mesh: &Mesh, s: f64) -> f64 {
 /// either end.
 ///
 /// Relief is the less, the farther from the tip. With its slope d along the flank, flanks of relative radius R whose
-/// contact would lie X beyond a corner are nearest at x towards the root,
+/// contact would lie X beyond a corner are nearest at x towards the root:
 ///
-/// ```text
-/// g(x) = g(0) + ((X + x)² − X²)/(2 R) − d x,   x = R d − X > 0   ⇒   g = g(0) − ½ R (d − X/R)²
-/// ```
+/// `[eq:relieved-gap]` g(x) = g(0) + ((X + x)² − X²)/(2 R) − d x is least at x = R d − X > 0, where g = g(0) − ½ R
+/// (d − X/R)².
+/// Source: derived here.
+/// Checked by: `lumped/src/analytic/mesh.rs::the_gap_of_relieved_flanks_is_the_least_along_them`.
 fn gap(mesh: &Mesh, along: f64, approach: f64) -> (f64, f64, f64) {
     // The driven gear's tip enters, the driver's leaves.
     let beyond = [
@@ -172,6 +161,13 @@ fn gap(mesh: &Mesh, along: f64, approach: f64) -> (f64, f64, f64) {
 
 /// The tangent stiffness of a mesh at a phase (cycles) under a force (N); `None` where a tooth is none that the closed
 /// forms hold for, or more than four pairs are near.
+///
+/// `[eq:rolling-stiffness]` k = 1ᵀK 1, −k s = −1ᵀK g', c + k s² = g'ᵀK g' − Σ f_i g_i'': second derivatives of the
+/// pairs' energy ½ (δ − g)ᵀ K (δ − g) with respect to δ, to δ and σ, and to σ, with K = (C + diag h')⁻¹,
+/// g' = ∂(g_i + C_ii f_i)/∂σ and g'' of the corners.
+/// Source: derived here.
+/// Checked by: `lumped/src/analytic/mesh.rs::forces_of_a_pressed_mesh_have_one_energy`,
+/// `validation/tests/closed_forms.rs::closed_forms_hold_on_shipped_sets`.
 pub(super) fn mesh_tangent(
     mesh: &Mesh,
     phase: f64,
@@ -224,6 +220,16 @@ fn pressing(
 }
 
 /// The pairs near the path, and the force they share.
+///
+/// `[eq:pairs-share-a-force]` Tooth pairs i with gaps g_i share the force F of a mesh:
+/// ```text
+/// δ − g_i = Σ_j C_ij f_j + h_i(f_i),   f_i ≥ 0,   Σ f_i = F,   k = 1ᵀ (C + diag h_i')⁻¹ 1 over the pairs that touch,
+/// h_i = 2 f/(π E' b) [ln(2 d₁/a) + ln(2 d₂/a) − ν/(1 − ν)],   a = √(8 f R/(π E' b)).
+/// ```
+/// Source: h: Weber & Banaschek (1953), Johnson, Contact Mechanics (1985), eq. 5.57; the rest derived here.
+/// Checked by: `validation/tests/closed_forms.rs::closed_forms_hold_on_shipped_sets`,
+/// `lumped/tests/analytic.rs::a_renumbered_set_has_the_same_frequencies`,
+/// `lumped/src/analytic/mesh.rs::forces_of_a_pressed_mesh_have_one_energy`.
 struct Near {
     pairs: Vec<Pair>,
     /// C, m/N; 1 on the diagonal where there is no pair.
@@ -372,11 +378,12 @@ impl PressedMesh {
     }
 
     /// Where the gears approach by δ (m): the force F (N), its derivative k (N/m), and R (N) against rolling on at that
-    /// approach,
+    /// approach.
     ///
-    /// ```text
-    /// R = −∂Ψ/∂σ = Σ f_i g_i' + ½ Σ f_i C_ij' f_j + ½ Σ f_i² c_i',    c = 2/(π E' b) [ln(4 d₁ d₂/a²) − ν/(1 − ν)]
-    /// ```
+    /// `[eq:force-against-rolling]` R = −∂Ψ/∂σ = Σ f_i g_i' + ½ Σ f_i C_ij' f_j + ½ Σ f_i² c_i', c = 2/(π E' b) [ln(4
+    /// d₁ d₂/a²) − ν/(1 − ν)].
+    /// Source: derived here.
+    /// Checked by: `lumped/src/analytic/mesh.rs::forces_of_a_pressed_mesh_have_one_energy`.
     pub(super) fn forces_at(&self, approach: f64) -> Option<[f64; 3]> {
         let Near { pairs, teeth, line, .. } = &self.near;
         let (forces, stiffness) = self.near.pressed(approach)?;

@@ -1,18 +1,12 @@
 //! Flexibility of one tooth under a force on its flank, in closed form: Weber's beam on an elastic foundation.
 //!
-//! ```text
-//! c = c_b + c_f,      E' = E/(1 − ν²),   β: angle of the force to the normal of the tooth's axis
-//! b c_b = ∫ [m²/(E' I) + 1.2 cos²β/(G A) + sin²β/(E' A)] dx,   m = (x_P − x) cos β − y_P sin β,  I = ⅔ y³,  A = 2 y
-//! b c_f = cos²β/E' [50/(3π) (u/S)² + X 2 (1 − 2ν)/(1 − ν) u/S + T + R ln(t/S) + Z S/r]
-//! ```
-//!
-//! y(x): half the thickness of the tooth, from the base section, at 0.3 of the fillet's radius above the root circle,
-//! to the point P of the force; S: twice y there; u: distance along the axis from the base section to where the force
-//! meets the axis; r: radius of the base section; t: depth of the rim from root circle to race. Beam, and the first two
-//! terms of the foundation with X = 1, are those of Weber & Banaschek (Formänderung und Profilrücknahme bei gerad- und
-//! schrägverzahnten Rädern, 1953). The rest of the foundation is a rim on a rigid race instead of their half-plane,
-//! which on external gears falls away from the tooth on either side the more, the fewer teeth there are (S/r): T, R and
-//! Z of external, X, T and R of internal teeth are fitted to FE/contact (`docs/closed_forms.md`).
+//! The formula is that of [`Tooth::at`]. y(x): half the thickness of the tooth, from the base section, at 0.3 of the
+//! fillet's radius above the root circle, to the point P of the force; S: twice y there; u: distance along the axis
+//! from the base section to where the force meets the axis; r: radius of the base section; t: depth of the rim from
+//! root circle to race. Beam, and the first two terms of the foundation with X = 1, are those of Weber & Banaschek. The
+//! rest of the foundation is a rim on a rigid race instead of their half-plane, which on external gears falls away from
+//! the tooth on either side the more, the fewer teeth there are (S/r): T, R and Z of external, X, T and R of internal
+//! teeth are fitted to FE/contact (`docs/closed_forms.md`).
 
 use gearset::involute::{pressure_angle_at, radius_at};
 use gearset::{Gear, ToothSide, gauss_points};
@@ -60,6 +54,17 @@ pub(super) struct Tooth {
 impl Tooth {
     /// The tooth of a gear under a force at a roll length; `None` where the rim is thinner or thicker than those to
     /// which the foundation was fitted, or has no race.
+    ///
+    /// `[eq:tooth-flexibility]` c = c_b + c_f with E' = E/(1 − ν²) and the angle β of the force to the normal of the
+    /// tooth's axis:
+    /// ```text
+    /// b c_b = ∫ [m²/(E' I) + 1.2 cos²β/(G A) + sin²β/(E' A)] dx,   m = (x_P − x) cos β − y_P sin β,  I = ⅔ y³,  A = 2 y,
+    /// b c_f = cos²β/E' [50/(3π) (u/S)² + X 2 (1 − 2ν)/(1 − ν) u/S + T + R ln(t/S) + Z S/r].
+    /// ```
+    /// Source: Weber & Banaschek, Formänderung und Profilrücknahme bei gerad- und schrägverzahnten Rädern (1953); T,
+    /// R, Z and, of internal teeth, X fitted.
+    /// Checked by: `validation/tests/closed_forms.rs::closed_forms_hold_on_shipped_sets`,
+    /// `lumped/src/analytic/tooth.rs::flexibility_grows_towards_the_tip_and_scales_with_width_and_modulus`.
     pub(super) fn at(gear: &Gear, roll_length: f64, plane: &Plane) -> Option<Self> {
         let radius = radius_at(gear.base_radius, roll_length);
         let half = gear.tooth_half_angle(radius);

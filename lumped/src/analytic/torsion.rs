@@ -4,14 +4,12 @@
 //!
 //! ```text
 //! (r³ φ')' + λ ρ/G r³ φ = 0,   φ = 0 at the race,   φ' = 0 at the free edge
-//! φ_{j+1}(r) = ∫_race^r s⁻³ ∫_s^free t³ φ_j dt ds,     λ ≈ G/ρ ∫ r³ φ_j φ_{j+1} dr / ∫ r³ φ_{j+1}² dr
 //! ```
 //!
-//! Inverse iteration with Schwarz's quotient, from above (Courant & Hilbert, Methods of Mathematical Physics I, 1953,
-//! chapter VI). A quarter of a sine wave in Rayleigh's quotient is too high: by 4 % in frequency where the edges are
-//! as 1.7, by 22 % where they are as 2.9. Modes with one and two waves around the circumference are higher where the
-//! race is inside, for every ratio of the edges from 1.1 to 3 and ν of 0.23 and 0.3 (a test below); ratio of their
-//! frequencies to that of torsion with ν = 0.3:
+//! Inverse iteration with Schwarz's quotient, from above. A quarter of a sine wave in Rayleigh's quotient is too
+//! high: by 4 % in frequency where the edges are as 1.7, by 22 % where they are as 2.9. Modes with one and two waves
+//! around the circumference are higher where the race is inside, for every ratio of the edges from 1.1 to 3 and ν of
+//! 0.23 and 0.3 (a test below); ratio of their frequencies to that of torsion with ν = 0.3:
 //!
 //! | free edge over race | one wave | two waves |
 //! |---:|---:|---:|
@@ -32,6 +30,11 @@ const ITERATIONS: usize = 6;
 
 impl Accelerated {
     /// λ = ω² of the first mode with the race held, (rad/s)².
+    ///
+    /// `[eq:annulus-torsion]` φ_{j+1}(r) = ∫_race^r s⁻³ ∫_s^free t³ φ_j dt ds, λ ≈ G/ρ ∫ r³ φ_j φ_{j+1} dr / ∫ r³
+    /// φ_{j+1}² dr.
+    /// Source: Courant & Hilbert, Methods of Mathematical Physics I (1953), chapter VI.
+    /// Checked by: `lumped/src/analytic/torsion.rs::torsion_has_its_limit_and_the_zeros_of_bessel_functions`.
     pub(super) fn first_eigenvalue(&self) -> f64 {
         let step = (self.free - self.race) / INTERVALS as f64;
         let cubed: Vec<f64> =

@@ -1,13 +1,4 @@
 //! Floquet multipliers of a set with prescribed mesh stiffness, exact between switches.
-//!
-//! With y = M^½ q and K̃ = M^-½ K M^-½ = Q Λ Qᵀ of one stretch between switches,
-//!
-//! ```text
-//! y(t+Δ) = Q cos(√Λ Δ) Qᵀ y + Q Λ^-½ sin(√Λ Δ) Qᵀ ẏ
-//! ẏ(t+Δ) = −Q √Λ sin(√Λ Δ) Qᵀ y + Q cos(√Λ Δ) Qᵀ ẏ
-//! ```
-//!
-//! and the monodromy matrix is the product over the stretches of a mesh cycle.
 
 use std::f64::consts::TAU;
 
@@ -142,6 +133,15 @@ impl ParametricSet {
     }
 
     /// Multipliers over one mesh cycle at a mesh frequency, by descending size.
+    ///
+    /// `[eq:monodromy]` With y = M^½ q and K̃ = M^-½ K M^-½ = Q Λ Qᵀ of one stretch between switches,
+    /// ```text
+    /// y(t+Δ) = Q cos(√Λ Δ) Qᵀ y + Q Λ^-½ sin(√Λ Δ) Qᵀ ẏ,
+    /// ẏ(t+Δ) = −Q √Λ sin(√Λ Δ) Qᵀ y + Q cos(√Λ Δ) Qᵀ ẏ;
+    /// the monodromy matrix is the product over the stretches of a mesh cycle.
+    /// ```
+    /// Source: closed form.
+    /// Checked by: `lumped/tests/parametric.rs::growth_is_inside_the_borders_and_nowhere_near`.
     ///
     /// # Errors
     /// If the frequency is not positive and finite, or eigenvalues are not found.

@@ -34,7 +34,10 @@ impl MeshWave {
         vec![(-self.phase).rem_euclid(1.0), (high - self.phase).rem_euclid(1.0)]
     }
 
-    /// ŵ_l of w = Σ ŵ_l e^{2πi l t}: (2/πl) sin(πlc′) e^{−πi l c′} e^{2πi l φ}.
+    /// `[eq:mesh-wave]` ŵ_l of w = Σ ŵ_l e^{2πi l t}: (2/πl) sin(πlc′) e^{−πi l c′} e^{2πi l φ}.
+    ///
+    /// Source: closed form.
+    /// Checked by: `lumped/src/parametric/mesh_wave.rs::harmonics_are_those_of_the_wave`.
     pub fn harmonic(&self, l: u32) -> c64 {
         let (l, high) = (f64::from(l), self.high_part());
         let size = 2.0 / (PI * l) * (PI * l * high).sin();

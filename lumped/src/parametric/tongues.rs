@@ -7,9 +7,7 @@
 //! 2i ω_p Ȧ = −ε H B̄ e^{iδt},   2i ω_q Ḃ = −ε Hᵀ Ā e^{iδt},   lΩ = ω_p + ω_q + δ
 //! ```
 //!
-//! which grow for |δ| < ε σ(H)/√(ω_p ω_q), σ the largest singular value, at a rate of at most half of that. For single
-//! modes these are the borders of Lin & Parker (2002): lΩ = 2ω_n ± ε|H_nn|/ω_n and ω_n + ω_m ± ε|H_nm|/√(ω_n ω_m); for
-//! modes of equal frequency σ takes the place of |H|, whatever basis is chosen for them.
+//! which grow between the borders of [`tongue`].
 
 use std::f64::consts::TAU;
 
@@ -70,6 +68,14 @@ pub fn tongues(set: &ParametricSet, harmonics: u32) -> Result<Vec<Tongue>, Lumpe
     Ok(all)
 }
 
+/// `[eq:tongues]` lΩ = ω_p + ω_q ± ε σ(H)/√(ω_p ω_q), H = Φ_Pᵀ V_l Φ_Q, with the largest singular value σ: motions
+/// grow between these borders at a rate of at most half of their half-width. For single modes they are
+/// lΩ = 2ω_n ± ε|H_nn|/ω_n and ω_n + ω_m ± ε|H_nm|/√(ω_n ω_m); for modes of equal frequency σ takes the place of |H|,
+/// whatever basis is chosen for them.
+///
+/// Source: Lin & Parker, J. Sound Vib. 249 (2002) 129–145, for single modes; modes of equal frequency derived here.
+/// Checked by: `lumped/tests/parametric.rs::borders_are_the_first_order_ones_up_to_the_square_of_the_variation`,
+/// `lumped/tests/parametric.rs::planet_phasing_closes_the_tongues_that_symmetry_forbids`.
 fn tongue(set: &ParametricSet, l: u32, p: &ModeGroup, q: &ModeGroup) -> Tongue {
     let order = f64::from(l);
     let [wp, wq] = [p, q].map(|g| TAU * g.frequency_hz);

@@ -85,7 +85,10 @@ impl LoadCase {
         Ok(case.with_input_torque(operation.torque_nm).at_speed(operation.speed_rpm))
     }
 
-    /// f_m = Z_s n_s / 60 with the speed n_s of the sun in rpm.
+    /// `[eq:pair-mesh-frequency]` f_m = Z_s n_s / 60 with the speed n_s of the sun in rpm.
+    ///
+    /// Source: definition.
+    /// Checked by: `gearset/tests/gear_pair.rs::the_mesh_frequency_is_that_of_the_sun`.
     fn of_pair(scene: &Scene, operation: &Operation) -> Result<Self, KinematicsError> {
         let teeth = scene.teeth.and_then(|teeth| teeth.sun);
         let teeth = teeth.ok_or(KinematicsError::Absent("teeth.sun"))?;
@@ -145,7 +148,12 @@ impl LoadCase {
         Self { sun_turns: sense(self.sense().sign() * direction.sign()), ..self }
     }
 
-    /// Direction in which pairs run along the path of the loaded flanks, d = σ τ.
+    /// `[eq:path-direction]` Direction in which pairs run along the path of the loaded flanks: d = σ τ with τ = sign
+    /// T_s and σ = sign(ω_s − ω_c).
+    ///
+    /// Source: derived here.
+    /// Checked by: `gearset/src/load_case.rs::pairs_run_the_way_the_power_of_the_sun_relative_to_the_carrier_flows`,
+    /// `experiments/tests/direction.rs`, `sweep.order`.
     pub fn direction(&self) -> PathDirection {
         match self.sun_turns == self.sense() {
             true => PathDirection::Forward,

@@ -6,15 +6,13 @@ use super::deflected_mesh::{Approaches, DeflectedMesh};
 use crate::contact::{MeshTable, PairCells};
 use crate::statics::{Bodies, flexibility};
 
-/// Share of the elastic bodies in the flexibility of a mesh under a force: with p = S a the pair
-/// forces that a unit of deflection adds, and F the bodies' flexibility between the pairs,
+/// Share of the elastic bodies in the flexibility of a mesh under a force, which is the elastic energy in the bodies
+/// divided by the whole elastic energy. The half-planes are undamped.
 ///
-/// ```text
-/// s = pᵀ F p / pᵀ a
-/// ```
-///
-/// that is, the elastic energy in the bodies divided by the whole elastic energy. The half-planes
-/// are undamped.
+/// `[eq:damped-share]` s = pᵀ F p / pᵀ a with the pair forces p = S a that a unit of deflection adds, and the bodies'
+/// flexibility F between the pairs; a mesh's force is then F(δ + β s δ̇).
+/// Source: derived here.
+/// Checked by: `fe_contact/tests/mesh_law.rs::harmonics_are_those_of_the_quasi_static_fidelity`.
 pub(super) fn damped_share(
     bodies: &Bodies,
     mesh: &Mesh,

@@ -2,8 +2,7 @@
 //! teeth, whatever the deflections.
 //!
 //! The potential of a set at rest is the same a mesh cycle later, while the sun's torque has done its
-//! work on the rolled angle. So carrier and ring take T (1 + Z_r/Z_s) and −T Z_r/Z_s on the mean; linear
-//! kinematics about the unloaded set have no such potential.
+//! work on the rolled angle. Linear kinematics about the unloaded set have no such potential.
 //!
 //! The mean of N even positions of a periodic function f is off that over the cycle by V/(8 N²) at most,
 //! V the variation of f' (Peano's kernel of the trapezoidal rule), which the second differences of the
@@ -68,6 +67,10 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
 
 /// How far the mean torques on carrier and ring are off those by numbers of teeth, over what the
 /// trapezoidal rule may be off.
+///
+/// `[eq:virtual-work]` Mean torques T (1 + Z_r/Z_s) on the carrier and −T Z_r/Z_s on the ring over a mesh cycle.
+/// Source: closed form.
+/// Checked by: `fe.kinematics.work`.
 fn means(scene: &Scene, cycle: &SetCycle) -> Result<[f64; 2], ValidationError> {
     let missing = || ValidationError::Incomplete("numbers of teeth");
     let (sun, ring) = scene.teeth.and_then(|t| t.sun_ring()).ok_or_else(missing)?;
