@@ -125,7 +125,7 @@ impl Panel {
 
     fn draw(&self, canvas: &mut Canvas, corner: Pixel, size: [f64; 2]) {
         let points = || self.series.iter().flat_map(|s| s.points.iter().copied());
-        let about = [size[0] / 90.0, size[1] / 55.0];
+        let about = [size[0] / 75.0, size[1] / 55.0];
         let x = self.x.scale(points().map(|p| p.0));
         let y = self.y.scale(points().map(|p| p.1));
         let [left, top] = corner;
