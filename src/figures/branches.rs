@@ -1,27 +1,15 @@
 //! Figures of branches of periodic motions: stable parts solid, unstable ones dashed.
 
 use experiments::branches::{Branch, BranchParameter, BranchPoint, BranchPointKind, Branches};
-use experiments::sweep::{Part, Response, SteadyState};
+use experiments::sweep::{Part, Response};
 
 use super::Figure;
-use super::drawing::{Curve, Labels, chart};
+use super::drawing::{Pen, Series, Symbol, chart};
 
-/// Colours of stable and unstable parts, of folds and of other bifurcations.
-const STABLE: &str = "#0072b2";
-const UNSTABLE: &str = "#d55e00";
-const FOLD: &str = "#000000";
-const OTHER: &str = "#009e73";
-
-/// A quantity with what it is called in files and on the axis.
-type Quantity = (&'static str, &'static str, fn(&SteadyState, usize) -> f64);
-
-const QUANTITIES: [Quantity; 2] = [
-    ("branch_sun_rotation", "sun rotation, µrad", |state, harmonic| {
-        1e6 * Response::Rotation(Part::Sun).amplitude(state, harmonic)
-    }),
-    ("branch_sun_translation", "sun translation, µm", |state, harmonic| {
-        1e6 * Response::Translation(Part::Sun).amplitude(state, harmonic)
-    }),
+/// Stable and unstable parts, with names and pens.
+const STABILITIES: [(bool, &str, Pen); 2] = [
+    (true, "stable", Pen::new("#0072b2", 1.6)),
+    (false, "unstable", Pen::new("#d55e00", 1.6).dashed()),
 ];
 
 /// A quantity whose largest amplitude is below this, in µrad or µm, is not drawn.
@@ -30,39 +18,49 @@ const NOTHING: f64 = 1e-6;
 /// `branch_sun_rotation` and `branch_sun_translation` over the parameter, each in the harmonic that is the strongest
 /// anywhere on the branch; one that vanishes is left out.
 pub fn of_branches(found: &Branches, title: &str, harmonics: usize) -> Vec<Figure> {
-    let Some(first) = found.branches.first() else { return Vec::new() };
-    let points = || found.branches.iter().flat_map(|b| &b.points);
-    let all = QUANTITIES.iter().filter_map(|(name, axis, of)| {
-        let largest = |l: usize| points().map(|p| of(&p.state, l)).fold(0.0, f64::max);
-        let strongest = (1..=harmonics).max_by(|a, b| largest(*a).total_cmp(&largest(*b)))?;
-        if largest(strongest) <= NOTHING {
-            return None;
-        }
-        let spot = |p: &BranchPoint| (p.parameter, of(&p.state, strongest));
-        let mut is_named = [false; 2];
-        let mut curves: Vec<Curve> =
-            found.branches.iter().flat_map(|b| parts(b, &spot, &mut is_named)).collect();
-        let dots = |kinds: &dyn Fn(BranchPointKind) -> bool| -> Vec<(f64, f64)> {
-            points().filter(|p| kinds(p.kind)).map(spot).collect()
-        };
-        let is_other = |k| !matches!(k, BranchPointKind::Regular | BranchPointKind::Fold);
-        for (name, points, colour) in [
-            ("fold", dots(&|k| k == BranchPointKind::Fold), FOLD),
-            ("other bifurcation", dots(&is_other), OTHER),
-        ] {
-            if !points.is_empty() {
-                curves.push(Curve::new(name, points).dots(4.0, colour));
-            }
-        }
-        let labels = Labels {
-            title,
-            subtitle: format!("{}, harmonic {strongest} of the mesh frequency", first.fidelity),
-            x: &axis_of(first.over),
-            y: axis,
-        };
-        Some(Figure::new(*name, chart(&labels, &curves)))
+    let quantities = [
+        ("branch_sun_rotation", "sun rotation, µrad", Response::Rotation(Part::Sun)),
+        ("branch_sun_translation", "sun translation, µm", Response::Translation(Part::Sun)),
+    ];
+    let figures = quantities.into_iter().filter_map(|(name, axis, response)| {
+        let first = found.branches.first()?;
+        let strongest = strongest(found, response, harmonics)?;
+        let spot = |p: &BranchPoint| (p.parameter, 1e6 * response.amplitude(&p.state, strongest));
+        let caption = format!("{}, harmonic {strongest} of the mesh frequency", first.fidelity);
+        let axes = [&*axis_of(first.over), axis];
+        Some(Figure::new(name, chart([title, &caption], axes, series(found, &spot))))
     });
-    all.collect()
+    figures.collect()
+}
+
+/// The harmonic with the largest amplitude on any branch, if there is more than nothing.
+fn strongest(found: &Branches, response: Response, harmonics: usize) -> Option<usize> {
+    let points = || found.branches.iter().flat_map(|b| &b.points);
+    let largest =
+        |l: usize| points().map(|p| 1e6 * response.amplitude(&p.state, l)).fold(0.0, f64::max);
+    let strongest = (1..=harmonics).max_by(|a, b| largest(*a).total_cmp(&largest(*b)))?;
+    (largest(strongest) > NOTHING).then_some(strongest)
+}
+
+/// Parts by stability, then folds and other bifurcations.
+fn series(found: &Branches, spot: &dyn Fn(&BranchPoint) -> (f64, f64)) -> Vec<Series> {
+    let parts: Vec<_> = found.branches.iter().flat_map(|b| parts(b, spot)).collect();
+    let mut series = Vec::new();
+    for (stability, name, pen) in STABILITIES {
+        let alike = parts.iter().filter(|(is_stable, _)| *is_stable == stability);
+        series.extend(alike.enumerate().map(|(i, (_, points))| {
+            Series::new(if i == 0 { name } else { "" }, pen, points.iter().copied())
+        }));
+    }
+    let points = || found.branches.iter().flat_map(|b| &b.points);
+    let is_fold = |p: &&BranchPoint| p.kind == BranchPointKind::Fold;
+    let is_other = |p: &&BranchPoint| !is_fold(p) && p.kind != BranchPointKind::Regular;
+    let disc = |colour| Symbol::Disc(4.0, colour);
+    series.push(Series::new("fold", disc("#000000"), points().filter(is_fold).map(spot)));
+    let others = points().filter(is_other).map(spot);
+    series.push(Series::new("other bifurcation", disc("#009e73"), others));
+    series.retain(|s| !s.points.is_empty());
+    series
 }
 
 /// Name and unit of what is varied.
@@ -73,45 +71,30 @@ fn axis_of(over: BranchParameter) -> String {
     }
 }
 
-/// Parts of one stability, each ending where the next begins.
-/// `is_named`: whether unstable and stable parts are in the legend already.
+/// Points of each part of one stability, which ends where the next begins, with whether it is stable.
 fn parts(
     branch: &Branch,
     spot: &dyn Fn(&BranchPoint) -> (f64, f64),
-    is_named: &mut [bool; 2],
-) -> Vec<Curve> {
-    let mut curves = Vec::new();
-    let mut points: Vec<(f64, f64)> = Vec::new();
-    for (i, pair) in branch.points.windows(2).enumerate() {
-        if points.is_empty() {
-            points.push(spot(&pair[0]));
-        }
-        points.push(spot(&pair[1]));
-        // A located point stands between parts: the stability of a stretch is that of its regular end.
-        let of = |pair: &[BranchPoint]| match pair[1].kind {
-            BranchPointKind::Regular => pair[1].is_stable,
-            _ => pair[0].is_stable,
-        };
-        let is_stable = of(pair);
-        let next = branch.points.get(i + 1..i + 3).map(of);
-        if next == Some(is_stable) {
-            continue;
-        }
-        let own = std::mem::take(&mut points);
-        let was_named = std::mem::replace(&mut is_named[usize::from(is_stable)], true);
-        curves.push(match (is_stable, was_named) {
-            (true, false) => Curve::new("stable", own).thin(STABLE).wide(1.6),
-            (true, true) => Curve::new("", own).thin(STABLE).wide(1.6),
-            (false, false) => Curve::new("unstable", own).thin(UNSTABLE).dashed().wide(1.6),
-            (false, true) => Curve::new("", own).thin(UNSTABLE).dashed().wide(1.6),
-        });
-    }
-    curves
+) -> Vec<(bool, Vec<(f64, f64)>)> {
+    // A located point stands between parts: the stability of a stretch is that of its regular end.
+    let stability = |pair: &[BranchPoint]| match pair[1].kind {
+        BranchPointKind::Regular => pair[1].is_stable,
+        _ => pair[0].is_stable,
+    };
+    let stretches: Vec<&[BranchPoint]> = branch.points.windows(2).collect();
+    let alike = stretches.chunk_by(|a, b| stability(a) == stability(b));
+    let part = |stretches: &[&[BranchPoint]]| {
+        let ends = stretches.iter().map(|pair| spot(&pair[1]));
+        let points = std::iter::once(spot(&stretches[0][0])).chain(ends).collect();
+        (stability(stretches[0]), points)
+    };
+    alike.map(part).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use experiments::branches::{BranchEnd, BranchOrigin};
+    use experiments::sweep::SteadyState;
     use scene::LoadCase;
 
     use super::*;
@@ -148,9 +131,9 @@ mod tests {
         let (over, origin) = (BranchParameter::Speed, BranchOrigin::Start(1.0));
         let fidelity = "mesh-law".into();
         let branch = Branch { fidelity, over, origin, repeats_after: 1, points, ends };
-        let found = parts(&branch, &|p| (p.state.case.speed_rpm, 0.0), &mut [false; 2]);
+        let found = parts(&branch, &|p| (p.state.case.speed_rpm, 0.0));
         let speeds: Vec<Vec<f64>> =
-            found.iter().map(|c| c.points.iter().map(|p| p.0).collect()).collect();
+            found.iter().map(|(_, points)| points.iter().map(|p| p.0).collect()).collect();
         assert_eq!(speeds, [vec![1.0, 2.0, 3.0], vec![3.0, 2.5, 2.0], vec![2.0, 2.5]]);
     }
 }

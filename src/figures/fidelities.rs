@@ -3,37 +3,39 @@
 
 use validation::{Ladder, LadderFidelity, Value, Verdict};
 
-use super::drawing::{Curve, Labels, Panel, Picture, panels};
+use super::drawing::{Axis, Panel, Picture, Series, curve, panels};
 
 /// Two panels over the number of modes: for standing sets the largest difference of a tabled frequency from
 /// `full`, one curve per set; for a turning set the differences of a peak's speed and height from `full` at
 /// equal steps. `None` unless the verdict has more fidelities than `quasi_static`, as in the full profile.
 pub fn fidelities(verdict: &Verdict, ladder: &Ladder) -> Option<Picture> {
-    let standing = ["three", "four"].map(|name| of_verdict(verdict, name));
-    if standing.iter().any(|c| c.points.len() < 2) {
+    let standing = [(0, "three"), (1, "four")]
+        .map(|(i, name)| Series::new(format!("{name} planets"), curve(i), standing(verdict, name)));
+    if standing.iter().any(|series| series.points.len() < 2) {
         return None;
     }
     let full = ladder.fidelity.iter().find(|fidelity| fidelity.name == "full")?;
+    let of_peak: [fn(&LadderFidelity) -> f64; 2] = [|f| f.peak_rpm, |f| f.peak_rad];
     let turning = vec![
-        of_ladder(ladder, full, "place", |fidelity| fidelity.peak_rpm),
-        of_ladder(ladder, full, "height", |fidelity| fidelity.peak_rad),
+        Series::new("place", curve(0), turning(ladder, full, of_peak[0])),
+        Series::new("height", curve(1), turning(ladder, full, of_peak[1])),
     ];
-    let panel = |title, y, curves| Panel {
-        labels: Labels { title, subtitle: String::new(), x: "modes of each body, n", y },
-        curves,
-        marks: Vec::new(),
-        x_range: None,
-        is_log: true,
+    let panel = |title: &str, y, series| Panel {
+        title: title.into(),
+        x: Axis::linear("modes of each body, n"),
+        y: Axis::log(y),
+        series,
+        ..Panel::default()
     };
     let list = [
         panel("standing, 1130 N·m", "largest difference of a tabled frequency, %", standing.into()),
         panel("turning, 1413 N·m", "difference of the sun's peak in rotation, l = 2, %", turning),
     ];
     let title = "Modal bodies against full ones (n = 0: quasi-static)";
-    Some(panels(title, 2, (560.0, 420.0), &list))
+    Some(panels([title, ""], 2, [400.0, 320.0], &list))
 }
 
-fn of_verdict(verdict: &Verdict, name: &str) -> Curve {
+fn standing(verdict: &Verdict, name: &str) -> Vec<(f64, f64)> {
     let (prefix, suffix) = ("fe.fidelity.frequency.", format!(".{name}"));
     let point = |check: &validation::Check| {
         let fidelity = check.id.strip_prefix(prefix)?.strip_suffix(&suffix)?;
@@ -42,25 +44,18 @@ fn of_verdict(verdict: &Verdict, name: &str) -> Curve {
             _ => None,
         }
     };
-    let points = verdict.checks.iter().filter_map(point).collect();
-    Curve::new(format!("{name} planets"), points)
+    verdict.checks.iter().filter_map(point).collect()
 }
 
-fn of_ladder(
+fn turning(
     ladder: &Ladder,
     full: &LadderFidelity,
-    name: &str,
-    of: impl Fn(&LadderFidelity) -> f64,
-) -> Curve {
-    let alike = |fidelity: &&LadderFidelity| {
-        (fidelity.steps_per_cycle, fidelity.contact_cells)
-            == (full.steps_per_cycle, full.contact_cells)
-    };
-    let point = |fidelity: &LadderFidelity| {
-        let error = 100.0 * (of(fidelity) / of(full) - 1.0).abs();
-        Some((modes(&fidelity.name, "modal(", ")")?, error))
-    };
-    Curve::new(name, ladder.fidelity.iter().filter(alike).filter_map(point).collect())
+    of: fn(&LadderFidelity) -> f64,
+) -> Vec<(f64, f64)> {
+    let settings = |f: &LadderFidelity| (f.steps_per_cycle, f.contact_cells);
+    let alike = ladder.fidelity.iter().filter(|f| settings(f) == settings(full));
+    let error = |f: &LadderFidelity| 100.0 * (of(f) / of(full) - 1.0).abs();
+    alike.filter_map(|f| Some((modes(&f.name, "modal(", ")")?, error(f)))).collect()
 }
 
 /// Number of modes that the name of a fidelity stands for.

@@ -2,20 +2,15 @@
 
 use std::collections::HashSet;
 
-use fe_contact::body::CarrierBody;
+use fe_contact::body::{CarrierBody, GearBody};
 use fe_contact::contact::PairFrame;
 use fe_contact::export::Drawn;
 use fe_contact::fe_mesh::polar;
 use fe_contact::statics::Bodies;
-use gearset::{Facing, MeshMember, Phasing};
+use gearset::{Facing, GearAngles, MeshKind, MeshMember, Phasing};
 use scene::Scene;
 
 use super::drawing::{Canvas, Pen, Picture, Pixel};
-
-const SUN: &str = "#b8860b";
-const PLANET: &str = "#1b6ca8";
-const RING: &str = "#5a6570";
-const CARRIER: &str = "#b9c4cc";
 
 /// Width of the picture and of its lines, px.
 const WIDTH: f64 = 1000.0;
@@ -33,27 +28,23 @@ struct Placed<'d> {
 
 /// The meshes of all bodies, each turned and placed as it meshes; the carrier if its shape is known.
 pub fn meshes(scene: &Scene, bodies: &Bodies, carrier: Option<&CarrierBody>) -> Picture {
-    let drawn = |body: &fe_contact::body::GearBody| Drawn::gear(&body.mesh);
+    let drawn = |body: &GearBody| Drawn::gear(&body.mesh);
     let (sun, planet, ring) =
         (bodies.sun.as_ref().map(drawn), drawn(&bodies.planet), bodies.ring.as_ref().map(drawn));
     let carrier = carrier.map(|body| Drawn::carrier(&body.mesh));
-    let centre = |psi: f64| polar(bodies.geometry.center_distance, psi);
-    let origin = [0.0, 0.0];
-    let mut placed = Vec::new();
+    let angles = angles(scene, bodies);
+    let central = |drawn, angle, colour| Placed { drawn, centre: [0.0; 2], angle, colour };
     // Behind everything else.
-    if let Some(drawn) = &carrier {
-        placed.push(Placed { drawn, centre: origin, angle: 0.0, colour: CARRIER });
-    }
-    let [sun_angle, ring_angle, planet_angles] = angles(scene, bodies);
-    if let Some(drawn) = &ring {
-        placed.push(Placed { drawn, centre: origin, angle: ring_angle[0], colour: RING });
-    }
-    for (psi, angle) in scene.planets.psi_rad.iter().zip(planet_angles) {
-        placed.push(Placed { drawn: &planet, centre: centre(*psi), angle, colour: PLANET });
-    }
-    if let Some(drawn) = &sun {
-        placed.push(Placed { drawn, centre: origin, angle: sun_angle[0], colour: SUN });
-    }
+    let mut placed: Vec<Placed<'_>> =
+        carrier.iter().map(|drawn| central(drawn, 0.0, "#b9c4cc")).collect();
+    placed.extend(ring.iter().map(|drawn| central(drawn, angles.ring, "#5a6570")));
+    placed.extend(scene.planets.psi_rad.iter().zip(angles.planets).map(|(psi, angle)| Placed {
+        drawn: &planet,
+        centre: polar(bodies.geometry.center_distance, *psi),
+        angle,
+        colour: "#1b6ca8",
+    }));
+    placed.extend(sun.iter().map(|drawn| central(drawn, angles.sun, "#b8860b")));
     picture(&placed)
 }
 
@@ -103,21 +94,20 @@ fn edges(body: &Placed<'_>) -> Vec<[[f64; 2]; 3]> {
     list
 }
 
-/// Angles of tooth 0 of sun, ring (half a pitch from tooth space 0) and planets, rad.
-fn angles(scene: &Scene, bodies: &Bodies) -> [Vec<f64>; 3] {
+/// Angles of tooth 0 of the gears in mesh, that of the ring half a pitch from its tooth space 0.
+fn angles(scene: &Scene, bodies: &Bodies) -> GearAngles {
     let geometry = &bodies.geometry;
     if let Some(phasing) = Phasing::new(geometry, &scene.planets).filter(|_| scene.pair.is_none()) {
-        let found = phasing.gear_angles(0.0, Facing::CounterClockwise);
-        let half = geometry.ring.as_ref().map_or(0.0, |ring| 0.5 * ring.pitch_angle());
-        return [vec![found.sun], vec![found.ring + half], found.planets];
+        let mut found = phasing.gear_angles(0.0, Facing::CounterClockwise);
+        found.ring += geometry.ring.as_ref().map_or(0.0, |ring| 0.5 * ring.pitch_angle());
+        return found;
     }
-    let frame = scene.pair.and_then(|kind| geometry.mesh(kind));
-    let frame = frame.and_then(|mesh| Some((mesh, PairFrame::new(mesh, 0.3, 0)?)));
-    let Some((mesh, frame)) = frame else { return [vec![0.0], vec![0.0], vec![0.0]] };
-    let [driver, driven] =
-        [MeshMember::Driver, MeshMember::Driven].map(|member| frame.tooth(member).axis);
-    match mesh.kind {
-        gearset::MeshKind::SunPlanet => [vec![driver], vec![0.0], vec![driven]],
-        gearset::MeshKind::RingPlanet => [vec![0.0], vec![driven], vec![driver]],
+    let mesh = scene.pair.and_then(|kind| geometry.mesh(kind));
+    let frame = mesh.and_then(|mesh| PairFrame::new(mesh, 0.3, 0));
+    let [driver, driven] = [MeshMember::Driver, MeshMember::Driven]
+        .map(|member| frame.as_ref().map_or(0.0, |frame| frame.tooth(member).axis));
+    match scene.pair {
+        Some(MeshKind::RingPlanet) => GearAngles { sun: 0.0, ring: driven, planets: vec![driver] },
+        _ => GearAngles { sun: driver, ring: 0.0, planets: vec![driven] },
     }
 }

@@ -5,6 +5,7 @@ mod branches;
 mod campbell;
 mod cost;
 mod drawing;
+mod error_cost;
 mod fidelities;
 mod frequency_band;
 mod harmonics;
@@ -13,7 +14,6 @@ mod meshes;
 mod mode_shapes;
 mod multipliers;
 mod pair_cycle;
-mod pressure;
 mod set_cycle;
 mod spectrum;
 mod stabilisation;
@@ -53,6 +53,17 @@ impl Figure {
     fn new(name: impl Into<String>, picture: Picture) -> Self {
         Self { name: name.into(), picture }
     }
+}
+
+/// Each value once, in order of first appearance.
+fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
+    let mut found = Vec::new();
+    for value in values {
+        if !found.contains(&value) {
+            found.push(value);
+        }
+    }
+    found
 }
 
 /// The characters of a text that PNG files show as `?`, because their font lacks them; each once.

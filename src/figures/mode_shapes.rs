@@ -5,19 +5,16 @@ use std::f64::consts::FRAC_PI_2;
 use experiments::modal::FeMode;
 use fe_contact::fe_mesh::polar;
 use fe_contact::statics::{CARRIER, PLANETS, RING, SUN};
+use gearset::{MeshKind, MeshMember};
 
 use super::ModalTest;
-use super::drawing::{Anchor, Canvas, Pen, Picture, Pixel, Type};
+use super::drawing::{Anchor, Canvas, Pen, Picture, Pixel, Symbol, Type};
 
-/// Side of a panel, px, and number of panels in a row.
+/// Side of a panel and height of its title, px.
 const SIDE: f64 = 300.0;
-const COLUMNS: usize = 4;
+const HEAD: f64 = 26.0;
 
 const AT_REST: Pen = Pen::new("#c4c8cc", 0.8);
-
-/// Height of the picture's title and of a panel's, px.
-const TOP: f64 = 40.0;
-const HEAD: f64 = 26.0;
 
 /// Largest displacement drawn over the sun's radius.
 const SCALE: f64 = 0.35;
@@ -42,19 +39,14 @@ struct Circle {
 /// A panel for each identified mode.
 pub(super) fn picture(of: &ModalTest<'_>) -> Picture {
     let circles = circles(of);
-    let modes = &of.test.modes;
-    let columns = COLUMNS.min(modes.len().max(1));
-    let rows = modes.len().div_ceil(columns).max(1);
-    let width = SIDE * columns as f64;
-    let mut canvas = Canvas::new([width, TOP + (SIDE + HEAD) * rows as f64]);
     let title = format!("{}: modes from the impulse test, thin lines at rest", of.scene.title);
-    canvas.text([0.5 * width, 26.0], Type::new(16, Anchor::Middle), title);
-    for (i, mode) in modes.iter().enumerate() {
-        let x = SIDE * ((i % columns) as f64 + 0.5);
-        let y = TOP + (SIDE + HEAD) * (i / columns) as f64;
+    let size = [SIDE, SIDE + HEAD];
+    let (mut canvas, corners) = Canvas::cells([&title, ""], &[], 4, of.test.modes.len(), size);
+    for (mode, [x, y]) in of.test.modes.iter().zip(corners) {
+        let middle = x + 0.5 * SIDE;
         let label = format!("{:.1} Hz, {}", mode.frequency_hz, mode.mode_type.name());
-        canvas.text([x, y + 18.0], Type::new(14, Anchor::Middle), label);
-        shape(&mut canvas, of, &circles, mode, [x, y + HEAD + 0.5 * SIDE]);
+        canvas.text([middle, y + 18.0], Type::new(14, Anchor::Middle), label);
+        shape(&mut canvas, of, &circles, mode, [middle, y + HEAD + 0.5 * SIDE]);
     }
     canvas.picture()
 }
@@ -62,45 +54,31 @@ pub(super) fn picture(of: &ModalTest<'_>) -> Picture {
 /// Operating pitch circles of the gears and, for the carrier, the circle through its pin seats.
 fn circles(of: &ModalTest<'_>) -> Vec<Circle> {
     let (geometry, races) = (of.geometry, of.races);
-    let a = geometry.center_distance;
-    let teeth = |gear: &gearset::Gear| f64::from(gear.teeth);
-    let planet = teeth(&geometry.planet);
-    let [arm_carrier, arm_ring, arm_sun, arm_planet] = races.radii;
-    let central = |body, radius, arm, colour| Circle {
-        body,
-        centre: [0.0, 0.0],
-        axes: 0.0,
-        radius,
-        arm,
-        hand: FRAC_PI_2,
-        // Lines of the large circles would cross the others.
-        hand_from: if body == SUN { 0.0 } else { 0.8 },
-        colour,
-    };
-    let mut list = Vec::new();
-    if !races.is_pair() {
-        list.push(central(CARRIER, a, arm_carrier, "#8a949c"));
-    }
-    if let Some(ring) = &geometry.ring {
-        let radius = a * teeth(ring) / (teeth(ring) - planet);
-        list.push(central(RING, radius, arm_ring, "#5a6570"));
-    }
-    let mut radius_of_planets = geometry.planet.base_radius;
-    if let Some(sun) = &geometry.sun {
-        radius_of_planets = a * planet / (teeth(sun) + planet);
-        list.push(central(SUN, a - radius_of_planets, arm_sun, "#b8860b"));
-    }
-    list.extend(races.psi.iter().enumerate().map(|(n, psi)| Circle {
+    let pitch = |kind, member| Some(geometry.mesh(kind)?.pitch_radius(member));
+    let sun = pitch(MeshKind::SunPlanet, MeshMember::Driver);
+    let ring = pitch(MeshKind::RingPlanet, MeshMember::Driven);
+    let planet = pitch(MeshKind::SunPlanet, MeshMember::Driven);
+    let planet = planet.unwrap_or(geometry.planet.base_radius);
+    let carrier = (!races.is_pair()).then_some(geometry.center_distance);
+    let bodies = [(CARRIER, carrier, "#8a949c"), (RING, ring, "#5a6570"), (SUN, sun, "#b8860b")];
+    let central =
+        bodies.into_iter().zip(races.radii).filter_map(|((body, radius, colour), arm)| {
+            // Lines of the large circles would cross the others.
+            let hand_from = if body == SUN { 0.0 } else { 0.8 };
+            let (centre, axes, hand) = ([0.0; 2], 0.0, FRAC_PI_2);
+            Some(Circle { body, centre, axes, radius: radius?, arm, hand, hand_from, colour })
+        });
+    let planets = races.psi.iter().enumerate().map(|(n, psi)| Circle {
         body: PLANETS + n,
-        centre: polar(a, *psi),
+        centre: polar(geometry.center_distance, *psi),
         axes: *psi,
-        radius: radius_of_planets,
-        arm: arm_planet,
+        radius: planet,
+        arm: races.radii[3],
         hand: *psi,
         hand_from: 0.0,
         colour: "#1b6ca8",
-    }));
-    list
+    });
+    central.chain(planets).collect()
 }
 
 /// Translation along a body's axes (m) and rotation (rad) of a shape.
@@ -117,9 +95,9 @@ fn shape(
     mode: &FeMode,
     middle: Pixel,
 ) {
-    let outer =
-        circles.iter().fold(0.0f64, |r, c| r.max(c.radius + c.centre[0].hypot(c.centre[1])));
-    let view = View { middle, to_pixels: 0.42 * SIDE / outer };
+    let reach = |c: &Circle| c.radius + c.centre[0].hypot(c.centre[1]);
+    let outer = circles.iter().map(reach).fold(0.0, f64::max);
+    let to_pixels = 0.42 * SIDE / outer;
     let size = |c: &Circle| {
         let ([x, y], theta) = motion(of, c, mode);
         x.hypot(y).max(c.radius * theta.abs())
@@ -127,38 +105,24 @@ fn shape(
     let largest = circles.iter().map(size).fold(f64::MIN_POSITIVE, f64::max);
     let sun = circles.iter().find(|c| c.body == SUN).map_or(0.2 * outer, |c| c.radius);
     let scale = SCALE * sun / largest;
+    // y upwards
+    let pixel = |[x, y]: [f64; 2]| [middle[0] + x * to_pixels, middle[1] - y * to_pixels];
+    let mut draw = |circle: &Circle, [x, y]: [f64; 2], hand: f64, pen: Pen| {
+        let along = |radius: f64| {
+            let [a, b] = polar(radius, hand);
+            pixel([x + a, y + b])
+        };
+        canvas.symbol(pixel([x, y]), Symbol::Ring(to_pixels * circle.radius, pen));
+        canvas.line([along(circle.hand_from * circle.radius), along(circle.radius)], pen);
+    };
     for circle in circles {
-        view.draw(canvas, circle, circle.centre, circle.hand, AT_REST);
+        draw(circle, circle.centre, circle.hand, AT_REST);
     }
     for circle in circles {
         let ([x, y], theta) = motion(of, circle, mode);
         let (sin, cos) = circle.axes.sin_cos();
         let shift = [cos * x - sin * y, sin * x + cos * y].map(|s| scale * s);
         let at = [circle.centre[0] + shift[0], circle.centre[1] + shift[1]];
-        let pen = Pen::new(circle.colour, 2.0);
-        view.draw(canvas, circle, at, circle.hand + scale * theta, pen);
-    }
-}
-
-/// Transformation from metres to pixels.
-struct View {
-    /// Place of the set's centre.
-    middle: Pixel,
-    /// Pixels in a metre.
-    to_pixels: f64,
-}
-
-impl View {
-    /// A circle and its hand, y upwards.
-    fn draw(&self, canvas: &mut Canvas, circle: &Circle, centre: [f64; 2], hand: f64, pen: Pen) {
-        let pixel = |[x, y]: [f64; 2]| {
-            [self.middle[0] + x * self.to_pixels, self.middle[1] - y * self.to_pixels]
-        };
-        canvas.ring(pixel(centre), self.to_pixels * circle.radius, pen);
-        let along = |radius: f64| {
-            let [a, b] = polar(radius, hand);
-            pixel([centre[0] + a, centre[1] + b])
-        };
-        canvas.line([along(circle.hand_from * circle.radius), along(circle.radius)], pen);
+        draw(circle, at, circle.hand + scale * theta, Pen::new(circle.colour, 2.0));
     }
 }

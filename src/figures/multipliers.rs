@@ -3,7 +3,7 @@
 
 use experiments::sweep::{Sweep, SweepPoint};
 
-use super::drawing::{Curve, Labels, Picture, chart};
+use super::drawing::{Pen, Picture, Series, Symbol, chart};
 
 /// Ways in which stability is lost, as points have them, for people and with their colours.
 const KINDS: [(&str, &str, &str); 3] = [
@@ -12,28 +12,29 @@ const KINDS: [(&str, &str, &str); 3] = [
     ("neimark_sacker", "complex pair (Neimark–Sacker)", "#0072b2"),
 ];
 
-/// Colour of motions that were not shown to attract.
-const NOT_SHOWN: &str = "#d55e00";
-
 /// The multipliers over speed; `None` where no motion has any.
 pub(super) fn picture(sweep: &Sweep, title: &str) -> Option<Picture> {
     let points = sweep.points();
     let size = |p: &&SweepPoint| Some((p.state.case.speed_rpm, p.largest_multiplier()?));
-    let mut curves = vec![Curve::new("", points.iter().filter_map(size).collect()).thin("#999999")];
-    if curves[0].points.is_empty() {
+    let dots = |name, colour, is_kind: &dyn Fn(&SweepPoint) -> bool| {
+        let points = points.iter().filter(|p| is_kind(p));
+        // Motions without multipliers stand on the border.
+        let place =
+            |p: &&SweepPoint| (p.state.case.speed_rpm, p.largest_multiplier().unwrap_or(1.0));
+        Series::new(name, Symbol::Disc(3.0, colour), points.map(place))
+    };
+    let line = Series::new("", Pen::new("#999999", 1.0), points.iter().filter_map(size));
+    if line.points.is_empty() {
         return None;
     }
-    for (kind, name, colour) in KINDS {
-        let is_kind = |p: &&&SweepPoint| {
+    let mut series = vec![line];
+    series.extend(KINDS.map(|(kind, name, colour)| {
+        dots(name, colour, &|p| {
             p.attracts.is_shown() && p.largest_multiplier.as_ref().is_some_and(|m| m.kind == kind)
-        };
-        curves.extend(dots(name, points.iter().filter(is_kind).filter_map(size), colour));
-    }
-    let not_shown = points.iter().filter(|p| !p.attracts.is_shown()).map(|p| {
-        // Motions without multipliers stand on the border.
-        (p.state.case.speed_rpm, p.largest_multiplier().unwrap_or(1.0))
-    });
-    curves.extend(dots("not shown to attract", not_shown, NOT_SHOWN));
+        })
+    }));
+    series.push(dots("not shown to attract", "#d55e00", &|p| !p.attracts.is_shown()));
+    series.retain(|s| !s.points.is_empty());
     let types = points.iter().filter_map(|p| p.largest_multiplier.as_ref()?.mode_type.as_deref());
     let mut names: Vec<&str> = types.collect();
     names.sort_unstable();
@@ -42,20 +43,7 @@ pub(super) fn picture(sweep: &Sweep, title: &str) -> Option<Picture> {
         true => String::new(),
         false => format!("; of {} motion", names.join(", ")),
     };
-    let labels = Labels {
-        title,
-        subtitle: format!("{}, size of the largest Floquet multiplier{of_types}", sweep.fidelity),
-        x: "speed of the input member, rpm",
-        y: "|μ|; motions attract below 1",
-    };
-    Some(chart(&labels, &curves))
-}
-
-fn dots(
-    name: &str,
-    points: impl Iterator<Item = (f64, f64)>,
-    colour: &'static str,
-) -> Option<Curve> {
-    let points: Vec<(f64, f64)> = points.collect();
-    (!points.is_empty()).then(|| Curve::new(name, points).dots(3.0, colour))
+    let caption = format!("{}, size of the largest Floquet multiplier{of_types}", sweep.fidelity);
+    let axes = ["speed of the input member, rpm", "|μ|; motions attract below 1"];
+    Some(chart([title, &caption], axes, series))
 }

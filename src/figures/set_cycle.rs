@@ -4,7 +4,7 @@ use fe_contact::statics::{SetCycle, SetState};
 use gearset::MeshKind;
 
 use super::Figure;
-use super::drawing::{Curve, Labels, Picture, chart};
+use super::drawing::{Pen, Series, chart, colour, curve};
 
 /// Figures of the last cycle: `transmission_error`, `load_sharing` and `mesh_stiffness`; of several cycles
 /// under different torques also `rms_against_torque`.
@@ -13,30 +13,49 @@ use super::drawing::{Curve, Labels, Picture, chart};
 pub fn of_set_cycles(title: &str, cycles: &[SetCycle], sun_base_radius: f64) -> Vec<Figure> {
     let Some(cycle) = cycles.last() else { return Vec::new() };
     let about = format!("{title}, {} N·m on the sun", cycle.torque_nm);
+    let figure = |name: &str, title, y, series| {
+        Figure::new(name, chart([title, &about], ["mesh cycle", y], series))
+    };
+    let error = over(cycle, |s| s.transmission_error(sun_base_radius) * 1e6);
     let mut figures = vec![
-        Figure::new("transmission_error", transmission_error(cycle, sun_base_radius, &about)),
-        Figure::new("load_sharing", load_sharing(cycle, &about)),
-        Figure::new("mesh_stiffness", mesh_stiffness(cycle, &about)),
+        figure(
+            "transmission_error",
+            "Transmission error of the set",
+            "r_b θ of the sun, µm",
+            vec![Series::new("", curve(0), error)],
+        ),
+        figure(
+            "load_sharing",
+            "Load sharing between the planets",
+            "mesh force, kN",
+            load_sharing(cycle),
+        ),
+        figure(
+            "mesh_stiffness",
+            "Tangent mesh stiffness, planet 0",
+            "∂F/∂δ, 1e6 N/m",
+            mesh_stiffness(cycle),
+        ),
     ];
     let (rotation, translation) = cycles[0].sun_rms();
     if cycles.len() > 1 && rotation > 0.0 && translation > 0.0 {
-        figures.push(Figure::new("rms_against_torque", rms_against_torque(title, cycles)));
+        let over = |of: &dyn Fn((f64, f64)) -> f64| -> Vec<(f64, f64)> {
+            cycles.iter().map(|c| (c.torque_nm.abs(), of(c.sun_rms()))).collect()
+        };
+        let caption = format!("{title}, RMS about the mean, over that at the first torque");
+        let head = ["Static deflection of the sun against torque", &caption];
+        let series = vec![
+            Series::new("rotation", curve(0), over(&|rms| rms.0 / rotation)),
+            Series::new("translation", curve(1).dashed(), over(&|rms| rms.1 / translation)),
+        ];
+        let picture = chart(head, ["sun torque, N·m", "normalised RMS"], series);
+        figures.push(Figure::new("rms_against_torque", picture));
     }
     figures
 }
 
 fn over(cycle: &SetCycle, of: impl Fn(&SetState) -> f64) -> Vec<(f64, f64)> {
     cycle.states.iter().map(|s| (s.position, of(s))).collect()
-}
-
-fn transmission_error(cycle: &SetCycle, radius: f64, about: &str) -> Picture {
-    let labels = Labels {
-        title: "Transmission error of the set",
-        subtitle: about.into(),
-        x: "mesh cycle",
-        y: "r_b θ of the sun, µm",
-    };
-    chart(&labels, &[Curve::new("", over(cycle, |s| s.transmission_error(radius) * 1e6))])
 }
 
 /// Width of curve i of so many, px. Planets in phase carry the same force: a curve that lies below others is wider and
@@ -50,56 +69,23 @@ fn width(i: usize, count: usize) -> f64 {
     THINNEST + step * below.saturating_sub(i) as f64
 }
 
-fn load_sharing(cycle: &SetCycle, about: &str) -> Picture {
-    let meshes = cycle.states[0].meshes.iter().enumerate();
-    let count = cycle.states[0].meshes.len();
-    let curves: Vec<Curve> = meshes
-        .map(|(i, m)| {
-            let forces = over(cycle, |s| s.meshes[i].force * 1e-3);
-            let curve = Curve::new(format!("{} {}", m.kind.name(), m.planet), forces);
-            let curve = curve.wide(width(i, count));
-            if m.kind == MeshKind::RingPlanet { curve.dashed() } else { curve }
-        })
-        .collect();
-    let labels = Labels {
-        title: "Load sharing between the planets",
-        subtitle: about.into(),
-        x: "mesh cycle",
-        y: "mesh force, kN",
-    };
-    chart(&labels, &curves)
+fn load_sharing(cycle: &SetCycle) -> Vec<Series> {
+    let meshes = &cycle.states[0].meshes;
+    let series = meshes.iter().enumerate().map(|(i, m)| {
+        let pen = Pen::new(colour(i), width(i, meshes.len()));
+        let pen = if m.kind == MeshKind::RingPlanet { pen.dashed() } else { pen };
+        let forces = over(cycle, |s| s.meshes[i].force * 1e-3);
+        Series::new(format!("{} {}", m.kind.name(), m.planet), pen, forces)
+    });
+    series.collect()
 }
 
-fn mesh_stiffness(cycle: &SetCycle, about: &str) -> Picture {
+fn mesh_stiffness(cycle: &SetCycle) -> Vec<Series> {
     let meshes = cycle.states[0].meshes.iter().enumerate().filter(|(_, m)| m.planet == 0);
-    let curves: Vec<Curve> = meshes
-        .map(|(i, m)| Curve::new(m.kind.name(), over(cycle, |s| s.meshes[i].tangent * 1e-6)))
-        .collect();
-    let labels = Labels {
-        title: "Tangent mesh stiffness, planet 0",
-        subtitle: about.into(),
-        x: "mesh cycle",
-        y: "∂F/∂δ, 1e6 N/m",
-    };
-    chart(&labels, &curves)
-}
-
-fn rms_against_torque(title: &str, cycles: &[SetCycle]) -> Picture {
-    let (r0, t0) = cycles[0].sun_rms();
-    let over = |of: &dyn Fn(&SetCycle) -> f64| -> Vec<(f64, f64)> {
-        cycles.iter().map(|c| (c.torque_nm.abs(), of(c))).collect()
-    };
-    let labels = Labels {
-        title: "Static deflection of the sun against torque",
-        subtitle: format!("{title}, RMS about the mean, over that at the first torque"),
-        x: "sun torque, N·m",
-        y: "normalised RMS",
-    };
-    let curves = [
-        Curve::new("rotation", over(&|c| c.sun_rms().0 / r0)),
-        Curve::new("translation", over(&|c| c.sun_rms().1 / t0)).dashed(),
-    ];
-    chart(&labels, &curves)
+    let series = meshes.enumerate().map(|(k, (i, m))| {
+        Series::new(m.kind.name(), curve(k), over(cycle, |s| s.meshes[i].tangent * 1e-6))
+    });
+    series.collect()
 }
 
 #[cfg(test)]

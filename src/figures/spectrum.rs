@@ -5,7 +5,7 @@ use experiments::modal::Decay;
 use fe_contact::statics::SUN;
 
 use super::ModalTest;
-use super::drawing::{Curve, Labels, Panel, Picture, panels};
+use super::drawing::{Axis, FOUND, Panel, Picture, Series, curve, panels};
 
 /// Length of a decay after zero padding, over its own length.
 const PADDING: usize = 8;
@@ -13,30 +13,24 @@ const PADDING: usize = 8;
 /// Spectra of the sun's translation after a force pulse on the sun and after one on the carrier, as in Fig. 3
 /// of Parker, Agashe & Vijayakar (2000); `None` if the test has neither pulse.
 pub(super) fn picture(of: &ModalTest<'_>) -> Result<Option<Picture>, SpectrumError> {
-    let test = &of.test;
-    let pulses = [
-        ("sun x force", "The sun's translation after a force pulse on the sun"),
-        ("carrier x force", "The sun's translation after a force pulse on the carrier"),
-    ];
     let mut list = Vec::new();
-    for (name, title) in pulses {
-        let Some(decay) = test.decays.iter().find(|d| d.pulse.name == name) else { continue };
+    for body in ["sun", "carrier"] {
+        let name = format!("{body} x force");
+        let Some(decay) = of.test.decays.iter().find(|d| d.pulse.name == name) else { continue };
         let Some(points) = translation(of, decay)? else { continue };
         list.push(Panel {
-            labels: Labels {
-                title,
-                subtitle: String::new(),
-                x: "frequency, Hz",
-                y: "amplitude, nm",
-            },
-            curves: vec![Curve::new("", points)],
-            marks: of.frequencies(),
-            x_range: Some((0.0, test.settings.band_hz.1)),
-            is_log: true,
+            title: format!("The sun's translation after a force pulse on the {body}"),
+            x: Axis::within("frequency, Hz", 0.0, of.test.settings.band_hz.1),
+            y: Axis::log("amplitude, nm"),
+            series: vec![
+                Series::uprights("", FOUND, of.frequencies()),
+                Series::new("", curve(0), points),
+            ],
+            ..Panel::default()
         });
     }
     let title = format!("{}: natural frequencies dashed", of.scene.title);
-    Ok((!list.is_empty()).then(|| panels(&title, 1, (900.0, 360.0), &list)))
+    Ok((!list.is_empty()).then(|| panels([&title, ""], 1, [780.0, 270.0], &list)))
 }
 
 /// Amplitude √(|X|² + |Y|²) of the sun (nm) over frequency (Hz).

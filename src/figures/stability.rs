@@ -1,52 +1,37 @@
 //! Figures of stability maps: what was measured as points or solid lines, theory dashed.
 
-use experiments::stability::{MapCurve, StabilityMap};
+use experiments::stability::StabilityMap;
 
-use super::Figure;
-use super::drawing::{Curve, Labels, Panel, colour, panels};
-
-/// Cell of one panel, px.
-const CELL: (f64, f64) = (760.0, 420.0);
+use super::drawing::{Axis, Panel, Pen, Series, Symbol, colour, panels};
+use super::{Figure, distinct};
 
 /// One figure of a map, a panel for each quantity.
 pub fn of_map(map: &StabilityMap) -> Figure {
-    let (names, titles) = (distinct(map, |c| &c.name), distinct(map, |c| &c.panel));
-    let mut list = Vec::new();
-    for title in titles {
-        let mut named: Vec<&str> = Vec::new();
-        let mut curves = Vec::new();
-        for curve in map.curves.iter().filter(|c| c.panel == title) {
-            let place = names.iter().position(|n| *n == curve.name).unwrap_or(0);
-            // One entry of the legend for all that has one name.
-            let is_new = !named.contains(&curve.name.as_str());
-            named.push(&curve.name);
-            let name = if is_new { curve.name.clone() } else { String::new() };
-            let drawn = Curve::new(name, curve.points.clone());
-            curves.push(match (curve.is_points, curve.is_theory) {
-                (true, _) => drawn.dots(2.4, colour(place)),
-                (false, true) => drawn.thin(colour(place)).dashed(),
-                (false, false) => drawn.thin(colour(place)).wide(1.6),
-            });
-        }
-        list.push(Panel {
-            labels: Labels { title, subtitle: String::new(), x: &map.x_axis, y: "" },
-            curves,
-            marks: Vec::new(),
-            x_range: None,
-            is_log: false,
+    let names = distinct(map.curves.iter().map(|c| c.name.as_str()));
+    let panel = |title: &str| {
+        let curves = || map.curves.iter().filter(|c| c.panel == title);
+        let series = curves().enumerate().map(|(i, curve)| {
+            // One entry of the key for all that has one name.
+            let is_new = curves().take(i).all(|earlier| earlier.name != curve.name);
+            let colour = colour(names.iter().position(|n| *n == curve.name).unwrap_or(0));
+            let symbol = match (curve.is_points, curve.is_theory) {
+                (true, _) => Symbol::Disc(2.4, colour),
+                (false, true) => Symbol::Line(Pen::new(colour, 1.0).dashed()),
+                (false, false) => Symbol::Line(Pen::new(colour, 1.6)),
+            };
+            Series::new(if is_new { &*curve.name } else { "" }, symbol, curve.points.clone())
         });
-    }
-    let title = format!("{}; theory dashed", map.system);
-    Figure::new(format!("stability_{}", map.map.replace('-', "_")), panels(&title, 1, CELL, &list))
-}
-
-/// The distinct values of a name of the curves, in order.
-fn distinct<'m>(map: &'m StabilityMap, of: impl Fn(&'m MapCurve) -> &'m str) -> Vec<&'m str> {
-    let mut found: Vec<&str> = Vec::new();
-    for curve in &map.curves {
-        if !found.contains(&of(curve)) {
-            found.push(of(curve));
+        Panel {
+            title: title.into(),
+            x: Axis::linear(&*map.x_axis),
+            y: Axis::linear(""),
+            series: series.collect(),
+            ..Panel::default()
         }
-    }
-    found
+    };
+    let titles = distinct(map.curves.iter().map(|c| c.panel.as_str()));
+    let list: Vec<Panel> = titles.into_iter().map(panel).collect();
+    let title = format!("{}; theory dashed", map.system);
+    let picture = panels([&title, ""], 1, [560.0, 330.0], &list);
+    Figure::new(format!("stability_{}", map.map.replace('-', "_")), picture)
 }

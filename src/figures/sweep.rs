@@ -5,8 +5,8 @@ use experiments::sweep::{Coordinate, Part, Sweep, SweepPoint};
 use lumped::ModeType;
 use scene::Scene;
 
-use super::drawing::{Anchor, Canvas, Pen, Type, colour_of};
-use super::{Figure, harmonics, multipliers, waterfall};
+use super::drawing::{Pen, Series, colour_of};
+use super::{Figure, distinct, harmonics, multipliers, waterfall};
 
 /// A quantity whose largest amplitude is below this share of the largest in its unit is not drawn.
 const NOTHING: f64 = 1e-9;
@@ -72,21 +72,17 @@ pub(super) struct Subject {
     pub(super) natural: Vec<(f64, ModeType)>,
 }
 
-/// Draws the colour key of the mode types, centred at `at`.
-pub(super) fn key_of_types(canvas: &mut Canvas, subject: &Subject, at: [f64; 2]) {
-    let mut types: Vec<ModeType> = Vec::new();
-    for (_, mode_type) in &subject.natural {
-        if !types.contains(mode_type) {
-            types.push(*mode_type);
-        }
-    }
-    let width = 130.0;
-    let mut x = at[0] - 0.5 * width * types.len() as f64;
-    for mode_type in types {
-        let pen = Pen::new(colour_of(mode_type), 1.4).dashed("5 3");
-        canvas.line([[x, at[1] - 4.0], [x + 28.0, at[1] - 4.0]], pen);
-        canvas.text([x + 34.0, at[1]], Type::new(11, Anchor::Start), mode_type.name());
-        x += width;
+impl Subject {
+    /// Lines over the height of a panel at natural frequencies, of which `place` gives the value on its x axis; one
+    /// named series for each type of mode.
+    pub(super) fn natural_lines(&self, place: impl Fn(f64) -> f64) -> Vec<Series> {
+        let types = distinct(self.natural.iter().map(|(_, mode_type)| *mode_type));
+        let series = types.into_iter().map(|mode_type| {
+            let alike = self.natural.iter().filter(|(_, other)| *other == mode_type);
+            let pen = Pen::new(colour_of(mode_type), 1.0).dashed();
+            Series::uprights(mode_type.name(), pen, alike.map(|(f, _)| place(*f)))
+        });
+        series.collect()
     }
 }
 
@@ -166,60 +162,60 @@ fn branches(sweep: &Sweep) -> Vec<Vec<&SweepPoint>> {
 /// Rotations and translations of the bodies that are large enough to be drawn; of the planets, planet 0.
 fn quantities(sweep: &Sweep, planets: usize) -> Vec<Quantity> {
     use Coordinate::{Radial, Rotation, Tangential};
-    let branches = branches(sweep);
-    let most =
-        branches.iter().flatten().flat_map(|p| p.state.lines.iter().map(|l| l.harmonic)).max();
-    let top = most.unwrap_or(0);
-    let both: &[Coordinate] = &[Radial, Tangential];
-    let mut wanted: Vec<(Part, &str, &[Coordinate])> = vec![
-        (Part::Sun, "rotation", &[Rotation]),
-        (Part::Sun, "translation", both),
-        (Part::Carrier, "rotation", &[Rotation]),
-        (Part::Carrier, "translation", both),
-        (Part::Ring, "rotation", &[Rotation]),
-        (Part::Ring, "translation", both),
-    ];
+    let mut wanted: Vec<(Part, &str, &[Coordinate])> = Vec::new();
+    for part in [Part::Sun, Part::Carrier, Part::Ring] {
+        wanted.push((part, "rotation", &[Rotation]));
+        wanted.push((part, "translation", &[Radial, Tangential]));
+    }
     if planets > 0 {
         wanted.push((Part::Planet(0), "rotation", &[Rotation]));
         wanted.push((Part::Planet(0), "radial", &[Radial]));
         wanted.push((Part::Planet(0), "tangential", &[Tangential]));
     }
-    let spot = |p: &SweepPoint, part: Part, coordinates: &[Coordinate], l: usize| Spot {
-        mesh_hz: p.state.case.mesh_frequency_hz,
-        // √(radial² + tangential²) of a translation
-        amplitude: 1e6
-            * coordinates.iter().fold(0.0f64, |sum, c| sum.hypot(p.state.amplitude(part, *c, l))),
-        is_steady: p.is_steady,
-    };
+    let branches = branches(sweep);
     let mut list: Vec<Quantity> = wanted
         .into_iter()
-        .map(|(part, kind, coordinates)| {
-            let of = |l: usize| -> Vec<Vec<Spot>> {
-                let one = |side: &Vec<&SweepPoint>| {
-                    side.iter().map(|p| spot(p, part, coordinates, l)).collect()
-                };
-                branches.iter().map(one).collect()
-            };
-            let name = part.name();
-            let kind_for_people = match kind {
-                "radial" | "tangential" => format!("{kind} displacement"),
-                _ => kind.to_owned(),
-            };
-            Quantity {
-                title: format!("{}, {kind_for_people}", name.replace('_', " ")),
-                name: format!("{name}_{kind}"),
-                unit: if coordinates == [Rotation] { "µrad" } else { "µm" },
-                harmonics: (1..=top).map(of).collect(),
-            }
-        })
+        .map(|(part, kind, coordinates)| quantity(&branches, part, kind, coordinates))
         .collect();
     let largest = |unit: &str| {
         list.iter().filter(|q| q.unit == unit).map(Quantity::largest).fold(0.0, f64::max)
     };
-    let (of_rotations, of_translations) = (largest("µrad"), largest("µm"));
+    let [of_rotations, of_translations] = ["µrad", "µm"].map(largest);
     list.retain(|q| {
         let all = if q.unit == "µrad" { of_rotations } else { of_translations };
         q.largest() > NOTHING * all
     });
     list
+}
+
+fn quantity(
+    branches: &[Vec<&SweepPoint>],
+    part: Part,
+    kind: &str,
+    coordinates: &[Coordinate],
+) -> Quantity {
+    let name = part.name();
+    let displacement = match kind {
+        "radial" | "tangential" => " displacement",
+        _ => "",
+    };
+    let spot = |p: &SweepPoint, l: usize| {
+        // √(radial² + tangential²) of a translation
+        let all = coordinates.iter().map(|c| p.state.amplitude(part, *c, l));
+        Spot {
+            mesh_hz: p.state.case.mesh_frequency_hz,
+            amplitude: 1e6 * all.fold(0.0, f64::hypot),
+            is_steady: p.is_steady,
+        }
+    };
+    let lines = branches.iter().flatten().flat_map(|p| &p.state.lines);
+    let top = lines.map(|line| line.harmonic).max().unwrap_or(0);
+    let of_branches =
+        |l| branches.iter().map(|side| side.iter().map(|p| spot(p, l)).collect()).collect();
+    Quantity {
+        title: format!("{}, {kind}{displacement}", name.replace('_', " ")),
+        name: format!("{name}_{kind}"),
+        unit: if kind == "rotation" { "µrad" } else { "µm" },
+        harmonics: (1..=top).map(of_branches).collect(),
+    }
 }

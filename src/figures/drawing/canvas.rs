@@ -1,11 +1,14 @@
-//! A drawing surface: lines, texts and shapes placed in pixels, y downwards.
+//! A drawing surface: lines, areas and texts placed in pixels, y downwards.
 
 use std::fmt::Write as _;
 
 use kuva::render::color::Color;
-use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
+use kuva::render::render::{PathData, Primitive, Scene};
 
 use super::picture::Picture;
+use super::series::{Series, Symbol, key_column, key_width};
+
+pub(crate) use kuva::render::render::TextAnchor as Anchor;
 
 /// The fonts that kuva's own charts ask for.
 const FONTS: &str = "DejaVu Sans, Verdana, Liberation Sans, Arial, sans-serif";
@@ -13,7 +16,7 @@ const FONTS: &str = "DejaVu Sans, Verdana, Liberation Sans, Arial, sans-serif";
 /// Place in the picture, px.
 pub(crate) type Pixel = [f64; 2];
 
-/// How a line is drawn.
+/// Colour, width (px) and dashes of a line.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pen {
     colour: &'static str,
@@ -26,18 +29,13 @@ impl Pen {
         Self { colour, width, dashes: None }
     }
 
-    pub(crate) const fn dashed(mut self, dashes: &'static str) -> Self {
-        self.dashes = Some(dashes);
-        self
+    pub(crate) const fn dashed(self) -> Self {
+        Self { dashes: Some("6 3"), ..self }
     }
-}
 
-/// Which point of a text its position refers to.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Anchor {
-    Start,
-    Middle,
-    End,
+    pub(crate) const fn dotted(self) -> Self {
+        Self { dashes: Some("2 3"), ..self }
+    }
 }
 
 /// How a text is set: size in px, anchor, colour, turn in degrees (clockwise).
@@ -47,28 +45,25 @@ pub(crate) struct Type {
     anchor: Anchor,
     colour: &'static str,
     turn: Option<f64>,
-    is_bold: bool,
 }
 
 impl Type {
     pub(crate) const fn new(size: u32, anchor: Anchor) -> Self {
-        Self { size, anchor, colour: "#000000", turn: None, is_bold: false }
+        Self { size, anchor, colour: "#000000", turn: None }
     }
 
-    pub(crate) const fn colour(mut self, colour: &'static str) -> Self {
-        self.colour = colour;
-        self
+    pub(crate) const fn colour(self, colour: &'static str) -> Self {
+        Self { colour, ..self }
     }
 
-    pub(crate) const fn turned(mut self, degrees: f64) -> Self {
-        self.turn = Some(degrees);
-        self
+    pub(crate) const fn turned(self, degrees: f64) -> Self {
+        Self { turn: Some(degrees), ..self }
     }
+}
 
-    pub(crate) const fn bold(mut self) -> Self {
-        self.is_bold = true;
-        self
-    }
+/// Width of a text, px: that of DejaVu Sans, a wide font, by estimate.
+pub(super) fn text_width(text: &str, size: u32) -> f64 {
+    0.6 * f64::from(size) * text.chars().count() as f64
 }
 
 /// A picture being drawn.
@@ -85,6 +80,26 @@ impl Canvas {
         Self { scene }
     }
 
+    /// A canvas of `count` cells of equal size (px) in up to `columns` columns, with the upper left corner of each;
+    /// above them title and caption, of which either may be empty, and at their right a key.
+    pub(crate) fn cells(
+        head: [&str; 2],
+        key: &[&Series],
+        columns: usize,
+        count: usize,
+        [across, down]: [f64; 2],
+    ) -> (Self, Vec<Pixel>) {
+        let columns = columns.min(count).max(1);
+        let top = 18.0 + 20.0 * head.iter().filter(|line| !line.is_empty()).count() as f64;
+        let right = across * columns as f64;
+        let height = top + down * count.div_ceil(columns).max(1) as f64;
+        let mut canvas = Self::new([right + key_width(key), height]);
+        canvas.head(head);
+        key_column(&mut canvas, key, [right, top + 34.0]);
+        let corner = |i| [across * (i % columns) as f64, top + down * (i / columns) as f64];
+        (canvas, (0..count).map(corner).collect())
+    }
+
     /// A line through points.
     pub(crate) fn line(&mut self, points: impl IntoIterator<Item = Pixel>, pen: Pen) {
         self.scene.add(Primitive::PolyLine {
@@ -98,75 +113,61 @@ impl Canvas {
     /// A filled polygon.
     pub(crate) fn area(&mut self, points: &[Pixel], fill: &'static str, opacity: f64) {
         let mut d = String::new();
-        for (i, [x, y]) in points.iter().enumerate() {
+        for [x, y] in points {
             // Writing to a string cannot fail.
-            let _ = write!(d, "{}{x:.2} {y:.2}", if i == 0 { "M" } else { "L" });
+            let _ = write!(d, "{}{x:.2} {y:.2}", if d.is_empty() { "M" } else { "L" });
         }
         d.push('Z');
-        self.scene.add(Primitive::Path(Box::new(PathData {
-            d,
-            fill: Some(Color::from(fill)),
-            stroke: Color::from(fill),
-            stroke_width: 0.0,
-            opacity: Some(opacity),
-            stroke_dasharray: None,
-        })));
+        self.path(d, Some((fill, opacity)), Pen::new(fill, 0.0));
     }
 
     /// Curves that are not closed, each from a place over a control point to another place (parabolas).
     pub(crate) fn parabolas(&mut self, curves: &[[Pixel; 3]], pen: Pen) {
         let mut d = String::new();
         for [p, c, q] in curves {
+            let [[a, b], [e, f], [g, h]] = [p, c, q];
             // Writing to a string cannot fail.
-            let _ = write!(
-                d,
-                "M{:.3} {:.3}Q{:.3} {:.3} {:.3} {:.3}",
-                p[0], p[1], c[0], c[1], q[0], q[1]
-            );
+            let _ = write!(d, "M{a:.3} {b:.3}Q{e:.3} {f:.3} {g:.3} {h:.3}");
         }
+        self.path(d, None, pen);
+    }
+
+    fn path(&mut self, d: String, fill: Option<(&str, f64)>, pen: Pen) {
         self.scene.add(Primitive::Path(Box::new(PathData {
             d,
-            fill: None,
+            fill: fill.map(|(colour, _)| Color::from(colour)),
             stroke: Color::from(pen.colour),
             stroke_width: pen.width,
-            opacity: None,
+            opacity: fill.map(|(_, opacity)| opacity),
             stroke_dasharray: pen.dashes.map(Into::into),
         })));
     }
 
     /// A filled rectangle from a corner.
-    pub(crate) fn rectangle(&mut self, corner: Pixel, size: [f64; 2], fill: &'static str) {
-        self.scene.add(Primitive::Rect {
-            x: corner[0],
-            y: corner[1],
-            width: size[0],
-            height: size[1],
-            fill: Color::from(fill),
-            stroke: None,
-            stroke_width: None,
-            opacity: None,
-        });
+    pub(crate) fn rectangle(&mut self, [x, y]: Pixel, [w, h]: [f64; 2], fill: &'static str) {
+        self.area(&[[x, y], [x + w, y], [x + w, y + h], [x, y + h]], fill, 1.0);
     }
 
-    /// A filled circle.
-    pub(crate) fn disc(&mut self, centre: Pixel, radius: f64, fill: &'static str) {
-        self.circle(centre, radius, fill, None);
-    }
-
-    /// A circle without fill.
-    pub(crate) fn ring(&mut self, centre: Pixel, radius: f64, pen: Pen) {
-        self.circle(centre, radius, "#ffffff", Some(pen));
-    }
-
-    fn circle(&mut self, centre: Pixel, r: f64, fill: &'static str, edge: Option<Pen>) {
+    /// A symbol at a place: a disc or a ring, of the others the sample that stands in a key.
+    pub(crate) fn symbol(&mut self, [x, y]: Pixel, symbol: Symbol) {
+        let (r, colour, ring) = match symbol {
+            Symbol::Disc(r, colour) => (r, colour, None),
+            Symbol::Ring(r, pen) => (r, "#ffffff", Some(pen)),
+            Symbol::Line(pen) | Symbol::Upright(pen) | Symbol::Level(pen) => {
+                return self.line([[x - 9.0, y], [x + 9.0, y]], pen);
+            }
+            Symbol::Below(fill) | Symbol::Tile(fill) => {
+                return self.rectangle([x - 8.0, y - 5.0], [16.0, 10.0], fill);
+            }
+        };
         self.scene.add(Primitive::Circle {
-            cx: centre[0],
-            cy: centre[1],
+            cx: x,
+            cy: y,
             r,
-            fill: Color::from(fill),
-            fill_opacity: edge.map(|_| 0.0),
-            stroke: edge.map(|pen| Color::from(pen.colour)),
-            stroke_width: edge.map(|pen| pen.width),
+            fill: Color::from(colour),
+            fill_opacity: ring.map(|_| 0.0),
+            stroke: ring.map(|pen| Color::from(pen.colour)),
+            stroke_width: ring.map(|pen| pen.width),
         });
     }
 
@@ -177,22 +178,24 @@ impl Canvas {
             y: at[1],
             content: content.into(),
             size: kind.size,
-            anchor: match kind.anchor {
-                Anchor::Start => TextAnchor::Start,
-                Anchor::Middle => TextAnchor::Middle,
-                Anchor::End => TextAnchor::End,
-            },
+            anchor: kind.anchor,
             rotate: kind.turn,
-            bold: kind.is_bold,
+            bold: false,
             color: Some(Color::from(kind.colour)),
         });
     }
 
-    /// Title and the line below it, in the middle of the top edge.
-    pub(crate) fn head(&mut self, title: &str, caption: &str) {
-        let middle = 0.5 * self.scene.width;
-        self.text([middle, 26.0], Type::new(16, Anchor::Middle), title);
-        self.text([middle, 46.0], Type::new(12, Anchor::Middle).colour("#444444"), caption);
+    /// Title and the line below it, in the middle of the top edge and no wider than the picture.
+    pub(super) fn head(&mut self, lines: [&str; 2]) {
+        let width = self.scene.width;
+        for (i, (line, size)) in lines.into_iter().zip([16, 12]).enumerate() {
+            let fits = (8..=size).rev().find(|size| text_width(line, *size) < width);
+            let kind = Type::new(fits.unwrap_or(8), Anchor::Middle);
+            let kind = if i == 0 { kind } else { kind.colour("#444444") };
+            if !line.is_empty() {
+                self.text([0.5 * width, 26.0 + 20.0 * i as f64], kind, line);
+            }
+        }
     }
 
     pub(crate) fn picture(self) -> Picture {

@@ -81,7 +81,7 @@ mod tests {
     fn a_png_shows_what_an_svg_says_or_a_question_mark() {
         let picture = |title: &str| {
             let mut canvas = Canvas::new([200.0, 60.0]);
-            canvas.head(title, "γ");
+            canvas.head([title, "γ"]);
             canvas.picture()
         };
         let folder = tempfile::tempdir().unwrap();

@@ -1,16 +1,20 @@
-//! Drawing tools of all figures: line charts, and a canvas with axes for what charts cannot show. Only this
-//! folder uses kuva.
+//! One drawing layer for all figures: panels of series over scaled axes, their keys and labels, and the canvas beneath
+//! for what a panel cannot show. Only this folder uses kuva.
 
-mod axes;
 mod canvas;
-mod chart;
 mod glyphs;
+mod labels;
 mod palette;
+mod panel;
 mod picture;
+mod scale;
+mod series;
 
-pub(super) use axes::{Axes, Scale, spread};
 pub(super) use canvas::{Anchor, Canvas, Pen, Pixel, Type};
-pub(super) use chart::{Curve, Labels, Panel, chart, chart_with_words, panels};
 pub(super) use glyphs::missing;
-pub(super) use palette::{colour, colour_of};
+pub(super) use labels::{Label, spread};
+pub(super) use palette::{FOUND, colour, colour_of, curve};
+pub(super) use panel::{Axis, CHART, Panel, chart, panels};
 pub use picture::{FigureError, Picture};
+pub(super) use scale::Scale;
+pub(super) use series::{Series, Symbol};

@@ -1,6 +1,11 @@
-//! Colours that mean the same in every figure.
+//! Colours and pens that mean the same in every figure.
 
 use lumped::ModeType;
+
+use super::canvas::Pen;
+
+/// Natural frequencies that were found, across a chart.
+pub(crate) const FOUND: Pen = Pen::new("#9aa0a6", 0.8).dotted();
 
 /// Colours that stay apart for colour-blind eyes (Okabe & Ito).
 const COLOURS: [&str; 8] =
@@ -9,6 +14,11 @@ const COLOURS: [&str; 8] =
 /// Colour of curve i of a figure.
 pub(crate) fn colour(i: usize) -> &'static str {
     COLOURS[i % COLOURS.len()]
+}
+
+/// Pen of curve i of a figure.
+pub(crate) fn curve(i: usize) -> Pen {
+    Pen::new(colour(i), 1.5)
 }
 
 /// Colour of a mode type.
