@@ -1,8 +1,8 @@
 //! The benchmark itself: the numbers of every verb, held in `snapshots/` and compared through the
 //! tolerance declared for each kind of number.
 //!
-//! `INSTA_UPDATE=always cargo test --release --test all -- --include-ignored snapshots` regenerates them (and the schemas);
-//! numbers within tolerance keep their stored digits, so the diff shows only what changed.
+//! `INSTA_UPDATE=always cargo test --release --test all -- --include-ignored snapshots` regenerates them (and the
+//! schemas); numbers within tolerance keep their stored digits, so the diff shows only what changed.
 
 use std::path::Path;
 

@@ -124,9 +124,9 @@ fn folders_that_hold_other_results_or_cannot_be_written_are_left_alone() {
         refused(&all)
     };
     for (manifest, words) in [
-        ("{\"format\": 99}", "format 99 where this program writes 5"),
+        ("{\"format\": 99, \"plan\": {}}", "computed with format 99, not 5"),
         ("nonsense", "its manifest is no JSON"),
-        ("{\"format\": 5}", "its manifest lacks keys"),
+        ("{\"format\": 5}", "it is of something else, not of a sweep"),
     ] {
         std::fs::write(out.join("plan.json"), manifest).unwrap();
         let text = run(out.to_str().unwrap());
@@ -242,10 +242,10 @@ fn what_differs_from_the_folder_is_said_before_any_set_up() {
     assert!(text.contains("was `flank_elements = 6` and is"), "{text}");
     for (arguments, words) in [
         (["--speeds-rpm", "1500:1600:10"], "of 1 speeds from 1600 to 1600 rpm, not 11 speeds"),
-        (["--sun-torque-nm", "1000"], "under 1130 N·m on the sun, not 1000 N·m"),
-        (["--tolerance", "1e-5"], "--tolerance 0.0001, not 0.00001"),
+        (["--sun-torque-nm", "1000"], "computed with --sun-torque-nm 1130, not 1000"),
+        (["--tolerance", "1e-5"], "--tolerance 0.0001, not 1e-5"),
         (["--most-cycles", "7"], "--most-cycles 2000, not 7"),
-        (["--model", "lumped"], "of the model quasi-static, not lumped"),
+        (["--model", "lumped"], "the model (--model) quasi-static, not lumped"),
     ] {
         let mut command = Command::new(BINARY);
         let mut all = vec!["--speeds-rpm", "1600:1600:10", "--sun-torque-nm", "1130"];
