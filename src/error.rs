@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use experiments::branches::BranchError;
 use gearset::{Fault, SceneError};
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource};
 
@@ -72,9 +73,15 @@ pub enum CommandError {
     #[cfg(feature = "charts")]
     #[error(transparent)]
     Figure(#[from] crate::figures::FigureError),
-    /// An experiment could not be made.
+    /// Modes of a linearised set could not be computed.
     #[error(transparent)]
-    Experiment(#[from] experiments::ExperimentError),
+    Modal(#[from] experiments::modal::ModalError),
+    /// A model could not be set up, or steady states could not be computed or kept.
+    #[error(transparent)]
+    Sweep(#[from] experiments::sweep::SweepError),
+    /// Branches could not be followed.
+    #[error(transparent)]
+    Branch(#[from] BranchError),
 }
 
 impl From<csv::Error> for CommandError {

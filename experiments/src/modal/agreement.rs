@@ -11,9 +11,9 @@ use fe_contact::vibration::LinearSet;
 use gearset::Scene;
 use lumped::{LumpedModel, NaturalModes, SpringId};
 
+use super::error::ModalError;
 use super::linear::{Preload, preloaded};
 use super::lumped_from_fe::lumped_from_tangents;
-use crate::error::ExperimentError;
 
 /// Differences between the two models over all modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,7 +46,7 @@ pub fn agreement(
     scene: &Scene,
     bodies: &Bodies,
     preload: &Preload,
-) -> Result<Agreement, ExperimentError> {
+) -> Result<Agreement, ModalError> {
     agreement_after(scene, bodies, preload, |_| {})
 }
 
@@ -59,7 +59,7 @@ pub fn agreement_after(
     bodies: &Bodies,
     preload: &Preload,
     spoil: impl Fn(&mut Scene),
-) -> Result<Agreement, ExperimentError> {
+) -> Result<Agreement, ModalError> {
     let rigid = with_rigid_carrier(scene);
     let set = preloaded(&rigid, bodies, preload)?;
     let linear = set.linearised()?;
@@ -87,7 +87,7 @@ fn compare(
     linear: &LinearSet,
     races: &Races,
     model: &LumpedModel,
-) -> Result<Agreement, ExperimentError> {
+) -> Result<Agreement, ModalError> {
     // Forces that turn with their lines of action are not in the lumped model.
     let mut linear = linear.clone();
     linear.supports -= &linear.turning;
@@ -104,7 +104,7 @@ fn compare(
     };
     let (frequencies, _) = linear.undamped()?;
     if frequencies.len() != lumped.len() {
-        return Err(ExperimentError::Incomplete("set with as many coordinates in both models"));
+        return Err(ModalError::Incomplete("set with as many coordinates in both models"));
     }
     let straight = along_the_line(linear, races, model);
     let corners = (0..linear.rows.nrows()).filter(|i| {

@@ -7,11 +7,11 @@ use fe_contact::statics::{Bodies, CARRIER, PLANETS, RING, Races, SUN};
 use fe_contact::vibration::VibratingSet;
 use gearset::Scene;
 
+use super::error::ModalError;
 use super::kinds::{MotionKinds, type_of};
 use super::linear::preloaded;
 use super::mode::FeMode;
 use super::settings::ImpulseSettings;
-use crate::error::ExperimentError;
 
 /// A generalised force on the races for one time step.
 #[derive(Debug, Clone, PartialEq)]
@@ -126,7 +126,7 @@ pub fn impulse_test(
     scene: &Scene,
     bodies: &Bodies,
     settings: &ImpulseSettings,
-) -> Result<ImpulseTest, ExperimentError> {
+) -> Result<ImpulseTest, ModalError> {
     settings.check()?;
     let mut set = preloaded(scene, bodies, &settings.preload)?;
     let steps = settings.steps();
@@ -141,9 +141,7 @@ pub fn impulse_test(
         let force_n = trial * settings.size / change.max(f64::MIN_POSITIVE);
         let (records, force_change) = decay(&mut set, settings, &pulse, force_n, steps)?;
         if force_change > PROPORTION * settings.size {
-            return Err(ExperimentError::Unsteady {
-                torque_nm: settings.preload.load.sun_torque_nm,
-            });
+            return Err(ModalError::Unsteady { torque_nm: settings.preload.load.sun_torque_nm });
         }
         let (half, _) = decay(&mut set, settings, &pulse, 0.5 * force_n, steps.min(few))?;
         taken += (2 * steps.min(few) + steps) as u64;
@@ -172,15 +170,12 @@ const STILL: (usize, f64) = (20, 0.01);
 const PROPORTION: f64 = 10.0;
 
 /// Checks that the set stays at rest without a pulse.
-fn stand_still(
-    set: &mut VibratingSet<'_>,
-    settings: &ImpulseSettings,
-) -> Result<(), ExperimentError> {
-    let unsteady = || ExperimentError::Unsteady { torque_nm: settings.preload.load.sun_torque_nm };
+fn stand_still(set: &mut VibratingSet<'_>, settings: &ImpulseSettings) -> Result<(), ModalError> {
+    let unsteady = || ModalError::Unsteady { torque_nm: settings.preload.load.sun_torque_nm };
     let nothing = Pulse { name: String::new(), pattern: vec![0.0; set.races().count] };
     match decay(set, settings, &nothing, 0.0, STILL.0) {
         Ok((_, change)) if change <= STILL.1 * settings.size => Ok(()),
-        Ok(_) | Err(ExperimentError::Fe(FeError::Diverged { .. })) => Err(unsteady()),
+        Ok(_) | Err(ModalError::Fe(FeError::Diverged { .. })) => Err(unsteady()),
         Err(other) => Err(other),
     }
 }
@@ -202,7 +197,7 @@ fn decay(
     pulse: &Pulse,
     force: f64,
     steps: usize,
-) -> Result<(Vec<Vec<f64>>, f64), ExperimentError> {
+) -> Result<(Vec<Vec<f64>>, f64), ModalError> {
     set.rest(settings.preload.load.sun_load_nm())?;
     let rest = set.motion().x.clone();
     let forces = mesh_forces(set);
@@ -231,7 +226,7 @@ fn decay(
 fn typed(
     set: &VibratingSet<'_>,
     identification: &Identification,
-) -> Result<Vec<FeMode>, ExperimentError> {
+) -> Result<Vec<FeMode>, ModalError> {
     let kinds = MotionKinds::of_races(set.races(), set.masses());
     let mut modes = Vec::new();
     let list = &identification.modes;

@@ -8,7 +8,6 @@ use fe_contact::statics::{Bodies, Imperfections, SUN, SetState, StaticSet};
 use gearset::{Fidelity, LoadCase, MeshKind, Scene};
 
 use crate::bodies_cache::BodiesCache;
-use crate::error::ExperimentError;
 use crate::mesh_cycle::{MeshCycle, RestState};
 use crate::modal::{FeMode, ImpulseSettings, Preload, impulse_test, linear_modes, preloaded};
 use crate::model::{
@@ -17,7 +16,8 @@ use crate::model::{
 };
 use crate::natural_mode::NaturalMode;
 use crate::sweep::{
-    Direction, FeModel, Memory, MeshLawModel, Plan, SteadySettings, SteadyState, SweepModel, run,
+    Direction, FeModel, Memory, MeshLawModel, Plan, SteadySettings, SteadyState, SweepError,
+    SweepModel, run,
 };
 
 /// How natural modes are found.
@@ -158,7 +158,7 @@ pub(super) fn march(
     model: &dyn SweepModel,
     (harmonics, tolerance): (usize, f64),
     next: NextSpeeds<'_>,
-) -> Result<Vec<SteadyState>, ExperimentError> {
+) -> Result<Vec<SteadyState>, SweepError> {
     let settings =
         SteadySettings { tolerance, harmonics, between_cycles: 0, ..SteadySettings::default() };
     gather(next, |speeds| {

@@ -14,7 +14,6 @@ use gearset::{LoadCase, Scene};
 
 use super::map::{Map, MapError, MapOf, Point, StabilityMap, logarithms};
 use super::resonance::{from_rest, slowest};
-use crate::error::ExperimentError;
 use crate::sweep::{
     MeshLawModel, Record, SteadyMethod, SteadySettings, SweepModel, left_of_transient,
 };
@@ -45,7 +44,7 @@ const MOST_CYCLES: usize = 4000;
 
 fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let case = LoadCase::of_scene(scene).map_err(|_| MapError::NoOperation)?;
-    let bodies = Bodies::new(scene).map_err(ExperimentError::from)?;
+    let bodies = Bodies::new(scene)?;
     let model = MeshLawModel::new(scene, &bodies, case)?;
     let case = case.at_speed(slowest(&model)?);
     let system =
@@ -106,11 +105,7 @@ struct March {
 
 impl March {
     /// `None` if shooting finds no stable motion.
-    fn of(
-        model: &dyn SweepModel,
-        case: &LoadCase,
-        factor: f64,
-    ) -> Result<Option<Self>, ExperimentError> {
+    fn of(model: &dyn SweepModel, case: &LoadCase, factor: f64) -> Result<Option<Self>, MapError> {
         let settings = SteadySettings {
             between_cycles: 0,
             whole_cycles: true,
