@@ -16,9 +16,10 @@ use std::time::Instant;
 
 use beside::{Beside, Outcome, csv, quartiles};
 use gearset::{
-    Facing, Geometry, MeshCurve, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing, Scene,
+    Axis, Body, Facing, Geometry, MeshCurve, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing,
+    Scene,
 };
-use lumped::{Axis, Body, LumpedModel, SpringId, TimeVarying};
+use lumped::{LumpedModel, SpringId, TimeVarying};
 
 /// Steps of a batch of the summary.
 const BATCH: u32 = 100_000;

@@ -7,8 +7,8 @@ use dynamics::harmonic_balance::BalanceOptions;
 use experiments::sweep::{MeshLawModel, SteadyMethod, SteadySettings, SweepModel, steady};
 use fe_contact::statics::Bodies;
 use fe_contact::vibration::{MeshLawSettings, mesh_law};
-use gearset::{LoadCase, MeshLaw, Scene};
-use lumped::{Axis, BalancedSet, Body};
+use gearset::{Axis, Body, LoadCase, MeshLaw, Scene};
+use lumped::BalancedSet;
 
 /// Samples that are compared.
 const SAMPLES: usize = 70;

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod assembly;
+mod body;
 mod bound;
 mod check;
 mod check_geometry;
@@ -46,6 +47,7 @@ mod torque_path;
 mod unread;
 mod warnings;
 
+pub use body::{Axis, Body};
 pub use bound::Bound;
 pub use choices::*;
 pub use displaced::{DisplacedMesh, Displacements, MeshGradients, MeshHessians, PairLocation};

@@ -13,16 +13,15 @@
 use nalgebra::DMatrix;
 
 use dynamics::{Coupling, LinearPart};
-use gearset::Scene;
+use gearset::{Axis, Body, Scene};
 
-use crate::coordinates::{Axis, Body};
 use crate::model::LumpedModel;
 
 /// Rotations of sun and planet as one coordinate, at the sun's place; the planet's place falls away.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RelativeRotation {
     sun: usize,
-    planet: usize,
+    pub(crate) planet: usize,
     /// a_s, a_p.
     share: [f64; 2],
 }

@@ -26,10 +26,10 @@
 //! ```
 
 use dynamics::IMPURE;
+use gearset::{Axis, Body};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::Serialize;
 
-use crate::coordinates::{Axis, Body};
 use crate::error::LumpedError;
 use crate::kinds::{Kinds, ModeType};
 use crate::model::LumpedModel;

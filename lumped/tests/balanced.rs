@@ -4,8 +4,10 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use dynamics::harmonic_balance::{BalanceError, BalanceOptions, FourierSeries};
-use gearset::{Facing, Geometry, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing, Scene};
-use lumped::{Axis, BalancedSet, Body, LumpedError, TimeVarying};
+use gearset::{
+    Axis, Body, Facing, Geometry, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing, Scene,
+};
+use lumped::{BalancedSet, LumpedError, TimeVarying};
 
 fn scene(name: &str) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes").join(name);

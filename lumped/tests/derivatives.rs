@@ -4,7 +4,7 @@ use crate::common;
 
 use std::f64::consts::TAU;
 
-use gearset::Torsional;
+use gearset::{Axis, Body, Torsional};
 use lumped::*;
 
 use common::{modes, of_type, scene};

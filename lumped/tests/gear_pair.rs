@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use gearset::{Facing, MeshLaw, PairFlanks, Scene, SceneKind, pair_law, template};
-use lumped::{Axis, Body, LumpedModel, NaturalModes, TimeVarying};
+use gearset::{Axis, Body, Facing, MeshLaw, PairFlanks, Scene, SceneKind, pair_law, template};
+use lumped::{LumpedModel, NaturalModes, TimeVarying};
 
 const K: f64 = 3.0e8;
 const INERTIA: [f64; 2] = [0.002, 0.005];

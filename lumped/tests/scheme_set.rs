@@ -6,8 +6,10 @@ use std::sync::Arc;
 
 use dynamics::benchmark_subjects::Scheme;
 use dynamics::harmonic_balance::BalanceOptions;
-use gearset::{Facing, Geometry, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing, Scene};
-use lumped::{Axis, BalancedSet, Body, LAW_STEPS_A_STEP, LumpedError, SchemeSet, TimeVarying};
+use gearset::{
+    Axis, Body, Facing, Geometry, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing, Scene,
+};
+use lumped::{BalancedSet, LAW_STEPS_A_STEP, LumpedError, SchemeSet, TimeVarying};
 
 /// OH-58 with four planets, its meshes undamped.
 fn scene() -> Scene {

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use experiments::modal::FeMode;
 use fe_contact::fe_mesh::polar;
-use fe_contact::statics::{CARRIER, PLANETS, RING, SUN};
+use gearset::Body;
 
 use super::ModalTest;
 use super::drawing::{Anchor, Canvas, Pen, Picture, Pixel, Type};
@@ -24,7 +24,7 @@ const SCALE: f64 = 0.35;
 
 /// A body's circle.
 struct Circle {
-    body: usize,
+    body: Body,
     centre: [f64; 2],
     /// Directions of its x and y coordinates: their angle, rad.
     axes: f64,
@@ -74,24 +74,24 @@ fn circles(of: &ModalTest<'_>) -> Vec<Circle> {
         arm,
         hand: FRAC_PI_2,
         // Lines of the large circles would cross the others.
-        hand_from: if body == SUN { 0.0 } else { 0.8 },
+        hand_from: if body == Body::Sun { 0.0 } else { 0.8 },
         colour,
     };
     let mut list = Vec::new();
     if !races.is_pair() {
-        list.push(central(CARRIER, a, arm_carrier, "#8a949c"));
+        list.push(central(Body::Carrier, a, arm_carrier, "#8a949c"));
     }
     if let Some(ring) = &geometry.ring {
         let radius = a * teeth(ring) / (teeth(ring) - planet);
-        list.push(central(RING, radius, arm_ring, "#5a6570"));
+        list.push(central(Body::Ring, radius, arm_ring, "#5a6570"));
     }
     let mut radius_of_planets = geometry.planet.base_radius;
     if let Some(sun) = &geometry.sun {
         radius_of_planets = a * planet / (teeth(sun) + planet);
-        list.push(central(SUN, a - radius_of_planets, arm_sun, "#b8860b"));
+        list.push(central(Body::Sun, a - radius_of_planets, arm_sun, "#b8860b"));
     }
     list.extend(races.psi.iter().enumerate().map(|(n, psi)| Circle {
-        body: PLANETS + n,
+        body: Body::Planet(n),
         centre: polar(a, *psi),
         axes: *psi,
         radius: radius_of_planets,
@@ -105,8 +105,8 @@ fn circles(of: &ModalTest<'_>) -> Vec<Circle> {
 
 /// Translation along a body's axes (m) and rotation (rad) of a shape.
 fn motion(of: &ModalTest<'_>, circle: &Circle, mode: &FeMode) -> ([f64; 2], f64) {
-    let along = |axis| of.races.of(circle.body, axis).map_or(0.0, |i| mode.shape[i]);
-    ([along(0), along(1)], along(2) / circle.arm)
+    let [first, second, u] = of.races.places(circle.body).map(|i| i.map_or(0.0, |i| mode.shape[i]));
+    ([first, second], u / circle.arm)
 }
 
 /// One panel about its middle.
@@ -125,7 +125,7 @@ fn shape(
         x.hypot(y).max(c.radius * theta.abs())
     };
     let largest = circles.iter().map(size).fold(f64::MIN_POSITIVE, f64::max);
-    let sun = circles.iter().find(|c| c.body == SUN).map_or(0.2 * outer, |c| c.radius);
+    let sun = circles.iter().find(|c| c.body == Body::Sun).map_or(0.2 * outer, |c| c.radius);
     let scale = SCALE * sun / largest;
     for circle in circles {
         view.draw(canvas, circle, circle.centre, circle.hand, AT_REST);

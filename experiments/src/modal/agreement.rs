@@ -6,9 +6,9 @@
 //! pair in corner contact presses along the normal of the flank it touches: its approach is not the mesh's δ,
 //! and motions with δ = 0 change it as well.
 
-use fe_contact::statics::{Bodies, PLANETS, RING, Races, SUN};
+use fe_contact::statics::{Bodies, Races};
 use fe_contact::vibration::LinearSet;
-use gearset::Scene;
+use gearset::{Body, Scene};
 use lumped::{LumpedModel, NaturalModes, SpringId};
 
 use super::error::ModalError;
@@ -127,14 +127,14 @@ fn compare(
 /// of a pair follows from the coordinates in its row: one planet, and the sun or not.
 fn along_the_line(linear: &LinearSet, races: &Races, model: &LumpedModel) -> LinearSet {
     let mut straight = linear.clone();
-    let sun_moves = (0..3).any(|axis| races.of(SUN, axis).is_some());
+    let sun_moves = races.places(Body::Sun).iter().any(Option::is_some);
     for i in 0..linear.rows.nrows() {
-        let moves = |body: usize| {
-            (0..3).any(|axis| races.of(body, axis).is_some_and(|k| linear.rows[(i, k)] != 0.0))
+        let moves = |body: Body| {
+            races.places(body).into_iter().flatten().any(|k| linear.rows[(i, k)] != 0.0)
         };
-        let Some(n) = (0..races.planets()).find(|n| moves(PLANETS + n)) else { continue };
+        let Some(n) = (0..races.planets()).find(|n| moves(Body::Planet(*n))) else { continue };
         // A central gear that is held in all directions has no coordinate.
-        let is_sun_mesh = moves(SUN) || !sun_moves && !moves(RING);
+        let is_sun_mesh = moves(Body::Sun) || !sun_moves && !moves(Body::Ring);
         let id = if is_sun_mesh { SpringId::SunMesh(n) } else { SpringId::RingMesh(n) };
         if let Some(spring) = model.springs.iter().find(|s| s.id == id) {
             straight.rows.row_mut(i).fill(0.0);

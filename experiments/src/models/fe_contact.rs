@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use fe_contact::FeError;
 use fe_contact::complementarity::ActiveSet;
-use fe_contact::statics::{Bodies, Imperfections, SUN, SetState, StaticSet};
-use gearset::{Fidelity, LoadCase, MeshKind, Scene};
+use fe_contact::statics::{Bodies, Imperfections, SetState, StaticSet};
+use gearset::{Body, Fidelity, LoadCase, MeshKind, Scene};
 
 use crate::bodies_cache::BodiesCache;
 use crate::mesh_cycle::{MeshCycle, RestState};
@@ -118,7 +118,7 @@ impl From<&SetState> for RestState {
         };
         Self {
             position: state.position,
-            sun: state.central[SUN],
+            sun: state.central[Body::Sun.index()],
             sun_mesh_n: forces(MeshKind::SunPlanet),
             ring_mesh_n: forces(MeshKind::RingPlanet),
         }

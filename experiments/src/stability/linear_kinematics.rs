@@ -21,8 +21,10 @@ use std::f64::consts::{PI, TAU};
 
 use dynamics::generalized_symmetric;
 use fe_contact::statics::Bodies;
-use gearset::{Fidelity, Geometry, LoadCase, MeshKind, MeshKinematics, MeshMember, Scene};
-use lumped::{Axis, Body, LumpedModel, ModeGroup, NaturalModes, SpringId, strain_energy};
+use gearset::{
+    Axis, Body, Fidelity, Geometry, LoadCase, MeshKind, MeshKinematics, MeshMember, Scene,
+};
+use lumped::{LumpedModel, ModeGroup, NaturalModes, SpringId, strain_energy};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 

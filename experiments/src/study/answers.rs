@@ -7,8 +7,8 @@ use dynamics::harmonic_balance::BalanceOptions;
 use fe_contact::contact::Location;
 use fe_contact::statics::{Bodies, Imperfections, SetCycle, StaticSet, at_phase, estimate};
 use fe_contact::vibration::{MeshLawSettings, mesh_law};
-use gearset::{Fidelity, LoadCase, MeshKind};
-use lumped::{Axis, BalancedSet, Body};
+use gearset::{Axis, Body, Fidelity, LoadCase, MeshKind};
+use lumped::BalancedSet;
 
 use super::cost::Stopwatch;
 use super::experiment::{Action, Experiment, Work};

@@ -131,7 +131,7 @@ impl Marching for FeMarching<'_> {
 
     fn kinematic_rest(&self, at: &LoadedStep) -> Option<[f64; 2]> {
         let races = self.set.races();
-        Some([self.set.kinematic_rest(at), races.radii[races.loaded().0]])
+        Some([self.set.kinematic_rest(at), races.radii[races.loaded().0.kind()]])
     }
 
     fn effort(&self) -> Effort {

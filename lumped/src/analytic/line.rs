@@ -16,10 +16,9 @@
 //! It also changes with the centre distance a' = ζᵀq, by s_a = ∂δ/∂a': the row is b − sκ − s_a ζ. In modes that hardly
 //! press a mesh, this is a good part of what does.
 
-use gearset::{Mesh, MeshMember};
+use gearset::{Axis, Body, Mesh, MeshMember};
 use nalgebra::DMatrix;
 
-use crate::coordinates::{Axis, Body};
 use crate::model::LumpedModel;
 use crate::springs::SpringId;
 

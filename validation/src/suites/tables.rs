@@ -2,8 +2,8 @@
 
 use experiments::models::Changed;
 use experiments::{ModalModel, ModelError, NaturalMode, distinct, frequencies_of};
-use gearset::{LoadCase, PlanetOverride, Scene};
-use lumped::{Axis, Body, LumpedModel, ModeGroup, NaturalModes, SpringId};
+use gearset::{Axis, Body, LoadCase, PlanetOverride, Scene};
+use lumped::{LumpedModel, ModeGroup, NaturalModes, SpringId};
 
 use crate::check::Check;
 use crate::error::ValidationError;

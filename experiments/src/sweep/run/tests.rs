@@ -57,8 +57,8 @@ struct Motion<'m> {
 }
 
 fn diverged() -> SweepError {
-    let body = "sun".to_owned();
-    FeError::Diverged { time_s: 0.1, body, quantity: "x", value: 1e3 }.into()
+    let body = gearset::Body::Sun;
+    FeError::Diverged { time_s: 0.1, body, axis: gearset::Axis::First, value: 1e3 }.into()
 }
 
 impl Motion<'_> {
