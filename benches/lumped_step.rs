@@ -15,8 +15,10 @@ use std::process::ExitCode;
 use std::time::Instant;
 
 use beside::{Beside, Outcome, csv, quartiles};
-use gearset::{Facing, MeshCurve, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing};
-use lumped::{Axis, Body, LumpedModel, SpringId, TimeVarying};
+use gearset::{
+    Axis, Body, Facing, MeshCurve, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing,
+};
+use lumped::{LumpedModel, SpringId, TimeVarying};
 use scene::Scene;
 
 /// Steps of a batch of the summary.

@@ -3,6 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use experiments::branches::BranchError;
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource};
 use scene::{Fault, SceneError};
 
@@ -73,9 +74,15 @@ pub enum CommandError {
     #[cfg(feature = "charts")]
     #[error(transparent)]
     Figure(#[from] crate::figures::FigureError),
-    /// An experiment could not be made.
+    /// Modes of a linearised set could not be computed.
     #[error(transparent)]
-    Experiment(#[from] experiments::ExperimentError),
+    Modal(#[from] experiments::modal::ModalError),
+    /// A model could not be set up, or steady states could not be computed or kept.
+    #[error(transparent)]
+    Sweep(#[from] experiments::sweep::SweepError),
+    /// Branches could not be followed.
+    #[error(transparent)]
+    Branch(#[from] BranchError),
 }
 
 impl From<csv::Error> for CommandError {

@@ -3,7 +3,6 @@
 pub mod auto;
 mod bodies_cache;
 pub mod branches;
-mod error;
 mod mesh_cycle;
 pub mod modal;
 mod model;
@@ -17,7 +16,6 @@ mod table_growth;
 pub mod torque;
 
 pub use bodies_cache::BodiesCache;
-pub use error::ExperimentError;
 pub use mesh_cycle::{MeshCycle, RestState, SunRms};
 pub use model::{ModalModel, ModelError, NextSpeeds, SpeedRequest, StaticModel, SteadyStateModel};
 pub use natural_mode::{DistinctMode, NaturalMode, distinct, frequencies_of};

@@ -2,8 +2,6 @@
 
 use fe_contact::FeError;
 
-use crate::error::ExperimentError;
-
 /// Number of table sizes that are tried, each for twice the load of the one before.
 pub const SIZES: usize = 5;
 
@@ -14,16 +12,8 @@ pub trait Outgrown {
 }
 
 impl Outgrown for FeError {
-    /// Whether the tables are too small for the load.
     fn is_too_small(&self) -> bool {
         matches!(self, Self::GridOverflow { .. } | Self::TableExceeded { .. })
-    }
-}
-
-impl Outgrown for ExperimentError {
-    /// Whether the tables are too small for the load.
-    fn is_too_small(&self) -> bool {
-        matches!(self, Self::Fe(e) if e.is_too_small())
     }
 }
 

@@ -7,8 +7,8 @@ use dynamics::harmonic_balance::BalanceOptions;
 use experiments::sweep::{MeshLawModel, SteadyMethod, SteadySettings, SweepModel, steady};
 use fe_contact::statics::Bodies;
 use fe_contact::vibration::{MeshLawSettings, mesh_law};
-use gearset::MeshLaw;
-use lumped::{Axis, BalancedSet, Body};
+use gearset::{Axis, Body, MeshLaw};
+use lumped::BalancedSet;
 use scene::{LoadCase, Scene};
 
 /// Samples that are compared.

@@ -4,13 +4,13 @@ use crate::amplitudes;
 
 use amplitudes::{off, rotation};
 use dynamics::continuation::Family;
-use experiments::ExperimentError;
 use experiments::branches::{
     BranchEnd, BranchError, BranchParameter, BranchPoint, BranchSettings, PARAMETER_CHANGE,
     PeriodicFamily, branch,
 };
 use experiments::sweep::{
-    FeModel, KeyedModel, MeshLawModel, SteadySettings, SweepModel, SweepPoint, VariedKey, steady,
+    FeModel, KeyedModel, MeshLawModel, SteadySettings, SweepError, SweepModel, SweepPoint,
+    VariedKey, steady,
 };
 use fe_contact::statics::{Bodies, Imperfections};
 use scene::{LoadCase, Scene};
@@ -198,7 +198,7 @@ fn keys_without_effect_and_values_that_are_not_allowed_are_refused() {
     let path = "lumped.mass_kg.planet";
     let model = keyed(&own, path, 0.7, &bodies, false);
     let error = branch(&model, &BranchSettings::along(key(path), [0.6, 0.8])).unwrap_err();
-    assert!(matches!(&error, ExperimentError::Branch(BranchError::NoEffect { .. })), "{error}");
+    assert!(matches!(&error, BranchError::NoEffect { .. }), "{error}");
     assert!(
         error.to_string().contains("lumped.mass_kg.planet")
             && error.to_string().contains("mesh-law")
@@ -213,5 +213,8 @@ fn keys_without_effect_and_values_that_are_not_allowed_are_refused() {
     let scene = Scene::from_toml(&own).unwrap();
     let plain = MeshLawModel::new(&scene, &bodies, case(&scene)).unwrap();
     let settings = BranchSettings::along(key("planet.bearing_n_per_m"), [8e7, 9e7]);
-    assert!(matches!(branch(&plain, &settings), Err(ExperimentError::Incomplete(_))));
+    assert!(matches!(
+        branch(&plain, &settings),
+        Err(BranchError::Sweep(SweepError::Incomplete(_)))
+    ));
 }

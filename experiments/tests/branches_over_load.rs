@@ -1,17 +1,15 @@
 //! Branches over torque and damping, what they hold fixed, and branches that leave others.
 
-use crate::amplitudes;
-use crate::shipped;
+use crate::{amplitudes, shipped};
 
 use amplitudes::{off, rotation};
 use dynamics::continuation::Family;
-use experiments::ExperimentError;
 use experiments::branches::{
     BranchEnd, BranchError, BranchOrigin, BranchParameter, BranchPoint, BranchPointKind,
     BranchSettings, PARAMETER_CHANGE, PeriodicFamily, branch, branches,
 };
 use experiments::sweep::{
-    FeModel, MeshLawModel, SteadyMethod, SteadySettings, SweepModel, SweepPoint, steady,
+    FeModel, MeshLawModel, SteadyMethod, SteadySettings, SweepError, SweepModel, SweepPoint, steady,
 };
 use fe_contact::statics::{Bodies, Imperfections};
 use scene::{LoadCase, Scene};
@@ -236,14 +234,14 @@ fn torques_and_factors_that_make_no_branch_are_refused() {
     ] {
         let settings = BranchSettings::along(over, range);
         match branch(&model, &settings) {
-            Err(ExperimentError::Branch(BranchError::Range { .. })) => {}
+            Err(BranchError::Range { .. }) => {}
             other => panic!("{over:?} {range:?}: {other:?}"),
         }
     }
     // The other flanks are not those that the model was made for.
     let settings = BranchSettings::along(BranchParameter::Torque, [-300.0, -200.0]);
     let error = branch(&model, &settings).unwrap_err();
-    assert!(matches!(error, ExperimentError::OtherFlanks { .. }), "{error}");
+    assert!(matches!(error, BranchError::Sweep(SweepError::OtherFlanks { .. })), "{error}");
 }
 
 /// The catalogue's pair at a speed at which it has two stable motions between two torques a seventh apart: both folds

@@ -1,5 +1,7 @@
 //! Why there is no FE/contact result.
 
+use gearset::{Axis, Body};
+
 use crate::complementarity::ComplementarityError;
 use crate::element::DistortedElement;
 
@@ -77,15 +79,16 @@ pub enum FeError {
     },
     /// A displacement is not a number or exceeds the bound for a vibration.
     #[error(
-        "the motion diverges: at {time_s:e} s the {quantity} of the {body} is {value:e}; a smaller step (`dynamics.steps_per_cycle`) or more damping may hold it"
+        "the motion diverges: at {time_s:e} s the {} of the {body} is {value:e}; a smaller step (`dynamics.steps_per_cycle`) or more damping may hold it",
+        axis.displacement(*body)
     )]
     Diverged {
         /// Time, s.
         time_s: f64,
         /// Body.
-        body: String,
+        body: Body,
         /// Which of its displacements.
-        quantity: &'static str,
+        axis: Axis,
         /// Its value, m.
         value: f64,
     },

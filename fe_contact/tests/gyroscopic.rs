@@ -4,11 +4,11 @@
 use std::f64::consts::TAU;
 
 use dynamics::gyroscopic_modes;
-use fe_contact::statics::{Bodies, CARRIER, Imperfections, PLANETS, SUN};
+use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{
     Loading, MeshLawSet, MeshLawSettings, NominalRotation, VibratingSet, mesh_law,
 };
-use gearset::{Facing, MeshKind, PathDirection};
+use gearset::{Axis, Body, Facing, MeshKind, PathDirection};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use scene::{Fidelity, Scene};
 
@@ -138,8 +138,8 @@ fn free_bodies_vibrate_in_planes_that_stand_still_in_space() {
     let backlash = |kind| bodies.geometry.normal_backlash(kind).unwrap();
     let (of_sun, of_ring) = (backlash(MeshKind::SunPlanet), backlash(MeshKind::RingPlanet));
     // Bodies of the closed form: sun, carrier, planets.
-    let numbers: Vec<usize> =
-        [SUN, CARRIER].into_iter().chain(PLANETS..PLANETS + planets).collect();
+    let moving = [Body::Sun, Body::Carrier].into_iter();
+    let moving: Vec<Body> = moving.chain((0..planets).map(Body::Planet)).collect();
     let run = |gyroscopic: bool| -> Vibration {
         let mut scene = scene.clone();
         scene.dynamics.gyroscopic = gyroscopic;
@@ -147,11 +147,17 @@ fn free_bodies_vibrate_in_planes_that_stand_still_in_space() {
         let at = |set: &VibratingSet<'_>, body, axis| set.races().of(body, axis).unwrap();
         // Counter-clockwise turns of sun and planet open the sun meshes' front flanks by −(u_s + u_p), those of
         // the ring meshes by u_p.
-        let mut turns = vec![(at(&set, SUN, 2), -0.5 * (of_sun + of_ring))];
-        turns.extend((0..planets).map(|n| (at(&set, PLANETS + n, 2), 0.5 * of_ring)));
+        let mut turns = vec![(at(&set, Body::Sun, Axis::Rotation), -0.5 * (of_sun + of_ring))];
+        turns.extend(
+            (0..planets).map(|n| (at(&set, Body::Planet(n), Axis::Rotation), 0.5 * of_ring)),
+        );
         shift(&mut set, &turns);
         // Lateral pulses of one step: 10 µm for each body alone.
-        for (body, axis) in [(SUN, 0), (CARRIER, 1), (PLANETS + 1, 0)] {
+        for (body, axis) in [
+            (Body::Sun, Axis::First),
+            (Body::Carrier, Axis::Second),
+            (Body::Planet(1), Axis::First),
+        ] {
             let at = at(&set, body, axis);
             let m = set.masses()[at];
             set.external[at] = 10e-6 * (scene.supports.sun.bearing * m).sqrt() / STEP;
@@ -161,16 +167,18 @@ fn free_bodies_vibrate_in_planes_that_stand_still_in_space() {
         // The force of a pulse acts on both steps beside its end.
         set.step().unwrap();
         let here = |set: &VibratingSet<'_>| -> (Vec<C>, Vec<C>) {
-            let of = |body: &usize| {
-                let [x, y] = [0, 1].map(|axis| set.races().of(*body, axis).unwrap());
-                let turned =
-                    body.checked_sub(PLANETS).map_or(C::from(1.0), |n| C::from_polar(1.0, psi[n]));
+            let of = |body: &Body| {
+                let [x, y] = Axis::TRANSLATIONS.map(|axis| set.races().of(*body, axis).unwrap());
+                let turned = match body {
+                    Body::Planet(n) => C::from_polar(1.0, psi[*n]),
+                    _ => C::from(1.0),
+                };
                 let m = set.motion();
                 (turned * C::new(m.x[x], m.x[y]), turned * C::new(m.v[x], m.v[y]))
             };
-            numbers.iter().map(of).unzip()
+            moving.iter().map(of).unzip()
         };
-        let mass = numbers.iter().map(|body| set.masses()[at(&set, *body, 0)]).collect();
+        let mass = moving.iter().map(|body| set.masses()[at(&set, *body, Axis::First)]).collect();
         let (z, v) = here(&set);
         let mut forces = Vec::new();
         let path = (0..COUNT)
@@ -246,11 +254,11 @@ impl Linearised {
         let sets: Vec<VibratingSet<'_>> = (0..POSITIONS).map(at).collect();
         let sum: DMatrix<f64> = sets.iter().map(|set| set.linearised().unwrap().stiffness()).sum();
         let races = sets[0].races();
-        let of = |body| Some([races.of(body, 0)?, races.of(body, 1)?]);
+        let of = |body| Some([races.of(body, Axis::First)?, races.of(body, Axis::Second)?]);
         Self {
             mass: sets[0].masses().to_vec(),
             stiffness: sum / POSITIONS as f64,
-            translations: (0..PLANETS + planets).filter_map(of).collect(),
+            translations: Body::all(planets).filter_map(of).collect(),
         }
     }
 

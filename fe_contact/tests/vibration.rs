@@ -3,7 +3,7 @@
 use fe_contact::body::BodyMatrices;
 use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{LinearSet, Loading, NominalRotation, VibratingSet, fixed_race_modes};
-use gearset::{Facing, PathDirection};
+use gearset::{Axis, Body, Facing, PathDirection};
 use scene::{Fidelity, Scene};
 
 const TORQUE: f64 = 1130.0;
@@ -294,7 +294,7 @@ fn divergence_names_time_body_and_quantity() {
     let mut set = set(&scene, &bodies, standing(5e-6));
     set.rest(TORQUE).unwrap();
     // A lateral force of 1e10 N on the sun.
-    let sun = set.races().of(fe_contact::statics::SUN, 0).unwrap();
+    let sun = set.races().of(Body::Sun, Axis::First).unwrap();
     set.external[sun] = 1e10;
     let said = (0..200).find_map(|_| set.step().err()).unwrap().to_string();
     assert!(said.contains(" s the ") && said.contains("displacement"), "{said}");
@@ -355,7 +355,7 @@ fn a_sun_thrown_back_meets_the_other_flanks() {
     let mut set =
         VibratingSet::new(&scene, &bodies, sense, none, standing(5e-6), loading(4e4)).unwrap();
     set.rest(TORQUE).unwrap();
-    let turning = set.races().of(fe_contact::statics::SUN, 2).unwrap();
+    let turning = set.races().of(Body::Sun, Axis::Rotation).unwrap();
     let steady = set.external[turning];
     set.external[turning] = -0.5 * steady;
     let start = set.motion().x[turning];

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 /// `[eq:assembly]` Assembly step 2π/(Z_s + Z_r), rad: planets fit only where (Z_s + Z_r) ψ_n/2π is an integer.
 ///
 /// Source: closed form.
-/// Checked by: `gearset/tests/scene_faults.rs::degrees_that_can_be_assembled_become_exact_steps`.
+/// Checked by: `scene/tests/scene_faults.rs::degrees_that_can_be_assembled_become_exact_steps`.
 pub fn assembly_step_rad(sun_teeth: u32, ring_teeth: u32) -> f64 {
     TAU / (f64::from(sun_teeth) + f64::from(ring_teeth))
 }
@@ -21,7 +21,7 @@ pub fn nearest_steps(psi_rad: f64, sun_teeth: u32, ring_teeth: u32) -> (i64, f64
 /// sin(Δψ/2) − 2 r_a, as `(planet, next planet, clearance)`, in angular order.
 ///
 /// Source: closed form.
-/// Checked by: `gearset/tests/scene_faults.rs::each_kind_of_fault_names_its_key_and_says_why`.
+/// Checked by: `scene/tests/scene_faults.rs::each_kind_of_fault_names_its_key_and_says_why`.
 pub fn planet_clearances(
     psi_rad: &[f64],
     center_distance: f64,

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 pub mod assembly;
+mod body;
 mod corner_gap;
 mod displaced;
 mod gear;
@@ -24,6 +25,7 @@ mod symmetry;
 mod teeth;
 mod tooth_section;
 
+pub use body::{Axis, Body};
 pub use displaced::{DisplacedMesh, Displacements, MeshGradients, MeshHessians, PairLocation};
 pub use gear::{Facing, Flank, Gear, ToothSide};
 pub use geometry::{Geometry, ProfileShiftSums};

@@ -10,11 +10,10 @@
 
 use std::f64::consts::TAU;
 
+use crate::body::{Axis, Body};
+
 /// Largest difference of equal angles, in turns.
 const EQUAL: f64 = 1e-9;
-
-/// Bodies before the planets: carrier, ring, sun.
-const CENTRAL: usize = 3;
 
 /// Entries of a matrix that are not zero: row, column, value.
 pub type Entries = Vec<(usize, usize, f64)>;
@@ -60,7 +59,7 @@ impl Symmetry {
         psi_rad: &[f64],
         steps: usize,
         couplings: usize,
-        place: impl Fn(usize, usize) -> Option<usize>,
+        place: impl Fn(Body, Axis) -> Option<usize>,
     ) -> Vec<(Self, Entries, Vec<usize>)> {
         let planets = psi_rad.len();
         let one = |own: Self| {
@@ -77,28 +76,27 @@ impl Symmetry {
 
     /// P of x(start of the next part) = P x(end of a part), by row, column and value of its entries that are not
     /// zero: planets take the numbers of those `shift` before them, central members turn back by the angle. `place`
-    /// gives the place of a body's axis among the coordinates: carrier, ring, sun, planets; x, y, rotation, of planets
-    /// ζ, η, rotation. `None` if a central member is held in one direction only, or one planet and not another.
+    /// gives the place of a body's axis among the coordinates. `None` if a central member is held in one direction only, or one planet and not another.
     pub fn renumbering(
         &self,
         planets: usize,
-        place: impl Fn(usize, usize) -> Option<usize>,
+        place: impl Fn(Body, Axis) -> Option<usize>,
     ) -> Option<Entries> {
         let mut entries = Vec::new();
         let (sin, cos) = self.angle_rad.sin_cos();
-        for body in 0..CENTRAL {
-            match (place(body, 0), place(body, 1)) {
-                (Some(x), Some(y)) => {
+        for body in Body::CENTRAL {
+            match Axis::TRANSLATIONS.map(|axis| place(body, axis)) {
+                [Some(x), Some(y)] => {
                     entries.extend([(x, x, cos), (x, y, sin), (y, x, -sin), (y, y, cos)]);
                 }
-                (None, None) => {}
+                [None, None] => {}
                 _ => return None,
             }
-            entries.extend(place(body, 2).map(|u| (u, u, 1.0)));
+            entries.extend(place(body, Axis::Rotation).map(|u| (u, u, 1.0)));
         }
         for planet in 0..planets {
-            for axis in 0..3 {
-                let of = |planet: usize| place(CENTRAL + planet, axis);
+            for axis in Axis::ALL {
+                let of = |planet: usize| place(Body::Planet(planet), axis);
                 match (of(planet), of((planet + self.shift) % planets)) {
                     (Some(to), Some(from)) => entries.push((to, from, 1.0)),
                     (None, None) => {}
@@ -137,7 +135,8 @@ mod tests {
     fn a_renumbering_taken_as_often_as_there_are_parts_changes_nothing() {
         let even: Vec<f64> = (0..3).map(|n| f64::from(n) * TAU / 3.0).collect();
         for own in Symmetry::candidates(&even, 30) {
-            let entries = own.renumbering(3, |body, axis| Some(3 * body + axis)).unwrap();
+            let entries =
+                own.renumbering(3, |body, axis| Some(3 * body.index() + axis as usize)).unwrap();
             let x: Vec<f64> = (0..18).map(|i| (0.7 * f64::from(i)).sin()).collect();
             let mut turned = x.clone();
             for _ in 0..own.parts {

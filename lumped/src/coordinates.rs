@@ -1,64 +1,6 @@
-//! Bodies, their coordinates and the numbering of the free coordinates.
+//! The numbering of the free coordinates.
 
-use serde::Serialize;
-
-/// A body, in the order used everywhere: carrier, ring, sun, planets.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Body {
-    /// Carrier.
-    Carrier,
-    /// Ring.
-    Ring,
-    /// Sun.
-    Sun,
-    /// Planet n.
-    Planet(usize),
-}
-
-impl Body {
-    /// Place in the body order.
-    pub fn index(self) -> usize {
-        match self {
-            Self::Carrier => 0,
-            Self::Ring => 1,
-            Self::Sun => 2,
-            Self::Planet(n) => 3 + n,
-        }
-    }
-
-    /// The bodies of a set with `planets` planets, in order.
-    pub fn all(planets: usize) -> impl Iterator<Item = Self> {
-        [Self::Carrier, Self::Ring, Self::Sun].into_iter().chain((0..planets).map(Self::Planet))
-    }
-
-    /// Name of the kind of body, as in scene keys.
-    pub fn kind_name(self) -> &'static str {
-        match self {
-            Self::Carrier => "carrier",
-            Self::Ring => "ring",
-            Self::Sun => "sun",
-            Self::Planet(_) => "planet",
-        }
-    }
-}
-
-/// A coordinate of a body: x, y, u of a central member; ζ (radial), η (tangential), u of a planet.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Axis {
-    /// x or ζ.
-    First,
-    /// y or η.
-    Second,
-    /// u = r·θ.
-    Rotation,
-}
-
-impl Axis {
-    /// All three, in order.
-    pub const ALL: [Self; 3] = [Self::First, Self::Second, Self::Rotation];
-}
+use gearset::{Axis, Body};
 
 /// Map from (body, axis) to the index of a free coordinate.
 #[derive(Debug, Clone)]

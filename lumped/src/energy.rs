@@ -1,8 +1,8 @@
 //! Distribution of a mode's energy over bodies and springs.
 
+use gearset::Body;
 use serde::Serialize;
 
-use crate::coordinates::Body;
 use crate::model::LumpedModel;
 use crate::modes::ModeGroup;
 use crate::springs::SpringId;

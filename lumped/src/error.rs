@@ -1,5 +1,7 @@
 //! Errors of the lumped model and its modes.
 
+use gearset::{Axis, Body};
+
 use crate::springs::SpringId;
 
 /// Why a scene has no lumped model, or its modes or motion could not be computed.
@@ -12,21 +14,32 @@ pub enum LumpedError {
     #[error("no parameters in closed form: {0}")]
     NotAnalytic(&'static str),
     /// A coordinate can move and has no inertia.
-    #[error("`{key}` is absent, and the {body} can move")]
+    #[error("`lumped.{table}.{0}` is absent, and the {0} can move", body.kind_name())]
     NoInertia {
-        /// Scene key.
-        key: String,
+        /// Table of the scene, `mass_kg` or `inertia_over_r2_kg`.
+        table: &'static str,
         /// Body.
-        body: &'static str,
+        body: Body,
+    },
+    /// A mass or inertia that is not positive and finite.
+    #[error("`lumped.{table}` of the {body} is {value}: it must be positive and finite")]
+    Inertia {
+        /// Table of the scene, as above.
+        table: &'static str,
+        /// Body.
+        body: Body,
+        /// Its mass or I/r² with what is fixed to it, kg.
+        value: f64,
     },
     /// A torsional stiffness per angle or an added inertia, without the radius r that converts it to
     /// u = r·θ.
     #[error(
-        "`lumped.radius_mm.{body}` is absent: the torsional stiffness or added inertia needs it"
+        "`lumped.radius_mm.{}` is absent: the torsional stiffness or added inertia needs it",
+        body.kind_name()
     )]
     NoRadius {
         /// Body.
-        body: &'static str,
+        body: Body,
     },
     /// A stiffness that is negative or not finite.
     #[error("the {} stiffness is {value} N/m: it must be finite and not negative", spring.family())]
@@ -45,10 +58,10 @@ pub enum LumpedError {
         count: usize,
     },
     /// No radius r of a body that can rotate, to convert between u = r·θ and torque or angle.
-    #[error("`lumped.radius_mm.{body}` is absent: torque and rotation in time need it")]
+    #[error("`lumped.radius_mm.{}` is absent: torque and rotation in time need it", body.kind_name())]
     NoRotation {
         /// Body.
-        body: &'static str,
+        body: Body,
     },
     /// A damping that is negative or not finite.
     #[error("`damping.{key}` is {value}: it must be finite and not negative")]
@@ -121,6 +134,21 @@ pub enum LumpedError {
         epsilon: f64,
         /// Lowest stiffness over the mean.
         lowest: f64,
+    },
+    /// A displacement is not a number or exceeds the bound for a vibration.
+    #[error(
+        "the motion diverges: at {time_s:e} s the {} of the {body} is {value:e} m",
+        axis.displacement(*body)
+    )]
+    Diverged {
+        /// Time, s.
+        time_s: f64,
+        /// Body.
+        body: Body,
+        /// Coordinate, in the frame of counter-clockwise torque on the sun.
+        axis: Axis,
+        /// Displacement, m; u = r·θ of a rotation.
+        value: f64,
     },
     /// The steps in time failed.
     #[error(transparent)]

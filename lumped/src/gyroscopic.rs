@@ -10,12 +10,12 @@
 
 use std::f64::consts::TAU;
 
+use gearset::{Axis, Body};
 use nalgebra::DMatrix;
 use serde::Serialize;
 
 use dynamics::{RotatingFrame, gyroscopic_modes};
 
-use crate::coordinates::{Axis, Body};
 use crate::error::LumpedError;
 use crate::kinds::Kinds;
 use crate::model::LumpedModel;
@@ -104,7 +104,7 @@ fn at_speed(
     let mut g = DMatrix::zeros(n, n);
     let mut k = k.clone();
     for body in Body::all(model.psi.len()) {
-        let translation = [Axis::First, Axis::Second].map(|axis| model.coordinates.of(body, axis));
+        let translation = Axis::TRANSLATIONS.map(|axis| model.coordinates.of(body, axis));
         if let [Some(x), Some(y)] = translation {
             let m = model.mass[x];
             let [[_, of_y], [of_x, _]] = frame.gyroscopic(m);

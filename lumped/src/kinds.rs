@@ -5,12 +5,12 @@
 //! members with planet motions proportional to cos ψ_n and sin ψ_n; and planet motions without net force or
 //! torque on the central members. Held coordinates are left out of them.
 
+use gearset::{Axis, Body};
 use nalgebra::DMatrix;
 use serde::Serialize;
 
 use dynamics::orthonormal_basis;
 
-use crate::coordinates::{Axis, Body};
 use crate::model::LumpedModel;
 
 /// Kind of a mode.
@@ -64,8 +64,8 @@ impl Kinds {
     /// Checked by: `structure.spectrum`, `structure.diametrical`, `structure.mirror`.
     pub(crate) fn of(model: &LumpedModel) -> Self {
         let index = |body, axis| model.coordinates.of(body, axis);
-        let central = [Body::Carrier, Body::Ring, Body::Sun];
-        let single = |axis| central.iter().filter_map(move |&b| Some(vec![(index(b, axis)?, 1.0)]));
+        let central = Body::CENTRAL.into_iter();
+        let single = |axis| central.clone().filter_map(move |b| Some(vec![(index(b, axis)?, 1.0)]));
         let mut rotational: Vec<Sparse> = single(Axis::Rotation).collect();
         let mut translational: Vec<Sparse> =
             single(Axis::First).chain(single(Axis::Second)).collect();

@@ -27,7 +27,7 @@ pub use nalgebra;
 
 pub use analytic::{AnalyticCycle, AnalyticRest, AnalyticSet, StatedError};
 pub use balanced::BalancedSet;
-pub use coordinates::{Axis, Body, Coordinates};
+pub use coordinates::Coordinates;
 pub use energy::{EnergyShare, kinetic_energy, strain_energy};
 pub use error::LumpedError;
 pub use gyroscopic::{SpeedMode, SpeedModes, campbell};

@@ -2,9 +2,10 @@
 
 use nalgebra::DMatrix;
 
+use gearset::{Axis, Body};
 use scene::{Freedom, PerBody, Scene, Support, Torsional};
 
-use crate::coordinates::{Axis, Body, Coordinates};
+use crate::coordinates::Coordinates;
 use crate::error::LumpedError;
 use crate::springs::{Rows, Spring, SpringId};
 
@@ -57,7 +58,7 @@ impl LumpedModel {
             (Axis::First | Axis::Second, _) => Ok(piece.mass_kg),
             _ if piece.inertia_kg_m2 == 0.0 => Ok(0.0),
             (Axis::Rotation, Some(r)) => Ok(piece.inertia_kg_m2 / (r * r)),
-            (Axis::Rotation, None) => Err(LumpedError::NoRadius { body: "planet" }),
+            (Axis::Rotation, None) => Err(LumpedError::NoRadius { body: Body::Planet(0) }),
         };
         let inertia = |&(body, axis): &(Body, Axis)| {
             let special = match body {
@@ -72,10 +73,13 @@ impl LumpedModel {
                 ),
                 _ => ("mass_kg", special.and_then(|o| o.mass), of(&lumped.mass, body)),
             };
-            let name = body.kind_name();
-            let key = format!("lumped.{table}.{name}");
-            let bare = own.or(common).ok_or(LumpedError::NoInertia { key, body: name })?;
-            Ok(bare + if matches!(body, Body::Planet(_)) { added(axis)? } else { 0.0 })
+            let bare = own.or(common).ok_or(LumpedError::NoInertia { table, body })?;
+            let value = bare + if matches!(body, Body::Planet(_)) { added(axis)? } else { 0.0 };
+            // A scene built in memory has not passed the reader's checks.
+            match value > 0.0 && value.is_finite() {
+                true => Ok(value),
+                false => Err(LumpedError::Inertia { table, body, value }),
+            }
         };
         let mass =
             coordinates.free().iter().map(inertia).collect::<Result<Vec<f64>, LumpedError>>()?;
@@ -174,6 +178,6 @@ fn torsional(support: &Support, radius: Option<f64>, body: Body) -> Result<f64, 
         (Torsional::PerLength(k), _) => Ok(k),
         (Torsional::PerAngle(0.0), _) => Ok(0.0),
         (Torsional::PerAngle(k), Some(r)) => Ok(k / (r * r)),
-        (Torsional::PerAngle(_), None) => Err(LumpedError::NoRadius { body: body.kind_name() }),
+        (Torsional::PerAngle(_), None) => Err(LumpedError::NoRadius { body }),
     }
 }

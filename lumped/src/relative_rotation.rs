@@ -7,9 +7,9 @@
 use nalgebra::DMatrix;
 
 use dynamics::{Coupling, LinearPart};
+use gearset::{Axis, Body};
 use scene::Scene;
 
-use crate::coordinates::{Axis, Body};
 use crate::model::LumpedModel;
 
 /// Rotations of sun and planet as one coordinate, at the sun's place; the planet's place falls away.
@@ -22,7 +22,7 @@ use crate::model::LumpedModel;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct RelativeRotation {
     sun: usize,
-    planet: usize,
+    pub(crate) planet: usize,
     /// a_s, a_p.
     share: [f64; 2],
 }

@@ -5,9 +5,9 @@
 
 use std::collections::BTreeMap;
 
+use gearset::Axis;
 use serde::Serialize;
 
-use crate::coordinates::Axis;
 use crate::model::LumpedModel;
 use crate::modes::ModeGroup;
 use crate::springs::{Spring, SpringId};

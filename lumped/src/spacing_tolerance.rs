@@ -13,10 +13,10 @@
 //! A kind of modes is a space that follows the planets: patterns cos ψ_n and sin ψ_n turn by ε a_n, too.
 
 use dynamics::IMPURE;
+use gearset::{Axis, Body};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use serde::Serialize;
 
-use crate::coordinates::{Axis, Body};
 use crate::error::LumpedError;
 use crate::kinds::{Kinds, ModeType};
 use crate::model::LumpedModel;

@@ -1,8 +1,9 @@
 //! The springs of the model and their deflections: the one place that defines signs.
 
+use gearset::{Axis, Body};
 use serde::Serialize;
 
-use crate::coordinates::{Axis, Body, Coordinates};
+use crate::coordinates::Coordinates;
 
 /// What a spring is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]

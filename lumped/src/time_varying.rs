@@ -9,13 +9,13 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use dynamics::{
-    AverageAcceleration, CarriedChange, Coupled, CoupledState, Coupling, CouplingForce, CyclePart,
-    LinearPart, MapDerivative, Motion, Number, PassedSteps, Renumbering,
+    AverageAcceleration, CarriedChange, Coupled, CoupledError, CoupledState, Coupling,
+    CouplingForce, CyclePart, LinearPart, MapDerivative, Motion, Number, PassedSteps, Renumbering,
 };
-use gearset::{Facing, Member, MeshLaw, Symmetry};
+use gearset::{Axis, Body, Facing, Member, MeshLaw, Symmetry};
 use scene::Scene;
 
-use crate::coordinates::{Axis, Body, Coordinates};
+use crate::coordinates::Coordinates;
 use crate::error::LumpedError;
 use crate::model::LumpedModel;
 use crate::relative_rotation::RelativeRotation;
@@ -116,7 +116,7 @@ impl Parts {
             Some(r) => Ok(r),
             // A body that cannot rotate needs no radius.
             None if model.coordinates.of(body, Axis::Rotation).is_none() => Ok(1.0),
-            None => Err(LumpedError::NoRotation { body: body.kind_name() }),
+            None => Err(LumpedError::NoRotation { body }),
         };
         let radii = [
             radius(Body::Carrier, lumped.radius.carrier)?,
@@ -185,15 +185,13 @@ fn inertias(model: &LumpedModel, radii: [f64; 4]) -> Vec<[f64; 3]> {
             Axis::ALL.map(|axis| model.coordinates.of(body, axis).map_or(0.0, |i| model.mass[i]));
         [first, second, turning * radius * radius]
     };
-    let central = [Body::Carrier, Body::Ring, Body::Sun].into_iter().zip(radii);
-    let planets = (0..model.psi.len()).map(|n| (Body::Planet(n), radii[3]));
-    central.chain(planets).map(|(body, radius)| of(body, radius)).collect()
+    Body::all(model.psi.len()).map(|body| of(body, radii[body.kind()])).collect()
 }
 
 impl Layout {
     /// Displacements of carrier, ring, sun (x, y, m; θ, rad) and of the planets from coordinates x.
     pub(crate) fn by_body(&self, x: impl Fn(usize) -> f64) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
-        let of = |body: Body, radius: f64| {
+        let of = |body: Body| {
             let at = |i: usize| match &self.relative {
                 Some(relative) => relative.full(i, &x),
                 None => x(i),
@@ -201,11 +199,24 @@ impl Layout {
             let value = |axis| self.coordinates.of(body, axis).map_or(0.0, at);
             let [first, second, u] = Axis::ALL.map(value);
             // Mirrored back: y and θ change sign.
-            [first, self.sign * second, self.sign * u / radius]
+            [first, self.sign * second, self.sign * u / self.radii[body.kind()]]
         };
-        let [carrier, ring, sun, planet] = self.radii;
-        let central = [of(Body::Carrier, carrier), of(Body::Ring, ring), of(Body::Sun, sun)];
-        (central, (0..self.psi_rad.len()).map(|n| of(Body::Planet(n), planet)).collect())
+        let planets = (0..self.psi_rad.len()).map(Body::Planet);
+        (Body::CENTRAL.map(of), planets.map(of).collect())
+    }
+
+    /// The error with body and quantity in place of a coordinate's number.
+    #[cold]
+    fn named(&self, cause: CoupledError) -> LumpedError {
+        let CoupledError::Diverged { time_s, coordinate, value } = cause else {
+            return cause.into();
+        };
+        // A relative rotation leaves out the planet's.
+        let is_after = self.relative.as_ref().is_some_and(|own| coordinate >= own.planet);
+        match self.coordinates.free().get(coordinate + usize::from(is_after)) {
+            Some(&(body, axis)) => LumpedError::Diverged { time_s, body, axis, value },
+            None => cause.into(),
+        }
     }
 }
 
@@ -269,7 +280,7 @@ impl TimeVarying {
     /// # Errors
     /// If the step is not solved or the motion diverges.
     pub fn step(&mut self) -> Result<(), LumpedError> {
-        Ok(self.system.step()?)
+        self.system.step().map_err(|cause| self.layout.named(cause))
     }
 
     /// Displacements of carrier, ring, sun (x, y, m; θ, rad; carrier frame) and of the planets
@@ -374,12 +385,8 @@ impl TimeVarying {
     /// The symmetry after a part of the mesh cycle that the set has, with the most parts.
     pub fn symmetry(&self) -> Option<(Symmetry, CyclePart)> {
         let Layout { coordinates, psi_rad, sign, .. } = &self.layout;
-        let planets = psi_rad.len();
         let couplings = self.system.forces().len();
-        let place = |body: usize, axis: usize| {
-            let body = Body::all(planets).nth(body)?;
-            coordinates.of(body, *Axis::ALL.get(axis)?)
-        };
+        let place = |body, axis| coordinates.of(body, axis);
         // The planets' angles are those of the set mirrored to counter-clockwise torque.
         let steps = self.system.law().0.steps();
         let all = Symmetry::renumberings(psi_rad, steps, couplings, place);

@@ -13,10 +13,10 @@
 //! different kinds that coincide have no tolerance at all.
 
 use dynamics::IMPURE;
+use gearset::Body;
 use nalgebra::{DMatrix, SymmetricEigen};
 use serde::Serialize;
 
-use crate::coordinates::Body;
 use crate::error::LumpedError;
 use crate::kinds::ModeType;
 use crate::model::LumpedModel;

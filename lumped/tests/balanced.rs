@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use dynamics::harmonic_balance::{BalanceError, BalanceOptions, FourierSeries};
-use gearset::{Facing, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing};
-use lumped::{Axis, BalancedSet, Body, LumpedError, TimeVarying};
+use gearset::{Axis, Body, Facing, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing};
+use lumped::{BalancedSet, LumpedError, TimeVarying};
 use scene::Scene;
 
 fn scene(name: &str) -> Scene {

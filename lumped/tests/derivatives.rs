@@ -4,6 +4,7 @@ use crate::common;
 
 use std::f64::consts::TAU;
 
+use gearset::{Axis, Body};
 use lumped::*;
 use scene::Torsional;
 

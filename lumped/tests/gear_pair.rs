@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use gearset::{Facing, MeshLaw, PairFlanks, pair_law};
-use lumped::{Axis, Body, LumpedModel, NaturalModes, TimeVarying};
+use gearset::{Axis, Body, Facing, MeshLaw, PairFlanks, pair_law};
+use lumped::{LumpedModel, NaturalModes, TimeVarying};
 use scene::{Scene, SceneKind, template};
 
 const K: f64 = 3.0e8;

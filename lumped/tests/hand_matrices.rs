@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use gearset::PlanetPositions;
-use lumped::{Axis, Body, LumpedError, LumpedModel};
+use gearset::{Axis, Body, PlanetPositions};
+use lumped::{LumpedError, LumpedModel};
 use scene::{AddedMass, Freedom, Scene, Torsional};
 
 /// The Lin & Parker set.
@@ -114,7 +114,7 @@ fn what_is_fixed_to_the_planets_adds_to_their_mass_and_to_nothing_else() {
     scene.supports.planet_added = AddedMass { mass_kg: 0.2, inertia_kg_m2: 3e-3 };
     scene.lumped.as_mut().unwrap().radius.planet = None;
     let refused = LumpedModel::from_scene(&scene).unwrap_err();
-    assert_eq!(refused, LumpedError::NoRadius { body: "planet" });
+    assert_eq!(refused, LumpedError::NoRadius { body: Body::Planet(0) });
     scene.lumped.as_mut().unwrap().radius.planet = Some(0.05);
     let model = LumpedModel::from_scene(&scene).unwrap();
     for (i, (body, axis)) in model.coordinates.free().iter().enumerate() {
@@ -126,6 +126,19 @@ fn what_is_fixed_to_the_planets_adds_to_their_mass_and_to_nothing_else() {
         assert_eq!(model.mass[i], bare.mass[i] + more);
     }
     assert_eq!(model.stiffness(), bare.stiffness());
+}
+
+/// A scene built in code says which body has no mass, and not the number of a coordinate.
+#[test]
+fn masses_that_are_none_are_refused_by_body() {
+    let mut scene = lin_parker();
+    scene.lumped.as_mut().unwrap().mass.planet = Some(-1.0);
+    let refused = LumpedModel::from_scene(&scene).unwrap_err().to_string();
+    let expected = "`lumped.mass_kg` of the planet 0 is -1: it must be positive and finite";
+    assert_eq!(refused, expected);
+    scene.lumped.as_mut().unwrap().inertia_over_r2.sun = Some(f64::NAN);
+    let refused = LumpedModel::from_scene(&scene).unwrap_err();
+    assert!(matches!(refused, LumpedError::Inertia { body: Body::Sun, .. }), "{refused}");
 }
 
 #[test]

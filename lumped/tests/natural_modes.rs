@@ -76,7 +76,7 @@ fn exact_rotational(scene: &Scene) -> f64 {
     let model = LumpedModel::from_scene(scene).unwrap();
     let k = model.stiffness();
     let index = |body, axis| model.coordinates.of(body, axis).unwrap();
-    use lumped::{Axis, Body};
+    use gearset::{Axis, Body};
     let n = model.psi.len();
     // In-phase planets: sum the planets' rows and columns.
     let mut coordinates = vec![vec![index(Body::Sun, Axis::Rotation)]];
@@ -222,5 +222,5 @@ fn a_held_rotation_needs_no_radius() {
 #[test]
 fn a_planet_that_is_not_there_has_no_coordinate() {
     let (model, _) = modes(&scene("oh58_4p.toml"));
-    assert_eq!(model.coordinates.of(lumped::Body::Planet(4), lumped::Axis::First), None);
+    assert_eq!(model.coordinates.of(gearset::Body::Planet(4), gearset::Axis::First), None);
 }

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use dynamics::benchmark_subjects::Scheme;
 use dynamics::harmonic_balance::BalanceOptions;
-use gearset::{Facing, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing};
-use lumped::{Axis, BalancedSet, Body, LAW_STEPS_A_STEP, LumpedError, SchemeSet, TimeVarying};
+use gearset::{Axis, Body, Facing, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing};
+use lumped::{BalancedSet, LAW_STEPS_A_STEP, LumpedError, SchemeSet, TimeVarying};
 use scene::Scene;
 
 /// OH-58 with four planets, its meshes undamped.

@@ -4,9 +4,10 @@ use std::f64::consts::TAU;
 use std::path::Path;
 
 use gearset::{
-    CurveKey, Facing, FlankSide, MeshCurve, MeshLaw, MeshLawPlan, MeshStart, PairSprings, Phasing,
+    Axis, Body, CurveKey, Facing, FlankSide, MeshCurve, MeshLaw, MeshLawPlan, MeshStart,
+    PairSprings, Phasing,
 };
-use lumped::{Axis, Body, LumpedModel, NaturalModes, TimeVarying};
+use lumped::{LumpedError, LumpedModel, NaturalModes, TimeVarying};
 use scene::Scene;
 
 /// A scene file of the repository.
@@ -241,6 +242,18 @@ fn planets_follow_their_exact_phases() {
     let (divided, not) = (apart(141), apart(140));
     assert!(divided < 1e-9, "{divided:e}");
     assert!(not > 1e-4, "{not:e}");
+}
+
+#[test]
+fn a_motion_that_diverges_is_told_by_body_and_displacement() {
+    let scene = scene("oh58_4p.toml");
+    let mut set =
+        TimeVarying::new(&scene, Facing::CounterClockwise, constant(&scene, 140), FREQUENCY)
+            .unwrap();
+    set.load(1e15).unwrap();
+    let error = (0..140).find_map(|_| set.step().err()).unwrap();
+    assert!(matches!(error, LumpedError::Diverged { body: Body::Sun, .. }), "{error}");
+    assert!(error.to_string().contains("the rotation of the sun is "), "{error}");
 }
 
 #[test]

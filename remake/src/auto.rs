@@ -1,6 +1,6 @@
 //! The test of `auto`: answers at a loose and a tight tolerance on drawn sets beside a finer calculation.
 
-use experiments::ExperimentError;
+use experiments::ModelError;
 use experiments::auto::{
     AmplitudeQuestion, AutoError, AutoModel, AutoSettings, BodyInertia, Choice, CycleQuestion,
     CycleValue, FrequencyQuestion, Question, choose_amplitude, choose_frequency,
@@ -45,12 +45,12 @@ fn kind(seed: u64) -> usize {
 }
 
 /// A set with a carrier whose bore is drawn as well: outer over bore diameter from 1.5 to 2.9.
-fn set(seed: u64, random: &mut fastrand::Rng) -> Result<Scene, ExperimentError> {
+fn set(seed: u64, random: &mut fastrand::Rng) -> Option<Scene> {
     let mut scene = drawn_set(seed)?;
     if let Some(carrier) = scene.geometry.as_mut().and_then(|g| g.carrier.as_mut()) {
         carrier.bore_radius = carrier.outer_radius / (1.5 + 1.4 * random.f64());
     }
-    Ok(scene)
+    Some(scene)
 }
 
 /// One line of the record.
@@ -71,7 +71,7 @@ fn row<Q: Question>(
     choose: impl Fn(&Q, f64) -> Result<Choice, AutoError>,
     tolerances: [f64; 2],
     modes: BodyInertia,
-) -> Result<Row, ExperimentError> {
+) -> Result<Row, AutoError> {
     let mut clock = CpuTime::default();
     let mut seconds = [0.0; 2];
     let found = [0, 1].map(|k| {
@@ -95,9 +95,9 @@ fn row<Q: Question>(
     Ok(Row { quantity: question.words(), unit: question.unit(), truth, found, seconds })
 }
 
-fn of_seed(seed: u64) -> Result<Row, ExperimentError> {
+fn of_seed(seed: u64) -> Result<Row, ModelError> {
     let mut random = fastrand::Rng::with_seed(!seed);
-    let scene = set(seed, &mut random)?;
+    let scene = set(seed, &mut random).ok_or("no drawn scene can be assembled")?;
     let case = LoadCase::of_scene(&scene)?;
     match kind(seed) {
         0 => {
@@ -106,13 +106,13 @@ fn of_seed(seed: u64) -> Result<Row, ExperimentError> {
             let mode_type = types[random.usize(0..if scene.planets.count() > 3 { 3 } else { 2 })];
             let number = random.usize(1..=if mode_type == ModeType::Translational { 6 } else { 3 });
             let question = FrequencyQuestion { scene: &scene, case: &case, mode_type, number };
-            row(&question, choose_frequency, TOLERANCES[0], MODES[0])
+            Ok(row(&question, choose_frequency, TOLERANCES[0], MODES[0])?)
         }
         1 => {
             let value =
                 if random.u32(0..4) == 0 { CycleValue::Mean } else { CycleValue::PeakToPeak };
             let question = CycleQuestion { scene: &scene, case: &case, value };
-            row(&question, choose_transmission_error, TOLERANCES[1], BodyInertia::None)
+            Ok(row(&question, choose_transmission_error, TOLERANCES[1], BodyInertia::None)?)
         }
         _ => {
             let strengths = excitation_of_scene(&scene, HARMONICS as u32).unwrap_or_default();
@@ -137,7 +137,7 @@ fn of_seed(seed: u64) -> Result<Row, ExperimentError> {
             let question = AmplitudeQuestion::new((&scene, &case), response, speeds, steady);
             let choose =
                 |q: &AmplitudeQuestion<'_>, t| choose_amplitude(q, t).map(|found| found.choice);
-            row(&question, choose, TOLERANCES[2], MODES[1])
+            Ok(row(&question, choose, TOLERANCES[2], MODES[1])?)
         }
     }
 }

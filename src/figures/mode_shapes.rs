@@ -4,8 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use experiments::modal::FeMode;
 use fe_contact::fe_mesh::polar;
-use fe_contact::statics::{CARRIER, PLANETS, RING, SUN};
-use gearset::{MeshKind, MeshMember};
+use gearset::{Body, MeshKind, MeshMember};
 
 use super::ModalTest;
 use super::drawing::{Anchor, Canvas, Pen, Picture, Pixel, Symbol, Type};
@@ -21,7 +20,7 @@ const SCALE: f64 = 0.35;
 
 /// A body's circle.
 struct Circle {
-    body: usize,
+    body: Body,
     centre: [f64; 2],
     /// Directions of its x and y coordinates: their angle, rad.
     axes: f64,
@@ -60,16 +59,20 @@ fn circles(of: &ModalTest<'_>) -> Vec<Circle> {
     let planet = pitch(MeshKind::SunPlanet, MeshMember::Driven);
     let planet = planet.unwrap_or(geometry.planet.base_radius);
     let carrier = (!races.is_pair()).then_some(geometry.center_distance);
-    let bodies = [(CARRIER, carrier, "#8a949c"), (RING, ring, "#5a6570"), (SUN, sun, "#b8860b")];
+    let bodies = [
+        (Body::Carrier, carrier, "#8a949c"),
+        (Body::Ring, ring, "#5a6570"),
+        (Body::Sun, sun, "#b8860b"),
+    ];
     let central =
         bodies.into_iter().zip(races.radii).filter_map(|((body, radius, colour), arm)| {
             // Lines of the large circles would cross the others.
-            let hand_from = if body == SUN { 0.0 } else { 0.8 };
+            let hand_from = if body == Body::Sun { 0.0 } else { 0.8 };
             let (centre, axes, hand) = ([0.0; 2], 0.0, FRAC_PI_2);
             Some(Circle { body, centre, axes, radius: radius?, arm, hand, hand_from, colour })
         });
     let planets = races.psi.iter().enumerate().map(|(n, psi)| Circle {
-        body: PLANETS + n,
+        body: Body::Planet(n),
         centre: polar(geometry.center_distance, *psi),
         axes: *psi,
         radius: planet,
@@ -83,8 +86,8 @@ fn circles(of: &ModalTest<'_>) -> Vec<Circle> {
 
 /// Translation along a body's axes (m) and rotation (rad) of a shape.
 fn motion(of: &ModalTest<'_>, circle: &Circle, mode: &FeMode) -> ([f64; 2], f64) {
-    let along = |axis| of.races.of(circle.body, axis).map_or(0.0, |i| mode.shape[i]);
-    ([along(0), along(1)], along(2) / circle.arm)
+    let [first, second, u] = of.races.places(circle.body).map(|i| i.map_or(0.0, |i| mode.shape[i]));
+    ([first, second], u / circle.arm)
 }
 
 /// One panel about its middle.
@@ -103,7 +106,7 @@ fn shape(
         x.hypot(y).max(c.radius * theta.abs())
     };
     let largest = circles.iter().map(size).fold(f64::MIN_POSITIVE, f64::max);
-    let sun = circles.iter().find(|c| c.body == SUN).map_or(0.2 * outer, |c| c.radius);
+    let sun = circles.iter().find(|c| c.body == Body::Sun).map_or(0.2 * outer, |c| c.radius);
     let scale = SCALE * sun / largest;
     // y upwards
     let pixel = |[x, y]: [f64; 2]| [middle[0] + x * to_pixels, middle[1] - y * to_pixels];

@@ -2,7 +2,7 @@
 
 use dynamics::{SpectrumError, Window, spectrum};
 use experiments::modal::Decay;
-use fe_contact::statics::SUN;
+use gearset::Body;
 
 use super::ModalTest;
 use super::drawing::{Axis, FOUND, Panel, Picture, Series, curve, panels};
@@ -38,8 +38,7 @@ fn translation(
     of: &ModalTest<'_>,
     decay: &Decay,
 ) -> Result<Option<Vec<(f64, f64)>>, SpectrumError> {
-    let axes = [0, 1].map(|axis| of.races.of(SUN, axis));
-    let [Some(x), Some(y)] = axes else { return Ok(None) };
+    let [Some(x), Some(y), _] = of.races.places(Body::Sun) else { return Ok(None) };
     let settings = &of.test.settings;
     let lines = |i: usize| {
         spectrum(&decay.records[i], settings.preload.step_s, Window::Rectangular, PADDING)

@@ -30,9 +30,18 @@ pub enum ValidationError {
     /// An eigenproblem.
     #[error(transparent)]
     Eigen(#[from] dynamics::EigenError),
-    /// An experiment.
+    /// Modes of a linearised set or an impulse test.
     #[error(transparent)]
-    Experiment(#[from] experiments::ExperimentError),
+    Modal(#[from] experiments::modal::ModalError),
+    /// Steady states.
+    #[error(transparent)]
+    Sweep(#[from] experiments::sweep::SweepError),
+    /// Branches of steady states.
+    #[error(transparent)]
+    Branch(#[from] experiments::branches::BranchError),
+    /// Series over torque.
+    #[error(transparent)]
+    Torque(#[from] experiments::torque::TorqueError),
     /// A spectrum.
     #[error(transparent)]
     Spectrum(#[from] dynamics::SpectrumError),
@@ -45,7 +54,7 @@ impl ValidationError {
     /// Whether recorded tables were asked for results that they do not contain.
     pub(crate) fn is_not_recorded(&self) -> bool {
         let source = match self {
-            Self::Model(source) | Self::Experiment(experiments::ExperimentError::Model(source)) => {
+            Self::Model(source) | Self::Torque(experiments::torque::TorqueError::Model(source)) => {
                 source
             }
             _ => return false,

@@ -9,10 +9,9 @@ use super::choice::{AutoError, Choice};
 use super::question::{ClosedForm, Question};
 use super::search::choose;
 use super::settings::{AutoSettings, BodyInertia};
-use crate::error::ExperimentError;
 use crate::sweep::{
-    Coordinate, Direction, FeModel, Memory, Part, Plan, SteadySettings, Sweep, SweepModel,
-    SweepPoint, run,
+    Coordinate, Direction, FeModel, Memory, Part, Plan, SteadySettings, Sweep, SweepError,
+    SweepModel, SweepPoint, run,
 };
 
 /// Ways to take the inertia of the bodies into account.
@@ -119,24 +118,21 @@ impl<'s> AmplitudeQuestion<'s> {
     }
 
     /// Steady states at some speeds, rpm.
-    fn motions(
-        &self,
-        settings: &AutoSettings,
-        speeds_rpm: &[f64],
-    ) -> Result<Motions, ExperimentError> {
+    fn motions(&self, settings: &AutoSettings, speeds_rpm: &[f64]) -> Result<Motions, AutoError> {
         if let Some(why) = &*self.refusal.borrow() {
-            return Err(ExperimentError::Model(why.clone().into()));
+            return Err(AutoError::Model(why.clone()));
         }
         let scene = settings.applied_to(self.scene);
         let bodies = Bodies::new(&scene)?;
-        let sun = bodies.geometry.sun.as_ref().ok_or(ExperimentError::Incomplete("sun"))?;
+        let sun = bodies.geometry.sun.as_ref().ok_or(AutoError::Incomplete("sun"))?;
         let model = FeModel::new(&scene, &bodies, Imperfections::default(), *self.case);
         model.prepare()?;
-        let plan = Plan::new(speeds_rpm, &[Direction::Up], self.steady.clone())?;
+        let plan = Plan::new(speeds_rpm, &[Direction::Up], self.steady.clone());
+        let plan = plan.map_err(SweepError::from)?;
         let sweep = run(&model, &plan, &Memory, &|_| ())?.complete()?.steady()?;
         if let Some(why) = self.ambiguous(&model, &plan, &sweep)? {
             *self.refusal.borrow_mut() = Some(why.clone());
-            return Err(ExperimentError::Model(why.into()));
+            return Err(AutoError::Model(why));
         }
         let of = |p: &SweepPoint| (p.state.case.speed_rpm, self.lines(p, sun.base_radius));
         Ok(Motions { at: sweep.points().into_iter().map(of).collect(), sweep })
@@ -152,7 +148,7 @@ impl<'s> AmplitudeQuestion<'s> {
         model: &FeModel<'_>,
         plan: &Plan,
         sweep: &Sweep,
-    ) -> Result<Option<String>, ExperimentError> {
+    ) -> Result<Option<String>, AutoError> {
         let found =
             "which of the motions that attract there is found depends on the settings; name them";
         if let Some(rpm) = parting_rpm(sweep) {
@@ -201,11 +197,11 @@ impl Question for AmplitudeQuestion<'_> {
         &INERTIAS
     }
 
-    fn in_closed_form(&self) -> Result<Option<ClosedForm>, ExperimentError> {
+    fn in_closed_form(&self) -> Result<Option<ClosedForm>, AutoError> {
         Ok(None)
     }
 
-    fn answer(&self, settings: &AutoSettings) -> Result<Motions, ExperimentError> {
+    fn answer(&self, settings: &AutoSettings) -> Result<Motions, AutoError> {
         self.motions(settings, &self.speeds_rpm)
     }
 
@@ -214,8 +210,8 @@ impl Question for AmplitudeQuestion<'_> {
         &self,
         settings: &AutoSettings,
         known: &Motions,
-    ) -> Result<Motions, ExperimentError> {
-        let top = known.top_rpm().ok_or(ExperimentError::Incomplete("steady state"))?;
+    ) -> Result<Motions, AutoError> {
+        let top = known.top_rpm().ok_or(AutoError::Incomplete("steady state"))?;
         self.motions(settings, &[top])
     }
 
@@ -247,6 +243,6 @@ pub fn choose_amplitude(
     tolerance_percent: f64,
 ) -> Result<ChosenSweep, AutoError> {
     let (choice, motions) = choose(question, tolerance_percent)?;
-    let motions = motions.ok_or(ExperimentError::Incomplete("steady state"))?;
+    let motions = motions.ok_or(AutoError::Incomplete("steady state"))?;
     Ok(ChosenSweep { choice, sweep: motions.sweep })
 }

@@ -4,7 +4,6 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::settings::AutoSettings;
-use crate::error::ExperimentError;
 
 /// One part of an estimated error.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -87,9 +86,24 @@ pub enum AutoError {
         /// Every candidate with its estimate.
         passed_over: Vec<PassedOver>,
     },
-    /// The scene lacks what the question needs.
+    /// The scene or the settings lack what the question needs.
+    #[error("the scene has no {0}")]
+    Incomplete(&'static str),
+    /// The model has no answer, for this reason.
+    #[error("the model: {0}")]
+    Model(String),
+    /// The FE/contact model.
     #[error(transparent)]
-    Experiment(#[from] ExperimentError),
+    Fe(#[from] fe_contact::FeError),
+    /// The lumped model in closed form.
+    #[error(transparent)]
+    Lumped(#[from] lumped::LumpedError),
+    /// Modes of a linearised set.
+    #[error(transparent)]
+    Modal(#[from] crate::modal::ModalError),
+    /// Steady states.
+    #[error(transparent)]
+    Sweep(#[from] crate::sweep::SweepError),
 }
 
 /// Candidates with their reasons; a reason that neighbours share stands once, and alone where all share it.

@@ -8,7 +8,6 @@ use super::choice::{AutoError, Choice, ErrorPart};
 use super::question::{ClosedForm, Question};
 use super::search::choose;
 use super::settings::{AutoSettings, BodyInertia};
-use crate::error::ExperimentError;
 use crate::modal::{
     FeMode, Preload, first_order_inertia, linear_modes, majority, of_type, preloaded,
 };
@@ -49,9 +48,9 @@ impl<'s> FrequencyQuestion<'s> {
     }
 
     /// Why there is no such mode.
-    fn missing(&self, count: usize) -> ExperimentError {
+    fn missing(&self, count: usize) -> AutoError {
         let name = self.mode_type.name();
-        ExperimentError::Model(format!("it has {count} modes of type {name}").into())
+        AutoError::Model(format!("it has {count} modes of type {name}"))
     }
 
     /// Refuses a mode at `own_hz` that cannot be told by type and number: one up to it, or close above it, is of the
@@ -60,14 +59,14 @@ impl<'s> FrequencyQuestion<'s> {
         &self,
         own_hz: f64,
         modes: impl Iterator<Item = (f64, f64)>,
-    ) -> Result<(), ExperimentError> {
+    ) -> Result<(), AutoError> {
         let mut mixed = modes.filter(|(hz, share)| *hz <= CLOSE * own_hz && MIXED.contains(share));
         let Some((hz, _)) = mixed.next() else { return Ok(()) };
         let why = format!(
             "its mode at {hz:.0} Hz is about as much of another type: with other settings the number {} may belong to another mode",
             self.number
         );
-        Err(ExperimentError::Model(why.into()))
+        Err(AutoError::Model(why))
     }
 
     /// Place of the asked type among shares in rotational, translational and planet motion.
@@ -100,7 +99,7 @@ impl Question for FrequencyQuestion<'_> {
         &INERTIAS
     }
 
-    fn in_closed_form(&self) -> Result<Option<ClosedForm>, ExperimentError> {
+    fn in_closed_form(&self) -> Result<Option<ClosedForm>, AutoError> {
         let set = AnalyticSet::new(self.scene, self.case, 0.0)?;
         let groups = set.modes()?.groups;
         let own = groups.iter().filter(|g| majority(&g.participation) == self.mode_type);
@@ -118,7 +117,7 @@ impl Question for FrequencyQuestion<'_> {
         Ok(Some((hz, parts.collect())))
     }
 
-    fn answer(&self, settings: &AutoSettings) -> Result<f64, ExperimentError> {
+    fn answer(&self, settings: &AutoSettings) -> Result<f64, AutoError> {
         let scene = settings.applied_to(self.scene);
         let bodies = Bodies::new(&scene)?;
         let preload = Preload { load: *self.case, position: 0.0, step_s: 5e-6 };
@@ -138,7 +137,7 @@ impl Question for FrequencyQuestion<'_> {
             let why = format!(
                 "inertia is not known to first order: {hz:.0} Hz is above 0.7 of the first mode of a body with its race held, or the teeth of a gear are not meshed alike"
             );
-            ExperimentError::Model(why.into())
+            AutoError::Model(why)
         };
         Ok(hz * (1.0 + change[0].ok_or_else(unknown)?))
     }

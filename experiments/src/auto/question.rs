@@ -1,8 +1,7 @@
 //! What is asked: a quantity that settings are chosen for.
 
-use super::choice::ErrorPart;
+use super::choice::{AutoError, ErrorPart};
 use super::settings::{AutoSettings, BodyInertia};
-use crate::error::ExperimentError;
 
 /// An answer in closed form: the value in the unit of the question, and its stated errors.
 pub type ClosedForm = (f64, Vec<ErrorPart>);
@@ -30,13 +29,13 @@ pub trait Question {
     ///
     /// # Errors
     /// If the closed forms do not hold for the scene.
-    fn in_closed_form(&self) -> Result<Option<ClosedForm>, ExperimentError>;
+    fn in_closed_form(&self) -> Result<Option<ClosedForm>, AutoError>;
 
     /// The answer with some settings.
     ///
     /// # Errors
     /// If the settings are refused, or the set has no such quantity.
-    fn answer(&self, settings: &AutoSettings) -> Result<Self::Answer, ExperimentError>;
+    fn answer(&self, settings: &AutoSettings) -> Result<Self::Answer, AutoError>;
 
     /// The same, for a comparison of two ways to take the inertia of the bodies into account: `known` is the answer
     /// of another way on the same discretisation.
@@ -47,7 +46,7 @@ pub trait Question {
         &self,
         settings: &AutoSettings,
         known: &Self::Answer,
-    ) -> Result<Self::Answer, ExperimentError> {
+    ) -> Result<Self::Answer, AutoError> {
         let _ = known;
         self.answer(settings)
     }

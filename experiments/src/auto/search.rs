@@ -223,7 +223,6 @@ fn shown(percent: f64) -> String {
 mod tests {
     use super::super::question::ClosedForm;
     use super::*;
-    use crate::error::ExperimentError;
 
     /// 1 + ε/n² on n elements, times 1 + c of the inertia that quasi-static bodies lack, of which first order leaves
     /// a tenth.
@@ -250,13 +249,13 @@ mod tests {
         fn inertias(&self) -> &'static [BodyInertia] {
             &[BodyInertia::None, BodyInertia::FirstOrder, BodyInertia::Modes(12)]
         }
-        fn in_closed_form(&self) -> Result<Option<ClosedForm>, ExperimentError> {
+        fn in_closed_form(&self) -> Result<Option<ClosedForm>, AutoError> {
             Ok(self.stated.map(|share| (1.0, vec![ErrorPart::new("closed form", share)])))
         }
-        fn answer(&self, settings: &AutoSettings) -> Result<f64, ExperimentError> {
+        fn answer(&self, settings: &AutoSettings) -> Result<f64, AutoError> {
             let n = settings.flank_elements.unwrap();
             if n < FLANK_ELEMENTS[self.refused] {
-                return Err(ExperimentError::Incomplete("cells"));
+                return Err(AutoError::Incomplete("cells"));
             }
             let lacking = match (settings.modes, settings.elastic_inertia) {
                 (Some(_), _) => 0.0,

@@ -9,7 +9,6 @@ use super::choice::{AutoError, Choice, ErrorPart};
 use super::question::{ClosedForm, Question};
 use super::search::choose;
 use super::settings::{AutoSettings, BodyInertia};
-use crate::error::ExperimentError;
 
 /// Positions of the closed forms: their mean hardly depends on them.
 const POSITIONS: u32 = 24;
@@ -77,7 +76,7 @@ impl Question for CycleQuestion<'_> {
     }
 
     /// The mean alone: a peak to peak is the small difference of large deflections, and has no stated error.
-    fn in_closed_form(&self) -> Result<Option<ClosedForm>, ExperimentError> {
+    fn in_closed_form(&self) -> Result<Option<ClosedForm>, AutoError> {
         if self.value == CycleValue::PeakToPeak {
             return Ok(None);
         }
@@ -91,12 +90,11 @@ impl Question for CycleQuestion<'_> {
         Ok(Some((CycleCurve::new(&values).mean, parts)))
     }
 
-    fn answer(&self, settings: &AutoSettings) -> Result<CycleCurve, ExperimentError> {
+    fn answer(&self, settings: &AutoSettings) -> Result<CycleCurve, AutoError> {
         let scene = settings.applied_to(self.scene);
         let bodies = Bodies::new(&scene)?;
-        let sun = bodies.geometry.sun.as_ref().ok_or(ExperimentError::Incomplete("sun"))?;
-        let positions =
-            settings.positions.ok_or(ExperimentError::Incomplete("number of positions"))?;
+        let sun = bodies.geometry.sun.as_ref().ok_or(AutoError::Incomplete("sun"))?;
+        let positions = settings.positions.ok_or(AutoError::Incomplete("number of positions"))?;
         let set = StaticSet::new(&scene, &bodies, self.case.sense(), Imperfections::default())?;
         let cycle = set.cycle(self.case.sun_load_nm(), positions as usize, &ActiveSet)?;
         let of = |s: &fe_contact::statics::SetState| 1e6 * s.transmission_error(sun.base_radius);

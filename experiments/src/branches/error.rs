@@ -1,9 +1,11 @@
 //! Errors of branches.
 
 use super::parameter::BranchParameter;
+use crate::sweep::SweepError;
+use crate::table_growth::Outgrown;
 
-/// Why a branch of periodic motions could not be begun.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+/// Why a branch of periodic motions could not be begun or followed.
+#[derive(Debug, thiserror::Error)]
 pub enum BranchError {
     /// The model has no derivative of its cycles.
     #[error(
@@ -51,4 +53,13 @@ pub enum BranchError {
     /// Too few points.
     #[error("{0} points: a branch needs at least 2")]
     Points(usize),
+    /// The model could not be set up or stepped, or a part could not be kept or read.
+    #[error(transparent)]
+    Sweep(#[from] SweepError),
+}
+
+impl Outgrown for BranchError {
+    fn is_too_small(&self) -> bool {
+        matches!(self, Self::Sweep(e) if e.is_too_small())
+    }
 }

@@ -6,8 +6,9 @@ use fe_contact::vibration::Along;
 use nalgebra::{DMatrix, DVector};
 
 use super::parameter::BranchParameter;
-use crate::error::ExperimentError;
-use crate::sweep::{CriticalMotion, Marching, Record, RecordedCycles, SMALL, SweepModel};
+use crate::sweep::{
+    CriticalMotion, Marching, Record, RecordedCycles, SMALL, SweepError, SweepModel,
+};
 
 /// Share of the parameter by which it is changed to either side for the derivative in it.
 pub const PARAMETER_CHANGE: f64 = 1e-6;
@@ -72,7 +73,7 @@ impl<'m> PeriodicFamily<'m> {
     ///
     /// # Errors
     /// If the set cannot be built or stepped.
-    pub fn map_derivative(&self, y: &[f64], lambda: f64) -> Result<MapDerivative, ExperimentError> {
+    pub fn map_derivative(&self, y: &[f64], lambda: f64) -> Result<MapDerivative, SweepError> {
         let mut set = self.set(lambda)?;
         let mut cycles = self.cycles(set.as_mut());
         cycles.set_coordinates(y)?;
@@ -84,7 +85,7 @@ impl<'m> PeriodicFamily<'m> {
         &self,
         cycles: &mut RecordedCycles<'_>,
         each: &mut dyn FnMut(&Record),
-    ) -> Result<MapDerivative, ExperimentError> {
+    ) -> Result<MapDerivative, SweepError> {
         cycles.advance()?;
         let mut whole = cycles.of_cycle(Along::Every)?;
         each(cycles.last());
@@ -96,12 +97,12 @@ impl<'m> PeriodicFamily<'m> {
         Ok(whole)
     }
 
-    fn set(&self, lambda: f64) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    fn set(&self, lambda: f64) -> Result<Box<dyn Marching + '_>, SweepError> {
         self.over.set(self.model, lambda, self.size)
     }
 
     /// Whether the motion from y has ended at the same place after a period at two values of the parameter.
-    pub(super) fn is_same(&self, y: &[f64], [a, b]: [f64; 2]) -> Result<bool, ExperimentError> {
+    pub(super) fn is_same(&self, y: &[f64], [a, b]: [f64; 2]) -> Result<bool, SweepError> {
         Ok(self.end(y, a)? == self.end(y, b)?)
     }
 
@@ -111,7 +112,7 @@ impl<'m> PeriodicFamily<'m> {
     }
 
     /// Φᵖ(y; λ).
-    fn end(&self, y: &[f64], lambda: f64) -> Result<Vec<f64>, ExperimentError> {
+    fn end(&self, y: &[f64], lambda: f64) -> Result<Vec<f64>, SweepError> {
         let mut set = self.set(lambda)?;
         let mut cycles = self.cycles(set.as_mut());
         cycles.set_coordinates(y)?;
@@ -123,13 +124,13 @@ impl<'m> PeriodicFamily<'m> {
 }
 
 impl Family for PeriodicFamily<'_> {
-    type Error = ExperimentError;
+    type Error = SweepError;
 
     fn dimension(&self) -> usize {
         self.dimension
     }
 
-    fn evaluate(&mut self, y: &[f64], lambda: f64) -> Result<Evaluation, ExperimentError> {
+    fn evaluate(&mut self, y: &[f64], lambda: f64) -> Result<Evaluation, SweepError> {
         let mut set = self.set(lambda)?;
         let mut cycles = self.cycles(set.as_mut());
         cycles.set_coordinates(y)?;
@@ -153,7 +154,7 @@ impl Family for PeriodicFamily<'_> {
 
     /// Stable if all multipliers are smaller than 1. Test functions: the size of the largest less 1; Π (1 + μ), zero
     /// at a period doubling; Π (1 − μ), zero at a fold or branch point.
-    fn judge(&mut self, y: &[f64], lambda: f64) -> Result<Judgement, ExperimentError> {
+    fn judge(&mut self, y: &[f64], lambda: f64) -> Result<Judgement, SweepError> {
         let mut record: Option<Record> = None;
         let mut set = self.set(lambda)?;
         let mut cycles = self.cycles(set.as_mut());
@@ -192,4 +193,4 @@ fn product(all: &[Multiplier], s: f64) -> f64 {
 }
 
 /// A model that has lost its derivative.
-const LOST: ExperimentError = ExperimentError::Incomplete("derivative of the cycles");
+const LOST: SweepError = SweepError::Incomplete("derivative of the cycles");

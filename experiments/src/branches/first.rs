@@ -5,7 +5,6 @@ use fe_contact::vibration::Along;
 
 use super::error::BranchError;
 use super::settings::BranchSettings;
-use crate::error::ExperimentError;
 use crate::sweep::{Record, SteadySettings, SweepModel, shot};
 
 /// Coordinates that vary by less than this share of the largest of their kind are scaled as if by that.
@@ -14,8 +13,8 @@ const LEAST_SHARE: f64 = 0.05;
 /// Cycles marched before shooting is tried, first and again where it fails.
 const SETTLING: [usize; 2] = [0, 400];
 
-pub(super) fn no_start(settings: &BranchSettings, reason: String) -> ExperimentError {
-    BranchError::NoStart { over: settings.over, start: settings.start, reason }.into()
+pub(super) fn no_start(settings: &BranchSettings, reason: String) -> BranchError {
+    BranchError::NoStart { over: settings.over, start: settings.start, reason }
 }
 
 /// Coordinates of the periodic motion found from rest at the first value, and scales of all unknowns.
@@ -23,7 +22,7 @@ pub(super) fn first(
     model: &dyn SweepModel,
     settings: &BranchSettings,
     size: usize,
-) -> Result<(Vec<f64>, Scales), ExperimentError> {
+) -> Result<(Vec<f64>, Scales), BranchError> {
     let mut set = settings.over.set(model, settings.start, size)?;
     let lost = || BranchError::NoDerivative(model.name());
     let (shape, psi, steps) = (model.shape(), model.first_planet_rad(), model.steps_per_cycle());
@@ -31,7 +30,7 @@ pub(super) fn first(
     for cycles in SETTLING {
         set.rest()?;
         if set.derivative().is_none() {
-            return Err(lost().into());
+            return Err(lost());
         }
         let mut record = Record::new(shape);
         record.march(set.as_mut(), psi, steps * cycles)?;

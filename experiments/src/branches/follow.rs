@@ -15,8 +15,7 @@ use super::parameter::BranchParameter;
 use super::point::{BranchPoint, BranchPointKind};
 use super::search::Search;
 use super::settings::BranchSettings;
-use crate::error::ExperimentError;
-use crate::sweep::{Memory, SweepModel};
+use crate::sweep::{Memory, SweepError, SweepModel};
 use crate::table_growth::{Outgrown, large_enough};
 
 /// A branch with its points as continuation has them.
@@ -32,10 +31,7 @@ type Followed = (Branch, Vec<continuation::BranchPoint>);
 /// [`BranchError`](super::BranchError) if the settings are out of range, the model has no derivative, or no periodic
 /// motion is found to begin with; other errors if the set cannot be built. Whatever happens later ends the branch and
 /// stands in [`Branch::ends`].
-pub fn branch(
-    model: &dyn SweepModel,
-    settings: &BranchSettings,
-) -> Result<Branch, ExperimentError> {
+pub fn branch(model: &dyn SweepModel, settings: &BranchSettings) -> Result<Branch, BranchError> {
     settings.check()?;
     model.prepare()?;
     large_enough(|size| Ok(Follower::new(model, settings, size, &Memory)?.trunk()?.0))
@@ -49,7 +45,7 @@ pub fn branch(
 pub fn branches(
     model: &dyn SweepModel,
     settings: &BranchSettings,
-) -> Result<Branches, ExperimentError> {
+) -> Result<Branches, BranchError> {
     branches_kept(model, settings, &Search { switch: true }, &Memory)
 }
 
@@ -64,7 +60,7 @@ pub fn branches_kept(
     settings: &BranchSettings,
     search: &Search,
     store: &dyn BranchStore,
-) -> Result<Branches, ExperimentError> {
+) -> Result<Branches, BranchError> {
     settings.check()?;
     model.prepare()?;
     let found = large_enough(|size| Follower::new(model, settings, size, store)?.all(search))?;
@@ -90,7 +86,7 @@ impl<'a> Follower<'a> {
         settings: &'a BranchSettings,
         size: usize,
         store: &'a dyn BranchStore,
-    ) -> Result<Self, ExperimentError> {
+    ) -> Result<Self, BranchError> {
         let (start, scales) = kept::start(store, size, || first(model, settings, size))?;
         let options = ContinuationOptions::within(settings.range);
         let options = ContinuationOptions {
@@ -105,14 +101,14 @@ impl<'a> Follower<'a> {
             let [from, to] = settings.range;
             if own.family(1).is_same(&own.start, settings.range)? {
                 let (key, model) = (key.path(), model.name());
-                return Err(BranchError::NoEffect { key, model, from, to }.into());
+                return Err(BranchError::NoEffect { key, model, from, to });
             }
         }
         Ok(own)
     }
 
     /// Everything that a search asks for.
-    fn all(&self, search: &Search) -> Result<Branches, ExperimentError> {
+    fn all(&self, search: &Search) -> Result<Branches, BranchError> {
         let (trunk, points) = self.trunk()?;
         let mut found = Branches { branches: Vec::new(), not_followed: Vec::new() };
         let located = trunk.points.iter().zip(&points).enumerate();
@@ -152,13 +148,13 @@ impl<'a> Follower<'a> {
     }
 
     /// The branch through the first motion.
-    fn trunk(&self) -> Result<Followed, ExperimentError> {
+    fn trunk(&self) -> Result<Followed, BranchError> {
         let Self { settings, start, scales, options, .. } = self;
         let (mut family, mut steps) = (self.family(1), self.steps("first".into(), 1));
         let start = (start.as_slice(), settings.start);
         let found = trace_both(&mut family, start, scales, options, &mut steps);
         let found = found.map_err(|error| match error {
-            ContinuationError::Family { cause, .. } => cause,
+            ContinuationError::Family { cause, .. } => cause.into(),
             other => no_start(settings, other.to_string()),
         })?;
         self.kept(steps, found, BranchOrigin::Start(settings.start))
@@ -170,7 +166,7 @@ impl<'a> Follower<'a> {
         &self,
         at: (usize, &BranchPoint, &continuation::BranchPoint),
         side: f64,
-    ) -> Result<Result<Followed, String>, ExperimentError> {
+    ) -> Result<Result<Followed, String>, BranchError> {
         let (number, own, raw) = at;
         let (repeats_after, multiplier, origin) = match own.kind {
             BranchPointKind::PeriodDoubling => {
@@ -190,7 +186,7 @@ impl<'a> Follower<'a> {
         let (from, Self { scales, options, .. }) = ((raw, direction.as_slice()), self);
         match branch_off(&mut family, from, scales, options, &mut steps) {
             Ok(found) => self.kept(steps, found, origin).map(Ok),
-            Err(ContinuationError::Family { cause, .. }) if ends_all(&cause) => Err(cause),
+            Err(ContinuationError::Family { cause, .. }) if ends_all(&cause) => Err(cause.into()),
             Err(error) => Ok(Err(error.to_string())),
         }
     }
@@ -198,9 +194,9 @@ impl<'a> Follower<'a> {
     fn kept(
         &self,
         steps: Steps<'_>,
-        found: continuation::Branch<ExperimentError>,
+        found: continuation::Branch<SweepError>,
         origin: BranchOrigin,
-    ) -> Result<Followed, ExperimentError> {
+    ) -> Result<Followed, BranchError> {
         let mut ends = [BranchEnd::Bound, BranchEnd::Bound];
         for (own, end) in ends.iter_mut().zip(found.ends) {
             *own = match end {
@@ -209,7 +205,7 @@ impl<'a> Follower<'a> {
                 End::Closed => BranchEnd::Closed,
                 End::MostPoints => BranchEnd::MostPoints,
                 End::Stuck(ContinuationError::Family { cause, .. }) if ends_all(&cause) => {
-                    return Err(cause);
+                    return Err(cause.into());
                 }
                 End::Stuck(why) => BranchEnd::Stuck(why.to_string()),
             };
@@ -244,6 +240,6 @@ fn is_back(own: &BranchPoint) -> bool {
 }
 
 /// Whether an error ends all branches: tables that are too small, which are laid out anew, or a store that fails.
-fn ends_all(error: &ExperimentError) -> bool {
-    error.is_too_small() || matches!(error, ExperimentError::Store(_))
+fn ends_all(error: &SweepError) -> bool {
+    error.is_too_small() || matches!(error, SweepError::Store(_))
 }

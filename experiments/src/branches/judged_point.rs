@@ -6,8 +6,7 @@ use dynamics::{Multiplier, MultiplierKind};
 use super::family::{Judged, PERIOD_DOUBLING, STABILITY};
 use super::point::{BranchPoint, BranchPointKind};
 use super::settings::BranchSettings;
-use crate::error::ExperimentError;
-use crate::sweep::{Steady, SteadySettings, SweepModel, SweepPoint};
+use crate::sweep::{Steady, SteadySettings, SweepError, SweepModel, SweepPoint};
 
 /// Located points this near to each other, as a share of the parameter, are one.
 const SAME: f64 = 1e-5;
@@ -26,10 +25,10 @@ pub(super) fn point(
     settings: &BranchSettings,
     repeats_after: usize,
     size: usize,
-) -> Result<BranchPoint, ExperimentError> {
+) -> Result<BranchPoint, SweepError> {
     let is_own = |j: &&Judged| j.lambda == own.lambda && j.y == own.y;
     let found = judged.iter().rev().find(is_own);
-    let found = found.ok_or(ExperimentError::Incomplete("motion that was judged"))?;
+    let found = found.ok_or(SweepError::Incomplete("motion that was judged"))?;
     let (case, damping_factor) = settings.over.at(&model.case(), own.lambda);
     let steady = Steady::periodic(
         found.record.clone(),

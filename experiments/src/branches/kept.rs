@@ -4,12 +4,12 @@ use dynamics::continuation::{BranchPoint as Raw, Direction, KeptStep, Scales, St
 use serde::{Deserialize, Serialize};
 
 use super::branch::Branches;
+use super::error::BranchError;
 use super::family::PeriodicFamily;
 use super::judged_point::point;
 use super::point::{BranchPoint, BranchPointKind};
 use super::settings::BranchSettings;
-use crate::error::ExperimentError;
-use crate::sweep::{Memory, StoreError, SweepModel};
+use crate::sweep::{Memory, StoreError, SweepError, SweepModel};
 
 /// A finished part of branches.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -68,7 +68,7 @@ const WHOLE: &str = "whole";
 ///
 /// # Errors
 /// If it is there and cannot be read.
-pub fn finished(store: &dyn BranchStore) -> Result<Option<Branches>, ExperimentError> {
+pub fn finished(store: &dyn BranchStore) -> Result<Option<Branches>, SweepError> {
     match store.load(WHOLE, 0)? {
         None => Ok(None),
         Some(KeptPart::Whole(found)) => Ok(Some(found)),
@@ -76,7 +76,7 @@ pub fn finished(store: &dyn BranchStore) -> Result<Option<Branches>, ExperimentE
     }
 }
 
-pub(super) fn keep_whole(store: &dyn BranchStore, found: &Branches) -> Result<(), ExperimentError> {
+pub(super) fn keep_whole(store: &dyn BranchStore, found: &Branches) -> Result<(), SweepError> {
     Ok(store.save(WHOLE, 0, &KeptPart::Whole(found.clone()))?)
 }
 
@@ -84,25 +84,26 @@ pub(super) fn keep_whole(store: &dyn BranchStore, found: &Branches) -> Result<()
 pub(super) fn start(
     store: &dyn BranchStore,
     size: usize,
-    find: impl FnOnce() -> Result<(Vec<f64>, Scales), ExperimentError>,
-) -> Result<(Vec<f64>, Scales), ExperimentError> {
+    find: impl FnOnce() -> Result<(Vec<f64>, Scales), BranchError>,
+) -> Result<(Vec<f64>, Scales), BranchError> {
     let place = format!("tables_{size}/start");
-    match store.load(&place, 0)? {
+    match store.load(&place, 0).map_err(SweepError::from)? {
         Some(KeptPart::Start { coordinates, unknowns, parameter }) => {
             Ok((coordinates, Scales { unknowns, parameter }))
         }
-        Some(_) => Err(other_part(&place)),
+        Some(_) => Err(other_part(&place).into()),
         None => {
             let (coordinates, scales) = find()?;
             let Scales { unknowns, parameter } = scales.clone();
             let own = coordinates.clone();
-            store.save(&place, 0, &KeptPart::Start { coordinates: own, unknowns, parameter })?;
+            let part = KeptPart::Start { coordinates: own, unknowns, parameter };
+            store.save(&place, 0, &part).map_err(SweepError::from)?;
             Ok((coordinates, scales))
         }
     }
 }
 
-fn other_part(place: &str) -> ExperimentError {
+fn other_part(place: &str) -> SweepError {
     StoreError { message: format!("the part kept as {place} is of another kind: remove it") }.into()
 }
 
@@ -129,7 +130,7 @@ impl Steps<'_> {
         family: &PeriodicFamily<'_>,
         towards: Direction,
         raw: &Raw,
-    ) -> Result<BranchPoint, ExperimentError> {
+    ) -> Result<BranchPoint, SweepError> {
         let is_own =
             |known: &&(BranchPoint, Raw)| known.1.y == raw.y && known.1.lambda == raw.lambda;
         if let Some((known, _)) = self.points[index(towards)].iter().rev().find(is_own) {
@@ -146,11 +147,7 @@ fn index(towards: Direction) -> usize {
 }
 
 impl<'m> StepStore<PeriodicFamily<'m>> for Steps<'_> {
-    fn load(
-        &mut self,
-        towards: Direction,
-        number: usize,
-    ) -> Result<Option<KeptStep>, ExperimentError> {
+    fn load(&mut self, towards: Direction, number: usize) -> Result<Option<KeptStep>, SweepError> {
         let place = self.place(towards);
         match self.store.load(&place, number)? {
             None => Ok(None),
@@ -172,7 +169,7 @@ impl<'m> StepStore<PeriodicFamily<'m>> for Steps<'_> {
         towards: Direction,
         number: usize,
         step: &KeptStep,
-    ) -> Result<(), ExperimentError> {
+    ) -> Result<(), SweepError> {
         let points = step.points.iter().map(|raw| self.of(family, towards, raw));
         let points = points.collect::<Result<Vec<_>, _>>()?;
         // Motions judged on the way here are not asked for again.

@@ -4,8 +4,7 @@ use scene::LoadCase;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::error::ExperimentError;
-use crate::sweep::{Marching, SweepModel, VariedKey};
+use crate::sweep::{Marching, SweepError, SweepModel, VariedKey};
 
 /// What is varied along a branch; everything else is held fixed, above all what the model was made under
 /// ([`SweepModel::turning`](crate::sweep::SweepModel::turning)).
@@ -87,7 +86,7 @@ impl BranchParameter {
         model: &dyn SweepModel,
         value: f64,
         size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + '_>, SweepError> {
         let mut set = match self {
             Self::Key(key) => model.turning_with(key, value, size)?,
             _ => {

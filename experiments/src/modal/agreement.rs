@@ -4,14 +4,15 @@
 //! then has the one stiffness 1ᵀS1, and the two models must agree to rounding. A pair in corner contact presses along
 //! the normal of the flank it touches: its approach is not the mesh's δ, and motions with δ = 0 change it as well.
 
-use fe_contact::statics::{Bodies, PLANETS, RING, Races, SUN};
+use fe_contact::statics::{Bodies, Races};
 use fe_contact::vibration::LinearSet;
+use gearset::Body;
 use lumped::{LumpedModel, NaturalModes, SpringId};
 use scene::Scene;
 
+use super::error::ModalError;
 use super::linear::{Preload, preloaded};
 use super::lumped_from_fe::lumped_from_tangents;
-use crate::error::ExperimentError;
 
 /// Differences between the two models over all modes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +51,7 @@ pub fn agreement(
     scene: &Scene,
     bodies: &Bodies,
     preload: &Preload,
-) -> Result<Agreement, ExperimentError> {
+) -> Result<Agreement, ModalError> {
     agreement_after(scene, bodies, preload, |_| {})
 }
 
@@ -63,7 +64,7 @@ pub fn agreement_after(
     bodies: &Bodies,
     preload: &Preload,
     spoil: impl Fn(&mut Scene),
-) -> Result<Agreement, ExperimentError> {
+) -> Result<Agreement, ModalError> {
     let rigid = with_rigid_carrier(scene);
     let set = preloaded(&rigid, bodies, preload)?;
     let linear = set.linearised()?;
@@ -91,7 +92,7 @@ fn compare(
     linear: &LinearSet,
     races: &Races,
     model: &LumpedModel,
-) -> Result<Agreement, ExperimentError> {
+) -> Result<Agreement, ModalError> {
     // Forces that turn with their lines of action are not in the lumped model.
     let mut linear = linear.clone();
     linear.supports -= &linear.turning;
@@ -108,7 +109,7 @@ fn compare(
     };
     let (frequencies, _) = linear.undamped()?;
     if frequencies.len() != lumped.len() {
-        return Err(ExperimentError::Incomplete("set with as many coordinates in both models"));
+        return Err(ModalError::Incomplete("set with as many coordinates in both models"));
     }
     let straight = along_the_line(linear, races, model);
     let corners = (0..linear.rows.nrows()).filter(|i| {
@@ -131,14 +132,14 @@ fn compare(
 /// of a pair follows from the coordinates in its row: one planet, and the sun or not.
 fn along_the_line(linear: &LinearSet, races: &Races, model: &LumpedModel) -> LinearSet {
     let mut straight = linear.clone();
-    let sun_moves = (0..3).any(|axis| races.of(SUN, axis).is_some());
+    let sun_moves = races.places(Body::Sun).iter().any(Option::is_some);
     for i in 0..linear.rows.nrows() {
-        let moves = |body: usize| {
-            (0..3).any(|axis| races.of(body, axis).is_some_and(|k| linear.rows[(i, k)] != 0.0))
+        let moves = |body: Body| {
+            races.places(body).into_iter().flatten().any(|k| linear.rows[(i, k)] != 0.0)
         };
-        let Some(n) = (0..races.planets()).find(|n| moves(PLANETS + n)) else { continue };
+        let Some(n) = (0..races.planets()).find(|n| moves(Body::Planet(*n))) else { continue };
         // A central gear that is held in all directions has no coordinate.
-        let is_sun_mesh = moves(SUN) || !sun_moves && !moves(RING);
+        let is_sun_mesh = moves(Body::Sun) || !sun_moves && !moves(Body::Ring);
         let id = if is_sun_mesh { SpringId::SunMesh(n) } else { SpringId::RingMesh(n) };
         if let Some(spring) = model.springs.iter().find(|s| s.id == id) {
             straight.rows.row_mut(i).fill(0.0);

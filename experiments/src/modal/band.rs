@@ -4,9 +4,9 @@ use fe_contact::statics::Bodies;
 use lumped::ModeType;
 use scene::Scene;
 
+use super::error::ModalError;
 use super::linear::{Preload, linear_modes, preloaded};
 use super::mode::of_type;
-use crate::error::ExperimentError;
 
 /// Natural frequencies of the linearised set at evenly spaced positions of the mesh cycle, under several
 /// torques.
@@ -81,7 +81,7 @@ pub fn frequency_band(
     factors: &[f64],
     count: usize,
     highest_hz: f64,
-) -> Result<FrequencyBand, ExperimentError> {
+) -> Result<FrequencyBand, ModalError> {
     let torques_nm: Vec<f64> = factors.iter().map(|f| f * preload.load.sun_torque_nm).collect();
     let positions: Vec<f64> = (0..count).map(|i| i as f64 / count as f64).collect();
     let mut modes: Vec<ModeBand> = Vec::new();

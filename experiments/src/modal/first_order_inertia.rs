@@ -2,8 +2,8 @@
 
 use fe_contact::vibration::{ElasticInertia, LinearSet, VibratingSet};
 
+use super::error::ModalError;
 use super::mode::FeMode;
-use crate::error::ExperimentError;
 
 /// Largest λ/λ_1 at which the change is known to first order: there the next term of the series is half as large, and
 /// beyond it modes of the bodies come among those of the set.
@@ -29,7 +29,7 @@ pub fn first_order_inertia(
     set: &VibratingSet<'_>,
     linear: &LinearSet,
     modes: &[FeMode],
-) -> Result<Vec<Option<f64>>, ExperimentError> {
+) -> Result<Vec<Option<f64>>, ModalError> {
     let Some(inertia) = ElasticInertia::new(set)? else { return Ok(vec![None; modes.len()]) };
     let change = |mode: &FeMode| {
         let lambda = (std::f64::consts::TAU * mode.frequency_hz).powi(2);

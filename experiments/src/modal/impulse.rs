@@ -3,15 +3,16 @@
 use dynamics::identify::{Identification, Scaling, identify};
 use dynamics::orthonormal_basis;
 use fe_contact::FeError;
-use fe_contact::statics::{Bodies, CARRIER, PLANETS, RING, Races, SUN};
+use fe_contact::statics::{Bodies, Races};
 use fe_contact::vibration::VibratingSet;
+use gearset::{Axis, Body};
 use scene::Scene;
 
+use super::error::ModalError;
 use super::kinds::{MotionKinds, type_of};
 use super::linear::preloaded;
 use super::mode::FeMode;
 use super::settings::ImpulseSettings;
-use crate::error::ExperimentError;
 
 /// A generalised force on the races for one time step.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,36 +67,39 @@ pub struct ImpulseTest {
 /// and carrier), and pulses on the planets that do not move the central members: radial, tangential and
 /// rotational, in every pattern over the planets orthogonal to 1, cos ψ and sin ψ.
 pub fn pulses(races: &Races) -> Vec<Pulse> {
-    let single = |name: &str, body: usize, axis: usize| {
+    let single = |name: &str, body: Body, axis: Axis| {
         let i = races.of(body, axis)?;
         let mut pattern = vec![0.0; races.count];
         pattern[i] = 1.0;
         Some(Pulse { name: name.into(), pattern })
     };
     let central = [
-        ("sun x force", SUN, 0),
-        ("sun y force", SUN, 1),
-        ("carrier x force", CARRIER, 0),
-        ("carrier y force", CARRIER, 1),
-        ("sun torque", SUN, 2),
+        ("sun x force", Body::Sun, Axis::First),
+        ("sun y force", Body::Sun, Axis::Second),
+        ("carrier x force", Body::Carrier, Axis::First),
+        ("carrier y force", Body::Carrier, Axis::Second),
+        ("sun torque", Body::Sun, Axis::Rotation),
     ];
     // A sun that is held is not pushed: the member that turns in its place is.
     let instead = [
-        ("ring x force", RING, 0),
-        ("ring y force", RING, 1),
-        ("ring torque", RING, 2),
-        ("carrier torque", CARRIER, 2),
+        ("ring x force", Body::Ring, Axis::First),
+        ("ring y force", Body::Ring, Axis::Second),
+        ("ring torque", Body::Ring, Axis::Rotation),
+        ("carrier torque", Body::Carrier, Axis::Rotation),
     ];
-    let turns = races.of(SUN, 2).is_some();
+    let rotation = |body| races.of(body, Axis::Rotation);
+    let turns = rotation(Body::Sun).is_some();
     let central = central.into_iter().chain(instead.into_iter().filter(|_| !turns));
     let mut list: Vec<Pulse> =
         central.filter_map(|(name, body, axis)| single(name, body, axis)).collect();
     if races.is_pair() {
         // No pattern over one planet leaves the sun at rest.
-        let of_planet = [("planet x force", 0), ("planet y force", 1), ("planet torque", 2)];
-        let is_new = |axis: &usize| *axis < 2 || races.of(PLANETS, 2) != races.of(SUN, 2);
-        let own = of_planet.into_iter().filter(|(_, axis)| is_new(axis));
-        list.extend(own.filter_map(|(name, axis)| single(name, PLANETS, axis)));
+        let planet = Body::Planet(0);
+        let names = ["planet x force", "planet y force", "planet torque"];
+        let is_new = rotation(planet) != rotation(Body::Sun);
+        let own = names.into_iter().zip(Axis::ALL);
+        let own = own.filter(|(_, axis)| *axis != Axis::Rotation || is_new);
+        list.extend(own.filter_map(|(name, axis)| single(name, planet, axis)));
         return list;
     }
     let n = races.planets();
@@ -104,10 +108,10 @@ pub fn pulses(races: &Races) -> Vec<Pulse> {
     let units: Vec<Vec<f64>> =
         (0..n).map(|i| (0..n).map(|k| f64::from(u8::from(k == i))).collect()).collect();
     for (which, weights) in orthonormal_basis(&units, &known).iter().enumerate() {
-        for (axis, name) in ["radially", "tangentially", "turning"].into_iter().enumerate() {
+        for (axis, name) in Axis::ALL.into_iter().zip(["radially", "tangentially", "turning"]) {
             let mut pattern = vec![0.0; races.count];
             for (planet, weight) in weights.iter().enumerate() {
-                if let Some(i) = races.of(PLANETS + planet, axis) {
+                if let Some(i) = races.of(Body::Planet(planet), axis) {
                     pattern[i] = *weight;
                 }
             }
@@ -126,7 +130,7 @@ pub fn impulse_test(
     scene: &Scene,
     bodies: &Bodies,
     settings: &ImpulseSettings,
-) -> Result<ImpulseTest, ExperimentError> {
+) -> Result<ImpulseTest, ModalError> {
     settings.check()?;
     let mut set = preloaded(scene, bodies, &settings.preload)?;
     let steps = settings.steps();
@@ -141,9 +145,7 @@ pub fn impulse_test(
         let force_n = trial * settings.size / change.max(f64::MIN_POSITIVE);
         let (records, force_change) = decay(&mut set, settings, &pulse, force_n, steps)?;
         if force_change > PROPORTION * settings.size {
-            return Err(ExperimentError::Unsteady {
-                torque_nm: settings.preload.load.sun_torque_nm,
-            });
+            return Err(ModalError::Unsteady { torque_nm: settings.preload.load.sun_torque_nm });
         }
         let (half, _) = decay(&mut set, settings, &pulse, 0.5 * force_n, steps.min(few))?;
         taken += (2 * steps.min(few) + steps) as u64;
@@ -172,15 +174,12 @@ const STILL: (usize, f64) = (20, 0.01);
 const PROPORTION: f64 = 10.0;
 
 /// Checks that the set stays at rest without a pulse.
-fn stand_still(
-    set: &mut VibratingSet<'_>,
-    settings: &ImpulseSettings,
-) -> Result<(), ExperimentError> {
-    let unsteady = || ExperimentError::Unsteady { torque_nm: settings.preload.load.sun_torque_nm };
+fn stand_still(set: &mut VibratingSet<'_>, settings: &ImpulseSettings) -> Result<(), ModalError> {
+    let unsteady = || ModalError::Unsteady { torque_nm: settings.preload.load.sun_torque_nm };
     let nothing = Pulse { name: String::new(), pattern: vec![0.0; set.races().count] };
     match decay(set, settings, &nothing, 0.0, STILL.0) {
         Ok((_, change)) if change <= STILL.1 * settings.size => Ok(()),
-        Ok(_) | Err(ExperimentError::Fe(FeError::Diverged { .. })) => Err(unsteady()),
+        Ok(_) | Err(ModalError::Fe(FeError::Diverged { .. })) => Err(unsteady()),
         Err(other) => Err(other),
     }
 }
@@ -202,7 +201,7 @@ fn decay(
     pulse: &Pulse,
     force: f64,
     steps: usize,
-) -> Result<(Vec<Vec<f64>>, f64), ExperimentError> {
+) -> Result<(Vec<Vec<f64>>, f64), ModalError> {
     set.rest(settings.preload.load.sun_load_nm())?;
     let rest = set.motion().x.clone();
     let forces = mesh_forces(set);
@@ -231,7 +230,7 @@ fn decay(
 fn typed(
     set: &VibratingSet<'_>,
     identification: &Identification,
-) -> Result<Vec<FeMode>, ExperimentError> {
+) -> Result<Vec<FeMode>, ModalError> {
     let kinds = MotionKinds::of_races(set.races(), set.masses());
     let mut modes = Vec::new();
     let list = &identification.modes;
@@ -273,8 +272,8 @@ impl ImpulseTest {
     /// Largest motions of the sun under the pulse of this name.
     pub fn sun_contents(&self, races: &Races, pulse: &str) -> Option<Contents> {
         let decay = self.decays.iter().find(|d| d.pulse.name == pulse)?;
-        let record = |axis| races.of(SUN, axis).map(|i| &decay.records[i]);
-        let (x, y, u) = (record(0)?, record(1)?, record(2)?);
+        let [x, y, u] = races.places(Body::Sun).map(|place| place.map(|i| &decay.records[i]));
+        let (x, y, u) = (x?, y?, u?);
         let translation = x.iter().zip(y).map(|(x, y)| x.hypot(*y)).fold(0.0, f64::max);
         Some(Contents { translation, rotation: largest(u) })
     }

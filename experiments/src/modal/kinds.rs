@@ -1,7 +1,8 @@
 //! Kinds of motion of a set as subspaces: rotational, translational, and planet motion.
 
 use dynamics::{EigenError, orthonormal_basis, split};
-use fe_contact::statics::{CARRIER, PLANETS, Races, SUN};
+use fe_contact::statics::Races;
+use gearset::{Axis, Body};
 use lumped::ModeType;
 
 /// A mode is of a kind if that kind has more than this share of its kinetic energy. At one position
@@ -20,9 +21,10 @@ impl MotionKinds {
     /// On the coordinates of the races with their masses (n, kg).
     pub(super) fn of_races(races: &Races, mass: &[f64]) -> Self {
         // Rotations of a pair that are one coordinate are in the basis of the central members already.
-        let is_one = races.is_pair() && races.of(PLANETS, 2) == races.of(SUN, 2);
-        let of = |body: usize, axis: usize| match body {
-            PLANETS.. if axis == 2 && is_one => None,
+        let rotation = |body| races.of(body, Axis::Rotation);
+        let is_one = races.is_pair() && rotation(Body::Planet(0)) == rotation(Body::Sun);
+        let of = |body: Body, axis: Axis| match (body, axis) {
+            (Body::Planet(_), Axis::Rotation) if is_one => None,
             _ => races.of(body, axis),
         };
         Self::new(mass, &races.psi, &of)
@@ -32,28 +34,28 @@ impl MotionKinds {
     /// inertias along them (kg, kg, kg m²; 0 where held) and the angles of the planets (rad).
     pub fn of_bodies(inertias: &[[f64; 3]], psi: &[f64]) -> Self {
         let mass = inertias.as_flattened();
-        let of = |body: usize, axis: usize| {
-            let place = 3 * body + axis;
+        let of = |body: Body, axis: Axis| {
+            let place = 3 * body.index() + axis as usize;
             mass.get(place).filter(|m| **m > 0.0).map(|_| place)
         };
         Self::new(mass, psi, &of)
     }
 
-    /// `of`: place of a body's coordinate (carrier 0, ring, sun, planets; x, y or ζ, η, rotation), `None` if it is
-    /// held.
-    fn new(mass: &[f64], psi: &[f64], of: &dyn Fn(usize, usize) -> Option<usize>) -> Self {
+    /// `of`: place of a body's coordinate, `None` if it is held.
+    fn new(mass: &[f64], psi: &[f64], of: &dyn Fn(Body, Axis) -> Option<usize>) -> Self {
         let n = mass.len();
         let root: Vec<f64> = mass.iter().map(|m| m.sqrt()).collect();
         let unit = |i: usize| (0..n).map(|k| f64::from(u8::from(k == i))).collect::<Vec<f64>>();
         let central =
-            |axis: usize| (CARRIER..PLANETS).filter_map(move |body| of(body, axis)).map(unit);
-        let mut rotational: Vec<Vec<f64>> = central(2).collect();
-        let mut translational: Vec<Vec<f64>> = central(0).chain(central(1)).collect();
-        for axis in 0..3 {
+            |axis| Body::CENTRAL.into_iter().filter_map(move |body| of(body, axis)).map(unit);
+        let mut rotational: Vec<Vec<f64>> = central(Axis::Rotation).collect();
+        let mut translational: Vec<Vec<f64>> =
+            central(Axis::First).chain(central(Axis::Second)).collect();
+        for axis in Axis::ALL {
             let pattern = |weight: &dyn Fn(f64) -> f64| {
                 let mut v = vec![0.0; n];
                 for (planet, psi) in psi.iter().enumerate() {
-                    if let Some(i) = of(PLANETS + planet, axis) {
+                    if let Some(i) = of(Body::Planet(planet), axis) {
                         v[i] = root[i] * weight(*psi);
                     }
                 }

@@ -5,9 +5,9 @@ use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{LinearSet, Loading, NominalRotation, VibratingSet};
 use scene::{LoadCase, Scene};
 
+use super::error::ModalError;
 use super::kinds::{MotionKinds, type_of};
 use super::mode::FeMode;
-use crate::error::ExperimentError;
 use crate::table_growth::large_enough;
 
 /// A standing set under torque.
@@ -50,10 +50,7 @@ pub fn preloaded<'b>(
 ///
 /// # Errors
 /// If an eigenproblem fails.
-pub fn linear_modes(
-    set: &VibratingSet<'_>,
-    linear: &LinearSet,
-) -> Result<Vec<FeMode>, ExperimentError> {
+pub fn linear_modes(set: &VibratingSet<'_>, linear: &LinearSet) -> Result<Vec<FeMode>, ModalError> {
     let (frequencies, shapes) = linear.undamped()?;
     let kinds = MotionKinds::of_races(set.races(), set.masses());
     let races = linear.races;
@@ -113,7 +110,7 @@ pub struct MeshInfluence {
 ///
 /// # Errors
 /// If the eigenproblem fails.
-pub fn mesh_influence(linear: &LinearSet) -> Result<Vec<MeshInfluence>, ExperimentError> {
+pub fn mesh_influence(linear: &LinearSet) -> Result<Vec<MeshInfluence>, ModalError> {
     let (frequencies, shapes) = linear.undamped()?;
     let of = |j: usize| {
         let stretch = &linear.rows * shapes.column(j);

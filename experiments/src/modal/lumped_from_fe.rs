@@ -10,9 +10,9 @@ use gearset::PlanetPositions;
 use lumped::{LumpedModel, ModeType, NaturalModes, Participation};
 use scene::{LumpedInput, PerBody, PerMesh, PlanetOverride, Scene};
 
+use super::error::ModalError;
 use super::kinds::type_of;
 use super::linear::{Preload, preloaded};
-use crate::error::ExperimentError;
 use crate::natural_mode::NaturalMode;
 
 /// The scene with lumped parameters from its meshed bodies at a position and preload; for clockwise torque it
@@ -31,7 +31,7 @@ pub fn lumped_from_fe(
     scene: &Scene,
     bodies: &Bodies,
     preload: &Preload,
-) -> Result<Scene, ExperimentError> {
+) -> Result<Scene, ModalError> {
     let set = preloaded(scene, bodies, preload)?;
     let angles = set.reference().pressure_angles();
     lumped_from_tangents(scene, bodies, set.races(), &angles, &set.linearised()?.mesh_tangents)
@@ -48,13 +48,13 @@ pub fn lumped_from_tangents(
     races: &Races,
     angles: &[f64],
     tangents: &[f64],
-) -> Result<Scene, ExperimentError> {
+) -> Result<Scene, ModalError> {
     let n = races.planets();
     if angles.len() != 2 * n
         || tangents.len() < 2 * n
         || tangents[2 * n..].iter().any(|t| *t != 0.0)
     {
-        return Err(ExperimentError::Incomplete("set whose front flanks alone press"));
+        return Err(ModalError::Incomplete("set whose front flanks alone press"));
     }
     let (sun_meshes, ring_meshes) = (&tangents[..n], &tangents[n..2 * n]);
     let overrides = (0..n).map(|planet| PlanetOverride {
@@ -105,7 +105,7 @@ fn mass_properties(scene: &Scene, bodies: &Bodies, races: &Races) -> (PerBody, P
 ///
 /// # Errors
 /// If the scene has no lumped model, or its eigenproblem fails.
-pub fn lumped_frequencies(scene: &Scene) -> Result<Vec<NaturalMode>, ExperimentError> {
+pub fn lumped_frequencies(scene: &Scene) -> Result<Vec<NaturalMode>, ModalError> {
     let model = LumpedModel::from_scene(scene)?;
     let modes = NaturalModes::of(&model)?;
     let of = |group: &lumped::ModeGroup| {

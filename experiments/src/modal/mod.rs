@@ -3,6 +3,7 @@
 mod agreement;
 mod band;
 mod beside;
+mod error;
 mod first_order_inertia;
 mod impulse;
 mod kinds;
@@ -14,6 +15,7 @@ mod settings;
 pub use agreement::{Agreement, agreement, agreement_after, with_rigid_carrier};
 pub use band::{FrequencyBand, ModeBand, Spread, frequency_band};
 pub use beside::beside;
+pub use error::ModalError;
 pub(crate) use first_order_inertia::SLOW;
 pub use first_order_inertia::first_order_inertia;
 pub use impulse::{Contents, Decay, ImpulseTest, Pulse, impulse_test, pulses};

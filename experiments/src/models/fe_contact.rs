@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use fe_contact::FeError;
 use fe_contact::complementarity::ActiveSet;
-use fe_contact::statics::{Bodies, Imperfections, SUN, SetState, StaticSet};
-use gearset::MeshKind;
+use fe_contact::statics::{Bodies, Imperfections, SetState, StaticSet};
+use gearset::{Body, MeshKind};
 use scene::{Fidelity, LoadCase, Scene};
 
 use crate::bodies_cache::BodiesCache;
-use crate::error::ExperimentError;
 use crate::mesh_cycle::{MeshCycle, RestState};
 use crate::modal::{FeMode, ImpulseSettings, Preload, impulse_test, linear_modes, preloaded};
 use crate::model::{
@@ -18,7 +17,8 @@ use crate::model::{
 };
 use crate::natural_mode::NaturalMode;
 use crate::sweep::{
-    Direction, FeModel, Memory, MeshLawModel, Plan, SteadySettings, SteadyState, SweepModel, run,
+    Direction, FeModel, Memory, MeshLawModel, Plan, SteadySettings, SteadyState, SweepError,
+    SweepModel, run,
 };
 
 /// How natural modes are found.
@@ -119,7 +119,7 @@ impl From<&SetState> for RestState {
         };
         Self {
             position: state.position,
-            sun: state.central[SUN],
+            sun: state.central[Body::Sun.index()],
             sun_mesh_n: forces(MeshKind::SunPlanet),
             ring_mesh_n: forces(MeshKind::RingPlanet),
         }
@@ -159,7 +159,7 @@ pub(super) fn march(
     model: &dyn SweepModel,
     (harmonics, tolerance): (usize, f64),
     next: NextSpeeds<'_>,
-) -> Result<Vec<SteadyState>, ExperimentError> {
+) -> Result<Vec<SteadyState>, SweepError> {
     let settings =
         SteadySettings { tolerance, harmonics, between_cycles: 0, ..SteadySettings::default() };
     gather(next, |speeds| {

@@ -9,7 +9,6 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use scene::PlaneState;
 
 use super::map::{Drawn, Map, MapError, MapOf, StabilityMap, fine_from, logarithms};
-use crate::error::ExperimentError;
 
 pub(super) const MAP: Map = Map {
     name: "contact-cells",
@@ -77,7 +76,7 @@ fn accuracy(map: &mut StabilityMap) -> Result<(), MapError> {
 fn press(cells: usize, solver: &dyn ComplementaritySolver) -> Result<Cylinders, MapError> {
     let reach = REACH * Hertz::new(LINE_LOAD, RADIUS, &STEEL).half_width;
     Cylinders::press(&STEEL, RADIUS, LINE_LOAD, (reach, cells), solver)
-        .map_err(|cause| ExperimentError::Fe(FeError::Contact { phase: 0.0, cause }).into())
+        .map_err(|cause| MapError::Fe(FeError::Contact { phase: 0.0, cause }))
 }
 
 /// Compliance of the surface relative to a depth of five half-widths, m/N per metre of width.
@@ -139,7 +138,7 @@ fn solvers(map: &mut StabilityMap) -> Result<(), MapError> {
             let problem = Problem { compliance: &matrix, gaps: &gaps };
             let found = solver
                 .solve(&problem, None)
-                .map_err(|cause| ExperimentError::Fe(FeError::Contact { phase: 0.0, cause }))?;
+                .map_err(|cause| MapError::Fe(FeError::Contact { phase: 0.0, cause }))?;
             most = most.max(found.iterations);
             worst = worst.max(kkt_residual(&problem, &found.forces));
             let scale = forces.iter().fold(0.0f64, |a, p| a.max(*p));

@@ -17,7 +17,6 @@ use super::resonance::strongest;
 use crate::branches::{
     Branch, BranchEnd, BranchError, BranchPoint, BranchSettings, Branches, branch,
 };
-use crate::error::ExperimentError;
 use crate::sweep::{DampedModel, MeshLawModel, SweepModel};
 
 pub(super) const MAP: Map = Map {
@@ -44,7 +43,7 @@ const HALVINGS: usize = 3;
 
 fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let case = LoadCase::of_scene(scene).map_err(|_| MapError::NoOperation)?;
-    let bodies = Bodies::new(scene).map_err(ExperimentError::from)?;
+    let bodies = Bodies::new(scene)?;
     let model = MeshLawModel::new(scene, &bodies, case)?;
     let resonance = strongest(&model)?;
     let frequency = case.at_speed(resonance).mesh_frequency_hz;
@@ -55,7 +54,7 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let at = |share: &f64| -> Result<Borders, MapError> {
         let case = case.with_sun_torque(share * case.sun_torque_nm);
         let model = MeshLawModel::new(scene, &bodies, case)?;
-        Ok(Borders::find(&model, range)?)
+        Borders::find(&model, range)
     };
     let all: Vec<Borders> = SHARES.par_iter().map(at).collect::<Result<_, _>>()?;
     let torques = SHARES.map(|share| (share * case.sun_torque_nm).abs());
@@ -101,11 +100,7 @@ struct Seen {
 
 impl Seen {
     /// `None` if no periodic motion is found to begin with at either end of the speeds.
-    fn of(
-        model: &dyn SweepModel,
-        range: [f64; 2],
-        factor: f64,
-    ) -> Result<Option<Self>, ExperimentError> {
+    fn of(model: &dyn SweepModel, range: [f64; 2], factor: f64) -> Result<Option<Self>, MapError> {
         let model = DampedModel { model, factor };
         let Some(found) = followed(&model, [range[1], range[0]], range)? else {
             return Ok(None);
@@ -136,12 +131,12 @@ fn followed(
     model: &dyn SweepModel,
     ends: [f64; 2],
     range: [f64; 2],
-) -> Result<Option<Branch>, ExperimentError> {
+) -> Result<Option<Branch>, MapError> {
     for start in ends {
         match branch(model, &BranchSettings { start, ..BranchSettings::over(range) }) {
             Ok(found) => return Ok(Some(found)),
-            Err(ExperimentError::Branch(BranchError::NoStart { .. })) => {}
-            Err(other) => return Err(other),
+            Err(BranchError::NoStart { .. }) => {}
+            Err(other) => return Err(other.into()),
         }
     }
     Ok(None)
@@ -160,7 +155,7 @@ struct Borders {
 }
 
 impl Borders {
-    fn find(model: &dyn SweepModel, range: [f64; 2]) -> Result<Self, ExperimentError> {
+    fn find(model: &dyn SweepModel, range: [f64; 2]) -> Result<Self, MapError> {
         let (mut seen, mut lowest) = (Vec::<(f64, Seen)>::new(), None);
         for factor in FACTORS {
             let Some(own) = Seen::of(model, range, factor)? else {
@@ -174,7 +169,7 @@ impl Borders {
             }
         }
         let mut stuck = seen.iter().filter(|(_, s)| s.is_stuck).count();
-        let mut border = |is: fn(&Seen) -> bool| -> Result<Option<f64>, ExperimentError> {
+        let mut border = |is: fn(&Seen) -> bool| -> Result<Option<f64>, MapError> {
             let Some(k) = seen.iter().position(|(_, s)| is(s)).filter(|k| *k > 0) else {
                 return Ok(None);
             };

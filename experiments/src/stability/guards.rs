@@ -14,7 +14,6 @@ use serde::Serialize;
 use super::map::MapError;
 use super::resonance::{from_rest, slowest};
 use crate::branches::{BranchParameter, BranchSettings};
-use crate::error::ExperimentError;
 use crate::sweep::{MeshLawModel, SteadyMethod, SteadySettings, SweepPoint, left_of_transient};
 
 /// A guard of the program at a border of a method or of a model.
@@ -189,12 +188,12 @@ fn loaded_cells(beyond: bool) -> Said {
     let mut before = None;
     for cells in 8..40 {
         scene.fe_contact.contact_cells = cells;
-        let bodies = Bodies::new(&scene).map_err(ExperimentError::from)?;
+        let bodies = Bodies::new(&scene)?;
         let found = pair_cycle(&bodies, MeshKind::SunPlanet, FORCE_N, POSITIONS, &ActiveSet);
         match found {
             Ok(_) => return Ok(if beyond { before } else { None }),
             Err(error @ FeError::GridTooCoarse { .. }) => before = Some(error.to_string()),
-            Err(other) => return Err(ExperimentError::from(other).into()),
+            Err(other) => return Err(other.into()),
         }
     }
     Ok(before)
@@ -300,7 +299,7 @@ fn types_by_spacing(beyond: bool) -> Said {
 fn transient(beyond: bool) -> Said {
     let scene = accepted(SceneKind::Planetary, FLANK, "flank_elements = 8")?;
     let case = LoadCase::of_scene(&scene).map_err(|_| MapError::NoOperation)?;
-    let bodies = Bodies::new(&scene).map_err(ExperimentError::from)?;
+    let bodies = Bodies::new(&scene)?;
     let model = MeshLawModel::new(&scene, &bodies, case)?;
     let case = case.at_speed(slowest(&model)?);
     let shooting = SteadySettings { between_cycles: 0, ..SteadySettings::default() };

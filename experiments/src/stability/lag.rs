@@ -9,7 +9,6 @@ use fe_contact::vibration::lagged;
 
 use super::bisection::bisected;
 use super::map::{Drawn, Map, MapError, MapOf, StabilityMap, logarithms};
-use crate::error::ExperimentError;
 
 pub(super) const MAP: Map = Map {
     name: "lag",
@@ -45,7 +44,7 @@ impl Rule {
     }
 
     /// P̃ under forces at the ends of steps of z β.
-    fn lagged(self, z: f64, forces: &[f64]) -> Result<Vec<f64>, ExperimentError> {
+    fn lagged(self, z: f64, forces: &[f64]) -> Result<Vec<f64>, MapError> {
         if self == Self::Parabola {
             return Ok(lagged(1.0, z, forces)?);
         }
@@ -66,13 +65,13 @@ impl Rule {
     /// step for as long as there are steps.
     /// Source: derived here.
     /// Checked by: `tests/all/stability_command.rs::the_lag_of_the_program_does_not_ring`.
-    fn left_of_jump(self, z: f64) -> Result<Vec<f64>, ExperimentError> {
+    fn left_of_jump(self, z: f64) -> Result<Vec<f64>, MapError> {
         let forces: Vec<f64> = (0..STEPS).map(|k| if k < 3 { 1.0 } else { 0.0 }).collect();
         Ok(self.lagged(z, &forces)?.split_off(3))
     }
 
     /// Error of the lagged sine, of the exact one.
-    fn error_of_sine(self, z: f64) -> Result<f64, ExperimentError> {
+    fn error_of_sine(self, z: f64) -> Result<f64, MapError> {
         let turn = TAU / f64::from(PERIOD);
         // Periods in which the start is forgotten, then one that is read.
         let forgotten = ((40.0 / z.min(4.0 / z)) / f64::from(PERIOD)).ceil() as u32 + 1;
@@ -92,7 +91,7 @@ fn map() -> Result<StabilityMap, MapError> {
     let steps = || (0..COUNT).map(|k| SHORTEST * 2f64.powf(0.5 * f64::from(k)));
     for rule in [Rule::Trapezoidal, Rule::Parabola] {
         let of = rule.name();
-        let rings = |z: f64| -> Result<bool, ExperimentError> {
+        let rings = |z: f64| -> Result<bool, MapError> {
             let left = rule.left_of_jump(z)?;
             // The parabola passes the jump for two steps; after these, changes of sign are ringing.
             Ok(left[2..].windows(2).any(|pair| pair[0] * pair[1] < -1e-24))
@@ -105,7 +104,7 @@ fn map() -> Result<StabilityMap, MapError> {
         let border = bisected([SHORTEST, 1000.0], middle, is_found, rings)?;
         let border = border.map(|[low, high]| middle(low, high));
         map.compare(of, "step over β above which a jump rings", border, theory(2.0));
-        let left = |z: f64| -> Result<f64, ExperimentError> {
+        let left = |z: f64| -> Result<f64, MapError> {
             Ok(rule.left_of_jump(z)?.get(9).map_or(f64::NAN, |p| p.abs()))
         };
         map.compare(of, "left of a jump after ten steps of 10 β", left(10.0)?, theory(ten));
@@ -114,7 +113,7 @@ fn map() -> Result<StabilityMap, MapError> {
             ("log₁₀ of the error of a sine of 14 steps", &|z| rule.error_of_sine(z)),
         ] {
             let points = steps().map(|z| Ok((z, of_step(z)?)));
-            let points = points.collect::<Result<Vec<_>, ExperimentError>>()?;
+            let points = points.collect::<Result<Vec<_>, MapError>>()?;
             map.draw(Drawn::Measured, panel, of, logarithms(points, 1e-16));
         }
     }

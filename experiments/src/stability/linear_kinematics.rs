@@ -16,15 +16,14 @@ use std::f64::consts::{PI, TAU};
 
 use dynamics::generalized_symmetric;
 use fe_contact::statics::Bodies;
-use gearset::{Geometry, MeshKind, MeshMember};
-use lumped::{Axis, Body, LumpedModel, ModeGroup, NaturalModes, SpringId, strain_energy};
+use gearset::{Axis, Body, Geometry, MeshKind, MeshMember};
+use lumped::{LumpedModel, ModeGroup, NaturalModes, SpringId, strain_energy};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
 use scene::{Fidelity, LoadCase, MeshKinematics, Scene};
 
 use super::map::{Drawn, Map, MapError, MapOf, Point, StabilityMap, logarithms};
 use super::windup::{Left, WoundUp, of_slopes};
-use crate::error::ExperimentError;
 
 pub(super) const MAP: Map = Map {
     name: "linear-kinematics",
@@ -69,7 +68,7 @@ fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let mut scene = scene.clone();
     scene.dynamics.fidelity = Fidelity::QuasiStatic;
     scene.dynamics.kinematics = MeshKinematics::AboutMean;
-    let bodies = Bodies::new(&scene).map_err(ExperimentError::from)?;
+    let bodies = Bodies::new(&scene)?;
     let axis = "log₁₀ of the windup over the base pitch";
     let mut map = StabilityMap::of(&MAP, scene.title.clone(), axis);
     for by in [By::Torque, By::SofterBearings] {
@@ -100,7 +99,7 @@ fn factors(scene: &Scene, case: &LoadCase, by: By) -> Result<Vec<f64>, MapError>
     let deflection = |by: By, factor: f64| {
         let (scene, case) = changed(scene, case, by, factor);
         let size = scene.size_of_sun_torque(case.sun_torque_nm);
-        size.ok_or(ExperimentError::Incomplete("path of the torque through its meshes"))
+        size.ok_or(MapError::Incomplete("path of the torque through its meshes"))
     };
     let own = deflection(by, 1.0)?;
     let most = LARGEST * own.most_deflection();
@@ -200,8 +199,7 @@ impl<'g> Theory<'g> {
         }
         let turned = LumpedModel::from_scene(&turned)?;
         let stiffness = turned.stiffness() + self.force_stiffness(&turned);
-        let exact =
-            generalized_symmetric(&stiffness, &turned.mass).map_err(ExperimentError::from)?;
+        let exact = generalized_symmetric(&stiffness, &turned.mass)?;
         let modes = NaturalModes::of(&unturned)?;
         let of_meshes = |g: &ModeGroup| {
             let energy = strain_energy(&unturned, g);

@@ -11,7 +11,6 @@ use nalgebra::DVector;
 use scene::PlaneState;
 
 use super::map::{Map, MapError, MapOf, StabilityMap};
-use crate::error::ExperimentError;
 
 pub(super) const MAP: Map = Map {
     name: "locking",
@@ -78,7 +77,7 @@ fn energy_ratio(shape: &Shape, incompatible: bool, ratio: f64) -> Result<f64, Ma
         .flat_map(|[x, y]| [curvature * x * y, -0.5 * curvature * (x * x + nu * y * y)]);
     let bent = DVector::from_iterator(2 * points.len(), bent);
     let own = matrices(shape, &points, &STEEL, thickness, incompatible).map_err(|cause| {
-        ExperimentError::Fe(FeError::Distorted { body: "bent element", element: 0, cause })
+        MapError::Fe(FeError::Distorted { body: "bent element", element: 0, cause })
     })?;
     let energy = 0.5 * bent.dot(&(&own.stiffness * &bent));
     // ½ κ² E t (4ab) b²/3

@@ -221,9 +221,27 @@ pub enum MapError {
     /// The lumped set of the scene.
     #[error(transparent)]
     Lumped(#[from] lumped::LumpedError),
-    /// Steady states and branches of them.
+    /// The FE/contact model.
     #[error(transparent)]
-    Experiment(#[from] crate::error::ExperimentError),
+    Fe(#[from] fe_contact::FeError),
+    /// An eigenproblem.
+    #[error(transparent)]
+    Eigen(#[from] dynamics::EigenError),
+    /// A spectrum.
+    #[error(transparent)]
+    Spectrum(#[from] dynamics::SpectrumError),
+    /// Modes of a linearised set.
+    #[error(transparent)]
+    Modal(#[from] crate::modal::ModalError),
+    /// Steady states.
+    #[error(transparent)]
+    Sweep(#[from] crate::sweep::SweepError),
+    /// Branches of steady states.
+    #[error(transparent)]
+    Branch(#[from] crate::branches::BranchError),
+    /// The scene lacks something the map needs.
+    #[error("the scene has no {0}")]
+    Incomplete(&'static str),
     /// The scene that `scene new` writes, changed for a guard.
     #[error("the template of scenes: {0}")]
     Template(String),

@@ -5,10 +5,9 @@ use dynamics::Multiplier;
 use scene::LoadCase;
 
 use super::map::MapError;
-use crate::error::ExperimentError;
 use crate::sweep::{
-    Direction, Memory, Plan, Steady, SteadySettings, SweepModel, SweepPoint, left_of_transient,
-    run, steady,
+    Direction, Memory, Plan, Steady, SteadySettings, SweepError, SweepModel, SweepPoint,
+    left_of_transient, run, steady,
 };
 
 /// Mesh frequencies among which resonances are sought, Hz, and the step between them as a part.
@@ -30,7 +29,7 @@ pub(super) fn slowest(model: &dyn SweepModel) -> Result<f64, MapError> {
         let last = p.multipliers.first().map(|[re, im]| Multiplier { re: *re, im: *im });
         -left_of_transient(last.as_slice())
     })?;
-    let left = |rpm: f64| -> Result<f64, ExperimentError> {
+    let left = |rpm: f64| -> Result<f64, MapError> {
         let settings = SteadySettings { between_cycles: 0, ..SteadySettings::default() };
         let found = from_rest(model, &model.case().at_speed(rpm), 1.0, &settings)?;
         Ok(left_of_transient(found.multipliers.get(..1).unwrap_or_default()))
@@ -50,11 +49,11 @@ pub(super) fn from_rest(
     case: &LoadCase,
     factor: f64,
     settings: &SteadySettings,
-) -> Result<Steady, ExperimentError> {
+) -> Result<Steady, MapError> {
     let mut set = model.turning_damped(case, factor, 0)?;
     set.rest()?;
     let (steps, first) = (model.steps_per_cycle(), model.first_planet_rad());
-    steady(set.as_mut(), model.shape(), first, steps, settings)
+    Ok(steady(set.as_mut(), model.shape(), first, steps, settings)?)
 }
 
 /// Speed (rpm) of the motion that attracts with the least of something.
@@ -64,7 +63,7 @@ fn first_by(model: &dyn SweepModel, of: fn(&SweepPoint) -> f64) -> Result<f64, M
     let speeds: Vec<f64> =
         (0..=count).map(|k| SOUGHT_HZ[0] * (STEP * f64::from(k)).exp() / per_rpm.abs()).collect();
     let settings = SteadySettings { between_cycles: 0, ..SteadySettings::default() };
-    let plan = Plan::new(&speeds, &[Direction::Up], settings).map_err(ExperimentError::from)?;
+    let plan = Plan::new(&speeds, &[Direction::Up], settings).map_err(SweepError::from)?;
     let swept = run(model, &plan, &Memory, &|_| ())?;
     let attract = swept.points().into_iter().filter(|p| p.attracts.is_shown());
     let found = attract.min_by(|a, b| of(a).total_cmp(&of(b)));

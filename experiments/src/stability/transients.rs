@@ -9,7 +9,6 @@ use scene::{LoadCase, Scene};
 
 use super::map::{Map, MapError, MapOf, Point, StabilityMap, logarithms};
 use super::resonance::{from_rest, slowest};
-use crate::error::ExperimentError;
 use crate::sweep::{
     MeshLawModel, Record, SteadyMethod, SteadySettings, SweepModel, left_of_transient,
 };
@@ -40,7 +39,7 @@ const MOST_CYCLES: usize = 4000;
 
 fn map(scene: &Scene) -> Result<StabilityMap, MapError> {
     let case = LoadCase::of_scene(scene).map_err(|_| MapError::NoOperation)?;
-    let bodies = Bodies::new(scene).map_err(ExperimentError::from)?;
+    let bodies = Bodies::new(scene)?;
     let model = MeshLawModel::new(scene, &bodies, case)?;
     let case = case.at_speed(slowest(&model)?);
     let system =
@@ -101,11 +100,7 @@ struct March {
 
 impl March {
     /// `None` if shooting finds no stable motion.
-    fn of(
-        model: &dyn SweepModel,
-        case: &LoadCase,
-        factor: f64,
-    ) -> Result<Option<Self>, ExperimentError> {
+    fn of(model: &dyn SweepModel, case: &LoadCase, factor: f64) -> Result<Option<Self>, MapError> {
         let settings = SteadySettings {
             between_cycles: 0,
             whole_cycles: true,

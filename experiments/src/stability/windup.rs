@@ -10,7 +10,7 @@ use fe_contact::statics::{Bodies, Imperfections, SetCycle, StaticSet};
 use fe_contact::vibration::{LinearSet, Loading, NominalRotation, VibratingSet};
 use scene::{LoadCase, Scene};
 
-use crate::error::ExperimentError;
+use super::map::MapError;
 use crate::modal::mesh_influence;
 
 /// Harmonics that are compared.
@@ -80,13 +80,9 @@ impl WoundUp {
     ///
     /// # Errors
     /// If there is no equilibrium about the loaded configuration or by exact kinematics.
-    pub(super) fn of(
-        scene: &Scene,
-        bodies: &Bodies,
-        case: &LoadCase,
-    ) -> Result<Self, ExperimentError> {
+    pub(super) fn of(scene: &Scene, bodies: &Bodies, case: &LoadCase) -> Result<Self, MapError> {
         let torque = case.sun_load_nm();
-        let sun = bodies.geometry.sun.as_ref().ok_or(ExperimentError::Incomplete("sun"))?;
+        let sun = bodies.geometry.sun.as_ref().ok_or(MapError::Incomplete("sun"))?;
         let radius = sun.base_radius;
         let positions = coprime(POSITIONS, scene.planets.count());
         let unloaded = StaticSet::new(scene, bodies, case.sense(), Imperfections::default())?;
@@ -97,7 +93,7 @@ impl WoundUp {
         let (strongest, _) = largest(&exact[..1]);
         let frequencies = Frequencies::exact(scene, bodies, case, &loaded)?;
         // Position x about the unloaded configuration is x + w of the gears as they stand.
-        let left = |cycle: &SetCycle, late: f64, about: f64| -> Result<Left, ExperimentError> {
+        let left = |cycle: &SetCycle, late: f64, about: f64| -> Result<Left, MapError> {
             let own = lines(cycle, radius)?;
             let first = (own[0][strongest - 1] - exact[0][strongest - 1]).norm();
             let rests = cycle.states.iter().map(|s| s.kinematic_rest);
@@ -113,7 +109,7 @@ impl WoundUp {
         };
         let about_unloaded = match about(&unloaded, windup, 0.0) {
             // Gaps of corners that are far off let teeth through or leave nothing to balance.
-            Err(ExperimentError::Fe(
+            Err(MapError::Fe(
                 FeError::NoEquilibrium(_)
                 | FeError::NotConverged { .. }
                 | FeError::AtPosition { .. },
@@ -139,13 +135,9 @@ impl WoundUp {
 
 /// What the coarser tables from which the linearised set takes the slopes of the flanks change in its harmonics: the
 /// largest difference between exact cycles with either.
-pub(super) fn of_slopes(
-    scene: &Scene,
-    bodies: &Bodies,
-    case: &LoadCase,
-) -> Result<f64, ExperimentError> {
+pub(super) fn of_slopes(scene: &Scene, bodies: &Bodies, case: &LoadCase) -> Result<f64, MapError> {
     let torque = case.sun_load_nm();
-    let sun = bodies.geometry.sun.as_ref().ok_or(ExperimentError::Incomplete("sun"))?;
+    let sun = bodies.geometry.sun.as_ref().ok_or(MapError::Incomplete("sun"))?;
     let positions = coprime(POSITIONS, scene.planets.count());
     let set = StaticSet::new(scene, bodies, case.sense(), Imperfections::default())?;
     let set = set.under(torque)?;
@@ -154,8 +146,8 @@ pub(super) fn of_slopes(
     Ok(off(&coarse, &fine))
 }
 
-fn lines(cycle: &SetCycle, radius: f64) -> Result<Lines, ExperimentError> {
-    let of = |axis: usize, scale: f64| -> Result<Vec<c64>, ExperimentError> {
+fn lines(cycle: &SetCycle, radius: f64) -> Result<Lines, MapError> {
+    let of = |axis: usize, scale: f64| -> Result<Vec<c64>, MapError> {
         let record: Vec<f64> = cycle.states.iter().map(|s| scale * s.central[2][axis]).collect();
         let found = spectrum(&record, 1.0 / record.len() as f64, Window::Rectangular, 1)?;
         Ok(found.lines.into_iter().skip(1).take(HARMONICS).collect())
@@ -200,13 +192,13 @@ impl Frequencies {
         bodies: &Bodies,
         case: &LoadCase,
         loaded: &StaticSet<'_>,
-    ) -> Result<Self, ExperimentError> {
+    ) -> Result<Self, MapError> {
         let torque = case.sun_load_nm();
         let linear = linearised(scene, bodies, case, torque, 0.0)?;
         let masses: Vec<f64> = linear.mass.diagonal().iter().copied().collect();
         // Half of ∂ln f/∂ln k is the share of the strain energy.
         let is_of_meshes = mesh_influence(&linear)?.iter().map(|m| m.all_meshes > 0.25).collect();
-        let at = |position: f64| -> Result<Vec<f64>, ExperimentError> {
+        let at = |position: f64| -> Result<Vec<f64>, MapError> {
             let tangent = loaded.exact_tangent(torque, position)?;
             let lambda = generalized_symmetric(&tangent, &masses)?.lambda;
             Ok(lambda.iter().map(|x| x.max(0.0).sqrt() / TAU).collect())
@@ -222,7 +214,7 @@ impl Frequencies {
         bodies: &Bodies,
         case: &LoadCase,
         (about, late): (f64, f64),
-    ) -> Result<FrequencyErrors, ExperimentError> {
+    ) -> Result<FrequencyErrors, MapError> {
         let own = mean(|position| {
             let position = (position - late).rem_euclid(1.0);
             Ok(linearised(scene, bodies, case, about, position)?.undamped()?.0)
@@ -237,9 +229,7 @@ impl Frequencies {
 }
 
 /// Mean of what is found at each position.
-fn mean(
-    at: impl Fn(f64) -> Result<Vec<f64>, ExperimentError>,
-) -> Result<Vec<f64>, ExperimentError> {
+fn mean(at: impl Fn(f64) -> Result<Vec<f64>, MapError>) -> Result<Vec<f64>, MapError> {
     let mut sum: Vec<f64> = Vec::new();
     for position in FREQUENCIES_AT {
         let found = at(position)?;
@@ -257,9 +247,9 @@ fn linearised(
     case: &LoadCase,
     about: f64,
     position: f64,
-) -> Result<LinearSet, ExperimentError> {
+) -> Result<LinearSet, MapError> {
     let torque = case.sun_load_nm();
-    let sun = bodies.geometry.sun.as_ref().ok_or(ExperimentError::Incomplete("sun"))?;
+    let sun = bodies.geometry.sun.as_ref().ok_or(MapError::Incomplete("sun"))?;
     let mesh_force = torque / sun.base_radius / scene.planets.count() as f64;
     let rotation = NominalRotation::Standing { position, step: STEP };
     let loading = Loading { torque_nm: about, mesh_force };

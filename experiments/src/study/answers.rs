@@ -7,22 +7,21 @@ use dynamics::harmonic_balance::BalanceOptions;
 use fe_contact::contact::Location;
 use fe_contact::statics::{Bodies, Imperfections, SetCycle, StaticSet, at_phase, estimate};
 use fe_contact::vibration::{MeshLawSettings, mesh_law};
-use gearset::MeshKind;
-use lumped::{Axis, BalancedSet, Body};
+use gearset::{Axis, Body, MeshKind};
+use lumped::BalancedSet;
 use scene::{Fidelity, LoadCase};
 
 use super::cost::Stopwatch;
 use super::experiment::{Action, Experiment, Work};
 use super::quantity::{HARMONICS, Reading};
 use super::setting::{Setting, StudyModel};
-use crate::error::ExperimentError;
 use crate::modal::{Preload, linear_modes, preloaded};
 use crate::model::ModelError;
 use crate::models::Lumped;
 use crate::natural_mode::{NaturalMode, frequencies_of};
 use crate::sweep::{
-    FeModel, MeshLawModel, Part, Response, SchemeModel, SteadySettings, SteadyState, SweepModel,
-    SweepPoint, steady, top_of_three,
+    FeModel, MeshLawModel, Part, Response, SchemeModel, SteadySettings, SteadyState, SweepError,
+    SweepModel, SweepPoint, steady, top_of_three,
 };
 use crate::table_growth::large_enough;
 use crate::{DistinctMode, ModalModel};
@@ -278,10 +277,7 @@ fn peak(
 
 impl Bench<'_> {
     /// The model in time; its tables are part of the set-up.
-    fn model<'s>(
-        &mut self,
-        bodies: &'s Bodies,
-    ) -> Result<Box<dyn SweepModel + 's>, ExperimentError> {
+    fn model<'s>(&mut self, bodies: &'s Bodies) -> Result<Box<dyn SweepModel + 's>, ModelError> {
         let start = self.stopwatch.seconds();
         let (scene, choices) = (&self.setting.scene, &self.setting.choices);
         let model: Box<dyn SweepModel + 's> = match (choices.model, scene.dynamics.fidelity) {
@@ -314,7 +310,7 @@ impl Bench<'_> {
         model: &dyn SweepModel,
         speed_rpm: f64,
         state: Option<&[f64]>,
-    ) -> Result<(SweepPoint, Vec<f64>), ExperimentError> {
+    ) -> Result<(SweepPoint, Vec<f64>), ModelError> {
         let choices = &self.setting.choices;
         let (method, tolerance) = (choices.steady_method, choices.tolerance());
         let harmonics = HARMONICS;
@@ -339,16 +335,14 @@ impl Bench<'_> {
                 rest.check()?;
             }
             let point = SweepPoint::new(case, &found, &settings, size)?;
-            Ok::<_, ExperimentError>((point, set.state(), set.effort(), set.bytes()))
+            Ok::<_, SweepError>((point, set.state(), set.effort(), set.bytes()))
         })?;
         if !point.is_steady {
-            return Err(ExperimentError::Model(
-                format!(
-                    "at {speed_rpm} rpm the motion has not become steady to {tolerance:e} after {} cycles",
-                    point.cycles
-                )
-                .into(),
-            ));
+            let cycles = point.cycles;
+            return Err(format!(
+                "the model: at {speed_rpm} rpm the motion has not become steady to {tolerance:e} after {cycles} cycles"
+            )
+            .into());
         }
         let marched = (point.cycles * steps) as f64;
         self.work.steps += marched;
@@ -361,9 +355,9 @@ impl Bench<'_> {
         Ok((point, state))
     }
 
-    fn sun_radius(&self) -> Result<f64, ExperimentError> {
+    fn sun_radius(&self) -> Result<f64, ModelError> {
         let sun = self.bodies.geometry.sun.as_ref();
-        Ok(sun.ok_or(ExperimentError::Incomplete("sun"))?.base_radius)
+        Ok(sun.ok_or("the scene has no sun")?.base_radius)
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use scene::SceneError;
 
-use crate::error::ExperimentError;
+use crate::model::ModelError;
 
 /// Why a study cannot be run.
 #[derive(Debug, thiserror::Error)]
@@ -52,7 +52,7 @@ pub enum StudyError {
     },
     /// The yardstick (mesh cycles of the lumped model of the study's scene) cannot be marched.
     #[error("the yardstick, mesh cycles of the lumped model of the scene, cannot be marched: {0}")]
-    Yardstick(#[source] ExperimentError),
+    Yardstick(#[source] ModelError),
     /// A route to the truth gives no value.
     #[error("truth `{route}` of quantity `{quantity}`: {reason}")]
     Truth {

@@ -5,7 +5,7 @@ use fe_contact::vibration::{MeshLawSettings, mesh_law};
 use scene::{Fidelity, LoadCase, Scene};
 
 use super::cost::Stopwatch;
-use crate::error::ExperimentError;
+use crate::model::ModelError;
 use crate::sweep::{Marching, MeshLawModel, SweepModel};
 
 /// Least time that the yardstick is marched each time it is asked, s.
@@ -22,7 +22,7 @@ pub(super) const STEPS: u32 = 140;
 pub(super) fn yardstick(
     scene: &Scene,
     case: LoadCase,
-) -> Result<MeshLawModel<'static>, ExperimentError> {
+) -> Result<MeshLawModel<'static>, ModelError> {
     let mut scene = scene.clone();
     scene.dynamics.fidelity = Fidelity::MeshLaw;
     scene.dynamics.steps_per_cycle = STEPS;
@@ -38,7 +38,7 @@ pub(super) struct Yardstick<'m> {
 }
 
 impl<'m> Yardstick<'m> {
-    pub(super) fn new(model: &'m MeshLawModel<'static>) -> Result<Self, ExperimentError> {
+    pub(super) fn new(model: &'m MeshLawModel<'static>) -> Result<Self, ModelError> {
         let mut set = model.turning(&model.case(), 0)?;
         set.rest()?;
         (0..SETTLING * STEPS as usize).try_for_each(|_| set.step())?;
@@ -46,10 +46,7 @@ impl<'m> Yardstick<'m> {
     }
 
     /// Time of one mesh cycle, mean of as many as take 20 ms, s.
-    pub(super) fn cycle_s(
-        &mut self,
-        stopwatch: &mut dyn Stopwatch,
-    ) -> Result<f64, ExperimentError> {
+    pub(super) fn cycle_s(&mut self, stopwatch: &mut dyn Stopwatch) -> Result<f64, ModelError> {
         let start = stopwatch.seconds();
         for cycles in 1u32.. {
             (0..8 * STEPS).try_for_each(|_| self.set.step())?;

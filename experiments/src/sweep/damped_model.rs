@@ -2,10 +2,10 @@
 
 use scene::LoadCase;
 
+use super::error::SweepError;
 use super::marching::Marching;
 use super::set_shape::SetShape;
 use super::sweep_model::SweepModel;
-use crate::error::ExperimentError;
 
 /// Another model with every damping multiplied by a factor; it shares what that one has computed.
 pub struct DampedModel<'a> {
@@ -36,7 +36,7 @@ impl SweepModel for DampedModel<'_> {
         self.model.steps_per_cycle()
     }
 
-    fn prepare(&self) -> Result<(), ExperimentError> {
+    fn prepare(&self) -> Result<(), SweepError> {
         self.model.prepare()
     }
 
@@ -45,7 +45,7 @@ impl SweepModel for DampedModel<'_> {
         case: &LoadCase,
         damping_factor: f64,
         size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + '_>, SweepError> {
         self.model.in_short_cycles(case, self.factor * damping_factor, size)
     }
 
@@ -54,7 +54,7 @@ impl SweepModel for DampedModel<'_> {
         case: &LoadCase,
         damping_factor: f64,
         size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + '_>, SweepError> {
         self.model.turning_damped(case, self.factor * damping_factor, size)
     }
 }

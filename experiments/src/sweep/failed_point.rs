@@ -6,7 +6,7 @@ use scene::LoadCase;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::error::ExperimentError;
+use super::error::SweepError;
 use crate::table_growth::{Outgrown, SIZES};
 
 /// A speed at which the march to the steady state failed, with the reason.
@@ -23,7 +23,7 @@ pub struct FailedPoint {
     /// The error itself; `None` for a point read from a store, which keeps its text alone.
     #[serde(skip)]
     #[source]
-    pub error: Option<Arc<ExperimentError>>,
+    pub error: Option<Arc<SweepError>>,
 }
 
 /// Points are the same if they fail for the same reason, whether computed now or read from a store.
@@ -39,7 +39,7 @@ impl FailedPoint {
     pub(super) fn new(
         chain: &str,
         case: LoadCase,
-        error: ExperimentError,
+        error: SweepError,
         last: (usize, String),
     ) -> Self {
         let mut reason = error.to_string();

@@ -5,17 +5,17 @@ use fe_contact::vibration::Along;
 use gearset::Symmetry;
 use nalgebra::{DMatrix, DVector};
 
+use super::error::SweepError;
 use super::marching::{Effort, Marching};
 use super::shooting::CycleDerivative;
-use crate::error::ExperimentError;
 use crate::modal::MotionKinds;
 
 /// A set without a derivative, or whose coordinates do not determine its displacements.
-const UNFIT: ExperimentError =
-    ExperimentError::Incomplete("coordinates to compare with those of another value");
+const UNFIT: SweepError =
+    SweepError::Incomplete("coordinates to compare with those of another value");
 
 /// Displacements of all bodies to unit values of the first half of the coordinates, by columns: 3 (3 + N) × n.
-pub(super) fn shapes(set: &mut dyn Marching) -> Result<DMatrix<f64>, ExperimentError> {
+pub(super) fn shapes(set: &mut dyn Marching) -> Result<DMatrix<f64>, SweepError> {
     let count = set.derivative().ok_or(UNFIT)?.coordinates().len();
     let n = count / 2;
     let column = |k: usize| {
@@ -55,7 +55,7 @@ impl<'s> FixedBasis<'s> {
     pub(super) fn new(
         first: &DMatrix<f64>,
         mut set: Box<dyn Marching + 's>,
-    ) -> Result<Self, ExperimentError> {
+    ) -> Result<Self, SweepError> {
         let own = shapes(set.as_mut())?;
         if own.shape() != first.shape() {
             return Err(UNFIT);
@@ -67,7 +67,7 @@ impl<'s> FixedBasis<'s> {
         Ok(Self { set, to_first, from_first })
     }
 
-    fn own(&mut self) -> Result<&mut dyn CycleDerivative, ExperimentError> {
+    fn own(&mut self) -> Result<&mut dyn CycleDerivative, SweepError> {
         self.set.derivative().ok_or(UNFIT)
     }
 }
@@ -80,11 +80,11 @@ fn both(matrix: &DMatrix<f64>, y: &[f64]) -> Vec<f64> {
 }
 
 impl Marching for FixedBasis<'_> {
-    fn rest(&mut self) -> Result<(), ExperimentError> {
+    fn rest(&mut self) -> Result<(), SweepError> {
         self.set.rest()
     }
 
-    fn step(&mut self) -> Result<(), ExperimentError> {
+    fn step(&mut self) -> Result<(), SweepError> {
         self.set.step()
     }
 
@@ -112,7 +112,7 @@ impl Marching for FixedBasis<'_> {
         self.set.counters()
     }
 
-    fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError> {
+    fn restore(&mut self, state: &[f64]) -> Result<(), SweepError> {
         self.set.restore(state)
     }
 
@@ -135,12 +135,12 @@ impl CycleDerivative for FixedBasis<'_> {
         both(&self.to_first, &own)
     }
 
-    fn set_coordinates(&mut self, y: &[f64]) -> Result<(), ExperimentError> {
+    fn set_coordinates(&mut self, y: &[f64]) -> Result<(), SweepError> {
         let own = both(&self.from_first, y);
         self.own()?.set_coordinates(&own)
     }
 
-    fn symmetry(&mut self) -> Result<Option<Symmetry>, ExperimentError> {
+    fn symmetry(&mut self) -> Result<Option<Symmetry>, SweepError> {
         self.own()?.symmetry()
     }
 
@@ -156,19 +156,16 @@ impl CycleDerivative for FixedBasis<'_> {
         }
     }
 
-    fn end(&mut self) -> Result<(), ExperimentError> {
+    fn end(&mut self) -> Result<(), SweepError> {
         self.own()?.end()
     }
 
-    fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError> {
+    fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, SweepError> {
         let own = self.own()?.of_cycle(along)?;
         Ok(self.in_first(own))
     }
 
-    fn of_cycle_with(
-        &mut self,
-        change: CarriedChange<'_>,
-    ) -> Result<MapDerivative, ExperimentError> {
+    fn of_cycle_with(&mut self, change: CarriedChange<'_>) -> Result<MapDerivative, SweepError> {
         let CarriedChange { start, hear } = change;
         let (start, to_first) = (both(&self.from_first, start), self.to_first.clone());
         let hear = &mut |x: &[f64]| hear(&both(&to_first, x));

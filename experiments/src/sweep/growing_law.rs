@@ -8,8 +8,8 @@ use fe_contact::vibration::{MeshLawSettings, mesh_law};
 use gearset::MeshLaw;
 use scene::{LoadCase, Scene};
 
+use super::error::SweepError;
 use super::set_shape::SetShape;
-use crate::error::ExperimentError;
 use crate::table_growth::SIZES;
 
 /// A mesh law, and those for larger forces. Beyond the last node of a table forces are extrapolated by a straight line:
@@ -41,9 +41,9 @@ impl Source<'_> {
     }
 
     /// Largest force of the tables, N.
-    fn largest_n(&self, size: usize) -> Result<f64, ExperimentError> {
+    fn largest_n(&self, size: usize) -> Result<f64, SweepError> {
         let sun = self.bodies.geometry.sun.as_ref();
-        let radius = sun.ok_or(ExperimentError::Incomplete("sun"))?.base_radius;
+        let radius = sun.ok_or(SweepError::Incomplete("sun"))?.base_radius;
         let share = self.case.sun_load_nm() / radius / SetShape::of(&self.scene).planets as f64;
         Ok(self.settings(size).reach * share)
     }
@@ -59,7 +59,7 @@ impl<'s> GrowingLaw<'s> {
         bodies: &'s Bodies,
         case: LoadCase,
         steps: usize,
-    ) -> Result<Self, ExperimentError> {
+    ) -> Result<Self, SweepError> {
         let source = Source { scene: scene.clone(), bodies, case };
         let first = source.law(steps, 0)?;
         Ok(Self { first, source: Some(source), larger: [const { OnceLock::new() }; SIZES] })
@@ -69,7 +69,7 @@ impl<'s> GrowingLaw<'s> {
     ///
     /// # Errors
     /// If the law cannot be made.
-    pub(super) fn with_steps(&self, steps: usize) -> Result<Option<Self>, ExperimentError> {
+    pub(super) fn with_steps(&self, steps: usize) -> Result<Option<Self>, SweepError> {
         let own = self.source.as_ref();
         own.map(|own| Self::new(&own.scene, own.bodies, own.case, steps)).transpose()
     }
@@ -88,7 +88,7 @@ impl<'s> GrowingLaw<'s> {
     ///
     /// # Errors
     /// If the law cannot be made.
-    pub(super) fn of_size(&self, size: usize) -> Result<(Arc<MeshLaw>, Range), ExperimentError> {
+    pub(super) fn of_size(&self, size: usize) -> Result<(Arc<MeshLaw>, Range), SweepError> {
         let Some(source) = &self.source else {
             return Ok((Arc::clone(&self.first), Range { largest_n: f64::INFINITY }));
         };

@@ -7,13 +7,13 @@ use fe_contact::statics::{Bodies, Imperfections};
 use scene::{Fidelity, LoadCase, Scene};
 use toml::{Table, Value};
 
+use super::error::SweepError;
 use super::fixed_basis::{FixedBasis, shapes};
 use super::marching::Marching;
 use super::mesh_law_model::MeshLawModel;
 use super::set_shape::SetShape;
 use super::sweep_model::{FeModel, SweepModel, damped};
 use super::varied_key::VariedKey;
-use crate::error::ExperimentError;
 use crate::scene_keys::{nested, scene_with};
 
 /// Models at other values that are kept: those at a value and beside it, for its derivative, and of the value before.
@@ -39,7 +39,7 @@ impl<'s> Made<'s> {
         scene: &Scene,
         case: &LoadCase,
         size: usize,
-    ) -> Result<Box<dyn Marching + 's>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + 's>, SweepError> {
         match self {
             Self::Fe(model) => model.set_of(scene, case, size),
             Self::Law(model) => model.set_of(scene, case, size),
@@ -76,8 +76,8 @@ impl<'s> KeyedModel<'s> {
         bodies: &'s Bodies,
         case: LoadCase,
         is_lumped: bool,
-    ) -> Result<Self, ExperimentError> {
-        let base: Table = toml::from_str(text).map_err(|e| ExperimentError::KeyValue {
+    ) -> Result<Self, SweepError> {
+        let base: Table = toml::from_str(text).map_err(|e| SweepError::KeyValue {
             key: key.path(),
             value: at,
             reason: e.to_string(),
@@ -91,9 +91,9 @@ impl<'s> KeyedModel<'s> {
     /// Refuses values that the scene does not allow.
     ///
     /// # Errors
-    /// [`ExperimentError::KeyValue`] with the scene's own faults.
-    pub fn check(text: &str, key: VariedKey, value: f64) -> Result<(), ExperimentError> {
-        let base: Table = toml::from_str(text).map_err(|e| ExperimentError::KeyValue {
+    /// [`SweepError::KeyValue`] with the scene's own faults.
+    pub fn check(text: &str, key: VariedKey, value: f64) -> Result<(), SweepError> {
+        let base: Table = toml::from_str(text).map_err(|e| SweepError::KeyValue {
             key: key.path(),
             value,
             reason: e.to_string(),
@@ -102,7 +102,7 @@ impl<'s> KeyedModel<'s> {
     }
 
     /// The model for a scene with a value of the key.
-    fn at(&self, scene: &Scene, value: f64) -> Result<Arc<Made<'s>>, ExperimentError> {
+    fn at(&self, scene: &Scene, value: f64) -> Result<Arc<Made<'s>>, SweepError> {
         if !self.key.enters_statics() {
             return Ok(Arc::clone(&self.first));
         }
@@ -121,9 +121,9 @@ impl<'s> KeyedModel<'s> {
 }
 
 /// The scene with a value of the key.
-fn varied(base: &Table, key: VariedKey, value: f64, factor: f64) -> Result<Scene, ExperimentError> {
+fn varied(base: &Table, key: VariedKey, value: f64, factor: f64) -> Result<Scene, SweepError> {
     let scene = scene_with(base, &[&nested(key.path(), Value::Float(value))]);
-    let scene = scene.map_err(|faults| ExperimentError::KeyValue {
+    let scene = scene.map_err(|faults| SweepError::KeyValue {
         key: key.path(),
         value,
         reason: faults.to_string(),
@@ -136,7 +136,7 @@ fn made<'s>(
     bodies: &'s Bodies,
     case: LoadCase,
     is_lumped: bool,
-) -> Result<Made<'s>, ExperimentError> {
+) -> Result<Made<'s>, SweepError> {
     Ok(match (is_lumped, scene.dynamics.fidelity) {
         (true, _) => Made::Law(Box::new(MeshLawModel::new(scene, bodies, case)?.lumped())),
         (false, Fidelity::MeshLaw) => Made::Law(Box::new(MeshLawModel::new(scene, bodies, case)?)),
@@ -167,7 +167,7 @@ impl SweepModel for KeyedModel<'_> {
         self.first.model().steps_per_cycle()
     }
 
-    fn prepare(&self) -> Result<(), ExperimentError> {
+    fn prepare(&self) -> Result<(), SweepError> {
         self.first.model().prepare()
     }
 
@@ -176,7 +176,7 @@ impl SweepModel for KeyedModel<'_> {
         case: &LoadCase,
         damping_factor: f64,
         size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + '_>, SweepError> {
         self.first.model().in_short_cycles(case, damping_factor, size)
     }
 
@@ -185,7 +185,7 @@ impl SweepModel for KeyedModel<'_> {
         case: &LoadCase,
         damping_factor: f64,
         size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + '_>, SweepError> {
         self.first.model().turning_damped(case, damping_factor, size)
     }
 
@@ -194,9 +194,9 @@ impl SweepModel for KeyedModel<'_> {
         key: VariedKey,
         value: f64,
         size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + '_>, SweepError> {
         if key != self.key {
-            return Err(ExperimentError::Incomplete("varied key of this name"));
+            return Err(SweepError::Incomplete("varied key of this name"));
         }
         let scene = varied(&self.base, self.key, value, self.damping_factor)?;
         let made = self.at(&scene, value)?;

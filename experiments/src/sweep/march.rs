@@ -2,10 +2,10 @@
 
 use std::collections::VecDeque;
 
+use super::error::SweepError;
 use super::marching::Marching;
 use super::record::Record;
 use super::set_shape::SetShape;
-use crate::error::ExperimentError;
 
 /// Largest number of mesh cycles after which a motion is tested for repeating.
 pub const MOST_REPEATS: usize = 8;
@@ -49,7 +49,7 @@ impl<'m> March<'m> {
     ///
     /// # Errors
     /// If a step fails.
-    pub(super) fn advance(&mut self) -> Result<f64, ExperimentError> {
+    pub(super) fn advance(&mut self) -> Result<f64, SweepError> {
         let mut now = match self.recent.len() > MOST_REPEATS {
             true => self.recent.pop_back().unwrap_or_default(),
             false => Record::new(self.shape),

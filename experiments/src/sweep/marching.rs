@@ -4,8 +4,8 @@ use dynamics::{CarriedChange, MapDerivative};
 use fe_contact::vibration::{Along, LoadedStep, VibratingSet};
 use gearset::Symmetry;
 
+use super::error::SweepError;
 use super::shooting::CycleDerivative;
-use crate::error::ExperimentError;
 use crate::modal::MotionKinds;
 
 /// Computational effort of the steps of a set so far.
@@ -23,13 +23,13 @@ pub trait Marching {
     ///
     /// # Errors
     /// If there is no equilibrium.
-    fn rest(&mut self) -> Result<(), ExperimentError>;
+    fn rest(&mut self) -> Result<(), SweepError>;
 
     /// One time step.
     ///
     /// # Errors
     /// If contact cannot be solved or the motion diverges.
-    fn step(&mut self) -> Result<(), ExperimentError>;
+    fn step(&mut self) -> Result<(), SweepError>;
 
     /// Displacements of carrier, ring, sun (x, y, m; θ, rad) and of the planets (ζ, η, θ) in the
     /// carrier frame, counter-clockwise.
@@ -78,7 +78,7 @@ pub trait Marching {
     ///
     /// # Errors
     /// If the state is that of another kind of set.
-    fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError>;
+    fn restore(&mut self, state: &[f64]) -> Result<(), SweepError>;
 
     /// The derivative of its cycles; `None` for a model that has none, whose steady states are marched.
     fn derivative(&mut self) -> Option<&mut dyn CycleDerivative> {
@@ -109,11 +109,11 @@ pub(super) struct FeMarching<'s> {
 }
 
 impl Marching for FeMarching<'_> {
-    fn rest(&mut self) -> Result<(), ExperimentError> {
+    fn rest(&mut self) -> Result<(), SweepError> {
         Ok(self.set.rest(self.torque_nm)?)
     }
 
-    fn step(&mut self) -> Result<(), ExperimentError> {
+    fn step(&mut self) -> Result<(), SweepError> {
         Ok(self.set.step()?)
     }
 
@@ -131,7 +131,7 @@ impl Marching for FeMarching<'_> {
 
     fn kinematic_rest(&self, at: &LoadedStep) -> Option<[f64; 2]> {
         let races = self.set.races();
-        Some([self.set.kinematic_rest(at), races.radii[races.loaded().0]])
+        Some([self.set.kinematic_rest(at), races.radii[races.loaded().0.kind()]])
     }
 
     fn effort(&self) -> Effort {
@@ -154,7 +154,7 @@ impl Marching for FeMarching<'_> {
         1
     }
 
-    fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError> {
+    fn restore(&mut self, state: &[f64]) -> Result<(), SweepError> {
         Ok(self.set.restore(state)?)
     }
 
@@ -185,11 +185,11 @@ impl CycleDerivative for FeMarching<'_> {
         self.set.coordinates()
     }
 
-    fn set_coordinates(&mut self, y: &[f64]) -> Result<(), ExperimentError> {
+    fn set_coordinates(&mut self, y: &[f64]) -> Result<(), SweepError> {
         Ok(self.set.set_coordinates(y)?)
     }
 
-    fn symmetry(&mut self) -> Result<Option<Symmetry>, ExperimentError> {
+    fn symmetry(&mut self) -> Result<Option<Symmetry>, SweepError> {
         Ok(self.set.symmetry()?)
     }
 
@@ -198,18 +198,15 @@ impl CycleDerivative for FeMarching<'_> {
     /// Frames keep every step.
     fn keep_step(&mut self) {}
 
-    fn end(&mut self) -> Result<(), ExperimentError> {
+    fn end(&mut self) -> Result<(), SweepError> {
         Ok(self.set.take_cycle_back()?)
     }
 
-    fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError> {
+    fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, SweepError> {
         Ok(self.set.cycle_derivative(along, self.rate)?)
     }
 
-    fn of_cycle_with(
-        &mut self,
-        change: CarriedChange<'_>,
-    ) -> Result<MapDerivative, ExperimentError> {
+    fn of_cycle_with(&mut self, change: CarriedChange<'_>) -> Result<MapDerivative, SweepError> {
         Ok(self.set.cycle_derivative_with(self.rate, change)?)
     }
 }

@@ -11,6 +11,7 @@ use gearset::{MeshLaw, Symmetry};
 use lumped::TimeVarying;
 use scene::{Fidelity, LoadCase, Scene};
 
+use super::error::SweepError;
 use super::growing_law::{GrowingLaw, Range};
 use super::marching::{Effort, Marching, motion_kinds};
 use super::set_shape::SetShape;
@@ -18,7 +19,6 @@ use super::shooting::CycleDerivative;
 use super::sweep_model::{
     MOST_TIMES, SweepModel, check_sense, damped, fidelity_name, scaling_rate, without_gyroscopic,
 };
-use crate::error::ExperimentError;
 use crate::modal::MotionKinds;
 
 /// Name of the lumped model, as tables print it.
@@ -47,7 +47,7 @@ impl<'s> MeshLawModel<'s> {
     ///
     /// # Errors
     /// If the law cannot be made.
-    pub fn new(scene: &Scene, bodies: &'s Bodies, case: LoadCase) -> Result<Self, ExperimentError> {
+    pub fn new(scene: &Scene, bodies: &'s Bodies, case: LoadCase) -> Result<Self, SweepError> {
         let mut scene = scene.clone();
         scene.dynamics.fidelity = Fidelity::MeshLaw;
         let steps = scene.dynamics.steps_per_cycle as usize;
@@ -86,10 +86,10 @@ impl<'s> MeshLawModel<'s> {
     pub fn lumped_prescribed(
         &self,
         has_side_loads: bool,
-    ) -> Result<MeshLawModel<'static>, ExperimentError> {
+    ) -> Result<MeshLawModel<'static>, SweepError> {
         let torque = self.case.sun_load_nm();
         let loaded = self.loaded.as_ref();
-        let loaded = loaded.ok_or(ExperimentError::Incomplete("loaded FE/contact set"))?;
+        let loaded = loaded.ok_or(SweepError::Incomplete("loaded FE/contact set"))?;
         let law = self.laws.first().with_prescribed_stiffness(loaded.share(torque));
         let law = law.map_err(FeError::from)?;
         let law = if has_side_loads { law } else { law.without_side_loads() };
@@ -103,7 +103,7 @@ impl<'s> MeshLawModel<'s> {
         scene: &Scene,
         case: &LoadCase,
         size: usize,
-    ) -> Result<Box<dyn Marching + 's>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + 's>, SweepError> {
         check_sense(&self.case, case)?;
         let (law, range) = self.laws.of_size(size)?;
         let torque = case.sun_load_nm();
@@ -120,7 +120,7 @@ impl<'s> MeshLawModel<'s> {
     }
 
     /// The lumped set of the model's own scene.
-    fn own_lumped(&self, case: &LoadCase) -> Result<LumpedMarching, ExperimentError> {
+    fn own_lumped(&self, case: &LoadCase) -> Result<LumpedMarching, SweepError> {
         check_sense(&self.case, case)?;
         let mesh_frequency = case.mesh_frequency_hz;
         let (law, range) = self.laws.of_size(0)?;
@@ -181,10 +181,7 @@ impl SweepModel for MeshLawModel<'_> {
         self.laws.first().steps()
     }
 
-    fn with_times_the_steps(
-        &self,
-        times: usize,
-    ) -> Result<Option<&dyn SweepModel>, ExperimentError> {
+    fn with_times_the_steps(&self, times: usize) -> Result<Option<&dyn SweepModel>, SweepError> {
         let Some(slot) = times.checked_sub(2).and_then(|k| self.finer.get(k)) else {
             return Ok(None);
         };
@@ -206,7 +203,7 @@ impl SweepModel for MeshLawModel<'_> {
         case: &LoadCase,
         damping_factor: f64,
         size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + '_>, SweepError> {
         match &self.loaded {
             Some(_) => {
                 let scene = damped(&without_gyroscopic(&self.scene), damping_factor);
@@ -221,7 +218,7 @@ impl SweepModel for MeshLawModel<'_> {
         case: &LoadCase,
         damping_factor: f64,
         size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + '_>, SweepError> {
         if self.loaded.is_none() && damping_factor == 1.0 && size == 0 {
             return Ok(Box::new(self.own_lumped(case)?));
         }
@@ -255,7 +252,7 @@ fn shaped(flat: &[f64], pattern: &CoupledState) -> Option<CoupledState> {
 }
 
 /// A state of another kind of set.
-const FOREIGN: ExperimentError = ExperimentError::Incomplete("state that fits this model");
+const FOREIGN: SweepError = SweepError::Incomplete("state that fits this model");
 
 /// A set in time that follows a law.
 struct LawMarching<'s> {
@@ -288,11 +285,11 @@ struct LumpedMarching {
 macro_rules! marching {
     ($which:ty, $coordinates:ident, $kinds:expr) => {
         impl Marching for $which {
-            fn rest(&mut self) -> Result<(), ExperimentError> {
+            fn rest(&mut self) -> Result<(), SweepError> {
                 Ok(self.set.rest(self.torque)?)
             }
 
-            fn step(&mut self) -> Result<(), ExperimentError> {
+            fn step(&mut self) -> Result<(), SweepError> {
                 self.set.step()?;
                 Ok(self.range.check(self.set.forces())?)
             }
@@ -322,7 +319,7 @@ macro_rules! marching {
                 2
             }
 
-            fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError> {
+            fn restore(&mut self, state: &[f64]) -> Result<(), SweepError> {
                 // The load belongs to the set, not to its state.
                 self.set.load(self.torque)?;
                 let state = shaped(state, self.set.state()).ok_or(FOREIGN)?;
@@ -347,11 +344,11 @@ macro_rules! marching {
                 self.set.$coordinates()
             }
 
-            fn set_coordinates(&mut self, y: &[f64]) -> Result<(), ExperimentError> {
+            fn set_coordinates(&mut self, y: &[f64]) -> Result<(), SweepError> {
                 Ok(self.set.set_coordinates(y)?)
             }
 
-            fn symmetry(&mut self) -> Result<Option<Symmetry>, ExperimentError> {
+            fn symmetry(&mut self) -> Result<Option<Symmetry>, SweepError> {
                 let part = self.part.get_or_insert_with(|| self.set.symmetry());
                 Ok(part.as_ref().map(|(own, _)| *own))
             }
@@ -365,7 +362,7 @@ macro_rules! marching {
                 self.set.keep_step(&mut self.passed);
             }
 
-            fn end(&mut self) -> Result<(), ExperimentError> {
+            fn end(&mut self) -> Result<(), SweepError> {
                 if let Some((_, part)) = self.part.iter().flatten().next() {
                     if self.set.state().step_in_cycle > 0 {
                         self.set.take_part_back(part);
@@ -375,7 +372,7 @@ macro_rules! marching {
             }
 
             /// Displacements and velocities are all coordinates.
-            fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError> {
+            fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, SweepError> {
                 let found = match along {
                     Along::MotionRoughly => self.set.derivative_of::<f32>(&self.passed, self.rate),
                     Along::Motion | Along::Every => {
@@ -388,7 +385,7 @@ macro_rules! marching {
             fn of_cycle_with(
                 &mut self,
                 change: CarriedChange<'_>,
-            ) -> Result<MapDerivative, ExperimentError> {
+            ) -> Result<MapDerivative, SweepError> {
                 let found = self.set.derivative_with(&self.passed, self.rate, change);
                 of_part(found, &self.part, &self.passed)
             }
@@ -401,8 +398,8 @@ fn of_part(
     found: Option<MapDerivative>,
     part: &Option<Part>,
     passed: &PassedSteps,
-) -> Result<MapDerivative, ExperimentError> {
-    let found = found.ok_or(ExperimentError::Incomplete("cycle to differentiate"))?;
+) -> Result<MapDerivative, SweepError> {
+    let found = found.ok_or(SweepError::Incomplete("cycle to differentiate"))?;
     Ok(match part.iter().flatten().next() {
         Some((_, part)) if passed.ends_within_cycle() => part.renumbered(found),
         _ => found,

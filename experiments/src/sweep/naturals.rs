@@ -3,8 +3,7 @@
 use fe_contact::statics::Bodies;
 use scene::{LoadCase, Scene};
 
-use crate::error::ExperimentError;
-use crate::modal::{FeMode, Preload, linear_modes, preloaded};
+use crate::modal::{FeMode, ModalError, Preload, linear_modes, preloaded};
 use crate::natural_mode::NaturalMode;
 
 /// Natural frequencies of the FE/contact set linearised at position 0 under the torque of a load case.
@@ -15,7 +14,7 @@ pub fn naturals(
     scene: &Scene,
     bodies: &Bodies,
     case: LoadCase,
-) -> Result<Vec<NaturalMode>, ExperimentError> {
+) -> Result<Vec<NaturalMode>, ModalError> {
     let preload = Preload { load: case, position: 0.0, step_s: 5e-6 };
     let set = preloaded(scene, bodies, &preload)?;
     let modes = linear_modes(&set, &set.linearised()?)?;

@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 
 use super::attraction::{Attraction, multiplier_kind};
 use super::critical_motion::CriticalMotion;
+use super::error::SweepError;
 use super::shifted_vibrations::InertiaError;
 use super::shooting::SMALL;
 use super::state::{Coordinate, Line, Part, SteadyState};
 use super::steady::{CameFrom, Steady, SteadyMethod};
-use crate::error::ExperimentError;
 
 /// A motion of which more than this part may be transient is not steady.
 const MOST_TRANSIENT: f64 = 0.01;
@@ -213,14 +213,14 @@ impl SweepPoint {
         found: &Steady,
         settings: &super::SteadySettings,
         size: usize,
-    ) -> Result<Self, ExperimentError> {
+    ) -> Result<Self, SweepError> {
         let start = match found.came_from {
             CameFrom::Given | CameFrom::Rest => SearchStart::Rest,
             CameFrom::Unstable => SearchStart::Unstable,
         };
         let record = &found.record;
         let mut lines = Vec::new();
-        let mut add = |part: Part, coordinate, channel| -> Result<(), ExperimentError> {
+        let mut add = |part: Part, coordinate, channel| -> Result<(), SweepError> {
             let all = record.harmonics(channel, 1, settings.harmonics)?;
             lines.extend(all.into_iter().enumerate().map(|(harmonic, [re, im])| Line {
                 part,

@@ -2,10 +2,10 @@
 
 use fastrand::Rng;
 
+use super::error::SweepError;
 use super::marching::Marching;
 use super::record::Record;
 use super::set_shape::SetShape;
-use crate::error::ExperimentError;
 
 /// Rotations count with this arm, m.
 const ARM: f64 = 0.05;
@@ -21,8 +21,8 @@ const LARGEST: f64 = 3.0;
 const AHEAD: usize = 32;
 
 /// A model that a random start is asked of in vain.
-const LACKS: ExperimentError =
-    ExperimentError::Incomplete("derivative of its steps, which random starts need");
+const LACKS: SweepError =
+    SweepError::Incomplete("derivative of its steps, which random starts need");
 
 /// Puts a set at rest, pushes it at random, by a direction and size that depend on `number` alone, and marches on from
 /// there, whole cycles.
@@ -34,7 +34,7 @@ pub(super) fn start_at_random(
     shape: SetShape,
     (first_planet_rad, steps): (f64, usize),
     number: u32,
-) -> Result<(), ExperimentError> {
+) -> Result<(), SweepError> {
     let mut random = Rng::with_seed(u64::from(number));
     let march = |set: &mut dyn Marching, cycles: usize| {
         let mut record = Record::new(shape);
@@ -58,7 +58,7 @@ pub fn push_at_random(
     planets: usize,
     push: f64,
     random: &mut Rng,
-) -> Result<(), ExperimentError> {
+) -> Result<(), SweepError> {
     let coordinates = |set: &mut dyn Marching| set.derivative().map(|own| own.coordinates());
     let mut y = coordinates(set).ok_or(LACKS)?;
     let leading = y.len().min(3 * (3 + planets));

@@ -3,9 +3,9 @@
 use dynamics::{Window, spectrum};
 use gearset::Symmetry;
 
+use super::error::SweepError;
 use super::marching::Marching;
 use super::set_shape::SetShape;
-use crate::error::ExperimentError;
 
 /// Samples by rows: three displacements of every body (carrier, ring, sun, planets: radial,
 /// tangential, m; rotation, rad), then the forces of sun meshes and ring meshes (N).
@@ -92,7 +92,7 @@ impl Record {
         set: &mut dyn Marching,
         first_planet_rad: f64,
         steps: usize,
-    ) -> Result<(), ExperimentError> {
+    ) -> Result<(), SweepError> {
         self.march_and(set, first_planet_rad, steps, &mut |_, _| ())
     }
 
@@ -106,7 +106,7 @@ impl Record {
         first_planet_rad: f64,
         steps: usize,
         after: &mut dyn FnMut(&mut dyn Marching, usize),
-    ) -> Result<(), ExperimentError> {
+    ) -> Result<(), SweepError> {
         self.samples.clear();
         self.backside.clear();
         self.has_backside = set.has_backside();
@@ -289,7 +289,7 @@ impl Record {
         channel: usize,
         cycles: usize,
         harmonics: usize,
-    ) -> Result<Vec<[f64; 2]>, ExperimentError> {
+    ) -> Result<Vec<[f64; 2]>, SweepError> {
         let lines = spectrum(&self.channel(channel), 1.0, Window::Rectangular, 1)?.lines;
         let at = |l: usize| lines.get(l * cycles).map_or([0.0; 2], |x| [x.re, x.im]);
         Ok((0..=harmonics).map(at).collect())
@@ -301,7 +301,7 @@ impl Record {
     ///
     /// # Errors
     /// If the record is too short or not finite.
-    pub fn between_harmonics(&self, cycles: usize) -> Result<f64, ExperimentError> {
+    pub fn between_harmonics(&self, cycles: usize) -> Result<f64, SweepError> {
         let mut kinds = [(0.0f64, 0.0f64); 2];
         for channel in 0..self.displacements() {
             let lines = spectrum(&self.channel(channel), 1.0, Window::Rectangular, 1)?.lines;

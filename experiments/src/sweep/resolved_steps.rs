@@ -16,11 +16,11 @@ use dynamics::{Multiplier, PeriodMap, c64, multipliers};
 use fe_contact::vibration::Along;
 
 use super::critical_motion::CriticalMotion;
+use super::error::SweepError;
 use super::point::StepError;
 use super::shooting::RecordedCycles;
 use super::state::{Coordinate, SteadyState};
 use super::sweep_model::{MOST_TIMES, SweepModel};
-use crate::error::ExperimentError;
 use crate::table_growth::large_enough;
 
 /// Mesh frequency of a cycle in which the set hardly moves, Hz. Vibrations up to half of it are told apart, and
@@ -92,10 +92,7 @@ pub(super) enum Resolved {
 ///
 /// # Errors
 /// If a set cannot be built or its vibrations are not found.
-pub fn steps_needed(
-    model: &dyn SweepModel,
-    speed_rpm: f64,
-) -> Result<Option<usize>, ExperimentError> {
+pub fn steps_needed(model: &dyn SweepModel, speed_rpm: f64) -> Result<Option<usize>, SweepError> {
     let mesh_hz = model.case().at_speed(speed_rpm).mesh_frequency_hz;
     let usual = model.steps_per_cycle();
     let enough = Vibrations::of(model)?.map(|all| all.steps_enough(mesh_hz, usual));
@@ -126,11 +123,11 @@ impl Vibrations {
     ///
     /// # Errors
     /// If the set cannot be built, stepped or its multipliers are not found.
-    pub(super) fn of(model: &dyn SweepModel) -> Result<Option<Self>, ExperimentError> {
+    pub(super) fn of(model: &dyn SweepModel) -> Result<Option<Self>, SweepError> {
         large_enough(|size| Self::of_size(model, size))
     }
 
-    fn of_size(model: &dyn SweepModel, size: usize) -> Result<Option<Self>, ExperimentError> {
+    fn of_size(model: &dyn SweepModel, size: usize) -> Result<Option<Self>, SweepError> {
         // The set stands still while the stiffness of its meshes varies, and forces with it: half of its torque
         // leaves room in the tables.
         let case = model.case();

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use scene::LoadCase;
 use serde::{Deserialize, Serialize};
 
+use super::error::SweepError;
 use super::failed_point::FailedPoint;
 use super::judge::peak_centres;
 use super::plan::{Chain, Plan};
@@ -17,7 +18,6 @@ use super::search::steady;
 use super::state::SteadyState;
 use super::steady::{CameFrom, SteadyMethod, SteadySettings};
 use super::sweep_model::SweepModel;
-use crate::error::ExperimentError;
 use crate::table_growth::large_enough;
 
 /// A finished point: a steady state or motion found, or a failure.
@@ -109,10 +109,10 @@ impl Sweep {
     /// The sweep, if every speed of its plan has a result.
     ///
     /// # Errors
-    /// [`ExperimentError::Failed`] with the failed point of lowest speed.
-    pub fn complete(self) -> Result<Self, ExperimentError> {
+    /// [`SweepError::Failed`] with the failed point of lowest speed.
+    pub fn complete(self) -> Result<Self, SweepError> {
         match self.failed_by_speed().first() {
-            Some(first) => Err(ExperimentError::Failed(Box::new((*first).clone()))),
+            Some(first) => Err(SweepError::Failed(Box::new((*first).clone()))),
             None => Ok(self),
         }
     }
@@ -120,8 +120,8 @@ impl Sweep {
     /// The sweep, if every motion of it repeats with the mesh cycle and attracts.
     ///
     /// # Errors
-    /// [`ExperimentError::NoSteadyState`] with the lowest speed of which that is not so.
-    pub fn steady(self) -> Result<Self, ExperimentError> {
+    /// [`SweepError::NoSteadyState`] with the lowest speed of which that is not so.
+    pub fn steady(self) -> Result<Self, SweepError> {
         let Some(point) = self.points().into_iter().find(|p| !p.is_steady) else { return Ok(self) };
         let repeats = match point.repeats_after {
             Some(1) => format!("the motion repeats, attraction: {}", point.attracts.name()),
@@ -129,7 +129,7 @@ impl Sweep {
             None => "the motion does not repeat".into(),
         };
         let found = format!("{repeats}, {} cycles after its start", point.cycles);
-        Err(ExperimentError::NoSteadyState { rpm: point.state.case.speed_rpm, found })
+        Err(SweepError::NoSteadyState { rpm: point.state.case.speed_rpm, found })
     }
 
     /// Adds the points of another sweep of the same model, such as one about the peaks of this one.
@@ -172,7 +172,7 @@ pub fn run(
     plan: &Plan,
     store: &dyn PointStore,
     done: &(dyn Fn(&Kept) + Sync),
-) -> Result<Sweep, ExperimentError> {
+) -> Result<Sweep, SweepError> {
     plan.steady.check(model.steps_per_cycle())?;
     type Chained = (Vec<SweepPoint>, Vec<FailedPoint>);
     let is_complete = |chain: &Chain| -> Result<bool, StoreError> {
@@ -222,7 +222,7 @@ pub fn run(
         }
         Ok((points, failed))
     });
-    let found: Vec<Chained> = chains.collect::<Result<_, ExperimentError>>()?;
+    let found: Vec<Chained> = chains.collect::<Result<_, SweepError>>()?;
     let (points, failed): (Vec<_>, Vec<_>) = found.into_iter().unzip();
     let chains = plan.chains.iter().map(|c| c.name.clone()).zip(points).collect();
     Ok(Sweep { fidelity: model.name(), chains, failed: failed.concat() })
@@ -236,7 +236,7 @@ fn of_model<'v>(
     model: &dyn SweepModel,
     settings: &SteadySettings,
     vibrations: &'v OnceLock<Option<Vibrations>>,
-) -> Result<Option<&'v Vibrations>, ExperimentError> {
+) -> Result<Option<&'v Vibrations>, SweepError> {
     if settings.keeps_steps {
         return Ok(None);
     }
@@ -257,7 +257,7 @@ fn resolved(
     speed_rpm: f64,
     from: (SearchStart, Option<&[f64]>),
     settings: &SteadySettings,
-) -> Result<Kept, ExperimentError> {
+) -> Result<Kept, SweepError> {
     let case = model.case().at_speed(speed_rpm);
     let (mesh_hz, steps) = (case.mesh_frequency_hz, model.steps_per_cycle());
     let in_steps = |settings: &SteadySettings| one(model, chain, (case, case), from, settings);
@@ -293,7 +293,7 @@ fn resolved(
             one(finer, chain, (case, faster), from, settings)
         }
         Resolved::Needs { steps, most } => {
-            let error = ExperimentError::TooFewSteps { steps, most };
+            let error = SweepError::TooFewSteps { steps, most };
             Ok(Kept::Failed(FailedPoint::new(&chain.name, case, error, Default::default())))
         }
     }
@@ -313,7 +313,7 @@ fn one(
     (asked, case): (LoadCase, LoadCase),
     (start, state): (SearchStart, Option<&[f64]>),
     settings: &SteadySettings,
-) -> Result<Kept, ExperimentError> {
+) -> Result<Kept, SweepError> {
     let computed_at_rpm = (case != asked).then_some(case.speed_rpm);
     // Once a set has been built and has a state to start from, larger tables may fail, but the set-up is sound.
     let has_started = Cell::new(false);
@@ -343,7 +343,7 @@ fn one(
         Ok(Kept::Found { point: Box::new(point), state: set.state() })
     };
     let found = large_enough(|size| {
-        attempt(size).inspect_err(|error: &ExperimentError| {
+        attempt(size).inspect_err(|error: &SweepError| {
             last.replace((size, error.to_string()));
         })
     });

@@ -5,11 +5,11 @@ use fe_contact::statics::Bodies;
 use lumped::{LAW_STEPS_A_STEP, SchemeSet};
 use scene::{Fidelity, LoadCase, Scene};
 
+use super::error::SweepError;
 use super::growing_law::{GrowingLaw, Range};
 use super::marching::{Effort, Marching};
 use super::set_shape::SetShape;
 use super::sweep_model::{SweepModel, check_sense, damped};
-use crate::error::ExperimentError;
 
 /// The lumped model with the mesh law that FE/contact gives under the torque of a load case, stepped by a scheme. Its
 /// steady states are marched.
@@ -31,7 +31,7 @@ impl<'s> SchemeModel<'s> {
         bodies: &'s Bodies,
         case: LoadCase,
         scheme: Scheme,
-    ) -> Result<Self, ExperimentError> {
+    ) -> Result<Self, SweepError> {
         let mut scene = scene.clone();
         scene.dynamics.fidelity = Fidelity::MeshLaw;
         let steps = LAW_STEPS_A_STEP * scene.dynamics.steps_per_cycle as usize;
@@ -66,7 +66,7 @@ impl SweepModel for SchemeModel<'_> {
         case: &LoadCase,
         damping_factor: f64,
         size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + '_>, SweepError> {
         check_sense(&self.case, case)?;
         let scene = damped(&self.scene, damping_factor);
         let ((law, range), torque) = (self.laws.of_size(size)?, case.sun_load_nm());
@@ -92,12 +92,12 @@ struct SchemeMarching {
 }
 
 impl Marching for SchemeMarching {
-    fn rest(&mut self) -> Result<(), ExperimentError> {
+    fn rest(&mut self) -> Result<(), SweepError> {
         self.steps = 0.0;
         Ok(self.set.set_continuous(&self.rest)?)
     }
 
-    fn step(&mut self) -> Result<(), ExperimentError> {
+    fn step(&mut self) -> Result<(), SweepError> {
         self.steps += 1.0;
         self.set.step()?;
         self.set.mesh_forces(&mut self.forces);
@@ -129,8 +129,8 @@ impl Marching for SchemeMarching {
         1
     }
 
-    fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError> {
-        let foreign = || ExperimentError::Incomplete("state that fits this model");
+    fn restore(&mut self, state: &[f64]) -> Result<(), SweepError> {
+        let foreign = || SweepError::Incomplete("state that fits this model");
         let (steps, continuous) = state.split_first().ok_or_else(foreign)?;
         self.steps = *steps;
         Ok(self.set.set_continuous(continuous)?)

@@ -12,6 +12,7 @@
 //! been seen to fall.
 
 use super::attraction::{Attraction, Decay};
+use super::error::SweepError;
 use super::march::{MOST_REPEATS, March};
 use super::marching::Marching;
 use super::record::Record;
@@ -19,7 +20,6 @@ use super::rest_samples::RestSamples;
 use super::set_shape::SetShape;
 use super::shooting::{Ahead, SMALL, Shot, multipliers_ahead, shot, shot_over};
 use super::steady::{CameFrom, Steady, SteadyMethod, SteadySettings, left_of_transient};
-use crate::error::ExperimentError;
 use crate::table_growth::Outgrown;
 
 /// Changes from cycle to cycle up to this leave no question of a transient: it would have to lose less than 1e-4
@@ -67,7 +67,7 @@ pub fn steady(
     first_planet_rad: f64,
     steps: usize,
     settings: &SteadySettings,
-) -> Result<Steady, ExperimentError> {
+) -> Result<Steady, SweepError> {
     let shape = shape.into();
     let has_derivative = set.derivative().is_some();
     if settings.method == SteadyMethod::Marching || !has_derivative {
@@ -121,7 +121,7 @@ pub fn steady(
 }
 
 /// Moves the coordinates of a set along a direction whose size is the peak-to-peak vibration.
-fn push(set: &mut dyn Marching, direction: &[f64], size: f64) -> Result<(), ExperimentError> {
+fn push(set: &mut dyn Marching, direction: &[f64], size: f64) -> Result<(), SweepError> {
     let Some(own) = set.derivative() else { return Ok(()) };
     let y = own.coordinates();
     let pushed: Vec<f64> = y.iter().zip(direction).map(|(y, d)| y + size * d).collect();
@@ -142,7 +142,7 @@ impl Search<'_> {
         &mut self,
         unstable: Option<(Vec<f64>, Vec<f64>)>,
         most: usize,
-    ) -> Result<Option<Steady>, ExperimentError> {
+    ) -> Result<Option<Steady>, SweepError> {
         let pushed = unstable.iter().flat_map(|own| [(own, PUSH), (own, -PUSH)]);
         for start in std::iter::once(None).chain(pushed.map(Some)) {
             let came_from = match start {
@@ -168,7 +168,7 @@ impl Search<'_> {
 
     /// Marches on, and shoots where cycles come near to repeating; `None` if no motion that attracts was found
     /// within `most` cycles.
-    fn attractor_ahead(&mut self, most: usize) -> Result<Option<Steady>, ExperimentError> {
+    fn attractor_ahead(&mut self, most: usize) -> Result<Option<Steady>, SweepError> {
         self.march.begin_anew();
         let begin = self.march.cycles;
         let until = begin + most;
@@ -215,7 +215,7 @@ impl Search<'_> {
     }
 
     /// The motion near the present state that repeats after so many cycles, if shooting finds one.
-    fn shot_near(&mut self, count: usize) -> Result<Option<Shot>, ExperimentError> {
+    fn shot_near(&mut self, count: usize) -> Result<Option<Shot>, SweepError> {
         let March { shape, first_planet_rad, steps, .. } = self.march;
         let set = &mut *self.march.set;
         let settings = SteadySettings { most_cycles: MOST_PERIODS, ..self.settings.clone() };
@@ -231,7 +231,7 @@ impl Search<'_> {
     }
 
     /// Marches until cycles repeat within the tolerance and the motion was shown to attract, or as long as allowed.
-    fn until_it_repeats(mut self) -> Result<Steady, ExperimentError> {
+    fn until_it_repeats(mut self) -> Result<Steady, SweepError> {
         let SteadySettings { tolerance, most_cycles, .. } = *self.settings;
         let most = most_cycles.max(2);
         let has_derivative = self.march.set.derivative().is_some();
@@ -288,7 +288,7 @@ impl Search<'_> {
         (whole, count, residual): (Record, usize, f64),
         attraction: Attraction,
         ahead: Option<Ahead>,
-    ) -> Result<Steady, ExperimentError> {
+    ) -> Result<Steady, SweepError> {
         let (record, watched) = match count {
             1 => (whole, None),
             _ => (whole.mean_cycle(count), Some(whole)),
@@ -321,7 +321,7 @@ impl Search<'_> {
     }
 
     /// The motion after as many cycles as allowed, which does not repeat or was not shown to attract.
-    fn without_repeat(&mut self) -> Result<Steady, ExperimentError> {
+    fn without_repeat(&mut self) -> Result<Steady, SweepError> {
         self.march.begin_anew();
         let marched = self.march.cycles;
         for _ in 0..=MOST_REPEATS {
@@ -350,7 +350,7 @@ impl Search<'_> {
     }
 
     /// Energy between harmonics over further cycles, if requested.
-    fn between(&mut self) -> Result<Option<f64>, ExperimentError> {
+    fn between(&mut self) -> Result<Option<f64>, SweepError> {
         let count = self.settings.between_cycles;
         if count == 0 {
             return Ok(None);
@@ -365,7 +365,7 @@ impl Search<'_> {
     fn sampled_rest(
         &mut self,
         record: &Record,
-    ) -> Result<Option<fe_contact::statics::KinematicRest>, ExperimentError> {
+    ) -> Result<Option<fe_contact::statics::KinematicRest>, SweepError> {
         let March { set, steps, .. } = &mut self.march;
         if set.loaded_step().is_none() {
             return Ok(None);

@@ -3,10 +3,10 @@
 use dynamics::{MapDerivative, PeriodMap};
 use fe_contact::vibration::Along;
 
+use super::error::SweepError;
 use super::marching::Marching;
 use super::record::Record;
 use super::shooting::{LOST, RecordedCycles};
-use crate::error::ExperimentError;
 
 /// A period of several mesh cycles, all of them recorded. Its derivative is DΦᵖ = DΦ(y_{p−1}) … DΦ(y₀).
 pub(super) struct SeveralCycles<'m> {
@@ -28,17 +28,17 @@ impl<'m> SeveralCycles<'m> {
 }
 
 impl PeriodMap for SeveralCycles<'_> {
-    type Error = ExperimentError;
+    type Error = SweepError;
 
     fn coordinates(&mut self) -> Vec<f64> {
         self.cycle.coordinates()
     }
 
-    fn set_coordinates(&mut self, y: &[f64]) -> Result<(), ExperimentError> {
+    fn set_coordinates(&mut self, y: &[f64]) -> Result<(), SweepError> {
         self.cycle.set_coordinates(y)
     }
 
-    fn advance(&mut self) -> Result<(), ExperimentError> {
+    fn advance(&mut self) -> Result<(), SweepError> {
         self.derivative = None;
         for number in 0..self.count {
             self.cycle.advance()?;
@@ -57,7 +57,7 @@ impl PeriodMap for SeveralCycles<'_> {
         Ok(())
     }
 
-    fn derivative(&mut self) -> Result<MapDerivative, ExperimentError> {
+    fn derivative(&mut self) -> Result<MapDerivative, SweepError> {
         self.derivative.clone().ok_or(LOST)
     }
 
@@ -69,7 +69,7 @@ impl PeriodMap for SeveralCycles<'_> {
     fn derivative_and_change(
         &mut self,
         residual: &[f64],
-    ) -> Result<(MapDerivative, f64), ExperimentError> {
+    ) -> Result<(MapDerivative, f64), SweepError> {
         let derivative = self.derivative()?;
         let mut next = vec![0.0; residual.len()];
         for (column, active) in derivative.columns.column_iter().zip(&derivative.active) {

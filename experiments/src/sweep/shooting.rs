@@ -11,13 +11,13 @@ use gearset::Symmetry;
 
 use super::attraction::Attraction;
 use super::critical_motion::CriticalMotion;
+use super::error::SweepError;
 use super::marching::Marching;
 use super::record::{Record, radial};
 use super::rest_samples::RestSamples;
 use super::set_shape::SetShape;
 use super::several_cycles::SeveralCycles;
 use super::steady::SteadySettings;
-use crate::error::ExperimentError;
 
 /// Cycles after which shooting is given up and the motion marched: what it needs otherwise is about ten.
 const MOST_CYCLES: usize = 80;
@@ -38,14 +38,14 @@ pub trait CycleDerivative {
     ///
     /// # Errors
     /// If they are too few or too many, or not finite.
-    fn set_coordinates(&mut self, y: &[f64]) -> Result<(), ExperimentError>;
+    fn set_coordinates(&mut self, y: &[f64]) -> Result<(), SweepError>;
 
     /// The symmetry by which the set is itself after a part of a cycle, if it has one: every cycle may then end after
     /// such a part.
     ///
     /// # Errors
     /// If the set cannot be examined.
-    fn symmetry(&mut self) -> Result<Option<Symmetry>, ExperimentError> {
+    fn symmetry(&mut self) -> Result<Option<Symmetry>, SweepError> {
         Ok(None)
     }
 
@@ -59,23 +59,20 @@ pub trait CycleDerivative {
     ///
     /// # Errors
     /// If the bodies have no derivative.
-    fn end(&mut self) -> Result<(), ExperimentError>;
+    fn end(&mut self) -> Result<(), SweepError>;
 
     /// The derivative of the cycle that ended last.
     ///
     /// # Errors
     /// If the bodies have no derivative.
-    fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError>;
+    fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, SweepError>;
 
     /// The same along [`Along::Motion`], with a change of the coordinates at the start of that cycle carried along: it
     /// is heard of the leading coordinates, those that [`Marching::displacements_of`] needs.
     ///
     /// # Errors
     /// If the bodies have no derivative, or the change is one of other coordinates.
-    fn of_cycle_with(
-        &mut self,
-        change: CarriedChange<'_>,
-    ) -> Result<MapDerivative, ExperimentError>;
+    fn of_cycle_with(&mut self, change: CarriedChange<'_>) -> Result<MapDerivative, SweepError>;
 }
 
 /// Whole cycles of a set, or parts after which it is itself, the last one recorded.
@@ -109,7 +106,7 @@ impl<'m> RecordedCycles<'m> {
     ///
     /// # Errors
     /// If the bodies have no derivative.
-    pub(crate) fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError> {
+    pub(crate) fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, SweepError> {
         self.set.derivative().ok_or(LOST)?.of_cycle(along)
     }
 
@@ -125,20 +122,20 @@ impl<'m> RecordedCycles<'m> {
 }
 
 /// A model that has lost its derivative.
-pub(super) const LOST: ExperimentError = ExperimentError::Incomplete("derivative of the cycles");
+pub(super) const LOST: SweepError = SweepError::Incomplete("derivative of the cycles");
 
 impl PeriodMap for RecordedCycles<'_> {
-    type Error = ExperimentError;
+    type Error = SweepError;
 
     fn coordinates(&mut self) -> Vec<f64> {
         self.set.derivative().map(|own| own.coordinates()).unwrap_or_default()
     }
 
-    fn set_coordinates(&mut self, y: &[f64]) -> Result<(), ExperimentError> {
+    fn set_coordinates(&mut self, y: &[f64]) -> Result<(), SweepError> {
         self.set.derivative().ok_or(LOST)?.set_coordinates(y)
     }
 
-    fn advance(&mut self) -> Result<(), ExperimentError> {
+    fn advance(&mut self) -> Result<(), SweepError> {
         self.set.derivative().ok_or(LOST)?.start();
         if let Some(rest) = &mut self.rest {
             rest.clear();
@@ -156,11 +153,11 @@ impl PeriodMap for RecordedCycles<'_> {
         self.set.derivative().ok_or(LOST)?.end()
     }
 
-    fn derivative(&mut self) -> Result<MapDerivative, ExperimentError> {
+    fn derivative(&mut self) -> Result<MapDerivative, SweepError> {
         self.of_cycle(Along::Motion)
     }
 
-    fn rough_derivative(&mut self) -> Result<MapDerivative, ExperimentError> {
+    fn rough_derivative(&mut self) -> Result<MapDerivative, SweepError> {
         self.of_cycle(Along::MotionRoughly)
     }
 
@@ -173,7 +170,7 @@ impl PeriodMap for RecordedCycles<'_> {
     fn derivative_and_change(
         &mut self,
         residual: &[f64],
-    ) -> Result<(MapDerivative, f64), ExperimentError> {
+    ) -> Result<(MapDerivative, f64), SweepError> {
         let mut leading: Vec<Vec<f64>> = Vec::with_capacity(self.steps);
         let hear = &mut |x: &[f64]| leading.push(x.to_vec());
         let change = CarriedChange { start: residual, hear };
@@ -235,7 +232,7 @@ pub(crate) struct Shot {
 }
 
 /// Why there is no periodic solution near a state, where nothing else is wrong.
-pub(crate) type NotFound = ShootingError<ExperimentError>;
+pub(crate) type NotFound = ShootingError<SweepError>;
 
 /// Shoots from the present state; the inner error is the reason why there is no periodic solution near it.
 ///
@@ -247,7 +244,7 @@ pub(crate) fn shot(
     first_planet_rad: f64,
     steps: usize,
     settings: &SteadySettings,
-) -> Result<Result<Shot, NotFound>, ExperimentError> {
+) -> Result<Result<Shot, NotFound>, SweepError> {
     let symmetry = match set.derivative() {
         Some(own) if !settings.whole_cycles => own.symmetry()?,
         _ => None,
@@ -309,7 +306,7 @@ pub(super) fn shot_over(
     first_planet_rad: f64,
     steps: usize,
     (settings, count): (&SteadySettings, usize),
-) -> Result<Result<Shot, NotFound>, ExperimentError> {
+) -> Result<Result<Shot, NotFound>, SweepError> {
     let cycle = RecordedCycles::new(set, shape, first_planet_rad, steps);
     let mut cycles = SeveralCycles::new(cycle, count);
     let start = cycles.coordinates();
@@ -364,7 +361,7 @@ fn growing<M: PeriodMap>(
     cycles: &M,
     derivative: &MapDerivative,
     multipliers: &[Multiplier],
-) -> Result<Option<Vec<f64>>, ExperimentError> {
+) -> Result<Option<Vec<f64>>, SweepError> {
     let largest = multipliers.first().filter(|_| Attraction::by(multipliers) == Attraction::Repels);
     let Some(largest) = largest else { return Ok(None) };
     let [vector, _] = floquet_vector(derivative, *largest)?;
@@ -390,7 +387,7 @@ pub(super) fn multipliers_ahead(
     shape: SetShape,
     first_planet_rad: f64,
     (steps, count): (usize, usize),
-) -> Result<Option<Ahead>, ExperimentError> {
+) -> Result<Option<Ahead>, SweepError> {
     if set.derivative().is_none() {
         return Ok(None);
     }

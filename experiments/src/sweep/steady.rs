@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use super::attraction::Attraction;
 use super::critical_motion::CriticalMotion;
+use super::error::SweepError;
 use super::record::Record;
-use crate::error::ExperimentError;
 
 /// How a steady state is found.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -136,7 +136,7 @@ impl Steady {
         multipliers: Vec<Multiplier>,
         critical: Option<CriticalMotion>,
         residual: f64,
-    ) -> Result<Self, ExperimentError> {
+    ) -> Result<Self, SweepError> {
         let (record, between, watched) = match cycles {
             1 => (whole, None, None),
             _ => (whole.mean_cycle(cycles), Some(whole.between_harmonics(cycles)?), Some(whole)),

@@ -6,11 +6,11 @@ use fe_contact::statics::{Bodies, Imperfections};
 use fe_contact::vibration::{Loading, NominalRotation, Prepared, VibratingSet};
 use scene::{Fidelity, LoadCase, Scene};
 
+use super::error::SweepError;
 use super::marching::{FeMarching, Marching};
 use super::set_shape::SetShape;
 use super::shifted_vibrations::ShiftedVibrations;
 use super::varied_key::VariedKey;
-use crate::error::ExperimentError;
 use crate::table_growth::SIZES;
 
 /// A model of one gear set under one torque.
@@ -40,7 +40,7 @@ pub trait SweepModel: Sync {
     ///
     /// # Errors
     /// If a set cannot be built.
-    fn prepare(&self) -> Result<(), ExperimentError> {
+    fn prepare(&self) -> Result<(), SweepError> {
         Ok(())
     }
 
@@ -49,10 +49,7 @@ pub trait SweepModel: Sync {
     ///
     /// # Errors
     /// If its tables cannot be made.
-    fn with_times_the_steps(
-        &self,
-        times: usize,
-    ) -> Result<Option<&dyn SweepModel>, ExperimentError> {
+    fn with_times_the_steps(&self, times: usize) -> Result<Option<&dyn SweepModel>, SweepError> {
         let _ = times;
         Ok(None)
     }
@@ -66,11 +63,7 @@ pub trait SweepModel: Sync {
     ///
     /// # Errors
     /// If the set cannot be built, or the torque presses the other flanks than the model's own.
-    fn turning(
-        &self,
-        case: &LoadCase,
-        size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    fn turning(&self, case: &LoadCase, size: usize) -> Result<Box<dyn Marching + '_>, SweepError> {
         self.turning_damped(case, 1.0, size)
     }
 
@@ -85,7 +78,7 @@ pub trait SweepModel: Sync {
         case: &LoadCase,
         damping_factor: f64,
         size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + '_>, SweepError> {
         self.turning_damped(case, damping_factor, size)
     }
 
@@ -104,7 +97,7 @@ pub trait SweepModel: Sync {
         case: &LoadCase,
         damping_factor: f64,
         size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError>;
+    ) -> Result<Box<dyn Marching + '_>, SweepError>;
 
     /// The set at the speed and under the torque of the model's own case, of a scene with another value of a key; only
     /// of a model that is made for this key ([`KeyedModel`](super::KeyedModel)).
@@ -116,9 +109,9 @@ pub trait SweepModel: Sync {
         key: VariedKey,
         value: f64,
         size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + '_>, SweepError> {
         let _ = (key, value, size);
-        Err(ExperimentError::Incomplete("varied key: the model is of one scene"))
+        Err(SweepError::Incomplete("varied key: the model is of one scene"))
     }
 }
 
@@ -130,12 +123,12 @@ pub(super) fn without_gyroscopic(scene: &Scene) -> Scene {
 }
 
 /// Refuses a torque that presses other flanks than those a model was made for.
-pub(super) fn check_sense(own: &LoadCase, other: &LoadCase) -> Result<(), ExperimentError> {
+pub(super) fn check_sense(own: &LoadCase, other: &LoadCase) -> Result<(), SweepError> {
     if own.sense() == other.sense() && own.direction() == other.direction() {
         return Ok(());
     }
     let (torque_nm, own_nm) = (other.sun_torque_nm, own.sun_torque_nm);
-    Err(ExperimentError::OtherFlanks { torque_nm, own_nm })
+    Err(SweepError::OtherFlanks { torque_nm, own_nm })
 }
 
 /// A scene with every damping multiplied by a factor.
@@ -206,7 +199,7 @@ impl<'s> FeModel<'s> {
     ///
     /// # Errors
     /// If tables cannot be laid out.
-    pub(crate) fn with_steps(&self, scene: &Scene) -> Result<Self, ExperimentError> {
+    pub(crate) fn with_steps(&self, scene: &Scene) -> Result<Self, SweepError> {
         let own = Self::new(scene, self.bodies, self.imperfections.clone(), self.case)
             .with_tables(self.table_size);
         let made = self.shared(0)?.with_steps(scene, own.force(self.table_size)?)?;
@@ -215,7 +208,7 @@ impl<'s> FeModel<'s> {
     }
 
     /// What sets share whose tables were found too small `size` times.
-    fn shared(&self, size: usize) -> Result<&Prepared<'s>, ExperimentError> {
+    fn shared(&self, size: usize) -> Result<&Prepared<'s>, SweepError> {
         let slot = &self.prepared[size.min(SIZES - 1)];
         if let Some(prepared) = slot.get() {
             return Ok(prepared);
@@ -236,7 +229,7 @@ impl<'s> FeModel<'s> {
         scene: &Scene,
         case: &LoadCase,
         size: usize,
-    ) -> Result<Box<dyn Marching + 's>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + 's>, SweepError> {
         check_sense(&self.case, case)?;
         let (steps_per_cycle, mesh_frequency) = (self.steps_per_cycle(), case.mesh_frequency_hz);
         let direction = self.case.direction();
@@ -248,9 +241,9 @@ impl<'s> FeModel<'s> {
     }
 
     /// Mesh force that tables of a size are made for, N.
-    fn force(&self, size: usize) -> Result<f64, ExperimentError> {
+    fn force(&self, size: usize) -> Result<f64, SweepError> {
         let sun = self.bodies.geometry.sun.as_ref();
-        let radius = sun.ok_or(ExperimentError::Incomplete("sun"))?.base_radius;
+        let radius = sun.ok_or(SweepError::Incomplete("sun"))?.base_radius;
         let share = self.case.sun_load_nm() / radius / self.planets() as f64;
         Ok(HEADROOM * share.max(1.0) * f64::powi(2.0, size as i32))
     }
@@ -277,14 +270,11 @@ impl SweepModel for FeModel<'_> {
         self.scene.dynamics.steps_per_cycle as usize
     }
 
-    fn prepare(&self) -> Result<(), ExperimentError> {
+    fn prepare(&self) -> Result<(), SweepError> {
         self.shared(0).map(|_| ())
     }
 
-    fn with_times_the_steps(
-        &self,
-        times: usize,
-    ) -> Result<Option<&dyn SweepModel>, ExperimentError> {
+    fn with_times_the_steps(&self, times: usize) -> Result<Option<&dyn SweepModel>, SweepError> {
         let Some(slot) = times.checked_sub(2).and_then(|k| self.finer.get(k)) else {
             return Ok(None);
         };
@@ -302,7 +292,7 @@ impl SweepModel for FeModel<'_> {
         case: &LoadCase,
         damping_factor: f64,
         size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + '_>, SweepError> {
         self.set_of(&damped(&without_gyroscopic(&self.scene), damping_factor), case, size)
     }
 
@@ -316,7 +306,7 @@ impl SweepModel for FeModel<'_> {
         case: &LoadCase,
         damping_factor: f64,
         size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + '_>, SweepError> {
         self.set_of(&damped(&self.scene, damping_factor), case, size)
     }
 }

@@ -6,8 +6,8 @@ use fe_contact::statics::{Bodies, Imperfections, StaticSet};
 use gearset::Facing;
 use scene::{LoadCase, Scene};
 
+use super::error::TorqueError;
 use super::series::Series;
-use crate::error::ExperimentError;
 use crate::model::SteadyStateModel;
 use crate::sweep::{Part, Response, SteadySettings, SteadyState};
 
@@ -60,7 +60,7 @@ fn about(centre: f64, (span, count): (f64, usize)) -> impl Iterator<Item = f64> 
 /// about the peaks of the parts in `closer`.
 ///
 /// # Errors
-/// [`ExperimentError::Model`] if the model fails.
+/// [`TorqueError::Model`] if the model fails.
 pub fn follow(
     model: &dyn SteadyStateModel,
     scene: &Scene,
@@ -68,7 +68,7 @@ pub fn follow(
     series: &[Series],
     closer: &[Part],
     tolerance: f64,
-) -> Result<Vec<Followed>, ExperimentError> {
+) -> Result<Vec<Followed>, TorqueError> {
     let case = LoadCase::of_scene(scene)?;
     let harmonics = SteadySettings::default().harmonics;
     let start = |s: &Series| s.frequency_hz / s.harmonic as f64 / case.mesh_frequency_per_rpm_hz();
@@ -108,7 +108,7 @@ pub fn follow(
         };
         let all = model
             .explore(scene, &case, (harmonics, tolerance), &mut next)
-            .map_err(ExperimentError::Model)?;
+            .map_err(TorqueError::Model)?;
         for own in &mut followed {
             let states = within(&own.series, &all);
             let states: Vec<&SteadyState> = states.iter().collect();
@@ -131,13 +131,13 @@ pub fn static_growth(
     scene: &Scene,
     bodies: &Bodies,
     torques_nm: &[f64],
-) -> Result<Vec<[[f64; 6]; 2]>, ExperimentError> {
+) -> Result<Vec<[[f64; 6]; 2]>, TorqueError> {
     let (sense, none) = (Facing::CounterClockwise, Imperfections::default());
     let set = StaticSet::new(scene, bodies, sense, none)?;
     let mut list = Vec::new();
     for torque in torques_nm {
         let cycle = set.cycle(*torque, 140, &ActiveSet)?;
-        let of = |axis: usize| -> Result<[f64; 6], ExperimentError> {
+        let of = |axis: usize| -> Result<[f64; 6], TorqueError> {
             let record: Vec<f64> = cycle.states.iter().map(|s| s.central[2][axis]).collect();
             let lines = spectrum(&record, 1.0, Window::Rectangular, 1)?.lines;
             Ok(std::array::from_fn(|l| lines[l].re.hypot(lines[l].im)))

@@ -1,7 +1,9 @@
 //! Torque: resonant peaks followed from torque to torque.
 
+mod error;
 mod follow;
 mod series;
 
+pub use error::TorqueError;
 pub use follow::{Followed, follow, static_growth};
 pub use series::{Series, lowest_series};

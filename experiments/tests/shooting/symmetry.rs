@@ -1,10 +1,9 @@
 //! Parts of a cycle after which a symmetric set is itself, against the whole cycle.
 
 use dynamics::{CarriedChange, MapDerivative, Multiplier};
-use experiments::ExperimentError;
 use experiments::sweep::{
-    CycleDerivative, Effort, Marching, MeshLawModel, SteadyMethod, SteadySettings, SweepModel,
-    steady,
+    CycleDerivative, Effort, Marching, MeshLawModel, SteadyMethod, SteadySettings, SweepError,
+    SweepModel, steady,
 };
 use fe_contact::statics::Bodies;
 use fe_contact::vibration::{Along, LoadedStep};
@@ -22,11 +21,11 @@ struct Told<'m> {
 }
 
 impl Marching for Told<'_> {
-    fn rest(&mut self) -> Result<(), ExperimentError> {
+    fn rest(&mut self) -> Result<(), SweepError> {
         self.set.rest()
     }
 
-    fn step(&mut self) -> Result<(), ExperimentError> {
+    fn step(&mut self) -> Result<(), SweepError> {
         self.set.step()
     }
 
@@ -58,7 +57,7 @@ impl Marching for Told<'_> {
         self.set.counters()
     }
 
-    fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError> {
+    fn restore(&mut self, state: &[f64]) -> Result<(), SweepError> {
         self.set.restore(state)
     }
 
@@ -76,11 +75,11 @@ impl CycleDerivative for Told<'_> {
         self.set.derivative().unwrap().coordinates()
     }
 
-    fn set_coordinates(&mut self, y: &[f64]) -> Result<(), ExperimentError> {
+    fn set_coordinates(&mut self, y: &[f64]) -> Result<(), SweepError> {
         self.set.derivative().unwrap().set_coordinates(y)
     }
 
-    fn symmetry(&mut self) -> Result<Option<Symmetry>, ExperimentError> {
+    fn symmetry(&mut self) -> Result<Option<Symmetry>, SweepError> {
         if !self.forgets_renumbering {
             return Ok(None);
         }
@@ -96,18 +95,15 @@ impl CycleDerivative for Told<'_> {
         self.set.derivative().unwrap().keep_step();
     }
 
-    fn end(&mut self) -> Result<(), ExperimentError> {
+    fn end(&mut self) -> Result<(), SweepError> {
         self.set.derivative().unwrap().end()
     }
 
-    fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, ExperimentError> {
+    fn of_cycle(&mut self, along: Along) -> Result<MapDerivative, SweepError> {
         self.set.derivative().unwrap().of_cycle(along)
     }
 
-    fn of_cycle_with(
-        &mut self,
-        change: CarriedChange<'_>,
-    ) -> Result<MapDerivative, ExperimentError> {
+    fn of_cycle_with(&mut self, change: CarriedChange<'_>) -> Result<MapDerivative, SweepError> {
         self.set.derivative().unwrap().of_cycle_with(change)
     }
 }

@@ -3,7 +3,6 @@
 use nalgebra::DVector;
 
 use super::equilibrium::Equilibrium;
-use super::races::SUN;
 use super::reference::ReferenceConfiguration;
 use super::set::StaticSet;
 use super::state::{MeshState, SetCycle, SetState};
@@ -72,7 +71,7 @@ impl<'s> StaticSet<'s> {
 
     /// Force of each mesh if all planets carry the same load, N.
     pub fn share(&self, torque_nm: f64) -> f64 {
-        torque_nm / self.races.base_radii[SUN] / self.races.planets() as f64
+        torque_nm / self.races.base_radii[2] / self.races.planets() as f64
     }
 
     fn even_forces(&self, torque_nm: f64) -> Vec<f64> {
@@ -144,7 +143,7 @@ impl<'s> StaticSet<'s> {
         let found = self.clone().under(torque_nm)?.cycle_here(torque_nm, positions, solver)?;
         // A single position has no peak-to-peak motion to compare with.
         if positions > 1 {
-            found.kinematic_rest(self.races.radii[SUN]).check()?;
+            found.kinematic_rest(self.races.radii[2]).check()?;
         }
         Ok(found)
     }
@@ -268,7 +267,7 @@ impl<'s> StaticSet<'s> {
         SetState {
             position: *position,
             central,
-            loaded_rotation: share * central[loaded][2],
+            loaded_rotation: share * central[loaded.index()][2],
             planets,
             backside: states.split_off(self.nominal.len()),
             meshes: states,

@@ -34,8 +34,8 @@ pub use pair::{
     PairAtPhase, PairCycle, PressureProfile, ToothPairLoad, at_phase, pair_cycle, press,
 };
 pub(crate) use placed::PlacedMesh;
+pub use races::Races;
 pub(crate) use races::planet_bearing;
-pub use races::{CARRIER, PLANETS, RING, Races, SUN};
 pub use reference::ReferenceConfiguration;
 pub use rest::KinematicRest;
 pub(crate) use rest::larger;
@@ -43,4 +43,4 @@ pub use set::StaticSet;
 pub(crate) use slopes::{NeighbourTables, Slopes};
 pub use state::{CycleRange, MeshState, SetCycle, SetState, ThroughTorques};
 pub use tables::SetTables;
-pub(crate) use teeth::{PairEnd, body_numbers, flexibility, pair_ends};
+pub(crate) use teeth::{PairEnd, flexibility, mesh_bodies, pair_ends};

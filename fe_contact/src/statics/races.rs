@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use gearset::{Displacements, Member, MeshKind};
+use gearset::{Axis, Body, Displacements, Member, MeshKind};
 use scene::{Freedom, GivenInertia, Scene, Support, Torsional};
 
 use super::bodies::Bodies;
@@ -42,17 +42,8 @@ pub struct Races {
     supports: Vec<Support>,
     /// External torques under a unit torque on the sun, by body: on the member that turns without support, and on
     /// a planet of a pair that turns freely the one that balances it. The first body is the loaded one.
-    torques: Vec<(usize, f64)>,
+    torques: Vec<(Body, f64)>,
 }
-
-/// Number of the carrier in the order of the bodies.
-pub const CARRIER: usize = 0;
-/// Number of the ring.
-pub const RING: usize = 1;
-/// Number of the sun.
-pub const SUN: usize = 2;
-/// Number of planet 0; the other planets follow.
-pub const PLANETS: usize = 3;
 
 impl Races {
     /// Races of a set with its bearings.
@@ -84,12 +75,13 @@ impl Races {
         supports.extend(pair.map(|pair| pair.planet));
         let mut next = 0;
         let mut index: Vec<Option<usize>> = Vec::with_capacity(3 * (3 + n));
-        for body in 0..3 + n {
-            for axis in 0..3 {
-                let motion = supports.get(body).map_or(Freedom::Free, |s| s.motion);
-                let free = if axis < 2 { motion.translates() } else { motion.rotates() };
-                if scene.is_free_pair() && body == PLANETS && axis == 2 {
-                    index.push(index[3 * SUN + 2]);
+        for body in Body::all(n) {
+            for axis in Axis::ALL {
+                let motion = supports.get(body.index()).map_or(Freedom::Free, |s| s.motion);
+                let turns = axis == Axis::Rotation;
+                let free = if turns { motion.rotates() } else { motion.translates() };
+                if scene.is_free_pair() && body == Body::Planet(0) && turns {
+                    index.push(index[3 * Body::Sun.index() + 2]);
                     continue;
                 }
                 index.push(free.then(|| {
@@ -99,26 +91,27 @@ impl Races {
             }
         }
         let base_radii = radii;
-        let mut radii = radii;
+        let [carrier, ring, mut r_sun, mut r_planet] = radii;
         if let (true, Some(pair), Some(sun)) = (scene.is_free_pair(), pair, &bodies.sun) {
             let over_r2 = |given: GivenInertia, inertia: f64, radius: f64| {
                 given.inertia_kg_m2.unwrap_or(inertia) / (radius * radius)
             };
-            let m_s = over_r2(pair.sun_inertia, sun.inertia, radii[SUN]);
-            let m_p = over_r2(pair.planet_inertia, bodies.planet.inertia, radii[PLANETS]);
-            radii[SUN] *= (m_s + m_p) / m_p;
-            radii[PLANETS] *= (m_s + m_p) / m_s;
+            let m_s = over_r2(pair.sun_inertia, sun.inertia, r_sun);
+            let m_p = over_r2(pair.planet_inertia, bodies.planet.inertia, r_planet);
+            r_sun *= (m_s + m_p) / m_p;
+            r_planet *= (m_s + m_p) / m_s;
         }
+        let radii = [carrier, ring, r_sun, r_planet];
         // T_s : T_r : T_c = r_s : r_r : −(r_s + r_r) of base radii, which are as the numbers of teeth.
         let [_, ring, sun, planet] = base_radii;
         let mut torques = vec![match scene.loaded_member() {
-            Ok(Member::Ring) => (RING, ring / sun),
-            Ok(Member::Carrier) => (CARRIER, -(sun + ring) / sun),
+            Ok(Member::Ring) => (Body::Ring, ring / sun),
+            Ok(Member::Carrier) => (Body::Carrier, -(sun + ring) / sun),
             // Supports under which a torque has no path are refused before, or by the equilibrium.
-            Ok(Member::Sun) | Err(_) => (SUN, 1.0),
+            Ok(Member::Sun) | Err(_) => (Body::Sun, 1.0),
         }];
         if pair.is_some_and(|pair| pair.planet.turns_freely()) {
-            torques.push((PLANETS, planet / sun));
+            torques.push((Body::Planet(0), planet / sun));
         }
         let seated = if pair.is_some() { 0 } else { n };
         let shape = scene.geometry.as_ref().and_then(|g| g.carrier);
@@ -140,8 +133,8 @@ impl Races {
             count: next,
             seats: [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)],
         };
-        for body in 0..races.supports.len() {
-            for axis in 0..3 {
+        for body in Body::all(n).take(races.supports.len()) {
+            for axis in Axis::ALL {
                 if let Some(i) = races.of(body, axis) {
                     races.stiffness[(i, i)] += races.support(body, axis);
                 }
@@ -152,32 +145,46 @@ impl Races {
     }
 
     /// Index of a coordinate, `None` if it is held.
-    pub fn of(&self, body: usize, axis: usize) -> Option<usize> {
-        self.index[3 * body + axis]
+    pub fn of(&self, body: Body, axis: Axis) -> Option<usize> {
+        self.index[3 * body.index() + axis as usize]
+    }
+
+    /// Indices of a body's three coordinates, `None` where it is held.
+    pub fn places(&self, body: Body) -> [Option<usize>; 3] {
+        Axis::ALL.map(|axis| self.of(body, axis))
+    }
+
+    /// Adds `own` on a body's three coordinates to a list over all coordinates; what is on held ones is left out.
+    pub(crate) fn add(&self, body: Body, own: [f64; 3], sum: &mut [f64]) {
+        for (place, value) in self.places(body).into_iter().zip(own) {
+            if let Some(i) = place {
+                sum[i] += value;
+            }
+        }
     }
 
     /// Inertias of carrier, ring, sun and planets along their displacements (x, y or ζ, η: kg; θ: kg m²; 0 where held),
     /// from the masses of the coordinates (n, kg).
     pub fn inertias(&self, mass: &[f64]) -> Vec<[f64; 3]> {
-        let of = |body: usize, axis: usize| {
-            let own = self.of(body, axis).map_or(0.0, |i| mass[i]);
+        let of = |body: Body| {
+            let [first, second, u] = self.places(body).map(|i| i.map_or(0.0, |i| mass[i]));
             // A coordinate of rotation is u = r θ.
-            if axis == 2 { own * self.radii[body.min(PLANETS)].powi(2) } else { own }
+            [first, second, u * self.radii[body.kind()].powi(2)]
         };
-        (0..PLANETS + self.planets()).map(|body| [0, 1, 2].map(|axis| of(body, axis))).collect()
+        Body::all(self.planets()).map(of).collect()
     }
 
     /// Displacements of one body's race from those of all, x (n, m); 0 for held coordinates.
-    pub(crate) fn displaced(&self, x: &DVector<f64>, body: usize) -> [f64; 3] {
-        [0, 1, 2].map(|axis| self.of(body, axis).map_or(0.0, |i| x[i]))
+    pub(crate) fn displaced(&self, x: &DVector<f64>, body: Body) -> [f64; 3] {
+        self.places(body).map(|i| i.map_or(0.0, |i| x[i]))
     }
 
     /// Stiffness of a body's own support to ground on one of its coordinates, N/m; 0 for a planet on a carrier.
-    pub(crate) fn support(&self, body: usize, axis: usize) -> f64 {
-        let Some(support) = self.supports.get(body) else { return 0.0 };
+    pub(crate) fn support(&self, body: Body, axis: Axis) -> f64 {
+        let Some(support) = self.supports.get(body.index()) else { return 0.0 };
         match axis {
-            0 | 1 => support.bearing,
-            _ => torsional(support, self.radii[body]),
+            Axis::First | Axis::Second => support.bearing,
+            Axis::Rotation => torsional(support, self.radii[body.kind()]),
         }
     }
 
@@ -186,32 +193,26 @@ impl Races {
     pub(crate) fn load(&self, torque_nm: f64) -> DVector<f64> {
         let mut f = DVector::zeros(self.count);
         for (body, share) in &self.torques {
-            if let Some(i) = self.of(*body, 2) {
-                f[i] += share * torque_nm / self.radii[*body];
+            if let Some(i) = self.of(*body, Axis::Rotation) {
+                f[i] += share * torque_nm / self.radii[body.kind()];
             }
         }
         f
     }
 
     /// The body that the torque acts on, and its torque under a unit torque on the sun.
-    pub fn loaded(&self) -> (usize, f64) {
-        self.torques.first().copied().unwrap_or((SUN, 1.0))
+    pub fn loaded(&self) -> (Body, f64) {
+        self.torques.first().copied().unwrap_or((Body::Sun, 1.0))
     }
 
-    /// Body and quantity of a coordinate.
-    pub(crate) fn name_of(&self, coordinate: usize) -> (String, &'static str) {
-        let place = self.index.iter().position(|i| *i == Some(coordinate)).unwrap_or(0);
-        let body = match place / 3 {
-            CARRIER => "carrier".to_owned(),
-            RING => "ring".to_owned(),
-            SUN => "sun".to_owned(),
-            planet => format!("planet {}", planet - PLANETS),
-        };
-        let names = match place / 3 < PLANETS {
-            true => ["x displacement", "y displacement", "rotation"],
-            false => ["radial displacement", "tangential displacement", "rotation"],
-        };
-        (body, names[place % 3])
+    /// The error for a motion whose coordinate of this index has the displacement `value` (m) at `time_s` (s).
+    #[cold]
+    pub(crate) fn diverged(&self, time_s: f64, coordinate: usize, value: f64) -> FeError {
+        let all = |body| Axis::ALL.into_iter().map(move |axis| (body, axis));
+        let mut all = Body::all(self.planets()).flat_map(all);
+        let found = all.find(|(body, axis)| self.of(*body, *axis) == Some(coordinate));
+        let (body, axis) = found.unwrap_or((Body::Carrier, Axis::First));
+        FeError::Diverged { time_s, body, axis, value }
     }
 
     /// Whether these are the two gears of a pair, which have supports to ground.
@@ -254,13 +255,14 @@ impl Races {
         for planet in 0..n {
             let (sin, cos) = self.psi[planet].sin_cos();
             let carrier = [[cos, sin, 0.0], [-sin, cos, 1.0]];
-            for (axis, seat) in carrier.into_iter().enumerate() {
-                if let Some(i) = self.of(PLANETS + planet, axis) {
-                    rows[(2 * planet + axis, i)] += 1.0;
+            for (axis, seat) in Axis::TRANSLATIONS.into_iter().zip(carrier) {
+                let row = 2 * planet + axis as usize;
+                if let Some(i) = self.of(Body::Planet(planet), axis) {
+                    rows[(row, i)] += 1.0;
                 }
-                for (k, share) in seat.into_iter().enumerate() {
-                    if let Some(i) = self.of(CARRIER, k) {
-                        rows[(2 * planet + axis, i)] -= share;
+                for (i, share) in self.places(Body::Carrier).into_iter().zip(seat) {
+                    if let Some(i) = i {
+                        rows[(row, i)] -= share;
                     }
                 }
             }
@@ -275,11 +277,7 @@ impl Races {
     pub fn approach(&self, kind: MeshKind, planet: usize, row: &[f64; 6]) -> Vec<f64> {
         let mut b = vec![0.0; self.count];
         for (body, entries) in self.approach_of_bodies(kind, planet, row) {
-            for (axis, value) in entries.into_iter().enumerate() {
-                if let Some(i) = self.of(body, axis) {
-                    b[i] += value;
-                }
-            }
+            self.add(body, entries, &mut b);
         }
         b
     }
@@ -308,14 +306,14 @@ impl Races {
     /// coordinates q (m). [`Races::approach`] is the transpose of this map.
     pub fn mesh_displacements(&self, kind: MeshKind, planet: usize, q: &[f64]) -> Displacements {
         let (sin, cos) = self.psi[planet].sin_cos();
-        let of = |body: usize| [0, 1, 2].map(|axis| self.of(body, axis).map_or(0.0, |i| q[i]));
+        let of = |body| self.places(body).map(|i| i.map_or(0.0, |i| q[i]));
         let (central, radius) = match kind {
-            MeshKind::SunPlanet => (SUN, self.radii[2]),
-            MeshKind::RingPlanet => (RING, self.radii[1]),
+            MeshKind::SunPlanet => (Body::Sun, self.radii[2]),
+            MeshKind::RingPlanet => (Body::Ring, self.radii[1]),
         };
         let [x, y, u] = of(central);
         let first = [cos * x + sin * y, cos * y - sin * x, u / radius];
-        let [zeta, eta, v] = of(PLANETS + planet);
+        let [zeta, eta, v] = of(Body::Planet(planet));
         let second = [zeta, eta, v / self.radii[3]];
         let [driver, driven] = match kind {
             MeshKind::SunPlanet => [first, second],
@@ -331,19 +329,19 @@ impl Races {
         kind: MeshKind,
         planet: usize,
         row: &[f64; 6],
-    ) -> [(usize, [f64; 3]); 2] {
+    ) -> [(Body, [f64; 3]); 2] {
         let (sin, cos) = self.psi[planet].sin_cos();
         let [first, second] = [[row[0], row[1], row[2]], [row[3], row[4], row[5]]];
         let (central, central_row, planet_row, radius) = match kind {
-            MeshKind::SunPlanet => (SUN, first, second, self.radii[2]),
-            MeshKind::RingPlanet => (RING, second, first, self.radii[1]),
+            MeshKind::SunPlanet => (Body::Sun, first, second, self.radii[2]),
+            MeshKind::RingPlanet => (Body::Ring, second, first, self.radii[1]),
         };
         // The mesh frame is turned by ψ_n from the carrier frame; its axes are the planet's ζ and
         // η.
         let [p, q, arm] = central_row;
         let turned = [cos * p - sin * q, sin * p + cos * q, arm / radius];
         let own = [planet_row[0], planet_row[1], planet_row[2] / self.radii[3]];
-        [(central, turned), (PLANETS + planet, own)]
+        [(central, turned), (Body::Planet(planet), own)]
     }
 }
 

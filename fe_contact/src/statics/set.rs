@@ -3,7 +3,7 @@
 //! Its methods are in the modules `tables` (contact tables), `placing` (meshes at a position),
 //! `equilibrium`, and `cycle` (a mesh cycle, and the loaded configuration).
 
-use gearset::{Facing, MeshKind, MeshPhases, MeshStart, Phasing, PlanetPositions};
+use gearset::{Axis, Body, Facing, MeshKind, MeshPhases, MeshStart, Phasing, PlanetPositions};
 use nalgebra::DVector;
 use scene::{Scene, SceneKind};
 
@@ -11,7 +11,7 @@ use super::bodies::{Bodies, missing_mesh};
 use super::imperfection::Imperfections;
 use super::nominal_mesh::NominalMesh;
 use super::phase::cycle;
-use super::races::{PLANETS, Races, SUN};
+use super::races::Races;
 use super::reference::{ReferenceConfiguration, ReferenceInputs};
 use crate::error::FeError;
 
@@ -167,7 +167,7 @@ impl<'s> StaticSet<'s> {
     /// reference, rad.
     pub(super) fn sun_angle(&self, position: f64) -> f64 {
         let unloaded = position - self.reference.lead();
-        let wound = self.races.of(SUN, 2).map_or(0.0, |i| self.reference.q[i]);
+        let wound = self.races.of(Body::Sun, Axis::Rotation).map_or(0.0, |i| self.reference.q[i]);
         self.start_angle + unloaded * pitch_angle(self.bodies) + wound / self.races.radii[2]
     }
 
@@ -212,15 +212,14 @@ impl<'s> StaticSet<'s> {
     /// Displacements (m, m, rad) of carrier, ring, sun and of the planets in the frame of the scene.
     pub(crate) fn displacements(&self, q: &DVector<f64>) -> ([[f64; 3]; 3], Vec<[f64; 3]>) {
         let radii = self.races.radii;
-        let of = |body: usize, radius: f64| {
-            let value = |axis| self.races.of(body, axis).map_or(0.0, |i| q[i]);
+        let of = |body: Body| {
+            let [first, second, u] = self.races.displaced(q, body);
             // Mirrored back: y and θ change sign.
             // A gear that the set does not have has no radius, and does not turn.
-            let turned = if value(2) == 0.0 { 0.0 } else { value(2) / radius };
-            [value(0), self.sign * value(1), self.sign * turned]
+            let turned = if u == 0.0 { 0.0 } else { u / radii[body.kind()] };
+            [first, self.sign * second, self.sign * turned]
         };
-        let planets = (0..self.races.planets()).map(|n| of(PLANETS + n, radii[3])).collect();
-        ([0, 1, 2].map(|body| of(body, radii[body])), planets)
+        (Body::CENTRAL.map(of), (0..self.races.planets()).map(Body::Planet).map(of).collect())
     }
 }
 

@@ -1,7 +1,7 @@
 //! Points at which tooth pairs load the two gears of a mesh, and the gears' static flexibility
 //! between them.
 
-use gearset::{Mesh, MeshKind, MeshMember};
+use gearset::{Body, Mesh, MeshKind, MeshMember};
 use nalgebra::DMatrix;
 
 use super::bodies::Bodies;
@@ -87,11 +87,10 @@ pub(crate) fn flexibility(
     sum * bodies.flexibility_factor(mesh.kind)
 }
 
-/// Numbers of the bodies a mesh joins, driver first.
-pub(crate) fn body_numbers(kind: MeshKind, planet: usize) -> [usize; 2] {
-    use super::races::{PLANETS, RING, SUN};
+/// The bodies a mesh joins, driver first.
+pub(crate) fn mesh_bodies(kind: MeshKind, planet: usize) -> [Body; 2] {
     match kind {
-        MeshKind::SunPlanet => [SUN, PLANETS + planet],
-        MeshKind::RingPlanet => [PLANETS + planet, RING],
+        MeshKind::SunPlanet => [Body::Sun, Body::Planet(planet)],
+        MeshKind::RingPlanet => [Body::Planet(planet), Body::Ring],
     }
 }

@@ -1,13 +1,14 @@
 //! Planet bearings on the carrier's pin seats, within one time step.
 
 use dynamics::{AverageAcceleration, Motion};
+use gearset::{Axis, Body};
 use nalgebra::{DMatrix, DVector};
 
 use super::body::{Port, VibratingBody};
 use super::fixed_race_mode::FixedRaceMode;
 use super::packed::Packed;
 use crate::error::FeError;
-use crate::statics::{CARRIER, PLANETS, Races};
+use crate::statics::Races;
 
 /// Bearings between the planets' races and the pin seats of a carrier that may be flexible.
 ///
@@ -59,13 +60,15 @@ impl Bearings {
         let mut rigid = DMatrix::zeros(2 * n, races.count);
         for planet in 0..n {
             let (sin, cos) = races.psi[planet].sin_cos();
-            for (axis, seat) in [[cos, sin, 0.0], [-sin, cos, 1.0]].into_iter().enumerate() {
-                if let Some(i) = races.of(PLANETS + planet, axis) {
-                    rigid[(2 * planet + axis, i)] += 1.0;
+            let seats = [[cos, sin, 0.0], [-sin, cos, 1.0]];
+            for (axis, seat) in Axis::TRANSLATIONS.into_iter().zip(seats) {
+                let row = 2 * planet + axis as usize;
+                if let Some(i) = races.of(Body::Planet(planet), axis) {
+                    rigid[(row, i)] += 1.0;
                 }
-                for (k, share) in seat.into_iter().enumerate() {
-                    if let Some(i) = races.of(CARRIER, k) {
-                        rigid[(2 * planet + axis, i)] -= share;
+                for (i, share) in races.places(Body::Carrier).into_iter().zip(seat) {
+                    if let Some(i) = i {
+                        rigid[(row, i)] -= share;
                     }
                 }
             }
@@ -111,8 +114,9 @@ impl Bearings {
         self.dynamic = sum.cholesky().ok_or_else(unstable)?.inverse();
         self.rows = self.rigid.clone();
         for (row, port) in self.ports.iter().enumerate() {
-            for (k, share) in carrier.coupling(port, 0.0).into_iter().enumerate() {
-                if let Some(i) = races.of(CARRIER, k) {
+            let shares = carrier.coupling(port, 0.0);
+            for (i, share) in races.places(Body::Carrier).into_iter().zip(shares) {
+                if let Some(i) = i {
                     self.rows[(row, i)] -= share;
                 }
             }

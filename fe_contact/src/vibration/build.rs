@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use dynamics::AverageAcceleration;
-use gearset::MeshKind;
+use gearset::{Body, MeshKind};
 use nalgebra::DMatrix;
 use scene::{Fidelity, Freedom, GivenInertia, Scene, SceneKind};
 
@@ -16,9 +16,7 @@ use super::modal_body::ModalBody;
 use super::teeth::tooth_points;
 use crate::body::{BodyMatrices, GearBody, number_unknowns};
 use crate::error::FeError;
-use crate::statics::{
-    Bodies, CARRIER, FLEXIBILITY_FACTOR, PLANETS, RING, SUN, SetTables, StaticSet,
-};
+use crate::statics::{Bodies, FLEXIBILITY_FACTOR, SetTables, StaticSet};
 
 /// Settings that all bodies of a set share.
 #[derive(Debug, Clone, Copy)]
@@ -65,18 +63,18 @@ pub(super) fn gears<'s>(
         SceneKind::Planetary => bodies.ring.as_ref().ok_or_else(|| missing("geometry.ring"))?,
         SceneKind::GearPair => &bodies.planet,
     };
-    let kinds = [(RING, ring), (SUN, sun), (PLANETS, &bodies.planet)];
+    let kinds = [(Body::Ring, ring), (Body::Sun, sun), (Body::Planet(0), &bodies.planet)];
     let mut gears = Vec::with_capacity(2 + races.planets());
     for (kind, body) in kinds {
-        let is_absent = kind == RING && scene.kind == SceneKind::GearPair;
+        let is_absent = kind == Body::Ring && scene.kind == SceneKind::GearPair;
         let absent = Settings { fidelity: Fidelity::QuasiStatic, ..*settings };
         let settings = if is_absent { &absent } else { settings };
         let mass = body_mass(statics, scene, kind)?;
-        let radius = races.radii[kind];
+        let radius = races.radii[kind.kind()];
         let make = flexible(settings, body.mesh.name, radius, mass, &|| {
             BodyMatrices::of_gear(&body.mesh, &body.material, body.face_width)
         })?;
-        let count = if kind == PLANETS { races.planets() } else { 1 };
+        let count = if kind == Body::Planet(0) { races.planets() } else { 1 };
         let vibrating: Vec<_> = (0..count).map(|_| make()).collect();
         // Bodies without elastic states have no ports.
         let is_elastic = vibrating.iter().any(|own| own.unknowns() > 0);
@@ -87,9 +85,10 @@ pub(super) fn gears<'s>(
                 body,
                 vibrating,
                 unknown_of: unknown_of.clone(),
-                start: angles[kind + n],
+                start: angles[kind.index() + n],
                 // Relative to the carrier the sun turns forwards, planets and ring turn backwards.
-                rate: body.mesh.outline.gear().pitch_angle() * if kind == SUN { 1.0 } else { -1.0 },
+                rate: body.mesh.outline.gear().pitch_angle()
+                    * if kind == Body::Sun { 1.0 } else { -1.0 },
             });
         }
     }
@@ -135,27 +134,26 @@ pub(super) fn carrier(
 ) -> Result<SeatedCarrier, FeError> {
     let races = &statics.races;
     let n = races.seated;
-    let mass = body_mass(statics, scene, CARRIER)?;
+    let mass = body_mass(statics, scene, Body::Carrier)?;
     let Some(body) = races.carrier.as_ref().filter(|b| !b.is_rigid) else {
         let rigid = Settings { fidelity: Fidelity::QuasiStatic, ..*settings };
-        let make = flexible(&rigid, "carrier", races.radii[CARRIER], mass, &|| {
+        let make = flexible(&rigid, "carrier", races.radii[0], mass, &|| {
             Err(FeError::NoEquilibrium("a rigid carrier has no matrices".into()))
         })?;
         return Ok((make(), vec![Port::default(); 2 * n], DMatrix::zeros(2 * n, 2 * n)));
     };
-    let make =
-        flexible(settings, "carrier", races.radii[CARRIER], mass, &|| Ok(body.matrices.clone()))?;
+    let make = flexible(settings, "carrier", races.radii[0], mass, &|| Ok(body.matrices.clone()))?;
     let port = |k: usize| Port { terms: body.seat_terms(k / 2, k % 2).to_vec() };
     Ok((make(), (0..2 * n).map(port).collect(), body.flexibility.clone()))
 }
 
-/// Mass, mass and polar inertia over r² of a body (number in the set's order), kg, from its FE
+/// Mass, mass and polar inertia over r² of a body, kg, from its FE
 /// mesh. A carrier without geometry has the mass and inertia of the lumped parameters, or 0 if it
 /// is held; planets include the mass and inertia fixed to them.
 pub(super) fn body_mass(
     statics: &StaticSet<'_>,
     scene: &Scene,
-    body: usize,
+    body: Body,
 ) -> Result<[f64; 3], FeError> {
     let races = &statics.races;
     let bodies = statics.bodies;
@@ -167,7 +165,7 @@ pub(super) fn body_mass(
     let none = GivenInertia::default();
     let missing = |key: &str| FeError::Missing { key: key.into(), why: "its motion needs a mass" };
     match body {
-        CARRIER => {
+        Body::Carrier => {
             if let Some(own) = &races.carrier {
                 return Ok([own.mass, own.mass, own.inertia / races.radii[0].powi(2)]);
             }
@@ -180,16 +178,16 @@ pub(super) fn body_mass(
             let turning = lumped.and_then(|l| l.inertia_over_r2.carrier).unwrap_or(0.0);
             Ok([mass, mass, turning])
         }
-        RING if pair.is_some() => Ok([0.0; 3]),
-        RING => {
+        Body::Ring if pair.is_some() => Ok([0.0; 3]),
+        Body::Ring => {
             let ring = bodies.ring.as_ref().ok_or_else(|| missing("geometry.ring"))?;
             Ok(of_gear(ring, races.radii[1], none))
         }
-        SUN => {
+        Body::Sun => {
             let sun = bodies.sun.as_ref().ok_or_else(|| missing("geometry.sun"))?;
             Ok(of_gear(sun, races.radii[2], pair.map_or(none, |p| p.sun_inertia)))
         }
-        _ => {
+        Body::Planet(_) => {
             let added = scene.supports.planet_added;
             let given = pair.map_or(none, |p| p.planet_inertia);
             let [mass, _, turning] = of_gear(&bodies.planet, races.radii[3], given);
@@ -206,13 +204,13 @@ pub(super) fn start_angles(
     tables: &SetTables,
     start: f64,
 ) -> Result<Vec<f64>, FeError> {
-    let mut angles = vec![0.0; PLANETS + statics.races.planets()];
+    let mut angles = vec![0.0; 3 + statics.races.planets()];
     let mut known = vec![false; angles.len()];
     for (which, placed) in statics.place(start, tables).iter().enumerate() {
         for ends in tooth_points(statics, which, placed)? {
             for end in ends {
-                if !std::mem::replace(&mut known[end.body], true) {
-                    angles[end.body] = end.axis;
+                if !std::mem::replace(&mut known[end.body.index()], true) {
+                    angles[end.body.index()] = end.axis;
                 }
             }
         }

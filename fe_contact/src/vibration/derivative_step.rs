@@ -8,6 +8,7 @@
 //! that a whole cycle can be differentiated after it was marched.
 
 use dynamics::{Number, wide};
+use gearset::Body;
 use nalgebra::{DMatrix, DVector};
 
 use super::body::Port;
@@ -17,7 +18,6 @@ use super::frame::Frame;
 use super::gradients::{LagGradients, add, column, column_mut, out_of_turned, turned_into};
 use super::set::VibratingSet;
 use super::step_rows::{Carrying, StepWeights};
-use crate::statics::CARRIER;
 
 impl VibratingSet<'_> {
     /// Carries the derivative over a step, 1 to the number of steps, of the cycle after `cycles` whole ones.
@@ -125,17 +125,17 @@ impl VibratingSet<'_> {
             list.resize(m * columns, zero);
         }
         for (body, vibrating) in self.bodies.all() {
-            let own = &d.elastic[body];
+            let own = &d.elastic[body.index()];
             let histories = own.histories(newmark);
             let mut free = DMatrix::zeros(m, own.x.ncols());
             let angle = match body {
-                CARRIER => 0.0,
-                gear => self.bodies.gears[gear - 1].angle(turned),
+                Body::Carrier => 0.0,
+                gear => self.bodies.gears[gear.index() - 1].angle(turned),
             };
             let ports = match (body, own.x.ncols()) {
-                (CARRIER, _) | (_, 0) => Vec::new(),
+                (Body::Carrier, _) | (_, 0) => Vec::new(),
                 (gear, _) => {
-                    let gear = gear - 1;
+                    let gear = gear.index() - 1;
                     let (ports, gear) = (&frame.pattern.own[gear], &self.bodies.gears[gear]);
                     FlexibleBodies::ports_of(frame, gear, ports, cycles)
                 }
@@ -143,13 +143,12 @@ impl VibratingSet<'_> {
             if let Some(modal) = vibrating.modal().filter(|modal| !modal.modes.is_empty()) {
                 let super::damping::Proportional { alpha, beta } = modal.damping;
                 let c = modal.inertia();
-                let turned = turned_into(angle, |axis| {
-                    races.of(body, axis).map(|i| {
-                        let mut sum = DVector::from_column_slice(column(&work.acceleration, m, i));
-                        add(sum.as_mut_slice(), alpha, column(&work.velocity, m, i));
-                        sum
-                    })
-                });
+                let of = |i| {
+                    let mut sum = DVector::from_column_slice(column(&work.acceleration, m, i));
+                    add(sum.as_mut_slice(), alpha, column(&work.velocity, m, i));
+                    sum
+                };
+                let turned = turned_into(angle, races.places(body).map(|place| place.map(of)));
                 let mut pulled: [DVector<T>; 3] = std::array::from_fn(|_| DVector::zeros(m));
                 for (j, mode) in modal.modes.iter().enumerate() {
                     let (a, v) = (histories[0].column(j), histories[1].column(j));
@@ -166,15 +165,16 @@ impl VibratingSet<'_> {
                     }
                     free.set_column(j, &next);
                 }
-                for (axis, turned) in out_of_turned(angle, pulled).into_iter().enumerate() {
-                    if let Some(i) = races.of(body, axis) {
+                let pulled = out_of_turned(angle, pulled);
+                for (place, turned) in races.places(body).into_iter().zip(pulled) {
+                    if let Some(i) = place {
                         add(column_mut(&mut work.load, m, i), 1.0, turned.as_slice());
                     }
                 }
             }
             all.push(BodyStep { histories, free, angle, ports });
         }
-        if let Some(seats) = all.get(CARRIER).and_then(|carrier| self.seats_of_modes(carrier)) {
+        if let Some(seats) = all.first().and_then(|carrier| self.seats_of_modes(carrier)) {
             let onto = self.race_dynamics.bearings.seats_onto_races().transpose();
             let loads = seats * onto.map(T::of);
             add(&mut work.load, 1.0, loads.as_slice());
@@ -200,13 +200,11 @@ impl VibratingSet<'_> {
                 continue;
             };
             let c = modal.inertia();
-            let turned = turned_into(step.angle, |axis| {
-                let of = |i| DVector::from_column_slice(column(&work.next, m, i));
-                races.of(body, axis).map(of)
-            });
+            let of = |i| DVector::from_column_slice(column(&work.next, m, i));
+            let turned = turned_into(step.angle, races.places(body).map(|place| place.map(of)));
             let mut next = step.free.clone();
             // Forces on the ports: of the bearings on the carrier, of the tooth pairs on gears.
-            if body == CARRIER {
+            if body == Body::Carrier {
                 // Q' = (K'⁻¹ + G)⁻¹ (B x' − free' − τ' v*')
                 let bearings = &self.race_dynamics.bearings;
                 let x = DMatrix::from_column_slice(m, races.count, &work.next);
@@ -225,7 +223,7 @@ impl VibratingSet<'_> {
                     }
                 }
             } else {
-                let own = frame.pattern.own[body - 1].iter().zip(&step.ports);
+                let own = frame.pattern.own[body.index() - 1].iter().zip(&step.ports);
                 for ((pair, _), port) in own {
                     let Some(at) = d.terms.touching(*pair) else { continue };
                     for (j, mode) in modal.modes.iter().enumerate() {
@@ -244,7 +242,7 @@ impl VibratingSet<'_> {
                 }
             }
             let [a, v] = step.histories.each_ref().map(|list| list.as_slice());
-            d.elastic[body].advance(newmark, next.as_slice(), [a, v]);
+            d.elastic[body.index()].advance(newmark, next.as_slice(), [a, v]);
         }
     }
 

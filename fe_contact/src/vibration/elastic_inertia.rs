@@ -17,6 +17,7 @@
 
 use std::sync::Arc;
 
+use gearset::Body;
 use nalgebra::DVector;
 
 use super::body::into_frame;
@@ -26,7 +27,6 @@ use super::set::VibratingSet;
 use super::teeth::ToothPoint;
 use crate::body::{Accelerated, CarrierBody, Factor, GearBody, ToothForce};
 use crate::error::FeError;
-use crate::statics::{CARRIER, PLANETS};
 
 /// Static displacements of the bodies of a set under accelerations of their races.
 #[derive(Debug)]
@@ -98,7 +98,7 @@ impl ElasticInertia {
     /// # Errors
     /// If a body cannot be solved.
     pub fn new(set: &VibratingSet<'_>) -> Result<Option<Self>, FeError> {
-        let gears = set.bodies.gears.iter().take(PLANETS);
+        let gears = set.bodies.gears.iter().take(3);
         let gears = gears.map(|gear| Accelerated::new(gear.body)).collect::<Result<Vec<_>, _>>()?;
         let Some(gears) = gears.into_iter().collect() else { return Ok(None) };
         let carrier = set.races().carrier.as_ref().filter(|body| !body.is_rigid);
@@ -165,8 +165,9 @@ impl ElasticInertia {
     ) {
         let gear = set.bodies.gears[k].body;
         let own = &self.gears[k.min(self.gears.len() - 1)];
-        let mut q = set.races().displaced(z, k + 1);
-        q[2] /= set.races().radii[(k + 1).min(PLANETS)];
+        let body = Body::from_index(k + 1);
+        let mut q = set.races().displaced(z, body);
+        q[2] /= set.races().radii[body.kind()];
         let [translated, turned] = [q[0] * q[0] + q[1] * q[1], q[2] * q[2]];
         // λ qᵀM_rf K⁻¹ M_fr q
         let [c, r] = own.coupled;
@@ -191,8 +192,8 @@ impl ElasticInertia {
         sum: &mut ElasticShift,
     ) {
         let (Some(own), Some(body)) = (&self.carrier, &set.races().carrier) else { return };
-        let mut q = set.races().displaced(z, CARRIER);
-        q[2] /= set.races().radii[CARRIER];
+        let mut q = set.races().displaced(z, Body::Carrier);
+        q[2] /= set.races().radii[0];
         // w of q, and the force Q = (I/k + A)⁻¹ B z of each bearing on its seat
         let w = own.displaced(q);
         let bearings = &set.race_dynamics.bearings;

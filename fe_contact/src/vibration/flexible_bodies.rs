@@ -1,15 +1,16 @@
 //! The bodies of a set with their elastic coordinates: carrier, ring, sun, planets.
 
 use dynamics::Motion;
+use gearset::Body;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use super::body::{Port, RaceMotion, VibratingBody};
 use super::frame::Frame;
 use super::gear::VibratingGear;
-use super::race_motion::{add_to_race, race_motion};
+use super::race_motion::race_motion;
 use super::teeth::fill_port;
-use crate::statics::{CARRIER, Races};
+use crate::statics::Races;
 
 /// Degrees of freedom of all bodies together above which gears are computed in parallel.
 const LARGE: usize = 10_000;
@@ -47,9 +48,9 @@ impl<'s> FlexibleBodies<'s> {
     }
 
     /// All bodies in the set's order.
-    pub(super) fn all(&self) -> impl Iterator<Item = (usize, &dyn VibratingBody)> {
-        std::iter::once((CARRIER, self.carrier.as_ref()))
-            .chain(self.gears.iter().enumerate().map(|(k, g)| (k + 1, g.vibrating.as_ref())))
+    pub(super) fn all(&self) -> impl Iterator<Item = (Body, &dyn VibratingBody)> {
+        let gears = self.gears.iter().map(|gear| gear.vibrating.as_ref());
+        Body::all(self.gears.len() - 2).zip(std::iter::once(self.carrier.as_ref()).chain(gears))
     }
 
     /// Starts the step of all bodies and adds their loads on the races to `load` (n, N). Large
@@ -61,10 +62,10 @@ impl<'s> FlexibleBodies<'s> {
         turned: f64,
         load: &mut DVector<f64>,
     ) {
-        let own = self.carrier.predict(&race_motion(races, motion, CARRIER), 0.0);
-        add_to_race(races, CARRIER, own, load);
-        for k in 0..self.gears.len() {
-            self.started[k].0 = race_motion(races, motion, k + 1);
+        let own = self.carrier.predict(&race_motion(races, motion, Body::Carrier), 0.0);
+        races.add(Body::Carrier, own, load.as_mut_slice());
+        for (k, started) in self.started.iter_mut().enumerate() {
+            started.0 = race_motion(races, motion, Body::from_index(k + 1));
         }
         let one = |(gear, (race, load)): (&mut VibratingGear<'_>, &mut (RaceMotion, [f64; 3]))| {
             let angle = gear.angle(turned);
@@ -76,7 +77,7 @@ impl<'s> FlexibleBodies<'s> {
             self.gears.iter_mut().zip(&mut self.started).for_each(one);
         }
         for (k, (_, own)) in self.started.iter().enumerate() {
-            add_to_race(races, k + 1, *own, load);
+            races.add(Body::from_index(k + 1), *own, load.as_mut_slice());
         }
     }
 
@@ -99,7 +100,7 @@ impl<'s> FlexibleBodies<'s> {
             let (ports, forces) = loads;
             if gear.vibrating.unknowns() > 0 {
                 let angle = gear.angle(turned);
-                let race = races.displaced(x, k + 1);
+                let race = races.displaced(x, Body::from_index(k + 1));
                 gear.vibrating.finish(race, angle, &ports[..forces.len()], forces);
             }
         };

@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use gearset::Body;
 use nalgebra::{DMatrix, DVector};
 
 use super::body::Port;
@@ -141,7 +142,7 @@ impl Frame {
             let mut excess = DMatrix::zeros(count, count);
             for (k, gear) in inputs.gears.iter().enumerate() {
                 let into = [&mut rows, &mut lagging, &mut excess];
-                frame.add_elastic_body(inputs, k + 1, gear, turned, into);
+                frame.add_elastic_body(inputs, Body::from_index(k + 1), gear, turned, into);
             }
             excess.zip_apply(&lagging, |e, lagging| *e -= frame.lag_known * lagging);
             let short = rows.row_iter().map(|row| ShortRow::new(row.iter().copied()));
@@ -205,7 +206,7 @@ impl Frame {
     fn add_elastic_body(
         &self,
         inputs: &FrameInputs<'_>,
-        body: usize,
+        body: Body,
         gear: &VibratingGear<'_>,
         turned: f64,
         [rows, lagging, excess]: [&mut DMatrix<f64>; 3],
@@ -215,7 +216,7 @@ impl Frame {
         }
         let pattern = Arc::clone(&self.pattern);
         let count = gear.body.mesh.outline.gear().teeth as i64;
-        let (angle, own) = (gear.angle(turned), &pattern.own[body - 1]);
+        let (angle, own) = (gear.angle(turned), &pattern.own[body.index() - 1]);
         let mut ports = vec![Port::default(); own.len()];
         for (port, (pair, e)) in ports.iter_mut().zip(own) {
             let (Some(ends), Some(teeth)) = (&pattern.ends[*pair], &pattern.teeth[*pair]) else {
@@ -225,15 +226,16 @@ impl Frame {
             fill_port(port, (gear.body, &gear.unknown_of), &ends[*e], tooth);
         }
         for ((pair, _), port) in own.iter().zip(&ports) {
-            for (axis, c) in gear.vibrating.coupling(port, angle).into_iter().enumerate() {
-                if let Some(i) = inputs.statics.races.of(body, axis) {
+            let places = inputs.statics.races.places(body);
+            for (place, c) in places.into_iter().zip(gear.vibrating.coupling(port, angle)) {
+                if let Some(i) = place {
                     rows[(*pair, i)] += c;
                 }
             }
         }
         let receptance = gear.vibrating.receptance(&ports);
         let carried = gear.vibrating.carried_flexibility(&ports);
-        let across = &pattern.across(inputs.gears)[body - 1];
+        let across = &pattern.across(inputs.gears)[body.index() - 1];
         let width = own.len();
         for (i, (a, _)) in own.iter().enumerate() {
             for (j, (b, _)) in own.iter().enumerate() {

@@ -122,11 +122,11 @@ impl FramePattern {
             if which < front {
                 for ends in tooth_points(statics, which, mesh)? {
                     let teeth = ends.each_ref().map(|end| {
-                        let gear = &gears[end.body - 1];
+                        let gear = &gears[end.body.index() - 1];
                         gear.tooth_at(end.axis, turned)
                     });
                     for (e, end) in ends.iter().enumerate() {
-                        pattern.own[end.body - 1].push((pattern.ends.len(), e));
+                        pattern.own[end.body.index() - 1].push((pattern.ends.len(), e));
                     }
                     pattern.ends.push(Some(ends));
                     pattern.teeth.push(Some(teeth));

@@ -184,9 +184,8 @@ impl<T: Number> LagGradients<T> {
 /// frame of the race's coordinates, `None` for held ones.
 pub(super) fn turned_into<T: Number>(
     angle: f64,
-    of: impl Fn(usize) -> Option<DVector<T>>,
+    [x, y, u]: [Option<DVector<T>>; 3],
 ) -> [Option<DVector<T>>; 3] {
-    let [x, y, u] = [of(0), of(1), of(2)];
     let (sin, cos) = angle.sin_cos();
     let (sin, cos) = (T::of(sin), T::of(cos));
     let sum = |a: Option<DVector<T>>, b: Option<DVector<T>>| match (a, b) {

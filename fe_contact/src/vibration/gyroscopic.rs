@@ -1,10 +1,11 @@
 //! Terms of the rotating carrier frame in the equations of the races.
 
 use dynamics::RotatingFrame;
+use gearset::Body;
 use nalgebra::DMatrix;
 use scene::Scene;
 
-use crate::statics::{PLANETS, Races};
+use crate::statics::Races;
 
 /// Gyroscopic and centripetal terms of all races, n×n.
 #[derive(Debug)]
@@ -28,8 +29,8 @@ impl GyroscopicTerms {
         let frame = RotatingFrame { speed };
         let n = races.count;
         let (mut g, mut k) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
-        for body in 0..PLANETS + races.planets() {
-            let (x, y) = (races.of(body, 0), races.of(body, 1));
+        for body in Body::all(races.planets()) {
+            let [x, y, _] = races.places(body);
             for i in [x, y].into_iter().flatten() {
                 k[(i, i)] += frame.centripetal(mass[i]);
             }

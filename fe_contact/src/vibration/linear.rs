@@ -1,5 +1,6 @@
 //! A set linearised about its present state, with the set of touching cells kept.
 
+use gearset::Body;
 use nalgebra::{DMatrix, DVector};
 
 use super::body::out_of_frame;
@@ -7,7 +8,6 @@ use super::fixed_race_mode::FixedRaceMode;
 use super::flexible_bodies::FlexibleBodies;
 use super::set::VibratingSet;
 use crate::error::FeError;
-use crate::statics::CARRIER;
 
 /// Matrices of the linearised set on z = (races, then modes of carrier, ring, sun, planets).
 ///
@@ -85,11 +85,11 @@ impl VibratingSet<'_> {
                 "`dynamics.fidelity` = \"full\" has no small linearisation: take \"modal\"".into(),
             )
         };
-        let mut lists: Vec<(usize, f64, &[FixedRaceMode])> = Vec::new();
-        lists.push((CARRIER, 0.0, self.bodies.carrier.modes().ok_or_else(no_modes)?));
-        for (k, gear) in self.bodies.gears.iter().enumerate() {
+        let mut lists: Vec<(Body, f64, &[FixedRaceMode])> = Vec::new();
+        lists.push((Body::Carrier, 0.0, self.bodies.carrier.modes().ok_or_else(no_modes)?));
+        for (body, gear) in Body::all(self.races().planets()).skip(1).zip(&self.bodies.gears) {
             let modes = gear.vibrating.modes().ok_or_else(no_modes)?;
-            lists.push((k + 1, gear.angle(turned), modes));
+            lists.push((body, gear.angle(turned), modes));
         }
         let elastic: usize = lists.iter().map(|(_, _, modes)| modes.len()).sum();
         let size = n + elastic;
@@ -104,8 +104,9 @@ impl VibratingSet<'_> {
             for (j, mode) in modes.iter().enumerate() {
                 let at = first + j;
                 mass[(at, at)] = 1.0;
-                for (axis, g) in out_of_frame(mode.participation, *angle).into_iter().enumerate() {
-                    if let Some(i) = self.races().of(*body, axis) {
+                let along = out_of_frame(mode.participation, *angle);
+                for (place, g) in self.races().places(*body).into_iter().zip(along) {
+                    if let Some(i) = place {
                         mass[(i, at)] = g;
                         mass[(at, i)] = g;
                     }

@@ -118,7 +118,7 @@ mod tests {
                         .iter()
                         .zip(teeth.unwrap())
                         .map(|(end, tooth)| {
-                            let gear = &set.bodies.gears[end.body - 1];
+                            let gear = &set.bodies.gears[end.body.index() - 1];
                             let count = gear.body.mesh.outline.gear().teeth as i64;
                             // The tooth's axis must be a whole number of pitches from that of tooth
                             // 0.

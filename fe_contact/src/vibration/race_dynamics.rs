@@ -2,6 +2,7 @@
 //! frame.
 
 use dynamics::{AverageAcceleration, Motion};
+use gearset::{Axis, Body};
 use nalgebra::{DMatrix, DVector};
 use scene::Scene;
 
@@ -13,7 +14,7 @@ use super::flexible_bodies::FlexibleBodies;
 use super::gyroscopic::GyroscopicTerms;
 use super::packed::Packed;
 use crate::error::FeError;
-use crate::statics::{PLANETS, Races, StaticSet, planet_bearing};
+use crate::statics::{Races, StaticSet, planet_bearing};
 
 /// Races of all bodies; n: their free coordinates.
 #[derive(Debug)]
@@ -64,14 +65,10 @@ impl RaceDynamics {
         let n = races.count;
         let mut mass = vec![0.0; n];
         let mut supports = DVector::zeros(n);
-        for body in 0..PLANETS + races.planets() {
-            let own = build::body_mass(statics, scene, body)?;
-            for (axis, m) in own.into_iter().enumerate() {
-                if let Some(i) = races.of(body, axis) {
-                    mass[i] += m;
-                    supports[i] += races.support(body, axis);
-                }
-            }
+        for body in Body::all(races.planets()) {
+            races.add(body, build::body_mass(statics, scene, body)?, &mut mass);
+            let own = Axis::ALL.map(|axis| races.support(body, axis));
+            races.add(body, own, supports.as_mut_slice());
         }
         let gyroscopic = carrier_speed.map(|speed| GyroscopicTerms::new(races, &mass, speed));
         let mut motion = Motion::at_rest(n);
@@ -107,9 +104,10 @@ impl RaceDynamics {
         let mut a = self.bearings.prepare(rule, races, bodies.carrier.as_ref())?;
         for (body, vibrating) in bodies.all() {
             let own = vibrating.race_stiffness();
-            for (i, row) in own.iter().enumerate() {
-                for (k, value) in row.iter().enumerate() {
-                    if let (Some(i), Some(k)) = (races.of(body, i), races.of(body, k)) {
+            let places = races.places(body);
+            for (i, row) in places.into_iter().zip(&own) {
+                for (k, value) in places.into_iter().zip(row) {
+                    if let (Some(i), Some(k)) = (i, k) {
                         a[(i, k)] += value;
                     }
                 }
@@ -170,7 +168,7 @@ impl RaceDynamics {
         bodies: &mut FlexibleBodies<'_>,
         x: &DVector<f64>,
     ) {
-        let race = races.displaced(x, crate::statics::CARRIER);
+        let race = races.displaced(x, Body::Carrier);
         self.bearings.finish(rule, bodies.carrier.as_mut(), x, race);
         self.motion.advance(rule, x.as_slice());
     }

@@ -254,8 +254,7 @@ impl VibratingSet<'_> {
         let bound = self.statics.bodies.geometry.largest_displacement();
         for (i, x) in self.work.x.iter().enumerate() {
             if x.is_nan() || x.abs() > bound {
-                let (body, quantity) = self.statics.races.name_of(i);
-                return Err(FeError::Diverged { time_s: self.time(), body, quantity, value: *x });
+                return Err(self.statics.races.diverged(self.time(), i, *x));
             }
         }
         for mesh in &frame.meshes {

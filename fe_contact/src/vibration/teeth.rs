@@ -4,14 +4,15 @@ use super::body::Port;
 use crate::body::GearBody;
 use crate::error::FeError;
 use crate::fe_mesh::FeGearMesh;
-use crate::statics::{PLANETS, PairEnd, PlacedMesh, StaticSet, body_numbers, pair_ends};
+use crate::statics::{PairEnd, PlacedMesh, StaticSet, mesh_bodies, pair_ends};
+use gearset::Body;
 
 /// One end of a tooth pair on a body of the set. Only the part of the elastic displacement due to
 /// inertia and damping passes through it; the static part is in the compliance of the cells.
 #[derive(Debug, Clone)]
 pub(super) struct ToothPoint {
-    /// Body in the set's order: carrier, ring, sun, planets.
-    pub(super) body: usize,
+    /// Body.
+    pub(super) body: Body,
     /// Angle of the tooth's axis in the race's frame, rad.
     pub(super) axis: f64,
     /// Load and direction on the tooth.
@@ -28,14 +29,15 @@ pub(super) fn tooth_points(
     placed: &PlacedMesh<'_>,
 ) -> Result<Vec<[ToothPoint; 2]>, FeError> {
     let (mesh, direction) = statics.loaded_mesh(which);
-    let numbers = body_numbers(placed.kind, placed.planet);
+    let numbers = mesh_bodies(placed.kind, placed.planet);
     let one = |cells: &crate::contact::PairCells| {
         let [driver, driven] = pair_ends(statics.bodies, mesh, placed.phase, cells)?;
         let [first, second] = numbers;
-        let point = |body: usize, end: PairEnd| {
+        let point = |body: Body, end: PairEnd| {
             // The mesh frame is turned by ψ_n from the carrier frame and is the frame of the
             // planet's coordinates; under load it is turned further with the line of centres.
-            let psi = if body < PLANETS { statics.races.psi[placed.planet] } else { 0.0 };
+            let is_planet = matches!(body, Body::Planet(_));
+            let psi = if is_planet { 0.0 } else { statics.races.psi[placed.planet] };
             ToothPoint { body, axis: end.axis + psi + direction, end }
         };
         Some([point(first, driver), point(second, driven)])

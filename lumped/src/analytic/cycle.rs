@@ -11,7 +11,7 @@
 
 use std::collections::BTreeMap;
 
-use gearset::{DisplacedMesh, Displacements, Mesh, MeshKind, MeshMember};
+use gearset::{Axis, Body, DisplacedMesh, Displacements, Mesh, MeshKind, MeshMember};
 use nalgebra::{DMatrix, DVector};
 use scene::{LoadCase, Scene};
 
@@ -20,7 +20,6 @@ use super::mesh::PressedMesh;
 use super::plane::Plane;
 use super::stated_error::{MESHES, SEATS, StatedError};
 use super::{NOT_HELD, SetParts, stand_on_seats};
-use crate::coordinates::{Axis, Body};
 use crate::error::LumpedError;
 use crate::model::LumpedModel;
 use crate::springs::SpringId;
@@ -279,7 +278,7 @@ fn displacements(
 ) -> Displacements {
     let of = |body: Body, axis: Axis| model.coordinates.of(body, axis).map_or(0.0, |i| q[i]);
     let all = |body: Body, radius: f64| {
-        let [x, y, u] = [Axis::First, Axis::Second, Axis::Rotation].map(|axis| of(body, axis));
+        let [x, y, u] = Axis::ALL.map(|axis| of(body, axis));
         [x, y, u / radius]
     };
     let (body, member, planet) = match mesh.kind {

@@ -3,14 +3,13 @@
 //! Bodies yield under their own inertial forces by λw (`accelerated.rs`), which the forces F of springs on them feel.
 //! The carrier is its annulus; a gear is an annulus from its race to the middle of its teeth.
 
-use gearset::{Gear, Geometry};
+use gearset::{Axis, Body, Gear, Geometry};
 use nalgebra::{Complex, DMatrix, DVector};
 use scene::Scene;
 
 use super::AnalyticSet;
 use super::accelerated::Accelerated;
 use super::plane::Plane;
-use crate::coordinates::{Axis, Body};
 use crate::modes::ModeGroup;
 use crate::springs::SpringId;
 
@@ -121,8 +120,7 @@ impl AnalyticSet {
         };
         let planets = self.model.psi.len();
         let mut sum = 0.0;
-        let bodies = [Body::Carrier, Body::Ring, Body::Sun].into_iter();
-        for body in bodies.chain((0..planets).map(Body::Planet)) {
+        for body in Body::all(planets) {
             if let Some(own) = self.bodies.of(body) {
                 let ((d, u), [translated, rotated]) = (motion(body), own.body.moved());
                 sum += lambda * (translated * d.norm_sqr() + rotated * (u / own.radius).powi(2));

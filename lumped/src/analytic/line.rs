@@ -10,10 +10,9 @@
 //! σ = κᵀq. Under a constant force the approach changes by s = ∂δ/∂σ ([`Line::lean`]), and with the centre distance
 //! a' = ζᵀq by s_a = ∂δ/∂a'. In modes that hardly press a mesh, this is a good part of what does.
 
-use gearset::{Mesh, MeshMember};
+use gearset::{Axis, Body, Mesh, MeshMember};
 use nalgebra::DMatrix;
 
-use crate::coordinates::{Axis, Body};
 use crate::model::LumpedModel;
 use crate::springs::SpringId;
 

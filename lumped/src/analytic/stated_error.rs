@@ -30,11 +30,11 @@
 //! The same of the gears under mesh forces is in the half of the change.
 
 use super::AnalyticSet;
-use crate::coordinates::{Axis, Body};
 use crate::energy::kinetic_energy;
 use crate::modes::ModeGroup;
 use crate::sensitivity::{Parameter, sensitivities};
 use crate::springs::SpringId;
+use gearset::{Axis, Body};
 
 /// What the stiffness of sun meshes and of ring meshes is within, where no pair hands over (`docs/closed_forms.md`).
 pub(super) const MESHES: [f64; 2] = [0.03, 0.04];
@@ -111,8 +111,7 @@ impl AnalyticSet {
     fn of_lines(&self, group: &ModeGroup) -> f64 {
         let coordinates = &self.model.coordinates;
         let least = |body: Body| {
-            let axes = [Axis::First, Axis::Second, Axis::Rotation].into_iter();
-            let own = axes.filter_map(|axis| coordinates.of(body, axis));
+            let own = Axis::ALL.into_iter().filter_map(|axis| coordinates.of(body, axis));
             own.map(|i| self.model.mass[i]).fold(f64::INFINITY, f64::min)
         };
         let moved: f64 = kinetic_energy(&self.model, group)

@@ -88,7 +88,7 @@ impl LoadCase {
     /// `[eq:pair-mesh-frequency]` f_m = Z_s n_s / 60 with the speed n_s of the sun in rpm.
     ///
     /// Source: definition.
-    /// Checked by: `gearset/tests/gear_pair.rs::the_mesh_frequency_is_that_of_the_sun`.
+    /// Checked by: `scene/tests/gear_pair.rs::the_mesh_frequency_is_that_of_the_sun`.
     fn of_pair(scene: &Scene, operation: &Operation) -> Result<Self, KinematicsError> {
         let teeth = scene.teeth.and_then(|teeth| teeth.sun);
         let teeth = teeth.ok_or(KinematicsError::Absent("teeth.sun"))?;
@@ -152,7 +152,7 @@ impl LoadCase {
     /// T_s and σ = sign(ω_s − ω_c).
     ///
     /// Source: derived here.
-    /// Checked by: `gearset/src/load_case.rs::pairs_run_the_way_the_power_of_the_sun_relative_to_the_carrier_flows`,
+    /// Checked by: `scene/src/load/case.rs::pairs_run_the_way_the_power_of_the_sun_relative_to_the_carrier_flows`,
     /// `experiments/tests/direction.rs`, `sweep.order`.
     pub fn direction(&self) -> PathDirection {
         match self.sun_turns == self.sense() {

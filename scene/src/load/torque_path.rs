@@ -24,7 +24,7 @@ impl Scene {
     /// `[eq:torque-balance]` T_s + T_r + T_c = 0 with every share other than 0, so that two of the three rotations
     /// must be held or sprung and the third must be able to turn: it is the one without support.
     /// Source: derived here.
-    /// Checked by: `gearset/src/torque_path.rs::the_torque_acts_on_the_member_without_support`,
+    /// Checked by: `scene/src/load/torque_path.rs::the_torque_acts_on_the_member_without_support`,
     /// `experiments/tests/direction.rs::statics_are_the_same_whichever_member_turns`.
     ///
     /// Where all are supported it is the sun, if it can turn, else the driven member or the one that can. Natural

@@ -7,12 +7,11 @@ pub(crate) use result::BranchesOutput;
 use std::io::Write;
 use std::path::Path;
 
-use experiments::ExperimentError;
 use experiments::branches::{
     BranchError, BranchParameter, BranchSettings, BranchStore, Search, branches_kept, finished,
 };
 use experiments::sweep::{
-    KeyedModel, LUMPED, Memory, SteadySettings, SweepModel, fidelity_name, steps_needed,
+    KeyedModel, LUMPED, Memory, SteadySettings, SweepError, SweepModel, fidelity_name, steps_needed,
 };
 use fe_contact::statics::Bodies;
 use scene::{Fidelity, LoadCase, Scene, Verb};
@@ -145,16 +144,11 @@ pub(super) fn run(
             }
             working.now("following the branch");
             branches_kept(model.as_ref(), &settings, &search, store).map_err(|e| match e {
-                ExperimentError::Branch(e @ BranchError::NoDerivative(_)) => {
-                    unfit(path, e.to_string())
-                }
-                ExperimentError::Branch(e @ BranchError::NoStart { .. }) => {
-                    refused("--start", e.to_string())
-                }
-                ExperimentError::Branch(e @ BranchError::NoEffect { .. }) => {
-                    refused("--over", e.to_string())
-                }
-                other => not_computed(other, path, &settings),
+                BranchError::NoDerivative(_) => unfit(path, e.to_string()),
+                BranchError::NoStart { .. } => refused("--start", e.to_string()),
+                BranchError::NoEffect { .. } => refused("--over", e.to_string()),
+                BranchError::Sweep(e) => not_computed(e, path, &settings),
+                BranchError::Range { .. } | BranchError::Points(_) => e.into(),
             })?
         }
     };
@@ -177,9 +171,9 @@ pub(super) fn run(
 }
 
 /// The error for a set or a motion that cannot be computed; over a key, its values may be the cause.
-fn not_computed(error: ExperimentError, path: &Path, settings: &BranchSettings) -> CommandError {
+fn not_computed(error: SweepError, path: &Path, settings: &BranchSettings) -> CommandError {
     match (error, settings.over) {
-        (store @ ExperimentError::Store(_), _) => store.into(),
+        (store @ SweepError::Store(_), _) => store.into(),
         (e, BranchParameter::Key(key)) => {
             let ([from, to], start) = (settings.range, settings.start);
             let remedy = match key.enters_statics() {
@@ -191,7 +185,7 @@ fn not_computed(error: ExperimentError, path: &Path, settings: &BranchSettings) 
             let words = format!("from {from:?} to {to:?}, begun at {start:?}: {e}; {remedy}");
             refused("--over", format!("{} {words}", key.path()))
         }
-        (ExperimentError::Fe(e), _) => unfit(path, e.to_string()),
+        (SweepError::Fe(e), _) => unfit(path, e.to_string()),
         (other, _) => other.into(),
     }
 }

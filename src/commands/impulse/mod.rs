@@ -8,10 +8,9 @@ pub(crate) use result::ImpulseOutput;
 
 use std::io::Write;
 
-use experiments::ExperimentError;
 use experiments::modal::{
-    FeMode, ImpulseSettings, Preload, SettingsError, band_of, frequency_band, impulse_test,
-    linear_modes, mesh_influence, preloaded,
+    FeMode, ImpulseSettings, ModalError, Preload, SettingsError, band_of, frequency_band,
+    impulse_test, linear_modes, mesh_influence, preloaded,
 };
 use fe_contact::FeError;
 use fe_contact::statics::Bodies;
@@ -130,9 +129,9 @@ fn argument(error: &SettingsError) -> &'static str {
 fn find(arguments: &Impulse, scene: Scene, preload: Preload) -> Result<Found, CommandError> {
     let path = &arguments.scene;
     let torque = preload.load.sun_torque_nm;
-    let failed = |e: ExperimentError| match e {
-        ExperimentError::Unsteady { .. } => refused("--sun-torque-nm", e.to_string()),
-        ExperimentError::Fe(FeError::NotConverged { .. } | FeError::NoEquilibrium(_)) => {
+    let failed = |e: ModalError| match e {
+        ModalError::Unsteady { .. } => refused("--sun-torque-nm", e.to_string()),
+        ModalError::Fe(FeError::NotConverged { .. } | FeError::NoEquilibrium(_)) => {
             refused("--sun-torque-nm", format!("{torque:e} N·m: {e}"))
         }
         _ => unfit(path, e.to_string()),

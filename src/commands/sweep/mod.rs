@@ -9,10 +9,9 @@ pub(crate) use result::SweepOutput;
 use std::io::{IsTerminal, Write};
 use std::path::Path;
 
-use experiments::ExperimentError;
 use experiments::sweep::{
     Direction, Kept, LUMPED, Memory, Plan, PlanError, PointStore, SteadyMethod, SteadySettings,
-    Sweep, SweepModel, even_speeds, fidelity_name, run as run_plan,
+    Sweep, SweepError, SweepModel, even_speeds, fidelity_name, run as run_plan,
 };
 use fe_contact::statics::Bodies;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -212,7 +211,7 @@ impl<'a> Task<'a> {
         let found = run_plan(model, plan, store.as_ref(), &done);
         bar.finish_and_clear();
         found.map_err(|e| match e {
-            ExperimentError::Fe(e) => unfit(&self.arguments.scene, e.to_string()),
+            SweepError::Fe(e) => unfit(&self.arguments.scene, e.to_string()),
             other => other.into(),
         })
     }

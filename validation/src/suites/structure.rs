@@ -155,7 +155,7 @@ fn mirrored_set_mirrors_its_modes(
     let k = mirror_model.stiffness();
     let largest = modes.lambda.last().copied().unwrap_or(0.0);
     let sign = |i: usize| match model.coordinates.free()[i].1 {
-        lumped::Axis::First => 1.0,
+        gearset::Axis::First => 1.0,
         _ => -1.0,
     };
     let n = model.mass.len();

@@ -2,7 +2,8 @@
 
 use experiments::models::Changed;
 use experiments::{ModalModel, ModelError, NaturalMode, distinct, frequencies_of};
-use lumped::{Axis, Body, LumpedModel, ModeGroup, NaturalModes, SpringId};
+use gearset::{Axis, Body};
+use lumped::{LumpedModel, ModeGroup, NaturalModes, SpringId};
 use scene::{LoadCase, PlanetOverride, Scene};
 
 use crate::check::Check;

@@ -12,7 +12,7 @@ use super::super::attraction::Attraction;
 use super::super::marching::{Effort, Marching};
 use super::super::plan::{Direction, Plan};
 use super::super::set_shape::SetShape;
-use super::super::state::{Coordinate, Part};
+use super::super::state::{Coordinate, Line, Part};
 use super::super::steady::SteadyMethod;
 use super::*;
 
@@ -56,9 +56,9 @@ struct Motion<'m> {
     since: usize,
 }
 
-fn diverged() -> ExperimentError {
-    let body = "sun".to_owned();
-    FeError::Diverged { time_s: 0.1, body, quantity: "x", value: 1e3 }.into()
+fn diverged() -> SweepError {
+    let body = gearset::Body::Sun;
+    FeError::Diverged { time_s: 0.1, body, axis: gearset::Axis::First, value: 1e3 }.into()
 }
 
 impl Motion<'_> {
@@ -69,12 +69,12 @@ impl Motion<'_> {
 }
 
 impl Marching for Motion<'_> {
-    fn rest(&mut self) -> Result<(), ExperimentError> {
+    fn rest(&mut self) -> Result<(), SweepError> {
         self.model.started_from_rest.fetch_add(1, Ordering::Relaxed);
         if self.model.rests { Ok(()) } else { Err(diverged()) }
     }
 
-    fn step(&mut self) -> Result<(), ExperimentError> {
+    fn step(&mut self) -> Result<(), SweepError> {
         self.step += 1;
         self.since += 1;
         match self.fate {
@@ -123,7 +123,7 @@ impl Marching for Motion<'_> {
         1
     }
 
-    fn restore(&mut self, state: &[f64]) -> Result<(), ExperimentError> {
+    fn restore(&mut self, state: &[f64]) -> Result<(), SweepError> {
         self.since = 0;
         // Divergence is timed from the start of a point.
         self.step = if matches!(self.fate, Fate::Diverges) { 0 } else { state[0] as usize };
@@ -157,7 +157,7 @@ impl SweepModel for Prescribed {
         case: &LoadCase,
         _: f64,
         size: usize,
-    ) -> Result<Box<dyn Marching + '_>, ExperimentError> {
+    ) -> Result<Box<dyn Marching + '_>, SweepError> {
         let own = self.fates.iter().find(|(speed, _)| *speed == case.speed_rpm);
         let fate = own.map_or(Fate::Repeats(1), |(_, fate)| *fate);
         Ok(Box::new(Motion { model: self, fate, size, step: 0, since: 0 }))
@@ -187,7 +187,7 @@ fn a_speed_that_fails_is_recorded_and_its_chain_goes_on() {
         assert_eq!((failed.case.speed_rpm, failed.chain.as_str()), (failing, "up_00"));
         assert!(failed.reason.contains("the motion diverges"), "{}", failed.reason);
         let typed = failed.error.as_deref();
-        assert!(matches!(typed, Some(ExperimentError::Fe(FeError::Diverged { .. }))));
+        assert!(matches!(typed, Some(SweepError::Fe(FeError::Diverged { .. }))));
         // Only a chain without any point before the failed one starts from rest again.
         assert_eq!(model.started_from_rest.load(Ordering::Relaxed), rests);
         let error = sweep.complete().unwrap_err();
@@ -199,7 +199,7 @@ fn a_speed_that_fails_is_recorded_and_its_chain_goes_on() {
 fn a_set_without_equilibrium_ends_the_sweep() {
     let model = Prescribed { rests: false, ..Prescribed::new(&[]) };
     let found = run(&model, &plan(&[100.0, 200.0]), &Memory, &|_| ());
-    assert!(matches!(found, Err(ExperimentError::Fe(FeError::Diverged { .. }))));
+    assert!(matches!(found, Err(SweepError::Fe(FeError::Diverged { .. }))));
 }
 
 #[test]

@@ -10,8 +10,7 @@ use crate::complementarity::ActiveSet;
 use crate::contact::{CellSettings, MeshTable, PairCells};
 use crate::error::FeError;
 use crate::statics::{
-    Bodies, Imperfections, NeighbourTables, PLANETS, RING, SUN, StaticSet, invariants,
-    missing_mesh, turned,
+    Bodies, Imperfections, NeighbourTables, StaticSet, invariants, missing_mesh, turned,
 };
 
 /// Settings of a mesh law.
@@ -308,12 +307,12 @@ impl Job<'_, '_> {
         let radii = &statics.races.base_radii;
         let [first, second] = [[sum[0], sum[1], sum[2]], [sum[3], sum[4], sum[5]]];
         let (central, planet, radius) = match pose.kind {
-            MeshKind::SunPlanet => (first, second, radii[SUN]),
-            MeshKind::RingPlanet => (second, first, radii[RING]),
+            MeshKind::SunPlanet => (first, second, radii[2]),
+            MeshKind::RingPlanet => (second, first, radii[1]),
         };
         let [x, y, turn] = central;
         let [zeta, eta, spin] = planet;
-        Ok([x, y, turn / radius, zeta, eta, spin / radii[PLANETS]])
+        Ok([x, y, turn / radius, zeta, eta, spin / radii[3]])
     }
 }
 

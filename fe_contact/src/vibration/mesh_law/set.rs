@@ -7,7 +7,7 @@ use dynamics::{
     AverageAcceleration, CarriedChange, Coupled, CoupledState, Coupling, CyclePart, LinearPart,
     MapDerivative, Motion, Number, PassedSteps, Renumbering,
 };
-use gearset::{Facing, MeshLaw, Symmetry};
+use gearset::{Body, Facing, MeshLaw, Symmetry};
 use nalgebra::{DMatrix, DVector};
 use scene::Scene;
 
@@ -17,7 +17,7 @@ use super::super::prepared::fit;
 use super::super::rotation::NominalRotation;
 use super::law::MeshLawCouplings;
 use crate::error::FeError;
-use crate::statics::{Bodies, CARRIER, Imperfections, PLANETS, RING, Races, SUN, StaticSet};
+use crate::statics::{Bodies, Imperfections, Races, StaticSet};
 
 /// A set in time with tabulated mesh forces.
 #[derive(Debug)]
@@ -77,12 +77,8 @@ impl<'s> MeshLawSet<'s> {
         }
         let n = races.count;
         let mut mass = vec![0.0; n];
-        for body in CARRIER..PLANETS + planets {
-            for (axis, m) in body_mass(&statics, scene, body)?.into_iter().enumerate() {
-                if let Some(i) = races.of(body, axis) {
-                    mass[i] += m;
-                }
-            }
+        for body in Body::all(planets) {
+            races.add(body, body_mass(&statics, scene, body)?, &mut mass);
         }
         let d = &scene.damping;
         // C = αM + τ K: dashpots at supports and bearings, through the carrier's flexibility.
@@ -322,20 +318,15 @@ fn side_loads(races: &Races, law: &MeshLaw) -> Vec<Vec<f64>> {
         let mut load = vec![0.0; races.count];
         for mesh in 0..law.meshes() {
             let (central, planet) =
-                if mesh < planets { (SUN, mesh) } else { (RING, mesh - planets) };
+                if mesh < planets { (Body::Sun, mesh) } else { (Body::Ring, mesh - planets) };
             let (sin, cos) = races.psi[planet].sin_cos();
             let [x, y, u, zeta, eta, spin] = law.side_load(mesh, step);
             // The mesh frame is turned by ψ_n from the carrier frame.
             let turned = [cos * x - sin * y, sin * x + cos * y, u];
-            for (body, own) in [(central, turned), (PLANETS + planet, [zeta, eta, spin])] {
+            for (body, own) in [(central, turned), (Body::Planet(planet), [zeta, eta, spin])] {
                 // The law's u is r θ with the base radius.
-                let kind = body.min(PLANETS);
-                let share = races.base_radii[kind] / races.radii[kind];
-                for (axis, f) in own.into_iter().enumerate() {
-                    if let Some(i) = races.of(body, axis) {
-                        load[i] += if axis == 2 { share * f } else { f };
-                    }
-                }
+                let share = races.base_radii[body.kind()] / races.radii[body.kind()];
+                races.add(body, [own[0], own[1], share * own[2]], &mut load);
             }
         }
         load
@@ -348,8 +339,7 @@ fn side_loads(races: &Races, law: &MeshLaw) -> Vec<Vec<f64>> {
 fn failed(statics: &StaticSet<'_>, cause: dynamics::CoupledError) -> FeError {
     match cause {
         dynamics::CoupledError::Diverged { time_s, coordinate, value } => {
-            let (body, quantity) = statics.races.name_of(coordinate);
-            FeError::Diverged { time_s, body, quantity, value }
+            statics.races.diverged(time_s, coordinate, value)
         }
         other => FeError::Coupled(other),
     }

@@ -1,6 +1,6 @@
 //! The forces of the meshes are the gradient of one potential, their energy over the races' displacements.
 
-use fe_contact::statics::{CARRIER, StaticSet};
+use fe_contact::statics::StaticSet;
 
 use super::{control, unloaded};
 use crate::error::ValidationError;
@@ -65,7 +65,7 @@ fn differences(
     let mut moved = q.clone();
     let mut off = [Vec::new(), Vec::new()];
     // The carrier's coordinates enter no mesh.
-    let carrier = [0, 1, 2].map(|axis| set.races().of(CARRIER, axis));
+    let carrier = set.races().places(gearset::Body::Carrier);
     for i in (0..q.len()).filter(|i| !carrier.contains(&Some(*i))) {
         let mut at = |step: f64| {
             moved[i] = q[i] + step;

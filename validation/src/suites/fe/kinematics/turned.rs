@@ -8,7 +8,8 @@
 //! millimetres as straight lines and violate this.
 
 use fe_contact::complementarity::ActiveSet;
-use fe_contact::statics::{PLANETS, SUN, SetCycle, SetState};
+use fe_contact::statics::{SetCycle, SetState};
+use gearset::{Axis, Body};
 use scene::Scene;
 
 use super::{HARMONICS, POSITIONS, control, sun_lines, unloaded};
@@ -114,13 +115,13 @@ fn run(lab: &Lab<'_>, scene: &Scene, wound: f64, about: About) -> Result<Wound, 
     along.fill(0.0);
     let of_planet = [arm * (angle.cos() - 1.0), arm * angle.sin(), -(ring - planet) * angle];
     for n in 0..races.planets() {
-        for (axis, value) in of_planet.into_iter().enumerate() {
-            let free = races.of(PLANETS + n, axis).ok_or(ValidationError::Incomplete("planet"))?;
-            along[free] = value;
+        for (place, value) in races.places(Body::Planet(n)).into_iter().zip(of_planet) {
+            along[place.ok_or(ValidationError::Incomplete("planet"))?] = value;
         }
     }
     let rolled_in = (sun + ring) * angle;
-    let free = races.of(SUN, 2).ok_or(ValidationError::Incomplete("free sun"))?;
+    let free =
+        races.of(Body::Sun, Axis::Rotation).ok_or(ValidationError::Incomplete("free sun"))?;
     along[free] = rolled_in;
     let loads = &races.stiffness * &along;
     let set = match about {

@@ -1,50 +1,35 @@
-//! Errors of experiments.
+//! Errors of sweeps.
 
-/// Why an experiment could not be carried out.
+use super::failed_point::FailedPoint;
+use super::plan::PlanError;
+use super::run::StoreError;
+use crate::table_growth::Outgrown;
+
+/// Why a model cannot be set up or stepped, or a sweep has no result.
 #[derive(Debug, thiserror::Error)]
-pub enum ExperimentError {
-    /// The scene lacks something the experiment needs.
+pub enum SweepError {
+    /// The scene or the model lacks something that is needed.
     #[error("the scene has no {0}")]
     Incomplete(&'static str),
-    /// The scene has no operating point, or no motion follows from it.
-    #[error(transparent)]
-    Kinematics(#[from] gearset::KinematicsError),
-    /// An error of the model under test, passed on unchanged.
-    #[error("the model: {0}")]
-    Model(#[source] crate::model::ModelError),
     /// The FE/contact model.
     #[error(transparent)]
     Fe(#[from] fe_contact::FeError),
     /// An eigenproblem.
     #[error(transparent)]
     Eigen(#[from] dynamics::EigenError),
-    /// Settings of an impulse test.
-    #[error(transparent)]
-    Settings(#[from] crate::modal::SettingsError),
-    /// A preload under which the set does not stay at rest, or does not return to it after a small pulse.
-    #[error(
-        "{torque_nm} N·m: under this torque the set does not stay at rest, or small pulses leave it in large motion: there is no state to find modes about"
-    )]
-    Unsteady {
-        /// Torque on the sun, N m.
-        torque_nm: f64,
-    },
-    /// Identification of modes from records.
-    #[error("identification: {0}")]
-    Identify(#[from] dynamics::identify::IdentifyError),
     /// A spectrum.
     #[error(transparent)]
     Spectrum(#[from] dynamics::SpectrumError),
     /// A lumped model.
     #[error(transparent)]
     Lumped(#[from] lumped::LumpedError),
-    /// A plan of a sweep.
+    /// A plan.
     #[error(transparent)]
-    Plan(#[from] crate::sweep::PlanError),
-    /// A speed of a sweep at which no steady state could be computed.
+    Plan(#[from] PlanError),
+    /// A speed at which no steady state could be computed.
     #[error(transparent)]
-    Failed(Box<crate::sweep::FailedPoint>),
-    /// A speed of a sweep at which no motion was found that repeats with the mesh cycle and attracts.
+    Failed(Box<FailedPoint>),
+    /// A speed at which no motion was found that repeats with the mesh cycle and attracts.
     #[error(
         "at {rpm} rpm no motion was found that repeats with the mesh cycle and attracts: {found}"
     )]
@@ -84,10 +69,13 @@ pub enum ExperimentError {
         /// What the reader of scenes says.
         reason: String,
     },
-    /// A branch of periodic motions that could not be begun.
+    /// A point that could not be kept or read.
     #[error(transparent)]
-    Branch(#[from] crate::branches::BranchError),
-    /// A point of a sweep that could not be kept or read.
-    #[error(transparent)]
-    Store(#[from] crate::sweep::StoreError),
+    Store(#[from] StoreError),
+}
+
+impl Outgrown for SweepError {
+    fn is_too_small(&self) -> bool {
+        matches!(self, Self::Fe(e) if e.is_too_small())
+    }
 }
