@@ -40,6 +40,7 @@ impl<'s> StaticSet<'s> {
     /// # Errors
     /// As [`StaticSet::under`].
     pub fn under_with(mut self, torque_nm: f64, further: &DVector<f64>) -> Result<Self, FeError> {
+        finite(torque_nm)?;
         let f = self.load_with(torque_nm, further);
         if f.amax() == 0.0 {
             let none = DVector::zeros(self.races.count);
@@ -207,6 +208,14 @@ impl<'s> StaticSet<'s> {
         cells: CellSettings,
         solver: &(dyn ComplementaritySolver + Sync),
     ) -> Result<SetCycle, FeError> {
+        if positions == 0 {
+            return Err(FeError::Unfit {
+                key: "positions".into(),
+                value: "0".into(),
+                allowed: "1 or more".into(),
+                why: "a mesh cycle is computed at positions".into(),
+            });
+        }
         let list: Vec<f64> = (0..positions).map(|i| i as f64 / positions as f64).collect();
         self.states_on(torque_nm, further, &list, cells, solver)
     }
@@ -235,6 +244,7 @@ impl<'s> StaticSet<'s> {
         cells: CellSettings,
         solver: &(dyn ComplementaritySolver + Sync),
     ) -> Result<SetCycle, FeError> {
+        finite(torque_nm)?;
         let tables = self.tables_of(cells, list, None)?;
         let f = self.load_with(torque_nm, further);
         if f.amax() > 0.0 {
@@ -294,4 +304,17 @@ fn resized<T>(
         }
     }
     attempt(sized_for)
+}
+
+/// Refuses a torque that is not a number, under which all forces would be zero.
+fn finite(torque_nm: f64) -> Result<(), FeError> {
+    match torque_nm.is_finite() {
+        true => Ok(()),
+        false => Err(FeError::Unfit {
+            key: "operation.torque_nm".into(),
+            value: torque_nm.to_string(),
+            allowed: "a finite number".into(),
+            why: "it loads the teeth".into(),
+        }),
+    }
 }
