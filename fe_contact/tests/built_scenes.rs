@@ -53,3 +53,22 @@ fn a_mesh_cycle_has_a_torque_and_positions() {
         }
     }
 }
+
+/// The mean of fourteen positions is that of four times as many to 1e-7 of the motion of the sun; of four it
+/// is another.
+#[test]
+fn the_loaded_configuration_is_the_mean_of_as_many_positions_as_the_scene_asks_for() {
+    let sun = |positions: u32| {
+        let mut scene = scene();
+        scene.fe_contact.mean_positions = Some(positions);
+        let bodies = Bodies::new(&scene).unwrap();
+        let set =
+            StaticSet::new(&scene, &bodies, Facing::CounterClockwise, Imperfections::default());
+        let torque = LoadCase::of_scene(&scene).unwrap().sun_load_nm();
+        let found = set.unwrap().cycle(torque, 4, &ActiveSet).unwrap();
+        found.states.iter().map(|state| state.central[2][2]).sum::<f64>()
+    };
+    let [four, usual, many] = [4, 14, 56].map(sun);
+    println!("{four:e} {usual:e} {many:e}");
+    assert!(four != usual && (usual / many - 1.0).abs() < 1e-7, "{four:e} {usual:e} {many:e}");
+}

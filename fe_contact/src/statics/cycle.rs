@@ -106,9 +106,12 @@ impl<'s> StaticSet<'s> {
         self.reference_at(torque_nm, q, &forces)
     }
 
-    /// Least number of positions (at least 14) with which all meshes of a kind pass through the
-    /// same phases: the phase differences of the unloaded set are then whole numbers of steps.
+    /// The number of positions that the scene names, or the least (at least 14) with which all meshes of a kind pass
+    /// through the same phases: the phase differences of the unloaded set are then whole numbers of steps.
     fn even_positions(&self) -> usize {
+        if let Some(positions) = self.bodies.settings.input.mean_positions {
+            return positions as usize;
+        }
         let [least, most] = MEAN_OVER;
         let planets = self.races.planets();
         let is_whole = |count: &usize| {
