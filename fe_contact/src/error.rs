@@ -16,6 +16,9 @@ pub enum FeError {
         /// What needs it.
         why: &'static str,
     },
+    /// A scene that its file could not hold, by the faults that the reader would find.
+    #[error(transparent)]
+    Scene(#[from] scene::SceneFaults),
     /// A scene value FE/contact cannot work with.
     #[error("`{key}` is {value}: allowed is {allowed}, because {why}")]
     Unfit {

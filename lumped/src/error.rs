@@ -10,6 +10,9 @@ pub enum LumpedError {
     /// The scene has no lumped parameters.
     #[error("[lumped] is absent: a lumped model needs masses, inertias and mesh stiffnesses")]
     NoParameters,
+    /// A scene that its file could not hold, by the faults that the reader would find.
+    #[error(transparent)]
+    Scene(#[from] scene::SceneFaults),
     /// A scene whose parameters have no closed form.
     #[error("no parameters in closed form: {0}")]
     NotAnalytic(&'static str),

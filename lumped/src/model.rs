@@ -34,11 +34,16 @@ pub struct LumpedModel {
     pub springs: Vec<Spring>,
 }
 
+/// Keys that no model can be right with a fault of.
+const KEYS: [&str; 4] =
+    ["planets.count", "lumped.mass_kg", "lumped.inertia_over_r2_kg", "lumped.pressure_angle_deg"];
+
 impl LumpedModel {
     /// Builds the model of a scene.
     ///
     /// # Errors
-    /// If the scene lacks lumped parameters that a free coordinate needs.
+    /// If the scene lacks lumped parameters that a free coordinate needs, or has a fault in one
+    /// that the model cannot do without ([`Scene::check_keys`]).
     pub fn from_scene(scene: &Scene) -> Result<Self, LumpedError> {
         let lumped = scene.lumped.as_ref().ok_or(LumpedError::NoParameters)?;
         let supports = &scene.supports;
@@ -127,7 +132,10 @@ impl LumpedModel {
             Some(Spring { id, stiffness, .. }) => {
                 Err(LumpedError::Stiffness { spring: *id, value: *stiffness })
             }
-            None => Ok(Self { psi, coordinates, mass, springs }),
+            None => {
+                scene.check_keys(&KEYS)?;
+                Ok(Self { psi, coordinates, mass, springs })
+            }
         }
     }
 

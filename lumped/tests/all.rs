@@ -4,6 +4,7 @@
 
 mod analytic;
 mod balanced;
+mod built_scenes;
 mod common;
 mod derivatives;
 mod gear_pair;

@@ -179,6 +179,8 @@ pub struct FeContactInput {
     /// Matching points below each cell: 1 as in eq. (1) of Parker, Agashe & Vijayakar (2000), 2 to
     /// extrapolate to the surface.
     pub matching_points: u32,
+    /// Number of positions of the mesh cycle over which the loaded configuration is averaged.
+    pub mean_positions: Option<u32>,
     /// Factors on the FE part of each mesh's flexibility; the half-plane part is unchanged.
     pub flexibility_factor: PerMesh,
 }

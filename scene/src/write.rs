@@ -213,6 +213,9 @@ impl Scene {
         file.optional("fe_contact.matching_depth_mm", fe.matching_depth);
         file.optional("fe_contact.matching_depth_elements", fe.matching_depth_elements);
         file.set("fe_contact.matching_points", fe.matching_points);
+        if let Some(positions) = fe.mean_positions {
+            file.set("fe_contact.mean_positions", positions);
+        }
         file.number("fe_contact.flexibility_factor.sun_planet", fe.flexibility_factor.sun_planet);
         file.number("fe_contact.flexibility_factor.ring_planet", fe.flexibility_factor.ring_planet);
         let dynamics = &self.dynamics;

@@ -58,3 +58,23 @@ fn what_no_file_may_hold_is_a_fault_with_its_key() {
         assert!(faults.iter().any(|fault| fault.key == key), "{key}: {faults:?}");
     }
 }
+
+#[test]
+fn a_set_begins_with_the_defaults_of_the_keys_and_takes_parts_of_another() {
+    let whole = set();
+    let mut built = Scene::planetary(4, 87.6e6).unwrap();
+    assert_eq!((built.fe_contact, built.dynamics), (whole.fe_contact, whole.dynamics));
+    assert_eq!(built.damping, whole.damping);
+    let Scene { title, source, planets, teeth, geometry, .. } = whole.clone();
+    built = Scene { title, source, planets, teeth, geometry, ..built };
+    built.check().unwrap();
+    let Scene { material, supports, lumped, operation, .. } = whole.clone();
+    built = Scene { material, supports, lumped, operation, ..built };
+    assert_eq!(built, whole);
+    for (planets, bearing, key) in
+        [(0, 1e8, "planets.count"), (3, f64::NAN, "planet.bearing_n_per_m")]
+    {
+        let error = Scene::planetary(planets, bearing).unwrap_err();
+        assert!(error.faults().iter().any(|fault| fault.key == key), "{key}: {error}");
+    }
+}

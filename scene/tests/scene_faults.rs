@@ -135,6 +135,11 @@ fn each_kind_of_fault_names_its_key_and_says_why() {
         ),
         (&[("contact_cells = 40", "contact_cells = 2")], "fe_contact.contact_cells", "8 to 400"),
         (
+            &[("# mean_positions = 14", "mean_positions = 3")],
+            "fe_contact.mean_positions",
+            "4 to 140",
+        ),
+        (
             &[("cell_layout = \"graded\"", "cell_layout = \"fine\"")],
             "fe_contact.cell_layout",
             "\"even\"",

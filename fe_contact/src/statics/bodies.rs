@@ -1,6 +1,6 @@
 //! The flexible gears of a scene.
 
-use gearset::{Gear, Geometry, Mesh, MeshKind, MeshMember};
+use gearset::{Gear, Geometry, Mesh, MeshKind, MeshMember, assembly};
 use scene::{FeContactInput, Scene};
 
 use crate::body::GearBody;
@@ -106,15 +106,41 @@ pub struct Bodies {
     pub ring: Option<GearBody>,
 }
 
+/// Keys that no bodies can be right with a fault of.
+const KEYS: [&str; 5] = [
+    "planets.count",
+    "material",
+    "fe_contact.flank_elements",
+    "fe_contact.contact_cells",
+    "fe_contact.matching_points",
+];
+
+/// Refuses planets whose tip circles overlap.
+fn planets_apart(scene: &Scene, geometry: &Geometry) -> Result<(), FeError> {
+    let (psi, tip) = (&scene.planets.psi_rad, geometry.planet.tip_radius);
+    let clearances = assembly::planet_clearances(psi, geometry.center_distance, tip);
+    match clearances.into_iter().find(|(_, _, clearance)| clearance.is_nan() || *clearance <= 0.0) {
+        None => Ok(()),
+        Some((p, q, _)) => Err(FeError::Unfit {
+            key: "planets.positions_deg".into(),
+            value: format!("{psi:?} rad"),
+            allowed: "planets whose tip circles stay clear of each other".into(),
+            why: format!("planets {p} and {q} overlap"),
+        }),
+    }
+}
+
 impl Bodies {
     /// Meshes the gears a scene needs and solves for their flexibility: all of a set, two of a pair.
     ///
     /// # Errors
-    /// If the scene has no tooth geometry, a gear cannot be meshed or solved, or the bodies would
+    /// If the scene has no tooth geometry or has a fault ([`Scene::check_keys`]), a gear cannot be meshed or solved, or the bodies would
     /// need more than [`super::MOST_BYTES`] of memory.
     pub fn new(scene: &Scene) -> Result<Self, FeError> {
         super::estimate::within_memory(scene)?;
         let geometry = geometry(scene)?;
+        scene.check_keys(&KEYS)?;
+        planets_apart(scene, &geometry)?;
         let input = scene.fe_contact;
         let material = Elastic::new(&scene.material, input.plane);
         let make = |name: &'static str, gear: &Gear| -> Result<GearBody, FeError> {

@@ -39,6 +39,7 @@ impl<'s> StaticSet<'s> {
     /// # Errors
     /// As [`StaticSet::under`].
     pub fn under_with(mut self, torque_nm: f64, further: &DVector<f64>) -> Result<Self, FeError> {
+        finite(torque_nm)?;
         let f = self.load_with(torque_nm, further);
         if f.amax() == 0.0 {
             let none = DVector::zeros(self.races.count);
@@ -104,9 +105,12 @@ impl<'s> StaticSet<'s> {
         self.reference_at(torque_nm, q, &forces)
     }
 
-    /// Least number of positions (at least 14) with which all meshes of a kind pass through the
-    /// same phases: the phase differences of the unloaded set are then whole numbers of steps.
+    /// The number of positions that the scene names, or the least (at least 14) with which all meshes of a kind pass
+    /// through the same phases: the phase differences of the unloaded set are then whole numbers of steps.
     fn even_positions(&self) -> usize {
+        if let Some(positions) = self.bodies.settings.input.mean_positions {
+            return positions as usize;
+        }
         let [least, most] = MEAN_OVER;
         let planets = self.races.planets();
         let is_whole = |count: &usize| {
@@ -206,6 +210,14 @@ impl<'s> StaticSet<'s> {
         cells: CellSettings,
         solver: &(dyn ComplementaritySolver + Sync),
     ) -> Result<SetCycle, FeError> {
+        if positions == 0 {
+            return Err(FeError::Unfit {
+                key: "positions".into(),
+                value: "0".into(),
+                allowed: "1 or more".into(),
+                why: "a mesh cycle is computed at positions".into(),
+            });
+        }
         let list: Vec<f64> = (0..positions).map(|i| i as f64 / positions as f64).collect();
         self.states_on(torque_nm, further, &list, cells, solver)
     }
@@ -234,6 +246,7 @@ impl<'s> StaticSet<'s> {
         cells: CellSettings,
         solver: &(dyn ComplementaritySolver + Sync),
     ) -> Result<SetCycle, FeError> {
+        finite(torque_nm)?;
         let tables = self.tables_of(cells, list, None)?;
         let f = self.load_with(torque_nm, further);
         if f.amax() > 0.0 {
@@ -293,4 +306,17 @@ fn resized<T>(
         }
     }
     attempt(sized_for)
+}
+
+/// Refuses a torque that is not a number, under which all forces would be zero.
+fn finite(torque_nm: f64) -> Result<(), FeError> {
+    match torque_nm.is_finite() {
+        true => Ok(()),
+        false => Err(FeError::Unfit {
+            key: "operation.torque_nm".into(),
+            value: torque_nm.to_string(),
+            allowed: "a finite number".into(),
+            why: "it loads the teeth".into(),
+        }),
+    }
 }

@@ -230,6 +230,7 @@ fn fe_contact() -> Vec<SceneKey> {
         key("fe_contact.matching_depth_mm", Number(Positive), "mm", "depth d below the flank at which half-plane and finite elements are matched").left_out("0.07 p_b, at least matching_depth_elements, at most what the tooth allows"),
         key("fe_contact.matching_depth_elements", Number(Positive), "–", "least depth d of the default in elements of a flank: 1.3 makes meshes of six and ten elements more accurate (docs/auto.md); not beside matching_depth_mm").left_out("0.85"),
         key("fe_contact.matching_points", Integer(1, 2), "–", "1: matched at d; 2: at d and 2d, extrapolated to the surface").default_is("2").why("1: the paper's eq. (1); 2: extrapolated"),
+        key("fe_contact.mean_positions", Integer(4, 140), "–", "number of positions of the mesh cycle whose mean is the loaded configuration, about which a set is linearised; one equilibrium each").left_out("the least from 14 to 140 with which all meshes of a kind pass through the same phases"),
         key("fe_contact.flexibility_factor", Table, "–", "factors on the FE part of each mesh's flexibility, the half-plane part unchanged; 1 at every fidelity but quasi_static").left_out("1 for both meshes"),
         key("fe_contact.flexibility_factor.sun_planet", Number(Positive), "–", "factor of the sun–planet meshes").default_is("1"),
         key("fe_contact.flexibility_factor.ring_planet", Number(Positive), "–", "factor of the ring–planet meshes").default_is("1"),

@@ -154,7 +154,7 @@ impl<'s> Document<'s> {
 }
 
 /// Whether `key` is `table` or a key below it.
-fn is_within(key: &str, table: &str) -> bool {
+pub(crate) fn is_within(key: &str, table: &str) -> bool {
     key.strip_prefix(table).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 

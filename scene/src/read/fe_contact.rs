@@ -23,6 +23,7 @@ pub(crate) fn fe_contact(s: &Section<'_, '_>) -> Option<FeContactInput> {
         matching_depth,
         matching_depth_elements,
         matching_points: s.integer("matching_points")?,
+        mean_positions: s.integer("mean_positions"),
         flexibility_factor: PerMesh {
             sun_planet: factor.number("sun_planet"),
             ring_planet: factor.number("ring_planet"),

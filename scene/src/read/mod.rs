@@ -17,7 +17,7 @@ use gearset::{Geometry, Member, MeshKind, Operation, PlanetPositions, Teeth};
 
 use crate::check;
 use crate::choices::FeContactInput;
-use crate::read::document::{Document, Section};
+use crate::read::document::{Document, Section, is_within};
 use crate::read::dynamics::dynamics;
 use crate::read::fault::{Fault, SceneError, SceneFaults, printable};
 use crate::read::fe_contact::fe_contact;
@@ -58,6 +58,19 @@ impl Scene {
 }
 
 impl Scene {
+    /// A planetary set of so many equally spaced planets, each on a bearing of this stiffness (N/m), and nothing else:
+    /// every other value is the default of its key. Fields are set afterwards, and [`Scene::check`] judges the result.
+    ///
+    /// # Errors
+    /// [`SceneError::Invalid`] for no planets, too many, or a stiffness that is not above 0.
+    pub fn planetary(planets: usize, planet_bearing_n_per_m: f64) -> Result<Self, SceneError> {
+        Self::from_toml(&format!(
+            "format = 1\nkind = \"planetary\"\n[planets]\ncount = {planets}\n\
+             [planet]\nbearing_n_per_m = {}\n",
+            toml::Value::Float(planet_bearing_n_per_m)
+        ))
+    }
+
     /// Whether a scene that was built or changed in a program is one: judged as its file ([`Scene::to_toml`]) is.
     ///
     /// # Errors
@@ -78,6 +91,17 @@ impl Scene {
             Ok(_) => Ok(()),
             Err(error) => Err(SceneFaults(error.faults().to_vec())),
         }
+    }
+
+    /// The same for some keys or tables alone. Models ask for those without which they cannot be right; they take more
+    /// than a file may hold, such as planets that are displaced from where they can be assembled.
+    ///
+    /// # Errors
+    /// [`SceneFaults`] with the faults of these keys and of keys below them.
+    pub fn check_keys(&self, keys: &[&str]) -> Result<(), SceneFaults> {
+        let Err(SceneFaults(mut faults)) = self.check() else { return Ok(()) };
+        faults.retain(|fault| keys.iter().any(|key| is_within(&fault.key, key)));
+        if faults.is_empty() { Ok(()) } else { Err(SceneFaults(faults)) }
     }
 }
 

@@ -1,0 +1,27 @@
+//! Scenes that a program changes are refused with the key, where no file could hold what they say.
+
+use lumped::{LumpedError, LumpedModel};
+use scene::{Scene, SceneKind, template};
+
+#[test]
+fn models_are_made_of_scenes_without_a_fault() {
+    type Change = (fn(&mut Scene), &'static str);
+    let changes: [Change; 3] = [
+        (|s| s.planets.psi_rad.clear(), "planets.count"),
+        (
+            |s| s.lumped.as_mut().unwrap().pressure_angle.sun_planet = 24.6,
+            "lumped.pressure_angle_deg.sun_planet",
+        ),
+        (|s| s.lumped.as_mut().unwrap().mass.sun = Some(-0.4), "lumped.mass_kg.sun"),
+    ];
+    for (change, key) in changes {
+        let mut scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
+        change(&mut scene);
+        match LumpedModel::from_scene(&scene) {
+            Err(LumpedError::Scene(faults)) => {
+                assert!(faults.0.iter().any(|fault| fault.key == key), "{key}: {faults}");
+            }
+            other => panic!("{key}: {other:?}"),
+        }
+    }
+}
