@@ -256,6 +256,9 @@ pub(super) fn table<'r>() -> Table<'r, Row<'r>> {
         .column("sun_turns", "sense in which the sun turns relative to the carrier", move |r| {
             case(r).sun_turns.name()
         })
+        .column("frequency_hz", "frequency of the harmonic, l f_m, Hz", move |r| {
+            line(r).map(|l| l.harmonic as f64 * case(r).mesh_frequency_hz)
+        })
 }
 
 /// What the column of coordinates holds.
