@@ -14,7 +14,7 @@ const RULED: TableStyle = TableStyle::new()
     .bottom_border(LineStyle::none().fill('─').junction('─'));
 
 /// Characters between the contents of two cells.
-const PADDING: usize = 3;
+const PADDING: usize = 2;
 
 /// A table of rows `R`, column by column: `.column(…)` or `.words(…)` adds one, what follows is said of it.
 pub(crate) struct Table<'t, R> {
@@ -144,8 +144,9 @@ impl<'t, R> Table<'t, R> {
             block.sort_unstable();
             let mut table = comfy_table::Table::new();
             table.load_style(RULED).set_header(block.iter().map(|i| &heads[*i].heading));
-            for (column, i) in block.iter().enumerate() {
-                if let Some(column) = table.column_mut(column).filter(|_| heads[*i].is_right) {
+            for (column, i) in table.column_iter_mut().zip(block.iter()) {
+                column.set_padding((0, 1));
+                if heads[*i].is_right {
                     column.set_cell_alignment(CellAlignment::Right);
                 }
             }

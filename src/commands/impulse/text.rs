@@ -100,6 +100,7 @@ fn table<'r>() -> Table<'r, Row<'r>> {
             Err(outside) => &outside.mode_type,
         })
         .shown("type", Plain)
+        .key()
         .column("frequency_hz", "natural frequency found in the decays", found(|m| m.frequency_hz))
         .shown("Hz", Fixed(2))
         .column("damping_ratio", "its damping ratio", found(|m| m.damping_ratio))
@@ -144,6 +145,7 @@ fn pulses<'r>() -> Table<'r, &'r PulseEntry> {
     type Pulse<'r> = &'r PulseEntry;
     Table::new()
         .words("pulse", Plain, |p: &Pulse<'_>| &p.pulse)
+        .key()
         .words("force N", Fixed(3), |p: &Pulse<'_>| p.force_n)
         .meaning("acts for one time step; of a torque, over the base radius")
         .words("force change", Power(1), |p: &Pulse<'_>| p.force_change)

@@ -131,6 +131,7 @@ impl ModesOutput {
         Table::<Mode<'r>>::new()
             .column("frequency_hz", "", |m| m.frequency_hz)
             .shown_as("Hz", |m| frequency(m))
+            .key()
             .column(
                 "stated_error_percent",
                 "stated beside FE/contact with the inertia of the bodies, at most; – where there is no bound",

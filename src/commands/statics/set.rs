@@ -266,7 +266,9 @@ fn meshes<'r>() -> Table<'r, &'r MeshSummary> {
     type Mesh<'r> = &'r MeshSummary;
     Table::new()
         .words("mesh", Plain, |m: &Mesh<'_>| &m.mesh)
+        .key()
         .words("planet", Plain, |m: &Mesh<'_>| m.planet)
+        .key()
         .words("mean N", Fixed(1), |m: &Mesh<'_>| m.mean_force_n)
         .words("least N", Fixed(1), |m: &Mesh<'_>| m.least_force_n)
         .words("largest N", Fixed(1), |m: &Mesh<'_>| m.largest_force_n)
