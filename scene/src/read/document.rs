@@ -159,8 +159,8 @@ pub(crate) fn is_within(key: &str, table: &str) -> bool {
 }
 
 /// One table of the document, read by the list of keys. Every key asked for counts as known; when the table is
-/// dropped, the others are refused. A value that is absent or at fault is the default of the list, or NaN where there is
-/// none: a scene with faults is never given away.
+/// dropped, the others are refused. A value that is absent or at fault is the default of the list, or NaN where there
+/// is none: a scene with faults is never given away.
 pub(crate) struct Section<'d, 's> {
     pub(crate) document: &'d Document<'s>,
     path: String,
