@@ -13,6 +13,14 @@ pub enum LumpedError {
     /// A scene that its file could not hold, by the faults that the reader would find.
     #[error(transparent)]
     Scene(#[from] scene::SceneFaults),
+    /// An operating pressure angle of a right angle or more, as of degrees that are taken for radians.
+    #[error("`lumped.pressure_angle_deg.{mesh}` is {} °: allowed: below 90 ° either way", value.to_degrees())]
+    PressureAngle {
+        /// Mesh.
+        mesh: &'static str,
+        /// Its angle, rad.
+        value: f64,
+    },
     /// A scene whose parameters have no closed form.
     #[error("no parameters in closed form: {0}")]
     NotAnalytic(&'static str),

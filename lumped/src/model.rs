@@ -1,5 +1,7 @@
 //! Assembly of the model from a scene.
 
+use std::f64::consts::FRAC_PI_2;
+
 use nalgebra::DMatrix;
 
 use gearset::{Axis, Body};
@@ -35,8 +37,7 @@ pub struct LumpedModel {
 }
 
 /// Keys that no model can be right with a fault of.
-const KEYS: [&str; 4] =
-    ["planets.count", "lumped.mass_kg", "lumped.inertia_over_r2_kg", "lumped.pressure_angle_deg"];
+const KEYS: [&str; 3] = ["planets.count", "lumped.mass_kg", "lumped.inertia_over_r2_kg"];
 
 impl LumpedModel {
     /// Builds the model of a scene.
@@ -51,6 +52,14 @@ impl LumpedModel {
         let count = psi.len();
         if let Some(o) = scene.overrides.iter().find(|o| o.planet >= count) {
             return Err(LumpedError::NoSuchPlanet { planet: o.planet, count });
+        }
+        // A mirrored set has negative angles.
+        let angles = lumped.pressure_angle;
+        let angles = [("sun_planet", angles.sun_planet), ("ring_planet", angles.ring_planet)];
+        if let Some((mesh, value)) =
+            angles.into_iter().find(|(_, a)| a.is_nan() || a.abs() >= FRAC_PI_2)
+        {
+            return Err(LumpedError::PressureAngle { mesh, value });
         }
         let special = |n: usize| scene.overrides.iter().find(|o| o.planet == n);
         let coordinates = Coordinates::new(count, |body, axis| {

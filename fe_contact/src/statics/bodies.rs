@@ -134,8 +134,8 @@ impl Bodies {
     /// Meshes the gears a scene needs and solves for their flexibility: all of a set, two of a pair.
     ///
     /// # Errors
-    /// If the scene has no tooth geometry or has a fault ([`Scene::check_keys`]), a gear cannot be meshed or solved, or the bodies would
-    /// need more than [`super::MOST_BYTES`] of memory.
+    /// If the scene has no tooth geometry or has a fault ([`Scene::check_keys`]), a gear cannot be meshed or solved, or
+    /// the bodies would need more than [`super::MOST_BYTES`] of memory.
     pub fn new(scene: &Scene) -> Result<Self, FeError> {
         super::estimate::within_memory(scene)?;
         let geometry = geometry(scene)?;

@@ -1,5 +1,5 @@
 //! Every key of a scene file, declared once: the reader, its faults, the JSON schema and the page of keys follow this
-//! list. One row a key, which no line break would make easier to compare; the reason that a fault gives is the first
+//! list. One row a key, which no line break would make easier to compare. The reason that a fault gives is the first
 //! clause of the meaning, unless the row says why.
 
 use std::sync::LazyLock;
