@@ -152,7 +152,8 @@ fn in_full(
         check.tolerance.reason
     ));
     paragraphs.push(format!("source: {}", check.source));
-    paragraphs.extend(miss.map(|miss| miss.analysis.clone()));
+    let analysis = miss.map(|miss| miss.analysis.split_whitespace().collect::<Vec<_>>().join(" "));
+    paragraphs.extend(analysis);
     for text in paragraphs {
         writeln!(out, "{}", paragraph(&text, "  ", "  "))?;
     }
