@@ -76,7 +76,8 @@ impl Symmetry {
 
     /// P of x(start of the next part) = P x(end of a part), by row, column and value of its entries that are not
     /// zero: planets take the numbers of those `shift` before them, central members turn back by the angle. `place`
-    /// gives the place of a body's axis among the coordinates. `None` if a central member is held in one direction only, or one planet and not another.
+    /// gives the place of a body's axis among the coordinates. `None` if a central member is held in one direction
+    /// only, or one planet and not another.
     pub fn renumbering(
         &self,
         planets: usize,

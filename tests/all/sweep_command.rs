@@ -243,7 +243,7 @@ fn what_differs_from_the_folder_is_said_before_any_set_up() {
     for (arguments, words) in [
         (["--speeds-rpm", "1500:1600:10"], "of 1 speeds from 1600 to 1600 rpm, not 11 speeds"),
         (["--sun-torque-nm", "1000"], "computed with --sun-torque-nm 1130, not 1000"),
-        (["--tolerance", "1e-5"], "--tolerance 0.0001, not 1e-5"),
+        (["--tolerance", "1e-5"], "--tolerance 0.0001, not 0.00001"),
         (["--most-cycles", "7"], "--most-cycles 2000, not 7"),
         (["--model", "lumped"], "the model (--model) quasi-static, not lumped"),
     ] {
