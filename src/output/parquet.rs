@@ -82,6 +82,7 @@ impl<R> Table<'_, R> {
 mod tests {
     use super::*;
     use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::RowAccessor;
 
     #[test]
     fn what_is_written_is_read_again() {

@@ -7,7 +7,6 @@ use std::path::Path;
 
 use validation::{Check, Reference, Status, ValidationError, Verdict, steps};
 
-use crate::commands::modes;
 use crate::error::CommandError;
 use crate::folder::save;
 
@@ -25,6 +24,7 @@ pub(crate) fn write(verdict: &Verdict, folder: &Path) -> Result<(), CommandError
 
 #[cfg(feature = "charts")]
 fn draw(verdict: &Verdict, folder: &Path) -> Result<(), CommandError> {
+    use crate::commands::modes;
     use crate::figures;
     use validation::{PublishedScene, scene};
     let sets = [
