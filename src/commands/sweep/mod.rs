@@ -2,7 +2,10 @@
 
 mod auto;
 mod folder;
+mod remarks;
+mod report;
 mod result;
+mod table;
 
 pub(crate) use result::SweepOutput;
 
