@@ -9,10 +9,10 @@ use std::path::Path;
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use gearset::PlanetPositions;
-use scene::Scene;
 use lapack_route::dsygv_pairs;
 use lumped::{LumpedModel, NaturalModes};
 use nalgebra::DMatrix;
+use scene::Scene;
 
 fn eigen(criterion: &mut Criterion) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenes/lin_parker_1999_4p.toml");

@@ -7,10 +7,10 @@ mod common;
 use std::f64::consts::TAU;
 
 use common::{Random, project_file, scene};
-use scene::Scene;
 use lapack_route::{Driver, lapack_generalized};
 use lumped::{LumpedModel, NaturalModes};
 use nalgebra::DMatrix;
+use scene::Scene;
 
 /// Allowed |Δω²|/ω²_max. Backward stable solvers differ by a few n·ε (1e-14 at 45 coordinates);
 /// a difference of more than a hundred times that is an error.
