@@ -136,7 +136,8 @@ fn dump(folder: &Path) -> Outcome<()> {
         own + d.bearing_s * k[i * n + j]
     };
     let mut f = vec![0.0; n];
-    let radius = scene.lumped.as_ref().and_then(|l| l.radius.sun).ok_or("no radius of the sun")?;
+    let radius =
+        scene.lumped.as_ref().and_then(|l| l.radius_m.sun).ok_or("no radius of the sun")?;
     let sun = model.coordinates.of(Body::Sun, Axis::Rotation).ok_or("the sun does not turn")?;
     f[sun] = TORQUE_NM / radius;
     let mut set = set(scene, false)?;

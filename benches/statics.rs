@@ -43,7 +43,11 @@ fn with_relief(scene: &Scene) -> Scene {
     let geometry = scene.tooth_geometry().expect("teeth");
     let relief = |gear: &Gear| {
         let start_radius = gear.tip_radius - 0.25 * (gear.tip_radius - gear.root_radius);
-        Some(TipRelief { start_radius, amount: 10e-6, shape: ReliefShape::Linear })
+        Some(TipRelief {
+            start_radius_m: start_radius,
+            amount_m: 10e-6,
+            shape: ReliefShape::Linear,
+        })
     };
     if let Some(own) = scene.geometry.as_mut() {
         own.sun.as_mut().expect("sun").tip_relief = geometry.sun.as_ref().and_then(relief);

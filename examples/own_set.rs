@@ -14,8 +14,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         None => Scene::from_toml(template(SceneKind::Planetary))?,
     };
     let mut soft = set.clone();
-    let bearing = soft.supports.planet_bearing;
-    soft.supports.planet_bearing = 0.5 * bearing;
+    let bearing = soft.supports.planet_bearing_n_per_m;
+    soft.supports.planet_bearing_n_per_m = 0.5 * bearing;
     println!("{}: planet bearings of {bearing:.3e} N/m and half as stiff", set.title);
     let [given, softer] = [&set, &soft].map(frequencies);
     for ((hz, name), (soft_hz, _)) in given?.iter().zip(softer?) {

@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             state.case.speed_rpm, state.case.mesh_frequency_hz
         );
         for harmonic in 1..=5 {
-            let amplitude = state.amplitude(Part::Sun, Coordinate::Rotation, harmonic);
+            let amplitude = state.amplitude(Part::SUN, Coordinate::Rotation, harmonic);
             print!("  l = {harmonic}: {:.3} µrad", 1e6 * amplitude);
         }
         println!();

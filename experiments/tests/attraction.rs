@@ -40,7 +40,7 @@ fn a_pair_with_two_sided_contact_ends_at_motions_that_attract() {
         let points = found.points();
         assert!(points.iter().all(|p| p.is_steady && p.attracts == Attraction::ByMultipliers));
         assert!(points.iter().all(|p| p.largest_multiplier().unwrap() < 1.0));
-        let microrad = 1e6 * points[0].state.amplitude(Part::Sun, Coordinate::Rotation, 1);
+        let microrad = 1e6 * points[0].state.amplitude(Part::SUN, Coordinate::Rotation, 1);
         let nearest = [8.0f64, 38.9, 78.8].map(|own| (microrad / own - 1.0).abs());
         println!("{method:?}: {microrad} µrad");
         assert!(nearest.iter().any(|off| *off < 0.015), "{method:?}: {microrad} µrad");
@@ -67,7 +67,7 @@ fn sweeps_with_random_starts_list_the_same_motions_at_a_speed_they_share() {
                 .iter()
                 .find(|(name, p)| *name == chain && p.state.case.speed_rpm == 3600.0)
                 .unwrap();
-            1e6 * p.state.amplitude(Part::Sun, Coordinate::Rotation, 1)
+            1e6 * p.state.amplitude(Part::SUN, Coordinate::Rotation, 1)
         };
         assert!(found.coexisting_rpm().contains(&3600.0));
         let arrived = amplitude("down_00");
@@ -105,7 +105,7 @@ fn the_error_of_the_steps_is_that_seen_with_more_of_them() {
                 let lines = p.state.with_translations();
                 let mut lines = lines.into_iter();
                 let line = lines.find(|l| {
-                    l.part == Part::Sun
+                    l.part == Part::SUN
                         && l.coordinate == coordinate
                         && l.harmonic == estimate.harmonic
                 });
@@ -201,7 +201,7 @@ fn slow_sets_have_the_motion_of_shorter_steps() {
         let model = FeModel::new(&scene, &bodies, Imperfections::default(), case);
         swept(&model, speeds, Direction::Up, SteadyMethod::Shooting)
     };
-    let rotation = |p: &SweepPoint| p.state.amplitude(Part::Sun, Coordinate::Rotation, 1);
+    let rotation = |p: &SweepPoint| p.state.amplitude(Part::SUN, Coordinate::Rotation, 1);
     let speeds = [5.0, 15.0, 40.0, 100.0];
     let (together, fine) = (of(140, &speeds), of(560, &speeds));
     for (a, b) in together.points().iter().zip(fine.points()) {

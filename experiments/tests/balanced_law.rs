@@ -42,7 +42,7 @@ fn balanced_motions_are_those_of_shooting_on_the_law_of_a_shipped_scene() {
         mesh_law(&scene, &bodies, case.sense(), steps, &settings).unwrap()
     });
     let models = laws.clone().map(|law| MeshLawModel::lumped_with(&scene, case, law));
-    let radius = scene.lumped.as_ref().unwrap().radius.sun.unwrap();
+    let radius = scene.lumped.as_ref().unwrap().radius_m.sun.unwrap();
     for rpm in [1100.0, 1640.0] {
         let case = case.at_speed(rpm);
         let [coarse, fine] = [0, 1].map(|k| shot(&models[k], &case));

@@ -25,7 +25,7 @@ fn height(scene: &Scene, bodies: &Bodies, size: usize) -> f64 {
         let end = steady(set.as_mut(), model.shape(), first, steps, &settings).unwrap();
         let point = SweepPoint::new(case, &end, &settings, 0).unwrap();
         assert!(point.is_steady);
-        found.push((rpm, Response::Rotation(Part::Sun).amplitude(&point.state, 2)));
+        found.push((rpm, Response::Rotation(Part::SUN).amplitude(&point.state, 2)));
     }
     top_of_three(found.into_iter()).unwrap().1
 }

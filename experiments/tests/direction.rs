@@ -39,7 +39,7 @@ fn machine_loaded_at(
     let mut scene = shipped::scene("oh58_4p", 56, 1.0);
     scene.fe_contact.flank_elements = 6;
     let supports = &mut scene.supports;
-    supports.ring.bearing = supports.sun.bearing;
+    supports.ring.bearing_n_per_m = supports.sun.bearing_n_per_m;
     for (member, support) in [
         (Member::Sun, &mut supports.sun),
         (Member::Ring, &mut supports.ring),
@@ -103,9 +103,9 @@ fn sun_meshes_come_in_the_order_in_which_their_planets_pass() {
             }
             // The loaded member is wound up in the sense of its torque.
             let (part, torque) = match driver {
-                Member::Sun => (Part::Sun, case.sun_torque_nm),
-                Member::Ring => (Part::Ring, case.sun_torque_nm),
-                Member::Carrier => (Part::Carrier, -case.sun_torque_nm),
+                Member::Sun => (Part::SUN, case.sun_torque_nm),
+                Member::Ring => (Part::RING, case.sun_torque_nm),
+                Member::Carrier => (Part::CARRIER, -case.sun_torque_nm),
             };
             assert!(case.input_torque_nm * torque > 0.0);
             let windup = point.state.line(part, Coordinate::Rotation, 0).unwrap();
@@ -222,7 +222,7 @@ fn gyroscopic_peaks_split_as_the_carrier_turns() {
             let lines = point.state.with_translations();
             let mut lines = lines.into_iter();
             let is_own = |l: &experiments::sweep::Line| {
-                l.part == Part::Sun && l.coordinate == Coordinate::Translation && l.harmonic == 2
+                l.part == Part::SUN && l.coordinate == Coordinate::Translation && l.harmonic == 2
             };
             lines.find(is_own).unwrap().amplitude
         };
@@ -276,7 +276,7 @@ fn statics_are_the_same_whichever_member_turns() {
         supports.carrier.motion = RotationHeld;
         match loaded {
             Member::Sun => supports.sun.motion = Free,
-            Member::Ring => (supports.ring.motion, supports.ring.bearing) = (Free, 1e15),
+            Member::Ring => (supports.ring.motion, supports.ring.bearing_n_per_m) = (Free, 1e15),
             Member::Carrier => supports.carrier.motion = Free,
         }
         let operation = scene.operation.as_mut().unwrap();

@@ -17,7 +17,7 @@ fn scene(name: &str, fidelity: Fidelity) -> Scene {
     scene.fe_contact.element = ElementFamily::Quadratic;
     scene.fe_contact.flank_elements = 6;
     scene.fe_contact.contact_cells = 20;
-    scene.fe_contact.matching_depth = None;
+    scene.fe_contact.matching_depth_m = None;
     scene.dynamics.fidelity = fidelity;
     scene
 }

@@ -205,7 +205,7 @@ fn superharmonic_resonances_are_at_a_half_and_a_third() {
     assert!(points.iter().all(|p| p.is_steady && p.contact_loss == 0.0));
     for harmonic in [2usize, 3] {
         let own = |p: &&experiments::sweep::SweepPoint| {
-            p.state.amplitude(Part::Sun, Coordinate::Rotation, harmonic)
+            p.state.amplitude(Part::SUN, Coordinate::Rotation, harmonic)
         };
         let top = points.iter().copied().max_by(|a, b| own(a).total_cmp(&own(b))).unwrap();
         let rpm = top.state.case.speed_rpm;
@@ -382,7 +382,7 @@ fn superharmonic_resonances_of_the_finite_element_pair() {
             .points()
             .iter()
             .map(|p| {
-                let size = p.state.amplitude(Part::Sun, Coordinate::Rotation, harmonic);
+                let size = p.state.amplitude(Part::SUN, Coordinate::Rotation, harmonic);
                 (p.state.case.speed_rpm / own, size)
             })
             .collect();
@@ -491,7 +491,7 @@ fn a_resonance_is_where_the_steps_in_a_cycle_put_it() {
             let settings = SteadySettings::default();
             let found = steady(set.as_mut(), model.shape(), 0.0, steps, &settings).unwrap();
             let point = SweepPoint::new(case, &found, &settings, 0).unwrap();
-            point.state.amplitude(Part::Sun, Coordinate::Rotation, HARMONIC).powi(-2)
+            point.state.amplitude(Part::SUN, Coordinate::Rotation, HARMONIC).powi(-2)
         });
         let [a, b, c] = squares;
         let [fa, fb, fc] = values;

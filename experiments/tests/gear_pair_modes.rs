@@ -37,11 +37,11 @@ fn lumped(scene: &Scene, bodies: &Bodies, stiffness: f64) -> Vec<f64> {
     };
     let mut scene = scene.clone();
     scene.lumped = Some(LumpedInput {
-        mass: of(sun.mass, planet.mass),
-        inertia_over_r2: of(sun.inertia / radii[0].powi(2), planet.inertia / radii[1].powi(2)),
-        radius: of(radii[0], radii[1]),
-        mesh: PerMesh { sun_planet: stiffness, ring_planet: 0.0 },
-        pressure_angle: PerMesh { sun_planet: mesh.pressure_angle, ring_planet: 0.0 },
+        mass_kg: of(sun.mass, planet.mass),
+        inertia_over_r2_kg: of(sun.inertia / radii[0].powi(2), planet.inertia / radii[1].powi(2)),
+        radius_m: of(radii[0], radii[1]),
+        mesh_n_per_m: PerMesh { sun_planet: stiffness, ring_planet: 0.0 },
+        pressure_angle_rad: PerMesh { sun_planet: mesh.pressure_angle, ring_planet: 0.0 },
     });
     let modes = NaturalModes::of(&LumpedModel::from_scene(&scene).unwrap()).unwrap();
     modes.lambda.iter().map(|l| l.max(0.0).sqrt() / TAU).collect()

@@ -24,7 +24,7 @@ fn a_slender_carrier_is_told_and_stiff_bodies_are_not() {
     assert_eq!(error_at("oh58_4p", |_| (), 1500.0), None);
     let slender = |scene: &mut Scene| {
         let carrier = scene.geometry.as_mut().unwrap().carrier.as_mut().unwrap();
-        carrier.bore_radius = carrier.outer_radius / 2.9;
+        carrier.bore_radius_m = carrier.outer_radius_m / 2.9;
         scene.damping = scene.damping.times(2.0);
     };
     let told = error_at("oh58_4p", slender, 8000.0).unwrap();

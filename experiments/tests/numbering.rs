@@ -1,6 +1,7 @@
 //! The same set with its planets counted from another one moves in the same way, whatever its meshes follow.
 
 use crate::shipped;
+use gearset::Body;
 
 use std::f64::consts::TAU;
 
@@ -44,11 +45,19 @@ fn point(model: &dyn SweepModel, rpm: f64) -> SteadyState {
 /// Largest difference of amplitudes (harmonics 0 to 5) between the set counted from planet 0 and from planet `first`,
 /// over the channel's largest amplitude but the mean.
 fn off(one: &SteadyState, other: &SteadyState, first: usize) -> f64 {
-    let mut pairs = vec![(Part::Sun, Part::Sun, Coordinate::Rotation)];
+    let mut pairs = vec![(Part::SUN, Part::SUN, Coordinate::Rotation)];
     for n in 0..4 {
         let was = (first + n) % 4;
-        pairs.push((Part::Planet(was), Part::Planet(n), Coordinate::Rotation));
-        pairs.push((Part::Planet(was), Part::Planet(n), Coordinate::Tangential));
+        pairs.push((
+            Part::Body(Body::Planet(was)),
+            Part::Body(Body::Planet(n)),
+            Coordinate::Rotation,
+        ));
+        pairs.push((
+            Part::Body(Body::Planet(was)),
+            Part::Body(Body::Planet(n)),
+            Coordinate::Tangential,
+        ));
         pairs.push((Part::SunMesh(was), Part::SunMesh(n), Coordinate::Force));
         pairs.push((Part::RingMesh(was), Part::RingMesh(n), Coordinate::Force));
     }

@@ -72,7 +72,7 @@ fn last(model: &dyn SweepModel, speeds: &[f64]) -> (f64, SweepPoint) {
     let swept = run(model, &plan, &Memory, &|_| ()).unwrap();
     assert!(swept.failed.is_empty(), "{}: {:?}", model.name(), swept.failed);
     let point = (*swept.points().last().unwrap()).clone();
-    (point.state.amplitude(Part::Sun, Coordinate::Rotation, 1), point)
+    (point.state.amplitude(Part::SUN, Coordinate::Rotation, 1), point)
 }
 
 /// At 10,500 rpm forces are far above three times the mean. With tables that are extrapolated the first harmonic

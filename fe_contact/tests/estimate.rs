@@ -72,7 +72,7 @@ fn settings_without_a_body_have_no_estimate() {
     assert_eq!(found, made);
     assert!(found.to_string().contains("fe_contact.flank_elements"), "{found}");
     let mut boreless = scene("oh58_sun_planet_pair", 8);
-    boreless.geometry.as_mut().unwrap().planet.body_radius = None;
+    boreless.geometry.as_mut().unwrap().planet.body_radius_m = None;
     let found = estimate(&boreless).unwrap_err();
     assert!(found.to_string().contains("geometry.planet.bore_diameter_mm"), "{found}");
 }
@@ -120,7 +120,7 @@ fn peak_memory_is_as_estimated() {
 #[test]
 fn a_rim_without_bounds_is_refused_by_its_key() {
     let mut wide = scene("oh58_4p", 8);
-    wide.geometry.as_mut().unwrap().ring.as_mut().unwrap().body_radius = Some(1e6);
+    wide.geometry.as_mut().unwrap().ring.as_mut().unwrap().body_radius_m = Some(1e6);
     let found = estimate(&wide).unwrap_err();
     assert!(found.to_string().contains("geometry.ring.rim_diameter_mm"), "{found}");
     assert_eq!(found, Bodies::new(&wide).unwrap_err());

@@ -83,7 +83,7 @@ fn a_ring_on_springs_and_a_rigid_carrier() {
     let mut scene = scene("oh58_3p", 6);
     let ring = &mut scene.supports.ring;
     ring.motion = Freedom::Free;
-    ring.bearing = 200e6;
+    ring.bearing_n_per_m = 200e6;
     ring.torsional = Torsional::PerLength(500e6);
     scene.geometry.as_mut().unwrap().carrier.as_mut().unwrap().is_rigid = true;
     every_fidelity_turns(scene);

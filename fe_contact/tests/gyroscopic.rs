@@ -160,7 +160,7 @@ fn free_bodies_vibrate_in_planes_that_stand_still_in_space() {
         ] {
             let at = at(&set, body, axis);
             let m = set.masses()[at];
-            set.external[at] = 10e-6 * (scene.supports.sun.bearing * m).sqrt() / STEP;
+            set.external[at] = 10e-6 * (scene.supports.sun.bearing_n_per_m * m).sqrt() / STEP;
         }
         set.step().unwrap();
         set.external.fill(0.0);
@@ -191,10 +191,10 @@ fn free_bodies_vibrate_in_planes_that_stand_still_in_space() {
             .collect();
         (mass, z, v, path)
     };
-    let bearing = scene.supports.planet_bearing;
+    let bearing = scene.supports.planet_bearing_n_per_m;
     let stiffness = DMatrix::from_fn(2 + planets, 2 + planets, |i, j| match (i, j) {
-        (0, 0) => scene.supports.sun.bearing,
-        (1, 1) => scene.supports.carrier.bearing + planets as f64 * bearing,
+        (0, 0) => scene.supports.sun.bearing_n_per_m,
+        (1, 1) => scene.supports.carrier.bearing_n_per_m + planets as f64 * bearing,
         (i, j) if i == j => bearing,
         (1, 2..) | (2.., 1) => -bearing,
         _ => 0.0,

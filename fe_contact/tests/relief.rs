@@ -73,7 +73,7 @@ fn plain() -> &'static Bodies {
 }
 
 fn relief(start_diameter_mm: f64, amount_um: f64, shape: ReliefShape) -> TipRelief {
-    TipRelief { start_radius: 0.5e-3 * start_diameter_mm, amount: 1e-6 * amount_um, shape }
+    TipRelief { start_radius_m: 0.5e-3 * start_diameter_mm, amount_m: 1e-6 * amount_um, shape }
 }
 
 /// The same bodies with relief on driver and driven gear.
@@ -89,11 +89,11 @@ fn relieved(of: [Option<TipRelief>; 2]) -> Bodies {
 fn removed(gear: &Gear, relief: Option<TipRelief>, roll_length: f64) -> f64 {
     let Some(relief) = relief else { return 0.0 };
     let at = |r: f64| (r * r - gear.base_radius * gear.base_radius).sqrt();
-    let (start, tip) = (at(relief.start_radius), at(gear.tip_radius));
+    let (start, tip) = (at(relief.start_radius_m), at(gear.tip_radius));
     let share = ((roll_length - start) / (tip - start)).max(0.0);
     match relief.shape {
-        ReliefShape::Linear => relief.amount * share,
-        ReliefShape::Parabolic => relief.amount * share * share,
+        ReliefShape::Linear => relief.amount_m * share,
+        ReliefShape::Parabolic => relief.amount_m * share * share,
     }
 }
 
@@ -335,7 +335,7 @@ fn a_linear_relief_displaces_the_contact_of_cylinders() {
     let gear = mesh.gear(MeshMember::Driver);
     let at = |r: f64| (r * r - gear.base_radius * gear.base_radius).sqrt();
     // ds/dx = r_b/s: a flank is s long per radian of its roll angle s/r_b.
-    let by_roll_length = own.amount / (at(gear.tip_radius) - at(own.start_radius));
+    let by_roll_length = own.amount_m / (at(gear.tip_radius) - at(own.start_radius_m));
     let slope = by_roll_length * gear.base_radius / roll_length;
     let towards_tip = (frame.roll_length_at(MeshMember::Driver, 1e-5) - roll_length).signum();
     let shift = -towards_tip * frame.radius() * slope;

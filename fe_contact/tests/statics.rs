@@ -86,7 +86,7 @@ fn stiffness_by_element_is_as_tabled() {
             let mut scene = scene("oh58_4p.toml");
             scene.fe_contact.element = element;
             scene.fe_contact.flank_elements = flank_elements;
-            (scene.fe_contact.matching_points, scene.fe_contact.matching_depth) =
+            (scene.fe_contact.matching_points, scene.fe_contact.matching_depth_m) =
                 (1, Some(0.98e-3));
             let bodies = Bodies::new(&scene).unwrap();
             let cycle = pair_cycle(&bodies, MeshKind::SunPlanet, FORCE, 40, &ActiveSet).unwrap();
@@ -214,7 +214,7 @@ fn a_set_that_nothing_holds_is_refused() {
 #[test]
 fn without_a_bore_there_is_no_race() {
     let mut boreless = scene("oh58_sun_planet_pair.toml");
-    boreless.geometry.as_mut().unwrap().planet.body_radius = None;
+    boreless.geometry.as_mut().unwrap().planet.body_radius_m = None;
     let refused = Bodies::new(&boreless).unwrap_err().to_string();
     assert!(refused.contains("geometry.planet.bore_diameter_mm"), "{refused}");
 }
@@ -286,8 +286,11 @@ fn backside_flanks_press_where_the_backlash_is_used_up() {
 fn without_backlash_the_load_opens_the_backside_flanks() {
     let mut tight = scene("oh58_3p.toml");
     let geometry = tight.geometry.as_mut().unwrap();
-    geometry.thickness =
-        gearset::ThicknessInput::Backlash { sun_planet: 0.0, ring_planet: 0.0, planet_share: 0.5 };
+    geometry.thickness = gearset::ThicknessInput::Backlash {
+        sun_planet_m: 0.0,
+        ring_planet_m: 0.0,
+        planet_share: 0.5,
+    };
     tight.fe_contact.flank_elements = 8;
     let b = Bodies::new(&tight).unwrap();
     let set = StaticSet::new(&tight, &b, Facing::CounterClockwise, Imperfections::default());

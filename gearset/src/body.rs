@@ -5,8 +5,6 @@ use std::fmt;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::operation::Member;
-
 /// A body, in the order used everywhere: carrier, ring, sun, planets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -77,16 +75,6 @@ impl Body {
 impl fmt::Display for Body {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.name().replace('_', " "))
-    }
-}
-
-impl From<Member> for Body {
-    fn from(member: Member) -> Self {
-        match member {
-            Member::Sun => Self::Sun,
-            Member::Ring => Self::Ring,
-            Member::Carrier => Self::Carrier,
-        }
     }
 }
 

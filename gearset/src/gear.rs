@@ -137,14 +137,14 @@ impl Gear {
     /// that of the side without relief.
     pub fn relief_and_slope_at(&self, roll_length: f64) -> [f64; 2] {
         let Some(relief) = self.tip_relief else { return [0.0; 2] };
-        let start = roll_length_at(self.base_radius, relief.start_radius);
+        let start = roll_length_at(self.base_radius, relief.start_radius_m);
         // Towards the tip the roll length grows on an external gear and shrinks on an internal one.
         let length = self.tip_roll_length() - start;
         let x = (roll_length - start) / length;
         match relief.shape {
             _ if x <= 0.0 => [0.0; 2],
-            ReliefShape::Linear => [relief.amount * x, relief.amount / length],
-            ReliefShape::Parabolic => [relief.amount * x * x, 2.0 * relief.amount * x / length],
+            ReliefShape::Linear => [relief.amount_m * x, relief.amount_m / length],
+            ReliefShape::Parabolic => [relief.amount_m * x * x, 2.0 * relief.amount_m * x / length],
         }
     }
 }

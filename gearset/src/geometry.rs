@@ -57,15 +57,15 @@ impl Geometry {
     /// # Errors
     /// If the base circles leave no operating pressure angle at the centre distance.
     pub fn new(input: &GeometryInput, teeth: &Teeth) -> Result<Self, NoMesh> {
-        let a = input.center_distance;
+        let a = input.center_distance_m;
         let make = |gear: &GearInput, teeth: u32, side| Gear {
             teeth,
             side,
-            base_radius: f64::from(teeth) * input.base_pitch / TAU,
-            tip_radius: gear.tip_radius,
-            root_radius: gear.root_radius,
-            body_radius: gear.body_radius,
-            fillet_radius: gear.fillet_radius,
+            base_radius: f64::from(teeth) * input.base_pitch_m / TAU,
+            tip_radius: gear.tip_radius_m,
+            root_radius: gear.root_radius_m,
+            body_radius: gear.body_radius_m,
+            fillet_radius: gear.fillet_radius_m,
             half_angle_base: 0.0,
             tip_relief: gear.tip_relief,
         };
@@ -79,8 +79,8 @@ impl Geometry {
         let ring_planet = ring.as_ref().map(|r| Mesh::ring_planet(r, &planet, a)).transpose()?;
         Ok(Self {
             center_distance: a,
-            base_pitch: input.base_pitch,
-            face_width: input.face_width,
+            base_pitch: input.base_pitch_m,
+            face_width: input.face_width_m,
             sun,
             planet,
             ring,
@@ -146,7 +146,11 @@ fn set_thickness(
     ring: &mut Option<Gear>,
 ) -> Result<(), NoMesh> {
     match input.thickness {
-        ThicknessInput::Backlash { sun_planet, ring_planet, planet_share } => {
+        ThicknessInput::Backlash {
+            sun_planet_m: sun_planet,
+            ring_planet_m: ring_planet,
+            planet_share,
+        } => {
             if let Some(sun) = sun {
                 let mesh = Mesh::sun_planet(sun, planet, a)?;
                 let r_planet = mesh.pitch_radius(MeshMember::Driven);
@@ -172,7 +176,7 @@ fn set_thickness(
         }
         ThicknessInput::ProfileShift { sun: x_s, planet: x_p, ring: x_r } => {
             // The reader refuses profile shifts without a rack.
-            let alpha = input.rack.map_or(0.0, |rack| rack.pressure_angle);
+            let alpha = input.rack.map_or(0.0, |rack| rack.pressure_angle_rad);
             // β_b = t/(2r) + inv α₀ with t = m (π/2 + 2 x tan α₀) on r = m Z/2
             let shifted = |gear: &mut Gear, x: f64| {
                 let t_over_2r = (FRAC_PI_2 + 2.0 * x * alpha.tan()) / f64::from(gear.teeth);

@@ -7,13 +7,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GeometryInput {
     /// a, m.
-    pub center_distance: f64,
+    pub center_distance_m: f64,
     /// p_b, the one base pitch of all gears, m.
-    pub base_pitch: f64,
+    pub base_pitch_m: f64,
     /// Generating rack, when the scene gives one.
     pub rack: Option<Rack>,
     /// Face width b, m.
-    pub face_width: f64,
+    pub face_width_m: f64,
     /// Sun, if the scene has one.
     pub sun: Option<GearInput>,
     /// Planet.
@@ -30,11 +30,11 @@ pub struct GeometryInput {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CarrierInput {
     /// Radius of the bore, which is its race, m.
-    pub bore_radius: f64,
+    pub bore_radius_m: f64,
     /// Outer radius, m.
-    pub outer_radius: f64,
+    pub outer_radius_m: f64,
     /// Radius of the rigid, material-filled pin seats, m.
-    pub pin_seat_radius: f64,
+    pub pin_seat_radius_m: f64,
     /// Whether it is taken as rigid between bore and seats.
     pub is_rigid: bool,
 }
@@ -43,22 +43,22 @@ pub struct CarrierInput {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Rack {
     /// Module m, m.
-    pub module: f64,
+    pub module_m: f64,
     /// Pressure angle of the rack, rad.
-    pub pressure_angle: f64,
+    pub pressure_angle_rad: f64,
 }
 
 /// Circles and edges of one gear.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GearInput {
     /// Tip radius, m.
-    pub tip_radius: f64,
+    pub tip_radius_m: f64,
     /// Root radius, m.
-    pub root_radius: f64,
+    pub root_radius_m: f64,
     /// Bore radius of an external gear, rim radius of the ring, m.
-    pub body_radius: Option<f64>,
+    pub body_radius_m: Option<f64>,
     /// Root fillet radius, m.
-    pub fillet_radius: f64,
+    pub fillet_radius_m: f64,
     /// Tip relief, if any.
     pub tip_relief: Option<TipRelief>,
 }
@@ -72,9 +72,9 @@ pub struct GearInput {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TipRelief {
     /// Radius where the relief starts, m; key `start_diameter_mm`.
-    pub start_radius: f64,
+    pub start_radius_m: f64,
     /// Amount at the tip circle, m; key `amount_um`.
-    pub amount: f64,
+    pub amount_m: f64,
     /// Growth from start to tip.
     pub shape: ReliefShape,
 }
@@ -96,9 +96,9 @@ pub enum ThicknessInput {
     /// From circumferential backlash at the operating pitch circles.
     Backlash {
         /// Sun–planet backlash, m.
-        sun_planet: f64,
+        sun_planet_m: f64,
         /// Ring–planet backlash, m.
-        ring_planet: f64,
+        ring_planet_m: f64,
         /// Planet's share of the sum of sun and planet thicknesses.
         planet_share: f64,
     },

@@ -44,8 +44,8 @@ fn a_9_dp_rack_of_22_5_degrees_describes_the_same_set() {
     let (mut scene, _) = oh58();
     let input = scene.geometry.as_mut().unwrap();
     let (module, angle) = (25.4e-3 / 9.0, 22.5f64.to_radians());
-    input.base_pitch = std::f64::consts::PI * module * angle.cos();
-    input.rack = Some(gearset::Rack { module, pressure_angle: angle });
+    input.base_pitch_m = std::f64::consts::PI * module * angle.cos();
+    input.rack = Some(gearset::Rack { module_m: module, pressure_angle_rad: angle });
     let g = scene.tooth_geometry().unwrap();
     assert!((g.sun_planet.as_ref().unwrap().pressure_angle.to_degrees() - 24.60).abs() < 0.005);
     assert!((g.ring_planet.as_ref().unwrap().pressure_angle.to_degrees() - 20.19).abs() < 0.005);

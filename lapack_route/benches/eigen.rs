@@ -11,7 +11,6 @@ use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use gearset::PlanetPositions;
 use lapack_route::dsygv_pairs;
 use lumped::{LumpedModel, NaturalModes};
-use nalgebra::DMatrix;
 use scene::Scene;
 
 fn eigen(criterion: &mut Criterion) {
@@ -24,7 +23,7 @@ fn eigen(criterion: &mut Criterion) {
         scene.planets = PlanetPositions::equally_spaced(planets);
         let model = LumpedModel::from_scene(&scene).expect("the scene has lumped parameters");
         let k = model.stiffness();
-        let m = DMatrix::from_diagonal(&model.mass.clone().into());
+        let m = model.mass_matrix();
         group.bench_function(BenchmarkId::new("dsygv", planets), |b| {
             b.iter(|| dsygv_pairs(black_box(&k), black_box(&m)));
         });

@@ -1,10 +1,13 @@
 //! The numbering of the free coordinates.
 
 use gearset::{Axis, Body};
+use serde::Serialize;
 
-/// Map from (body, axis) to the index of a free coordinate.
-#[derive(Debug, Clone)]
+/// Map from (body, axis) to the index of a free coordinate; as JSON the free coordinates in order.
+#[derive(Debug, Clone, Serialize)]
+#[serde(transparent)]
 pub struct Coordinates {
+    #[serde(skip)]
     index: Vec<Option<usize>>,
     free: Vec<(Body, Axis)>,
 }

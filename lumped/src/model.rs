@@ -2,10 +2,10 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use gearset::{Axis, Body};
-use scene::{Freedom, PerBody, Scene, Support, Torsional};
+use scene::{Freedom, Scene, Support, Torsional};
 
 use crate::coordinates::Coordinates;
 use crate::error::LumpedError;
@@ -54,7 +54,7 @@ impl LumpedModel {
             return Err(LumpedError::NoSuchPlanet { planet: o.planet, count });
         }
         // A mirrored set has negative angles.
-        let angles = lumped.pressure_angle;
+        let angles = lumped.pressure_angle_rad;
         let angles = [("sun_planet", angles.sun_planet), ("ring_planet", angles.ring_planet)];
         if let Some((mesh, value)) =
             angles.into_iter().find(|(_, a)| a.is_nan() || a.abs() >= FRAC_PI_2)
@@ -68,7 +68,7 @@ impl LumpedModel {
         });
         // Added to every planet, also to one with a mass of its own.
         let piece = supports.planet_added;
-        let added = |axis: Axis| match (axis, lumped.radius.planet) {
+        let added = |axis: Axis| match (axis, lumped.radius_m.planet) {
             (Axis::First | Axis::Second, _) => Ok(piece.mass_kg),
             _ if piece.inertia_kg_m2 == 0.0 => Ok(0.0),
             (Axis::Rotation, Some(r)) => Ok(piece.inertia_kg_m2 / (r * r)),
@@ -82,10 +82,10 @@ impl LumpedModel {
             let (table, own, common) = match axis {
                 Axis::Rotation => (
                     "inertia_over_r2_kg",
-                    special.and_then(|o| o.inertia_over_r2),
-                    of(&lumped.inertia_over_r2, body),
+                    special.and_then(|o| o.inertia_over_r2_kg),
+                    lumped.inertia_over_r2_kg.of(body),
                 ),
-                _ => ("mass_kg", special.and_then(|o| o.mass), of(&lumped.mass, body)),
+                _ => ("mass_kg", special.and_then(|o| o.mass_kg), lumped.mass_kg.of(body)),
             };
             let bare = own.or(common).ok_or(LumpedError::NoInertia { table, body })?;
             let value = bare + if matches!(body, Body::Planet(_)) { added(axis)? } else { 0.0 };
@@ -101,13 +101,13 @@ impl LumpedModel {
         let mut springs = Vec::with_capacity(3 * count + 6);
         for body in [Body::Carrier, Body::Ring, Body::Sun, Body::Planet(0)] {
             let Some(support) = support(scene, body) else { continue };
-            if support.motion.translates() && support.bearing != 0.0 {
+            if support.motion.translates() && support.bearing_n_per_m != 0.0 {
                 let rows = rows.central_bearing(body);
                 let id = SpringId::CentralBearing(body);
-                springs.push(Spring { id, stiffness: support.bearing, rows });
+                springs.push(Spring { id, stiffness: support.bearing_n_per_m, rows });
             }
             if support.motion.rotates() {
-                let stiffness = torsional(&support, of(&lumped.radius, body), body)?;
+                let stiffness = torsional(&support, lumped.radius_m.of(body), body)?;
                 if stiffness != 0.0 {
                     let id = SpringId::Torsional(body);
                     springs.push(Spring { id, stiffness, rows: rows.torsion(body) });
@@ -115,11 +115,11 @@ impl LumpedModel {
             }
         }
         for (n, &psi) in psi.iter().enumerate() {
-            let (o, angle) = (special(n), &lumped.pressure_angle);
+            let (o, angle) = (special(n), &lumped.pressure_angle_rad);
             let own = |value: Option<f64>, common: f64| value.unwrap_or(common);
             springs.push(Spring {
                 id: SpringId::SunMesh(n),
-                stiffness: own(o.and_then(|o| o.sun_mesh), lumped.mesh.sun_planet),
+                stiffness: own(o.and_then(|o| o.sun_mesh_n_per_m), lumped.mesh_n_per_m.sun_planet),
                 rows: vec![rows.sun_mesh(n, psi, angle.sun_planet)],
             });
             if supports.pair.is_some() {
@@ -127,12 +127,15 @@ impl LumpedModel {
             }
             springs.push(Spring {
                 id: SpringId::RingMesh(n),
-                stiffness: own(o.and_then(|o| o.ring_mesh), lumped.mesh.ring_planet),
+                stiffness: own(
+                    o.and_then(|o| o.ring_mesh_n_per_m),
+                    lumped.mesh_n_per_m.ring_planet,
+                ),
                 rows: vec![rows.ring_mesh(n, psi, angle.ring_planet)],
             });
             springs.push(Spring {
                 id: SpringId::PlanetBearing(n),
-                stiffness: own(o.and_then(|o| o.bearing), supports.planet_bearing),
+                stiffness: own(o.and_then(|o| o.bearing_n_per_m), supports.planet_bearing_n_per_m),
                 rows: rows.planet_bearing(n, psi),
             });
         }
@@ -146,6 +149,11 @@ impl LumpedModel {
                 Ok(Self { psi, coordinates, mass, springs })
             }
         }
+    }
+
+    /// The mass matrix M on the same coordinates as [`Self::stiffness`], n×n, kg.
+    pub fn mass_matrix(&self) -> DMatrix<f64> {
+        DMatrix::from_diagonal(&DVector::from_column_slice(&self.mass))
     }
 
     /// `[eq:lumped-matrices]` K = Σ k b bᵀ over the rows b of all springs, n×n, N/m; the mass matrix is diagonal, (m,
@@ -177,15 +185,6 @@ fn support(scene: &Scene, body: Body) -> Option<Support> {
         Body::Sun => Some(scene.supports.sun),
         // A planet of a set has a bearing on the carrier only.
         Body::Planet(_) => scene.supports.pair.map(|pair| pair.planet),
-    }
-}
-
-fn of(values: &PerBody, body: Body) -> Option<f64> {
-    match body {
-        Body::Carrier => values.carrier,
-        Body::Ring => values.ring,
-        Body::Sun => values.sun,
-        Body::Planet(_) => values.planet,
     }
 }
 

@@ -3,11 +3,13 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
+use gearset::{Axis, Body};
 use nalgebra::DMatrix;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use dynamics::{SpringRow, factored_modes, generalized_symmetric, group_equal, split};
 
+use crate::coordinates::Coordinates;
 use crate::error::LumpedError;
 use crate::kinds::{Kinds, ModeType};
 use crate::model::LumpedModel;
@@ -25,7 +27,7 @@ pub struct Participation {
 }
 
 /// One distinct frequency of one type.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 pub struct ModeGroup {
     /// f = √λ / 2π, Hz.
     pub frequency_hz: f64,
@@ -39,13 +41,20 @@ pub struct ModeGroup {
     pub multiplicity: usize,
     /// Shares in the kinds, averaged over the group.
     pub participation: Participation,
-    /// M-orthonormal mode shapes, one per column (n×multiplicity).
+    /// M-orthonormal mode shapes, one per column (n×multiplicity); as JSON a list of columns.
+    #[serde(serialize_with = "columns")]
     pub vectors: DMatrix<f64>,
 }
 
+fn columns<S: Serializer>(matrix: &DMatrix<f64>, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_seq(matrix.column_iter().map(|column| column.as_slice().to_vec()))
+}
+
 /// All modes of a model, ascending.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize)]
 pub struct NaturalModes {
+    /// Body and axis of each row of the mode shapes.
+    pub coordinates: Coordinates,
     /// Distinct frequencies; modes of different types that coincide are separate entries.
     pub groups: Vec<ModeGroup>,
     /// All eigenvalues with multiplicity, ascending.
@@ -161,7 +170,13 @@ impl NaturalModes {
                 });
             }
         }
-        Ok(Self { groups, lambda: solution.lambda })
+        Ok(Self { coordinates: model.coordinates.clone(), groups, lambda: solution.lambda })
+    }
+
+    /// Displacement of a body along a coordinate in each mode of a group, M-normalised; `None` if it is held.
+    pub fn displacement(&self, group: &ModeGroup, body: Body, axis: Axis) -> Option<Vec<f64>> {
+        let row = self.coordinates.of(body, axis)?;
+        Some(group.vectors.row(row).iter().copied().collect())
     }
 
     /// The groups of one type, ascending.

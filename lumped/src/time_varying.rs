@@ -112,17 +112,17 @@ impl Parts {
                 return Err(LumpedError::Damping { key, value });
             }
         }
-        let radius = |body: Body, given: Option<f64>| match given {
+        let radius = |body: Body| match lumped.radius_m.of(body) {
             Some(r) => Ok(r),
             // A body that cannot rotate needs no radius.
             None if model.coordinates.of(body, Axis::Rotation).is_none() => Ok(1.0),
             None => Err(LumpedError::NoRotation { body }),
         };
         let radii = [
-            radius(Body::Carrier, lumped.radius.carrier)?,
-            radius(Body::Ring, lumped.radius.ring)?,
-            radius(Body::Sun, lumped.radius.sun)?,
-            radius(Body::Planet(0), lumped.radius.planet)?,
+            radius(Body::Carrier)?,
+            radius(Body::Ring)?,
+            radius(Body::Sun)?,
+            radius(Body::Planet(0))?,
         ];
         let n = model.coordinates.count();
         let mut stiffness = DMatrix::zeros(n, n);
@@ -482,7 +482,7 @@ fn couplings(
     law: &MeshLaw,
 ) -> [Vec<Coupling>; 2] {
     let rows = Rows { coordinates: &model.coordinates };
-    let angle = &lumped.pressure_angle;
+    let angle = &lumped.pressure_angle_rad;
     let planets = model.psi.len();
     let coupling = |mesh: usize, entries: Vec<(usize, f64)>| {
         let mut row = vec![0.0; model.coordinates.count()];

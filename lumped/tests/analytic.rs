@@ -138,26 +138,28 @@ fn scenes_without_closed_forms_are_refused() {
     };
     refused(&|s| s.kind = SceneKind::GearPair, "no planetary set");
     refused(
-        &|s| s.overrides.push(PlanetOverride { planet: 0, mass: Some(1.0), ..Default::default() }),
+        &|s| {
+            s.overrides.push(PlanetOverride { planet: 0, mass_kg: Some(1.0), ..Default::default() })
+        },
         "differ from each other",
     );
     refused(&|s| s.fe_contact.flexibility_factor.sun_planet = 0.5, "flexibility_factor");
     refused(&|s| s.geometry = None, "no teeth");
     refused(
-        &|s| s.geometry.as_mut().unwrap().planet.body_radius = None,
+        &|s| s.geometry.as_mut().unwrap().planet.body_radius_m = None,
         "a bore or rim is missing",
     );
     refused(
         &|s| {
             let planet = &mut s.geometry.as_mut().unwrap().planet;
-            planet.body_radius = Some(0.99 * planet.root_radius);
+            planet.body_radius_m = Some(0.99 * planet.root_radius_m);
         },
         "a rim is thinner",
     );
     refused(
         &|s| {
             let carrier = s.geometry.as_mut().unwrap().carrier.as_mut().unwrap();
-            carrier.pin_seat_radius *= 2.0;
+            carrier.pin_seat_radius_m *= 2.0;
         },
         "pin seat",
     );
@@ -197,12 +199,12 @@ fn a_set_of_twice_the_width_yields_as_much_under_twice_the_torque() {
     let scene = five_planets();
     let mut twice = scene.clone();
     let geometry = twice.geometry.as_mut().unwrap();
-    geometry.face_width *= 2.0;
+    geometry.face_width_m *= 2.0;
     twice.operation.as_mut().unwrap().torque_nm *= 2.0;
     let supports = &mut twice.supports;
-    supports.planet_bearing *= 2.0;
+    supports.planet_bearing_n_per_m *= 2.0;
     for support in [&mut supports.carrier, &mut supports.ring, &mut supports.sun] {
-        support.bearing *= 2.0;
+        support.bearing_n_per_m *= 2.0;
         support.torsional = match support.torsional {
             scene::Torsional::PerLength(k) => scene::Torsional::PerLength(2.0 * k),
             scene::Torsional::PerAngle(k) => scene::Torsional::PerAngle(2.0 * k),
@@ -256,7 +258,7 @@ fn stated_errors_follow_the_carrier() {
         let seats = errors.iter().find(|error| error.source == "pin seats").unwrap();
         assert_eq!([seats.share, carrier(errors)], [0.0, 0.0]);
     }
-    let (_, slender) = with(|carrier| carrier.bore_radius *= 0.8);
+    let (_, slender) = with(|carrier| carrier.bore_radius_m *= 0.8);
     for (less, more) in own.iter().zip(&slender).take(6) {
         assert!(less.is_empty() && more.is_empty() || carrier(less) < carrier(more));
     }

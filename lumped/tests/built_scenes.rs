@@ -9,7 +9,7 @@ fn models_are_made_of_scenes_without_a_fault() {
     let changes: [Change; 2] = [
         (|s| s.planets.psi_rad.clear(), "planets.count"),
         (
-            |s| s.lumped.as_mut().unwrap().mass.sun = Some(-0.4),
+            |s| s.lumped.as_mut().unwrap().mass_kg.sun = Some(-0.4),
             "`lumped.mass_kg` of the sun is -0.4",
         ),
     ];
@@ -26,7 +26,7 @@ fn models_are_made_of_scenes_without_a_fault() {
 fn pressure_angles_are_below_a_right_angle() {
     let with = |angle: f64| {
         let mut scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
-        scene.lumped.as_mut().unwrap().pressure_angle.sun_planet = angle;
+        scene.lumped.as_mut().unwrap().pressure_angle_rad.sun_planet = angle;
         LumpedModel::from_scene(&scene).map(|_| ())
     };
     assert_eq!(with(-0.43), Ok(()));

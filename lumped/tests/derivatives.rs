@@ -121,7 +121,7 @@ fn an_unsupported_set_seen_from_the_carrier_whirls_at_carrier_speed() {
     let mut scene = scene("lin_parker_1999_4p.toml");
     for support in [&mut scene.supports.carrier, &mut scene.supports.ring, &mut scene.supports.sun]
     {
-        support.bearing = 0.0;
+        support.bearing_n_per_m = 0.0;
         support.torsional = Torsional::PerLength(0.0);
     }
     let model = LumpedModel::from_scene(&scene).unwrap();
@@ -166,7 +166,7 @@ fn a_common_rotation_grows_by_the_planets_centripetal_term_alone() {
     let (model, _) = modes(&own);
     let rotation = |body| model.mass[model.coordinates.of(body, Axis::Rotation).unwrap()];
     let planet = model.mass[model.coordinates.of(Body::Planet(0), Axis::First).unwrap()];
-    let cos = lumped.pressure_angle.sun_planet.cos();
+    let cos = lumped.pressure_angle_rad.sun_planet.cos();
     let inertia = rotation(Body::Carrier)
         + 3.0 * planet
         + 3.0 * cos * cos * rotation(Body::Planet(0))

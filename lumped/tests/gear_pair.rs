@@ -22,7 +22,7 @@ fn pair(supports: &str) -> Scene {
 
 /// r of sun and planet, m.
 fn radii(scene: &Scene) -> [f64; 2] {
-    let radius = scene.lumped.as_ref().unwrap().radius;
+    let radius = scene.lumped.as_ref().unwrap().radius_m;
     [radius.sun.unwrap(), radius.planet.unwrap()]
 }
 
@@ -134,14 +134,14 @@ fn the_relative_rotation_is_that_of_the_effective_mass() {
     let own = motion(&scene, 8.0, 5 * STEPS);
     let mut held = scene.clone();
     held.supports.pair.as_mut().unwrap().planet.motion = scene::Freedom::Held;
-    held.lumped.as_mut().unwrap().inertia_over_r2.sun = Some(effective_mass(&scene));
+    held.lumped.as_mut().unwrap().inertia_over_r2_kg.sun = Some(effective_mass(&scene));
     let by_mass = motion(&held, 8.0, 5 * STEPS);
     let size = largest(&own);
     for (a, b) in own.iter().zip(&by_mass) {
         assert!((a - b).abs() < 1e-10 * size, "{a} {b}");
     }
     // A wrong effective mass shows.
-    held.lumped.as_mut().unwrap().inertia_over_r2.sun = Some(1.01 * effective_mass(&scene));
+    held.lumped.as_mut().unwrap().inertia_over_r2_kg.sun = Some(1.01 * effective_mass(&scene));
     let wrong = motion(&held, 8.0, 5 * STEPS);
     assert!(own.iter().zip(&wrong).any(|(a, b)| (a - b).abs() > 1e-3 * size));
 

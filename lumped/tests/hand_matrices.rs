@@ -18,14 +18,14 @@ fn one_planet(psi: f64) -> LumpedModel {
     let mut scene = lin_parker();
     scene.planets = PlanetPositions { psi_rad: vec![psi], steps: None };
     let lumped = scene.lumped.as_mut().unwrap();
-    lumped.pressure_angle.sun_planet = 0.41;
-    lumped.pressure_angle.ring_planet = 0.33;
-    lumped.mesh.sun_planet = 3e8;
-    lumped.mesh.ring_planet = 5e8;
-    scene.supports.carrier.bearing = 1.1e8;
-    scene.supports.ring.bearing = 1.2e8;
-    scene.supports.sun.bearing = 1.3e8;
-    scene.supports.planet_bearing = 0.9e8;
+    lumped.pressure_angle_rad.sun_planet = 0.41;
+    lumped.pressure_angle_rad.ring_planet = 0.33;
+    lumped.mesh_n_per_m.sun_planet = 3e8;
+    lumped.mesh_n_per_m.ring_planet = 5e8;
+    scene.supports.carrier.bearing_n_per_m = 1.1e8;
+    scene.supports.ring.bearing_n_per_m = 1.2e8;
+    scene.supports.sun.bearing_n_per_m = 1.3e8;
+    scene.supports.planet_bearing_n_per_m = 0.9e8;
     scene.supports.sun.torsional = Torsional::PerLength(2e7);
     LumpedModel::from_scene(&scene).unwrap()
 }
@@ -112,10 +112,10 @@ fn what_is_fixed_to_the_planets_adds_to_their_mass_and_to_nothing_else() {
     let mut scene = lin_parker();
     let bare = LumpedModel::from_scene(&scene).unwrap();
     scene.supports.planet_added = AddedMass { mass_kg: 0.2, inertia_kg_m2: 3e-3 };
-    scene.lumped.as_mut().unwrap().radius.planet = None;
+    scene.lumped.as_mut().unwrap().radius_m.planet = None;
     let refused = LumpedModel::from_scene(&scene).unwrap_err();
     assert_eq!(refused, LumpedError::NoRadius { body: Body::Planet(0) });
-    scene.lumped.as_mut().unwrap().radius.planet = Some(0.05);
+    scene.lumped.as_mut().unwrap().radius_m.planet = Some(0.05);
     let model = LumpedModel::from_scene(&scene).unwrap();
     for (i, (body, axis)) in model.coordinates.free().iter().enumerate() {
         let more = match (body, axis) {
@@ -132,11 +132,11 @@ fn what_is_fixed_to_the_planets_adds_to_their_mass_and_to_nothing_else() {
 #[test]
 fn masses_that_are_none_are_refused_by_body() {
     let mut scene = lin_parker();
-    scene.lumped.as_mut().unwrap().mass.planet = Some(-1.0);
+    scene.lumped.as_mut().unwrap().mass_kg.planet = Some(-1.0);
     let refused = LumpedModel::from_scene(&scene).unwrap_err().to_string();
     let expected = "`lumped.mass_kg` of the planet 0 is -1: it must be positive and finite";
     assert_eq!(refused, expected);
-    scene.lumped.as_mut().unwrap().inertia_over_r2.sun = Some(f64::NAN);
+    scene.lumped.as_mut().unwrap().inertia_over_r2_kg.sun = Some(f64::NAN);
     let refused = LumpedModel::from_scene(&scene).unwrap_err();
     assert!(matches!(refused, LumpedError::Inertia { body: Body::Sun, .. }), "{refused}");
 }

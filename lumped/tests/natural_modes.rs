@@ -2,7 +2,7 @@
 
 use crate::common;
 
-use gearset::PlanetPositions;
+use gearset::{Axis, Body, PlanetPositions};
 use lumped::{LumpedModel, ModeType, NaturalModes};
 use proptest::prelude::*;
 use scene::{PlanetOverride, Scene, Torsional};
@@ -34,6 +34,26 @@ fn lin_parker_1999() {
     assert_type(&four, ModeType::Translational, 2, &translational, 0.5);
     assert_type(&four, ModeType::Planet, 1, &[1808.2, 5963.8, 6981.7], 0.5);
     assert_eq!(four.groups.len(), 15);
+}
+
+#[test]
+fn shapes_by_name_and_as_json_solve_the_eigenproblem_of_the_matrices() {
+    let (model, found) = modes(&scene("oh58_4p.toml"));
+    let [mass, stiffness] = [model.mass_matrix(), model.stiffness()];
+    let json = serde_json::to_value(&found).unwrap();
+    assert_eq!(json["coordinates"][0], serde_json::json!(["carrier", "first"]));
+    for (number, group) in found.groups.iter().enumerate() {
+        let scale = (&stiffness * &group.vectors).amax();
+        let left = &stiffness * &group.vectors - &mass * &group.vectors * group.lambda;
+        assert!(left.amax() <= 1e-9 * scale, "{left}");
+        let sun = model.coordinates.of(Body::Sun, Axis::Rotation).unwrap();
+        let turning = found.displacement(group, Body::Sun, Axis::Rotation).unwrap();
+        for (k, &u) in turning.iter().enumerate() {
+            assert_eq!(u, group.vectors[(sun, k)]);
+            assert_eq!(json["groups"][number]["vectors"][k][sun], u);
+        }
+        assert_eq!(found.displacement(group, Body::Ring, Axis::Rotation), None, "the ring is held");
+    }
 }
 
 #[test]
@@ -121,7 +141,8 @@ fn a_rotational_mode_on_top_of_a_translational_pair_is_told_apart() {
 #[test]
 fn a_set_without_symmetry_has_mixed_modes_and_says_how_mixed() {
     let mut scene = scene("oh58_4p.toml");
-    let one = PlanetOverride { planet: 1, bearing: Some(0.8 * 87.6e6), ..Default::default() };
+    let one =
+        PlanetOverride { planet: 1, bearing_n_per_m: Some(0.8 * 87.6e6), ..Default::default() };
     scene.overrides.push(one);
     let (_, found) = modes(&scene);
     assert!(of_type(&found, ModeType::Mixed).len() > 5);
@@ -161,16 +182,16 @@ fn random_set() -> impl Strategy<Value = Scene> {
             values.sun = Some(from[2]);
             values.planet = Some(from[3]);
         };
-        set(&mut lumped.mass, &m[..4]);
-        set(&mut lumped.inertia_over_r2, &m[4..]);
-        lumped.mesh.sun_planet = k[0];
-        lumped.mesh.ring_planet = k[1];
-        lumped.pressure_angle.sun_planet = a;
-        lumped.pressure_angle.ring_planet = b;
-        scene.supports.carrier.bearing = k[2];
-        scene.supports.ring.bearing = k[3];
-        scene.supports.sun.bearing = k[4];
-        scene.supports.planet_bearing = k[5];
+        set(&mut lumped.mass_kg, &m[..4]);
+        set(&mut lumped.inertia_over_r2_kg, &m[4..]);
+        lumped.mesh_n_per_m.sun_planet = k[0];
+        lumped.mesh_n_per_m.ring_planet = k[1];
+        lumped.pressure_angle_rad.sun_planet = a;
+        lumped.pressure_angle_rad.ring_planet = b;
+        scene.supports.carrier.bearing_n_per_m = k[2];
+        scene.supports.ring.bearing_n_per_m = k[3];
+        scene.supports.sun.bearing_n_per_m = k[4];
+        scene.supports.planet_bearing_n_per_m = k[5];
         scene.supports.ring.torsional = Torsional::PerLength(k[6]);
         scene
     })
@@ -200,7 +221,7 @@ proptest! {
 fn stiffnesses_that_are_none_are_refused() {
     for value in [f64::NAN, -1.0, f64::INFINITY] {
         let mut bad = scene("oh58_4p.toml");
-        bad.supports.sun.bearing = value;
+        bad.supports.sun.bearing_n_per_m = value;
         let refused = LumpedModel::from_scene(&bad).unwrap_err().to_string();
         assert!(refused.contains("sun_bearing"), "{refused}");
         let mut bad = scene("oh58_4p.toml");
@@ -215,7 +236,7 @@ fn stiffnesses_that_are_none_are_refused() {
 fn a_held_rotation_needs_no_radius() {
     let mut set = scene("oh58_4p.toml");
     set.supports.carrier.torsional = Torsional::PerAngle(1e6);
-    set.lumped.as_mut().unwrap().radius.carrier = None;
+    set.lumped.as_mut().unwrap().radius_m.carrier = None;
     assert!(LumpedModel::from_scene(&set).is_ok());
 }
 

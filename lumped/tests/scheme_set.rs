@@ -91,7 +91,7 @@ fn every_scheme_converges_to_harmonic_balance_with_its_order() {
     let sun = set.coordinates().of(Body::Sun, Axis::Rotation).unwrap();
     let options = BalanceOptions { tail: 1e-4, ..BalanceOptions::default() };
     let found = set.solve(frequency, None, &options).unwrap();
-    let radius = scene.lumped.as_ref().unwrap().radius.sun.unwrap();
+    let radius = scene.lumped.as_ref().unwrap().radius_m.sun.unwrap();
     let amplitude = |l: usize| found.coordinates[sun].lines[l].norm() / radius;
     let measured = |samples: &[f64], l: usize| {
         let n = samples.len() as f64;

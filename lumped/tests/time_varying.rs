@@ -32,7 +32,7 @@ fn law(scene: &Scene, steps: usize, curve: impl Fn(f64) -> MeshCurve) -> MeshLaw
 
 /// The scene's sun mesh stiffness for all meshes, at all phases; no force below deflection 0.
 fn constant(scene: &Scene, steps: usize) -> MeshLaw {
-    let k = scene.lumped.as_ref().unwrap().mesh.sun_planet;
+    let k = scene.lumped.as_ref().unwrap().mesh_n_per_m.sun_planet;
     law(scene, steps, |_| MeshCurve::new(0.0, 1e-3, &[0.0, k * 1e-3], &[k, k]).unwrap())
 }
 
@@ -55,7 +55,7 @@ fn static_deflection_is_the_stiffness_matrix_solved() {
     let n = model.coordinates.count();
     let mut f = nalgebra::DVector::<f64>::zeros(n);
     let sun = model.coordinates.of(Body::Sun, Axis::Rotation).unwrap();
-    f[sun] = TORQUE / scene.lumped.as_ref().unwrap().radius.sun.unwrap();
+    f[sun] = TORQUE / scene.lumped.as_ref().unwrap().radius_m.sun.unwrap();
     let exact = model.stiffness().lu().solve(&f).unwrap();
     let motion = set.motion();
     let largest = motion.x.iter().fold(0.0f64, |a, x| a.max(x.abs()));
@@ -70,7 +70,7 @@ fn static_deflection_is_the_stiffness_matrix_solved() {
     let mut forces = Vec::new();
     set.mesh_forces(&mut forces);
     assert_eq!(forces.len(), 8);
-    let share = TORQUE / scene.lumped.as_ref().unwrap().radius.sun.unwrap();
+    let share = TORQUE / scene.lumped.as_ref().unwrap().radius_m.sun.unwrap();
     assert!((forces[..4].iter().sum::<f64>() / share - 1.0).abs() < 1e-9);
 }
 

@@ -48,7 +48,7 @@ fn kind(seed: u64) -> usize {
 fn set(seed: u64, random: &mut fastrand::Rng) -> Option<Scene> {
     let mut scene = drawn_set(seed)?;
     if let Some(carrier) = scene.geometry.as_mut().and_then(|g| g.carrier.as_mut()) {
-        carrier.bore_radius = carrier.outer_radius / (1.5 + 1.4 * random.f64());
+        carrier.bore_radius_m = carrier.outer_radius_m / (1.5 + 1.4 * random.f64());
     }
     Some(scene)
 }

@@ -15,8 +15,8 @@ use validation::{PublishedScene, Reference, scene};
 
 /// Resonances as the torque study names them, each with the response of the sun that is evaluated.
 const RESONANCES: [(&str, Response); 2] = [
-    ("lowest translational", Response::Translation(Part::Sun)),
-    ("lowest rotational", Response::Rotation(Part::Sun)),
+    ("lowest translational", Response::Translation(Part::SUN)),
+    ("lowest rotational", Response::Rotation(Part::SUN)),
 ];
 
 /// Distance of the speeds to either side of a peak, as a share of its speed: about a half-width at 2 %

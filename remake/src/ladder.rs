@@ -66,7 +66,7 @@ fn settings(cells: u32) -> Vec<Setting> {
 
 /// Place (rpm) and height (rad) of the peak of the sun's rotation in l = 2.
 fn highest(points: &[&SteadyState]) -> Option<(f64, f64)> {
-    let rotation = |p: &SteadyState| Response::Rotation(Part::Sun).amplitude(p, 2);
+    let rotation = |p: &SteadyState| Response::Rotation(Part::SUN).amplitude(p, 2);
     top_of_three(points.iter().map(|p| (p.case.speed_rpm, rotation(p))))
 }
 

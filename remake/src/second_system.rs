@@ -15,9 +15,9 @@ const PRINTED_HZ: [f64; 2] = [622.0, 782.0];
 fn with(scene: &Scene, [bearing, inertia]: [f64; 2]) -> Scene {
     let mut changed = scene.clone();
     let supports = &mut changed.supports;
-    supports.sun.bearing = bearing;
-    supports.carrier.bearing = bearing;
-    supports.planet_bearing = bearing;
+    supports.sun.bearing_n_per_m = bearing;
+    supports.carrier.bearing_n_per_m = bearing;
+    supports.planet_bearing_n_per_m = bearing;
     supports.planet_added.inertia_kg_m2 = inertia;
     changed
 }

@@ -15,7 +15,7 @@ const TORQUES: [f64; 2] = [565.0, 2260.0];
 fn with_fillet(mut scene: Scene, radius: f64) -> Scene {
     if let Some(g) = &mut scene.geometry {
         for gear in [g.sun.as_mut(), Some(&mut g.planet), g.ring.as_mut()].into_iter().flatten() {
-            gear.fillet_radius = radius;
+            gear.fillet_radius_m = radius;
         }
     }
     scene
@@ -46,7 +46,7 @@ pub(crate) fn remake() -> crate::Outcome {
         let all = lowest_series(&naturals(&scene, &bodies, scene::LoadCase::standing(1130.0))?)
             .ok_or("no such modes")?;
         let found =
-            follow(&FeContact::default(), &scene, &TORQUES, &[all[0], all[2]], &[Part::Sun], 1e-5)?;
+            follow(&FeContact::default(), &scene, &TORQUES, &[all[0], all[2]], &[Part::SUN], 1e-5)?;
         let [t, r] = [&found[0].sun, &found[1].sun];
         println!(
             "| {name} | {:.2} | {:.2} | {:.2} | {:.1} |",

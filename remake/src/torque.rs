@@ -8,6 +8,7 @@ use experiments::models::FeContact;
 use experiments::sweep::{Part, naturals};
 use experiments::torque::{Followed, follow, lowest_series, static_growth};
 use fe_contact::statics::Bodies;
+use gearset::Body;
 use validation::{PublishedScene, scene};
 
 const TORQUES: [f64; 4] = [565.0, 1130.0, 1695.0, 2260.0];
@@ -32,7 +33,7 @@ pub(crate) fn remake() -> crate::Outcome {
         let bodies = Bodies::new(&scene)?;
         let series = lowest_series(&naturals(&scene, &bodies, scene::LoadCase::standing(1130.0))?)
             .ok_or("no such modes")?;
-        let both = [Part::Sun, Part::Planet(0)];
+        let both = [Part::SUN, Part::Body(Body::Planet(0))];
         let followed = follow(&FeContact::default(), &scene, &TORQUES, &series, &both, 1e-6)?;
         let still = static_growth(&scene, &bodies, &TORQUES)?;
         for f in &followed {

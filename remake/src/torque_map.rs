@@ -76,11 +76,16 @@ fn chosen(base: &Scene, soft: PerMesh, choice: Choice) -> Scene {
     scene.damping.bearing_s *= choice.damping;
     if let Some(g) = &mut scene.geometry {
         for gear in [g.sun.as_mut(), Some(&mut g.planet), g.ring.as_mut()].into_iter().flatten() {
-            gear.fillet_radius = FILLET_M;
+            gear.fillet_radius_m = FILLET_M;
             if choice.relief > 0.0 {
-                let start_radius = gear.tip_radius + 0.25 * (gear.root_radius - gear.tip_radius);
+                let start_radius =
+                    gear.tip_radius_m + 0.25 * (gear.root_radius_m - gear.tip_radius_m);
                 let shape = ReliefShape::Linear;
-                gear.tip_relief = Some(TipRelief { start_radius, amount: choice.relief, shape });
+                gear.tip_relief = Some(TipRelief {
+                    start_radius_m: start_radius,
+                    amount_m: choice.relief,
+                    shape,
+                });
             }
         }
         if let (ThicknessInput::Backlash { planet_share, .. }, Some(share)) =
@@ -104,7 +109,7 @@ fn cell(base: &Scene, soft: PerMesh, choice: Choice) -> Outcome<String> {
     let all = lowest_series(&naturals(&scene, &bodies, scene::LoadCase::standing(STIFFNESS_AT.0))?)
         .ok_or("no such modes")?;
     let series: Vec<_> = [0, 2, 4].iter().map(|i| all[*i]).collect();
-    let followed = follow(&FeContact::default(), &scene, &TORQUES, &series, &[Part::Sun], 1e-5)?;
+    let followed = follow(&FeContact::default(), &scene, &TORQUES, &series, &[Part::SUN], 1e-5)?;
     let still = static_growth(&scene, &bodies, &TORQUES)?;
     let numbers = |list: &[f64]| {
         list.iter().map(|x| format!("{:.4}", x / list[0])).collect::<Vec<_>>().join(", ")

@@ -13,6 +13,7 @@ use experiments::sweep::{
     Coordinate, FeModel, Part, Response, SteadySettings, SweepModel, SweepPoint, steady,
 };
 use fe_contact::statics::{Bodies, Imperfections};
+use gearset::Body;
 use rayon::prelude::*;
 use scene::{CellLayout, Fidelity, LoadCase, Scene};
 use validation::{PublishedScene, scene};
@@ -59,7 +60,7 @@ fn text(list: &str, steps: u32, point: &SweepPoint) -> String {
     let speed = point.state.case.speed_rpm;
     let mut text = format!("\n[[{list}]]\nsteps_per_cycle = {steps}\nspeed_rpm = {speed:.1}\n");
     text += &format!("cycles = {}\nresidual = {:.1e}\n", point.cycles, point.residual);
-    for part in [Part::Sun, Part::Planet(0)] {
+    for part in [Part::SUN, Part::Body(Body::Planet(0))] {
         let of = |response: Response| numbers((1..=5).map(|l| response.amplitude(&point.state, l)));
         text += &format!("{}_rotation_rad = [{}]\n", part.name(), of(Response::Rotation(part)));
         text += &format!("{}_translation_m = [{}]\n", part.name(), of(Response::Translation(part)));

@@ -173,7 +173,7 @@ pub struct FeContactInput {
     /// The same in tables of a set at rest, of which pressures are asked as well.
     pub cell_layout_at_rest: CellLayout,
     /// Depth below the flank at which half-plane and FE are matched, m.
-    pub matching_depth: Option<f64>,
+    pub matching_depth_m: Option<f64>,
     /// Least depth of the default, elements along a flank.
     pub matching_depth_elements: Option<f64>,
     /// Matching points below each cell: 1 as in eq. (1) of Parker, Agashe & Vijayakar (2000), 2 to

@@ -233,11 +233,11 @@ impl Scene {
         ];
         for (name, gear, body) in gears {
             let Some(gear) = gear else { continue };
-            if gear.body_radius.is_none() {
+            if gear.body_radius_m.is_none() {
                 let key = format!("geometry.{name}.{body}_diameter_mm");
                 lacks.push(lack(key, "it is the rigid race of the finite-element body"));
             }
-            if gear.fillet_radius <= 0.0 {
+            if gear.fillet_radius_m <= 0.0 {
                 let key = format!("geometry.{name}.fillet_radius_mm");
                 lacks.push(lack(key, "above 0: stresses at a sharp root have no limit"));
             }
@@ -320,7 +320,7 @@ impl Scene {
     /// The carrier's mass, from its shape or from the lumped parameters.
     fn lacks_carrier_mass(&self, lacks: &mut Vec<Lack>) {
         let has_shape = self.geometry.as_ref().is_some_and(|g| g.carrier.is_some());
-        let has_mass = self.lumped.as_ref().is_some_and(|l| l.mass.carrier.is_some());
+        let has_mass = self.lumped.as_ref().is_some_and(|l| l.mass_kg.carrier.is_some());
         if !has_shape && !has_mass && self.supports.carrier.motion != Freedom::Held {
             let why = "the carrier can move and has no mass: give its shape, or `lumped.mass_kg.carrier`, or \
                        `carrier.motion` = \"held\"";

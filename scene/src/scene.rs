@@ -1,6 +1,6 @@
 //! The scene: plain types, SI units, everything one run needs to know about a gear set.
 
-use gearset::{GeometryInput, MeshKind, Operation, PlanetPositions, Teeth};
+use gearset::{Body, GeometryInput, MeshKind, Operation, PlanetPositions, Teeth};
 use serde::{Deserialize, Serialize};
 
 use crate::choices::{DynamicsInput, FeContactInput, PlaneState};
@@ -105,7 +105,7 @@ pub struct Support {
     /// Which coordinates exist.
     pub motion: Freedom,
     /// Bearing stiffness, equal in both directions, N/m.
-    pub bearing: f64,
+    pub bearing_n_per_m: f64,
     /// Torsional stiffness, if any.
     pub torsional: Torsional,
 }
@@ -113,7 +113,7 @@ pub struct Support {
 impl Support {
     /// A member that cannot move.
     pub const HELD: Self =
-        Self { motion: Freedom::Held, bearing: 0.0, torsional: Torsional::PerLength(0.0) };
+        Self { motion: Freedom::Held, bearing_n_per_m: 0.0, torsional: Torsional::PerLength(0.0) };
 
     /// Whether nothing holds the rotation: neither a support nor a torsional spring.
     pub fn turns_freely(&self) -> bool {
@@ -142,7 +142,7 @@ pub struct Supports {
     /// Sun.
     pub sun: Support,
     /// Stiffness between each planet and the carrier, N/m.
-    pub planet_bearing: f64,
+    pub planet_bearing_n_per_m: f64,
     /// Mass and inertia fixed to each planet's rigid race.
     pub planet_added: AddedMass,
     /// What only a gear pair has; `None` for a set.
@@ -192,6 +192,16 @@ pub struct PerBody {
 }
 
 impl PerBody {
+    /// The value of a body.
+    pub fn of(&self, body: Body) -> Option<f64> {
+        match body {
+            Body::Carrier => self.carrier,
+            Body::Ring => self.ring,
+            Body::Sun => self.sun,
+            Body::Planet(_) => self.planet,
+        }
+    }
+
     /// The values with the names of the bodies in scene files.
     pub fn by_name(&self) -> [(&'static str, Option<f64>); 4] {
         let Self { carrier, ring, sun, planet } = *self;
@@ -222,15 +232,15 @@ impl PerMesh {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LumpedInput {
     /// Masses, kg.
-    pub mass: PerBody,
+    pub mass_kg: PerBody,
     /// I/r² of each body, kg (r: base radius; for the carrier the centre distance).
-    pub inertia_over_r2: PerBody,
+    pub inertia_over_r2_kg: PerBody,
     /// Radii r in u = r·θ, m, where known.
-    pub radius: PerBody,
+    pub radius_m: PerBody,
     /// Constant mesh stiffnesses, N/m; 0 for the ring–planet mesh of a gear pair, which has none.
-    pub mesh: PerMesh,
+    pub mesh_n_per_m: PerMesh,
     /// Operating pressure angles, rad, from the geometry or as given; 0 as above.
-    pub pressure_angle: PerMesh,
+    pub pressure_angle_rad: PerMesh,
 }
 
 /// One planet that differs from the others; `None` keeps the common value.
@@ -239,15 +249,15 @@ pub struct PlanetOverride {
     /// Index n of the planet.
     pub planet: usize,
     /// Mass, kg.
-    pub mass: Option<f64>,
+    pub mass_kg: Option<f64>,
     /// I/r², kg.
-    pub inertia_over_r2: Option<f64>,
+    pub inertia_over_r2_kg: Option<f64>,
     /// Bearing stiffness, N/m.
-    pub bearing: Option<f64>,
+    pub bearing_n_per_m: Option<f64>,
     /// Sun–planet mesh stiffness, N/m.
-    pub sun_mesh: Option<f64>,
+    pub sun_mesh_n_per_m: Option<f64>,
     /// Ring–planet mesh stiffness, N/m.
-    pub ring_mesh: Option<f64>,
+    pub ring_mesh_n_per_m: Option<f64>,
 }
 
 /// Proportional damping C = αM + βK.

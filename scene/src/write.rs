@@ -78,14 +78,14 @@ impl Scene {
 
     fn write_geometry(&self, file: &mut File) {
         let Some(geometry) = &self.geometry else { return };
-        file.number("geometry.center_distance_mm", geometry.center_distance);
-        file.number("geometry.face_width_mm", geometry.face_width);
+        file.number("geometry.center_distance_mm", geometry.center_distance_m);
+        file.number("geometry.face_width_mm", geometry.face_width_m);
         match geometry.rack {
             Some(rack) => {
-                file.number("geometry.rack.module_mm", rack.module);
-                file.number("geometry.rack.pressure_angle_deg", rack.pressure_angle);
+                file.number("geometry.rack.module_mm", rack.module_m);
+                file.number("geometry.rack.pressure_angle_deg", rack.pressure_angle_rad);
             }
-            None => file.number("geometry.base_pitch_mm", geometry.base_pitch),
+            None => file.number("geometry.base_pitch_mm", geometry.base_pitch_m),
         }
         let gears: [(&str, Option<&GearInput>, &str); 3] = [
             ("sun", geometry.sun.as_ref(), "bore"),
@@ -95,25 +95,29 @@ impl Scene {
         for (name, gear, body) in gears {
             let Some(gear) = gear else { continue };
             let at = |key: &str| format!("geometry.{name}.{key}");
-            file.number(&at("tip_diameter_mm"), 2.0 * gear.tip_radius);
-            file.number(&at("root_diameter_mm"), 2.0 * gear.root_radius);
-            let body_diameter = gear.body_radius.map(|r| 2.0 * r);
+            file.number(&at("tip_diameter_mm"), 2.0 * gear.tip_radius_m);
+            file.number(&at("root_diameter_mm"), 2.0 * gear.root_radius_m);
+            let body_diameter = gear.body_radius_m.map(|r| 2.0 * r);
             file.optional(&at(&format!("{body}_diameter_mm")), body_diameter);
-            file.number(&at("fillet_radius_mm"), gear.fillet_radius);
+            file.number(&at("fillet_radius_mm"), gear.fillet_radius_m);
             if let Some(relief) = gear.tip_relief {
-                file.number(&at("tip_relief.start_diameter_mm"), 2.0 * relief.start_radius);
-                file.number(&at("tip_relief.amount_um"), relief.amount);
+                file.number(&at("tip_relief.start_diameter_mm"), 2.0 * relief.start_radius_m);
+                file.number(&at("tip_relief.amount_um"), relief.amount_m);
                 file.word(&at("tip_relief.shape"), relief.shape);
             }
         }
         if let Some(carrier) = &geometry.carrier {
-            file.number("geometry.carrier.bore_diameter_mm", 2.0 * carrier.bore_radius);
-            file.number("geometry.carrier.outer_diameter_mm", 2.0 * carrier.outer_radius);
-            file.number("geometry.carrier.pin_seat_diameter_mm", 2.0 * carrier.pin_seat_radius);
+            file.number("geometry.carrier.bore_diameter_mm", 2.0 * carrier.bore_radius_m);
+            file.number("geometry.carrier.outer_diameter_mm", 2.0 * carrier.outer_radius_m);
+            file.number("geometry.carrier.pin_seat_diameter_mm", 2.0 * carrier.pin_seat_radius_m);
             file.set("geometry.carrier.body", if carrier.is_rigid { "rigid" } else { "flexible" });
         }
         match geometry.thickness {
-            ThicknessInput::Backlash { sun_planet, ring_planet, planet_share } => {
+            ThicknessInput::Backlash {
+                sun_planet_m: sun_planet,
+                ring_planet_m: ring_planet,
+                planet_share,
+            } => {
                 file.number("geometry.thickness.sun_planet_backlash_mm", sun_planet);
                 file.number("geometry.thickness.ring_planet_backlash_mm", ring_planet);
                 file.number("geometry.thickness.planet_share", planet_share);
@@ -132,7 +136,7 @@ impl Scene {
             for (member, support) in [("sun", &s.sun), ("ring", &s.ring), ("carrier", &s.carrier)] {
                 file.support(member, support, support.motion);
             }
-            file.number("planet.bearing_n_per_m", s.planet_bearing);
+            file.number("planet.bearing_n_per_m", s.planet_bearing_n_per_m);
             file.number("planet.added_mass_kg", s.planet_added.mass_kg);
             file.number("planet.added_inertia_kg_m2", s.planet_added.inertia_kg_m2);
             return;
@@ -160,9 +164,9 @@ impl Scene {
         let geometry = self.tooth_geometry().ok();
         let derived = geometry.as_ref().map(radii).unwrap_or_default().by_name();
         for (table, values) in [
-            ("mass_kg", lumped.mass),
-            ("inertia_over_r2_kg", lumped.inertia_over_r2),
-            ("radius_mm", lumped.radius),
+            ("mass_kg", lumped.mass_kg),
+            ("inertia_over_r2_kg", lumped.inertia_over_r2_kg),
+            ("radius_mm", lumped.radius_m),
         ] {
             for entry in values.by_name() {
                 // What follows from the geometry is not repeated.
@@ -172,9 +176,9 @@ impl Scene {
             }
         }
         let angles = geometry.and_then(|g| pressure_angles(&g, !is_set));
-        let mut tables = vec![("mesh_n_per_m", lumped.mesh)];
-        if angles != Some(lumped.pressure_angle) {
-            tables.push(("pressure_angle_deg", lumped.pressure_angle));
+        let mut tables = vec![("mesh_n_per_m", lumped.mesh_n_per_m)];
+        if angles != Some(lumped.pressure_angle_rad) {
+            tables.push(("pressure_angle_deg", lumped.pressure_angle_rad));
         }
         for (table, values) in tables {
             file.number(&format!("lumped.{table}.sun_planet"), values.sun_planet);
@@ -186,11 +190,11 @@ impl Scene {
             let mut file = File(Table::new());
             file.set("planet", planet.planet as i64);
             let values = [
-                ("mass_kg", planet.mass),
-                ("inertia_over_r2_kg", planet.inertia_over_r2),
-                ("bearing_n_per_m", planet.bearing),
-                ("sun_planet_n_per_m", planet.sun_mesh),
-                ("ring_planet_n_per_m", planet.ring_mesh),
+                ("mass_kg", planet.mass_kg),
+                ("inertia_over_r2_kg", planet.inertia_over_r2_kg),
+                ("bearing_n_per_m", planet.bearing_n_per_m),
+                ("sun_planet_n_per_m", planet.sun_mesh_n_per_m),
+                ("ring_planet_n_per_m", planet.ring_mesh_n_per_m),
             ];
             values.into_iter().for_each(|(key, value)| file.optional(key, value));
             file.0
@@ -210,7 +214,7 @@ impl Scene {
         file.set("fe_contact.contact_cells", fe.contact_cells);
         file.word("fe_contact.cell_layout", fe.cell_layout);
         file.word("fe_contact.cell_layout_at_rest", fe.cell_layout_at_rest);
-        file.optional("fe_contact.matching_depth_mm", fe.matching_depth);
+        file.optional("fe_contact.matching_depth_mm", fe.matching_depth_m);
         file.optional("fe_contact.matching_depth_elements", fe.matching_depth_elements);
         file.set("fe_contact.matching_points", fe.matching_points);
         if let Some(positions) = fe.mean_positions {
@@ -297,8 +301,8 @@ impl File {
 
     fn support(&mut self, member: &str, support: &Support, motion: Freedom) {
         self.word(&format!("{member}.motion"), motion);
-        if support.motion.translates() || support.bearing != 0.0 {
-            self.number(&format!("{member}.bearing_n_per_m"), support.bearing);
+        if support.motion.translates() || support.bearing_n_per_m != 0.0 {
+            self.number(&format!("{member}.bearing_n_per_m"), support.bearing_n_per_m);
         }
         let (key, k) = match support.torsional {
             Torsional::PerLength(k) => ("torsional_n_per_m", k),

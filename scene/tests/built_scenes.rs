@@ -44,7 +44,7 @@ fn what_no_file_may_hold_is_a_fault_with_its_key() {
         (|s| s.operation.as_mut().unwrap().torque_nm = f64::NAN, "operation.torque_nm"),
         (|s| s.fe_contact.contact_cells = 0, "fe_contact.contact_cells"),
         (
-            |s| s.lumped.as_mut().unwrap().pressure_angle.sun_planet = 24.6,
+            |s| s.lumped.as_mut().unwrap().pressure_angle_rad.sun_planet = 24.6,
             "lumped.pressure_angle_deg.sun_planet",
         ),
         (|s| s.material.density_kg_per_m3 = -7850.0, "material.density_kg_per_m3"),

@@ -103,9 +103,9 @@ pub(crate) fn run(
             degrees_of_freedom: body.unknowns,
             mass_kg: body.mass,
             polar_inertia_kg_m2: body.inertia,
-            lumped_mass_kg: lumped.and_then(|l| l.mass.carrier),
+            lumped_mass_kg: lumped.and_then(|l| l.mass_kg.carrier),
             lumped_inertia_kg_m2: lumped.and_then(|l| {
-                Some(l.inertia_over_r2.carrier? * bodies.geometry.center_distance.powi(2))
+                Some(l.inertia_over_r2_kg.carrier? * bodies.geometry.center_distance.powi(2))
             }),
             teeth: None,
             seat_flexibility_m_per_n: Some(body.mean_seat_flexibility()),
@@ -155,9 +155,9 @@ fn gear(body: &GearBody, bodies: &Bodies, lumped: Option<&LumpedInput>) -> BodyO
         degrees_of_freedom: body.unknowns,
         mass_kg: body.mass,
         polar_inertia_kg_m2: body.inertia,
-        lumped_mass_kg: lumped.and_then(|l| of(&l.mass)),
+        lumped_mass_kg: lumped.and_then(|l| of(&l.mass_kg)),
         lumped_inertia_kg_m2: lumped
-            .and_then(|l| Some(of(&l.inertia_over_r2)? * gear.base_radius.powi(2))),
+            .and_then(|l| Some(of(&l.inertia_over_r2_kg)? * gear.base_radius.powi(2))),
         teeth: Some(TeethOutput {
             flank_elements: bodies.settings.input.flank_elements,
             flank_error_um: body.mesh.flank_error() * 1e6,

@@ -19,8 +19,8 @@ const NOTHING: f64 = 1e-6;
 /// anywhere on the branch; one that vanishes is left out.
 pub fn of_branches(found: &Branches, title: &str, harmonics: usize) -> Vec<Figure> {
     let quantities = [
-        ("branch_sun_rotation", "sun rotation, µrad", Response::Rotation(Part::Sun)),
-        ("branch_sun_translation", "sun translation, µm", Response::Translation(Part::Sun)),
+        ("branch_sun_rotation", "sun rotation, µrad", Response::Rotation(Part::SUN)),
+        ("branch_sun_translation", "sun translation, µm", Response::Translation(Part::SUN)),
     ];
     let figures = quantities.into_iter().filter_map(|(name, axis, response)| {
         let first = found.branches.first()?;

@@ -2,6 +2,7 @@
 //! harmonics over the mesh frequency and over the frequency of each harmonic, and one panel per harmonic.
 
 use experiments::sweep::{Coordinate, Part, Sweep, SweepPoint};
+use gearset::Body;
 use lumped::ModeType;
 use scene::Scene;
 
@@ -163,14 +164,14 @@ fn branches(sweep: &Sweep) -> Vec<Vec<&SweepPoint>> {
 fn quantities(sweep: &Sweep, planets: usize) -> Vec<Quantity> {
     use Coordinate::{Radial, Rotation, Tangential};
     let mut wanted: Vec<(Part, &str, &[Coordinate])> = Vec::new();
-    for part in [Part::Sun, Part::Carrier, Part::Ring] {
+    for part in [Part::SUN, Part::CARRIER, Part::RING] {
         wanted.push((part, "rotation", &[Rotation]));
         wanted.push((part, "translation", &[Radial, Tangential]));
     }
     if planets > 0 {
-        wanted.push((Part::Planet(0), "rotation", &[Rotation]));
-        wanted.push((Part::Planet(0), "radial", &[Radial]));
-        wanted.push((Part::Planet(0), "tangential", &[Tangential]));
+        wanted.push((Part::Body(Body::Planet(0)), "rotation", &[Rotation]));
+        wanted.push((Part::Body(Body::Planet(0)), "radial", &[Radial]));
+        wanted.push((Part::Body(Body::Planet(0)), "tangential", &[Tangential]));
     }
     let branches = branches(sweep);
     let mut list: Vec<Quantity> = wanted

@@ -57,7 +57,7 @@ fn ratios(scene: &Scene, positions: &[f64]) -> Option<Ratios> {
         }
         let geometry = scene.geometry.as_ref()?;
         let (input, psi) = (geometry.carrier?, &scene.planets.psi_rad);
-        let (a, b) = (geometry.center_distance, geometry.face_width);
+        let (a, b) = (geometry.center_distance_m, geometry.face_width_m);
         let fe = CarrierBody::new(&input, a, psi, &bodies.material, b).ok()?.flexibility;
         all.seats = [0, 1].map(|i| closed.seats[(i, i)] / fe[(i, i)]);
         all.between = (&closed.seats - &fe).amax() / fe.amax();
@@ -117,7 +117,7 @@ fn modes_hardly_pressed_follow_the_load() {
 fn with_bore(ratio: f64) -> Scene {
     let mut scene = scene("oh58_4p");
     let carrier = scene.geometry.as_mut().unwrap().carrier.as_mut().unwrap();
-    carrier.bore_radius = carrier.outer_radius / ratio;
+    carrier.bore_radius_m = carrier.outer_radius_m / ratio;
     scene
 }
 

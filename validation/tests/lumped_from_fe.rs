@@ -28,17 +28,19 @@ fn where_all_pairs_press_along_the_line_of_action_the_models_are_one() {
     let lumped = from_fe.lumped.as_ref().unwrap();
     let planet = &bodies.planet;
     let r = bodies.geometry.planet.base_radius;
-    assert_eq!(lumped.mass.planet, Some(planet.mass));
-    assert!((lumped.inertia_over_r2.planet.unwrap() * r * r / planet.inertia - 1.0).abs() < 1e-14);
+    assert_eq!(lumped.mass_kg.planet, Some(planet.mass));
+    assert!(
+        (lumped.inertia_over_r2_kg.planet.unwrap() * r * r / planet.inertia - 1.0).abs() < 1e-14
+    );
     let angle = bodies.geometry.mesh(MeshKind::RingPlanet).unwrap().pressure_angle;
     // The loaded planets have orbited by some 0.2 mm on an arm of 89 mm, which rotates the lines of centres.
-    let moved = (lumped.pressure_angle.ring_planet - angle).abs();
+    let moved = (lumped.pressure_angle_rad.ring_planet - angle).abs();
     assert!(moved > 0.0 && moved < 5e-3, "{moved}");
     // All meshes are in phase, hence equally stiff; the range is that of steel teeth one inch wide.
     for own in &from_fe.overrides {
         for (k, first) in [
-            (own.sun_mesh, from_fe.overrides[0].sun_mesh),
-            (own.ring_mesh, from_fe.overrides[0].ring_mesh),
+            (own.sun_mesh_n_per_m, from_fe.overrides[0].sun_mesh_n_per_m),
+            (own.ring_mesh_n_per_m, from_fe.overrides[0].ring_mesh_n_per_m),
         ] {
             let (k, first) = (k.unwrap(), first.unwrap());
             assert!((k / first - 1.0).abs() < 1e-6 && (4e8..1.2e9).contains(&k), "{k}");

@@ -92,7 +92,7 @@ fn a_tooth_out_of_place_makes_sidebands() {
     let perfect = FeModel::new(&scene, &bodies, Imperfections::default(), under(&scene));
     let point = &single(&perfect, settings()).chains[0].1[0];
     assert!(point.is_steady && point.between.unwrap() < 1e-11, "{:?}", point.between);
-    assert!(point.state.amplitude(Part::Sun, Coordinate::Rotation, 2) > 1e-5);
+    assert!(point.state.amplitude(Part::SUN, Coordinate::Rotation, 2) > 1e-5);
     let errors = vec![PitchError { tooth: 5, amount: 10e-6 }];
     let faulty = Imperfections { pitch_errors: errors, ..Imperfections::default() };
     let model = FeModel::new(&scene, &bodies, faulty, under(&scene));

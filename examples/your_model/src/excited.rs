@@ -11,7 +11,7 @@ use epicyclic::experiments::sweep::{Coordinate, Line, Part, SteadyState};
 use epicyclic::experiments::{
     MeshCycle, ModelError, RestState, SpeedRequest, StaticModel, SteadyStateModel,
 };
-use epicyclic::gearset::{LoadCase, MeshKind, Scene};
+use epicyclic::gearset::{Body, LoadCase, MeshKind, Scene};
 use nalgebra::{Complex, DMatrix, DVector};
 
 use crate::{Lacks, Parts, SUN, Spring, YourModel, at};
@@ -82,7 +82,7 @@ impl Excited {
         };
         let stiffness: Vec<Vec<C64>> =
             parts.springs.iter().map(|s| (-LAST..=LAST).map(|l| series(s, l)).collect()).collect();
-        let r = &lumped.radius;
+        let r = &lumped.radius_m;
         let central = [r.carrier, r.ring, r.sun].map(|r| r.unwrap_or(f64::NAN));
         let radius: Vec<f64> = (0..parts.mass.len())
             .map(|i| match (i / 3, i % 3) {
@@ -194,7 +194,7 @@ impl Excited {
                     let i = at(body, axis);
                     if self.parts.moving.contains(&i) {
                         let value = q[(l + LAST) as usize][i] / self.radius[i];
-                        line(Part::body(body), coordinate, value);
+                        line(Part::Body(Body::from_index(body)), coordinate, value);
                     }
                 }
             }

@@ -90,8 +90,10 @@ impl YourModel {
         let mut spring = |mesh, stiffness: f64, row: &[(usize, f64)]| {
             springs.push(Spring { stiffness, row: row.to_vec(), mesh });
         };
-        let (alpha_s, alpha_r) =
-            (sense * lumped.pressure_angle.sun_planet, sense * lumped.pressure_angle.ring_planet);
+        let (alpha_s, alpha_r) = (
+            sense * lumped.pressure_angle_rad.sun_planet,
+            sense * lumped.pressure_angle_rad.ring_planet,
+        );
         for (n, psi) in psi.iter().enumerate() {
             let own = scene.overrides.iter().filter(|o| o.planet == n);
             let last = |of: fn(&epicyclic::gearset::PlanetOverride) -> Option<f64>, usual: f64| {
@@ -108,7 +110,7 @@ impl YourModel {
                 (at(p, 2), self.sign),
             ];
             let mesh = Some((MeshKind::SunPlanet, n));
-            spring(mesh, last(|o| o.sun_mesh, lumped.mesh.sun_planet), &row);
+            spring(mesh, last(|o| o.sun_mesh_n_per_m, lumped.mesh_n_per_m.sun_planet), &row);
             let (sin, cos) = (psi + alpha_r).sin_cos();
             let row = [
                 (at(RING, 0), -sin),
@@ -119,8 +121,8 @@ impl YourModel {
                 (at(p, 2), -1.0),
             ];
             let mesh = Some((MeshKind::RingPlanet, n));
-            spring(mesh, last(|o| o.ring_mesh, lumped.mesh.ring_planet), &row);
-            let bearing = last(|o| o.bearing, scene.supports.planet_bearing);
+            spring(mesh, last(|o| o.ring_mesh_n_per_m, lumped.mesh_n_per_m.ring_planet), &row);
+            let bearing = last(|o| o.bearing_n_per_m, scene.supports.planet_bearing_n_per_m);
             let (sin, cos) = psi.sin_cos();
             let radial = [(at(CARRIER, 0), cos), (at(CARRIER, 1), sin), (at(p, 0), -1.0)];
             let tangential = [
@@ -133,10 +135,10 @@ impl YourModel {
             spring(None, bearing, &tangential);
         }
         let supports = [scene.supports.carrier, scene.supports.ring, scene.supports.sun];
-        let radii = [lumped.radius.carrier, lumped.radius.ring, lumped.radius.sun];
+        let radii = [lumped.radius_m.carrier, lumped.radius_m.ring, lumped.radius_m.sun];
         let mut free = vec![true; size];
         for (body, (support, radius)) in supports.iter().zip(radii).enumerate() {
-            let Support { motion, bearing, torsional } = *support;
+            let Support { motion, bearing_n_per_m: bearing, torsional } = *support;
             spring(None, bearing, &[(at(body, 0), 1.0)]);
             spring(None, bearing, &[(at(body, 1), 1.0)]);
             let per_length = match (torsional, radius) {
@@ -155,15 +157,15 @@ impl YourModel {
                 };
             }
         }
-        let (m, i) = (&lumped.mass, &lumped.inertia_over_r2);
+        let (m, i) = (&lumped.mass_kg, &lumped.inertia_over_r2_kg);
         let mut mass = Vec::with_capacity(size);
         for (m, i) in [(m.carrier, i.carrier), (m.ring, i.ring), (m.sun, i.sun)] {
             mass.extend([m, m, i].map(|x| x.unwrap_or(f64::NAN)));
         }
         for n in 0..psi.len() {
             let own = scene.overrides.iter().filter(|o| o.planet == n);
-            let mass_of = own.clone().filter_map(|o| o.mass).next_back().or(m.planet);
-            let inertia = own.filter_map(|o| o.inertia_over_r2).next_back().or(i.planet);
+            let mass_of = own.clone().filter_map(|o| o.mass_kg).next_back().or(m.planet);
+            let inertia = own.filter_map(|o| o.inertia_over_r2_kg).next_back().or(i.planet);
             mass.extend([mass_of, mass_of, inertia].map(|x| x.unwrap_or(f64::NAN)));
         }
         let moving: Vec<usize> = (0..size).filter(|j| free[*j]).collect();

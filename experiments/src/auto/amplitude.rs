@@ -108,7 +108,7 @@ impl<'s> AmplitudeQuestion<'s> {
             }
         };
         let one = |(coordinate, factor): &(Coordinate, f64), l: usize| {
-            point.state.line(Part::Sun, *coordinate, l).map_or([0.0; 2], |line| {
+            point.state.line(Part::SUN, *coordinate, l).map_or([0.0; 2], |line| {
                 let (sin, cos) = line.phase_rad.sin_cos();
                 [cos, sin].map(|part| 1e6 * factor * line.amplitude * part)
             })

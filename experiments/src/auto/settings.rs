@@ -124,7 +124,7 @@ impl AutoSettings {
             own.fe_contact.flank_layer = FlankLayer::Divided;
             own.fe_contact.contact_cells = cells;
             own.fe_contact.cell_layout_at_rest = CellLayout::Graded;
-            own.fe_contact.matching_depth = None;
+            own.fe_contact.matching_depth_m = None;
             own.fe_contact.matching_depth_elements = Some(MATCHING_DEPTH_ELEMENTS);
         }
         own.dynamics.auto = None;

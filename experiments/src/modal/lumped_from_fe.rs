@@ -59,9 +59,13 @@ pub fn lumped_from_tangents(
     let (sun_meshes, ring_meshes) = (&tangents[..n], &tangents[n..2 * n]);
     let overrides = (0..n).map(|planet| PlanetOverride {
         planet,
-        bearing: scene.overrides.iter().find(|o| o.planet == planet).and_then(|o| o.bearing),
-        sun_mesh: Some(sun_meshes[planet]),
-        ring_mesh: Some(ring_meshes[planet]),
+        bearing_n_per_m: scene
+            .overrides
+            .iter()
+            .find(|o| o.planet == planet)
+            .and_then(|o| o.bearing_n_per_m),
+        sun_mesh_n_per_m: Some(sun_meshes[planet]),
+        ring_mesh_n_per_m: Some(ring_meshes[planet]),
         ..PlanetOverride::default()
     });
     let (mass, inertia_over_r2) = mass_properties(scene, bodies, races);
@@ -72,11 +76,14 @@ pub fn lumped_from_tangents(
     from_fe.planets = PlanetPositions { psi_rad: races.psi.clone(), steps: None };
     from_fe.overrides = overrides.collect();
     from_fe.lumped = Some(LumpedInput {
-        mass,
-        inertia_over_r2,
-        radius: PerBody { carrier, ring, sun, planet },
-        mesh: PerMesh { sun_planet: mean(sun_meshes), ring_planet: mean(ring_meshes) },
-        pressure_angle: PerMesh { sun_planet: mean(&angles[..n]), ring_planet: mean(&angles[n..]) },
+        mass_kg: mass,
+        inertia_over_r2_kg: inertia_over_r2,
+        radius_m: PerBody { carrier, ring, sun, planet },
+        mesh_n_per_m: PerMesh { sun_planet: mean(sun_meshes), ring_planet: mean(ring_meshes) },
+        pressure_angle_rad: PerMesh {
+            sun_planet: mean(&angles[..n]),
+            ring_planet: mean(&angles[n..]),
+        },
     });
     Ok(from_fe)
 }
@@ -86,7 +93,7 @@ pub fn lumped_from_tangents(
 fn mass_properties(scene: &Scene, bodies: &Bodies, races: &Races) -> (PerBody, PerBody) {
     let [r_carrier, r_ring, r_sun, r_planet] = races.radii.map(|r| r * r);
     let given =
-        || scene.lumped.as_ref().and_then(|l| l.mass.carrier.zip(l.inertia_over_r2.carrier));
+        || scene.lumped.as_ref().and_then(|l| l.mass_kg.carrier.zip(l.inertia_over_r2_kg.carrier));
     let carrier = match &races.carrier {
         Some(body) => Some((body.mass, body.inertia / r_carrier)),
         None => given(),

@@ -43,7 +43,7 @@ pub enum ModalRoute {
 /// let case = LoadCase::of_scene(&set).unwrap();
 /// let request = SpeedRequest { speeds_rpm: &[1600.0], harmonics: 5, tolerance: 1e-6 };
 /// let states = FeContact::default().steady_states(&set, &case, &request).unwrap();
-/// println!("{:e} rad", states[0].amplitude(Part::Sun, Coordinate::Rotation, 1));
+/// println!("{:e} rad", states[0].amplitude(Part::SUN, Coordinate::Rotation, 1));
 /// ```
 #[derive(Debug, Default)]
 pub struct FeContact {

@@ -242,7 +242,7 @@ impl Recorded {
                 };
                 let axes = ["x", "y", "rotation"].into_iter().zip(state.sun);
                 let mut list: Vec<CycleRow> =
-                    axes.map(|(axis, value)| row(Part::Sun, axis, value)).collect();
+                    axes.map(|(axis, value)| row(Part::SUN, axis, value)).collect();
                 let force = |part: fn(usize) -> Part, forces: &[f64]| -> Vec<CycleRow> {
                     forces.iter().enumerate().map(|(n, f)| row(part(n), "force", *f)).collect()
                 };
@@ -324,9 +324,9 @@ impl Recorded {
             }
         };
         match (part, row.coordinate.as_str()) {
-            (Part::Sun, "x") => state.sun[0] = row.value,
-            (Part::Sun, "y") => state.sun[1] = row.value,
-            (Part::Sun, "rotation") => state.sun[2] = row.value,
+            (Part::SUN, "x") => state.sun[0] = row.value,
+            (Part::SUN, "y") => state.sun[1] = row.value,
+            (Part::SUN, "rotation") => state.sun[2] = row.value,
             (Part::SunMesh(n), "force") => put(&mut state.sun_mesh_n, n, row.value),
             (Part::RingMesh(n), "force") => put(&mut state.ring_mesh_n, n, row.value),
             // More than is asked for.

@@ -88,7 +88,7 @@ fn changed(scene: &Scene, case: &LoadCase, by: By, factor: f64) -> (Scene, LoadC
     match by {
         By::Torque => (scene, case.with_sun_torque(factor * case.sun_torque_nm)),
         By::SofterBearings => {
-            scene.supports.planet_bearing *= factor;
+            scene.supports.planet_bearing_n_per_m *= factor;
             (scene, *case)
         }
     }
@@ -168,8 +168,8 @@ impl<'g> Theory<'g> {
         let radius = geometry.sun.as_ref()?.base_radius;
         let force = case.sun_load_nm() / radius / scene.planets.count() as f64;
         let along = force * (sun.pressure_angle.cos() + ring.pressure_angle.cos());
-        let turned = along / scene.supports.planet_bearing / geometry.center_distance;
-        let stiffness = scene.lumped.as_ref().map(|l| l.mesh);
+        let turned = along / scene.supports.planet_bearing_n_per_m / geometry.center_distance;
+        let stiffness = scene.lumped.as_ref().map(|l| l.mesh_n_per_m);
         let approach = stiffness.map(|k| [force / k.sun_planet, force / k.ring_planet]);
         Some(Self { geometry, force, turned, approach })
     }
@@ -194,8 +194,8 @@ impl<'g> Theory<'g> {
         let unturned = LumpedModel::from_scene(scene)?;
         let mut turned = scene.clone();
         if let Some(lumped) = &mut turned.lumped {
-            lumped.pressure_angle.sun_planet -= self.turned;
-            lumped.pressure_angle.ring_planet += self.turned;
+            lumped.pressure_angle_rad.sun_planet -= self.turned;
+            lumped.pressure_angle_rad.ring_planet += self.turned;
         }
         let turned = LumpedModel::from_scene(&turned)?;
         let stiffness = turned.stiffness() + self.force_stiffness(&turned);

@@ -7,7 +7,7 @@ use dynamics::harmonic_balance::BalanceOptions;
 use fe_contact::contact::Location;
 use fe_contact::statics::{Bodies, Imperfections, SetCycle, StaticSet, at_phase, estimate};
 use fe_contact::vibration::{MeshLawSettings, mesh_law};
-use gearset::{Axis, Body, MeshKind};
+use gearset::{Axis, MeshKind};
 use lumped::BalancedSet;
 use scene::{Fidelity, LoadCase};
 
@@ -226,16 +226,13 @@ impl Bench<'_> {
         let set = BalancedSet::new(scene, case.sense(), law, case.sun_load_nm())?;
         self.prepared_s += self.stopwatch.seconds() - start;
         let lumped = scene.lumped.as_ref().ok_or("the scene has no lumped parameters")?;
-        let (body, radius) = match part {
-            Part::Carrier => (Body::Carrier, lumped.radius.carrier),
-            Part::Ring => (Body::Ring, lumped.radius.ring),
-            Part::Sun => (Body::Sun, lumped.radius.sun),
-            Part::Planet(n) => (Body::Planet(n), lumped.radius.planet),
-            _ => return Err("meshes have no rotation".into()),
+        let Part::Body(body) = part else {
+            return Err("meshes have no rotation".into());
         };
         let held = "this body does not rotate";
         let coordinate = set.coordinates().of(body, Axis::Rotation).ok_or(held)?;
-        let radius = radius.ok_or("the lumped parameters have no radius of this body")?;
+        let radius =
+            lumped.radius_m.of(body).ok_or("the lumped parameters have no radius of this body")?;
         let options = BalanceOptions { tail: TAIL, ..BalanceOptions::default() };
         let mut last: Option<Vec<f64>> = None;
         self.work.coordinates = set.coordinates().count() as f64;

@@ -77,7 +77,7 @@ mod tests {
         let path = format!("{}/../scenes/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let mut scene = Scene::from_file(path.as_ref()).unwrap();
         let lumped = scene.lumped.as_mut().unwrap();
-        lumped.mesh.ring_planet = lumped.mesh.sun_planet;
+        lumped.mesh_n_per_m.ring_planet = lumped.mesh_n_per_m.sun_planet;
         scene.damping.mass_proportional_per_s = 40.0;
         scene.damping.stiffness_proportional_s = 1e-6;
         scene.damping.bearing_s = 1e-6;
@@ -91,7 +91,7 @@ mod tests {
         let geometry = scene.tooth_geometry().unwrap();
         let starts = MeshStart::of_set(&Phasing::new(&geometry, &scene.planets).unwrap());
         let plan = MeshLawPlan::new(&starts, STEPS).unwrap();
-        let k = scene.lumped.as_ref().unwrap().mesh.sun_planet;
+        let k = scene.lumped.as_ref().unwrap().mesh_n_per_m.sun_planet;
         let curve = MeshCurve::new(0.0, 1e-3, &[0.0, k * 1e-3], &[k, k]).unwrap();
         let curves = vec![curve; plan.curves.len()];
         let case = LoadCase::of_scene(scene).unwrap().with_sun_torque(1000.0).at_speed(1200.0);
@@ -159,8 +159,12 @@ mod tests {
     #[test]
     fn a_heavier_planet_mixes_the_types() {
         let mut scene = scene("oh58_4p");
-        let mass = 1.5 * scene.lumped.as_ref().unwrap().mass.planet.unwrap();
-        scene.overrides.push(PlanetOverride { planet: 0, mass: Some(mass), ..Default::default() });
+        let mass = 1.5 * scene.lumped.as_ref().unwrap().mass_kg.planet.unwrap();
+        scene.overrides.push(PlanetOverride {
+            planet: 0,
+            mass_kg: Some(mass),
+            ..Default::default()
+        });
         let (found, modes) = found(&scene);
         assert_eq!(found.len(), 2 * modes.len());
         let shares = found.iter().map(|(_, m)| m.rotational.max(m.translational).max(m.planet));

@@ -1,6 +1,6 @@
 //! Evaluation of a sweep: the sun's motion by harmonic, and resonant peaks with their natural frequencies.
 
-use gearset::ExcitationStrengths;
+use gearset::{Body, ExcitationStrengths};
 use lumped::ModeType;
 
 use super::peaks::{Peak, Response, peaks};
@@ -69,7 +69,7 @@ pub fn contents(points: &[&SteadyState], strengths: &[ExcitationStrengths]) -> V
         let scale = scale(points, is_rotation, strengths.len());
         for (strength, harmonic) in strengths.iter().zip(1..) {
             let allowed = strength.allowed();
-            let found = largest(points, response(is_rotation, Part::Sun), harmonic);
+            let found = largest(points, response(is_rotation, Part::SUN), harmonic);
             list.push(Content {
                 harmonic,
                 is_rotation,
@@ -87,7 +87,7 @@ fn prominent(points: &[&SteadyState], harmonics: usize, least: f64) -> Vec<(Resp
     let mut list = Vec::new();
     for is_rotation in [true, false] {
         let scale = scale(points, is_rotation, harmonics);
-        for part in [Part::Sun, Part::Planet(0)] {
+        for part in [Part::SUN, Part::Body(Body::Planet(0))] {
             let response = response(is_rotation, part);
             let all = (1..=harmonics).flat_map(|l| peaks(points, response, l, least));
             list.push((response, all.filter(|p| p.amplitude > 1e-6 * scale).collect()));

@@ -152,7 +152,7 @@ mod tests {
                 let r = f / 778.0;
                 let amplitude = 1e-6 / ((1.0 - r * r).powi(2) + (0.04 * r).powi(2)).sqrt();
                 let line = Line {
-                    part: Part::Sun,
+                    part: Part::SUN,
                     coordinate: Coordinate::Radial,
                     harmonic: 1,
                     amplitude,
@@ -165,10 +165,10 @@ mod tests {
             })
             .collect();
         let points: Vec<&SteadyState> = points.iter().collect();
-        let found = peaks(&points, Response::Translation(Part::Sun), 1, 1.5);
+        let found = peaks(&points, Response::Translation(Part::SUN), 1, 1.5);
         assert_eq!(found.len(), 1);
         assert!((found[0].frequency_hz / 777.4 - 1.0).abs() < 1e-3, "{:?}", found[0]);
         assert!((found[0].amplitude / 25e-6 - 1.0).abs() < 0.01, "{:?}", found[0]);
-        assert!(peaks(&points, Response::Rotation(Part::Sun), 1, 1.5).is_empty());
+        assert!(peaks(&points, Response::Rotation(Part::SUN), 1, 1.5).is_empty());
     }
 }

@@ -1,6 +1,7 @@
 //! One speed of a sweep: what the steady state gives.
 
 use dynamics::Multiplier;
+use gearset::Body;
 use scene::LoadCase;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -236,7 +237,7 @@ impl SweepPoint {
         let first_body = if shape.has_ring { 0 } else { 2 };
         for body in first_body..record.bodies() {
             for (axis, coordinate) in Coordinate::DISPLACEMENTS.into_iter().enumerate() {
-                add(Part::body(body), coordinate, 3 * body + axis)?;
+                add(Part::Body(Body::from_index(body)), coordinate, 3 * body + axis)?;
             }
         }
         let planets = shape.planets;

@@ -1,5 +1,6 @@
 //! A steady state: harmonics of all bodies and mesh forces at one speed and load, whichever model it is of.
 
+use gearset::Body;
 use scene::LoadCase;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,28 +11,27 @@ use super::peaks::Response;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Part {
-    /// Carrier.
-    Carrier,
-    /// Ring.
-    Ring,
-    /// Sun.
-    Sun,
-    /// Planet n.
-    Planet(usize),
     /// Mesh of the sun with planet n.
     SunMesh(usize),
     /// Mesh of planet n with the ring.
     RingMesh(usize),
+    /// A body.
+    #[serde(untagged)]
+    Body(Body),
 }
 
 impl Part {
+    /// The carrier.
+    pub const CARRIER: Self = Self::Body(Body::Carrier);
+    /// The ring.
+    pub const RING: Self = Self::Body(Body::Ring);
+    /// The sun.
+    pub const SUN: Self = Self::Body(Body::Sun);
+
     /// As tables print it: `planet_0`, `sun_mesh_0`.
     pub fn name(self) -> String {
         match self {
-            Self::Carrier => "carrier".into(),
-            Self::Ring => "ring".into(),
-            Self::Sun => "sun".into(),
-            Self::Planet(n) => format!("planet_{n}"),
+            Self::Body(body) => body.name(),
             Self::SunMesh(n) => format!("sun_mesh_{n}"),
             Self::RingMesh(n) => format!("ring_mesh_{n}"),
         }
@@ -40,32 +40,17 @@ impl Part {
     /// The part that tables call so.
     pub fn named(name: &str) -> Option<Self> {
         let numbered = |prefix: &str| name.strip_prefix(prefix)?.parse::<usize>().ok();
-        match name {
-            "carrier" => Some(Self::Carrier),
-            "ring" => Some(Self::Ring),
-            "sun" => Some(Self::Sun),
-            _ => numbered("planet_")
-                .map(Self::Planet)
-                .or_else(|| numbered("sun_mesh_").map(Self::SunMesh))
-                .or_else(|| numbered("ring_mesh_").map(Self::RingMesh)),
-        }
+        Body::named(name)
+            .map(Self::Body)
+            .or_else(|| numbered("sun_mesh_").map(Self::SunMesh))
+            .or_else(|| numbered("ring_mesh_").map(Self::RingMesh))
     }
 
     /// Number of the planet it belongs to.
     pub fn planet(self) -> Option<usize> {
         match self {
-            Self::Carrier | Self::Ring | Self::Sun => None,
-            Self::Planet(n) | Self::SunMesh(n) | Self::RingMesh(n) => Some(n),
-        }
-    }
-
-    /// Body number k: carrier, ring, sun, planets.
-    pub fn body(k: usize) -> Self {
-        match k {
-            0 => Self::Carrier,
-            1 => Self::Ring,
-            2 => Self::Sun,
-            n => Self::Planet(n - 3),
+            Self::Body(Body::Planet(n)) | Self::SunMesh(n) | Self::RingMesh(n) => Some(n),
+            Self::Body(_) => None,
         }
     }
 }
@@ -190,7 +175,7 @@ impl SteadyState {
             let rotates = |l: &&Line| l.part == *part && l.coordinate == Coordinate::Rotation;
             self.lines.iter().filter(rotates).any(|l| l.harmonic > 0 && l.amplitude > 0.0)
         };
-        [Part::Sun, Part::Ring, Part::Carrier].into_iter().find(turns).unwrap_or(Part::Sun)
+        [Part::SUN, Part::RING, Part::CARRIER].into_iter().find(turns).unwrap_or(Part::SUN)
     }
 
     /// The lines with those of each body's [`Coordinate::Translation`] after its rotation, in every harmonic

@@ -3,7 +3,7 @@
 use dynamics::{Window, spectrum};
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::statics::{Bodies, Imperfections, StaticSet};
-use gearset::Facing;
+use gearset::{Body, Facing};
 use scene::{LoadCase, Scene};
 
 use super::error::TorqueError;
@@ -113,7 +113,7 @@ pub fn follow(
             let states = within(&own.series, &all);
             let states: Vec<&SteadyState> = states.iter().collect();
             let of = |part| top(&states, own.series.response(part), own.series.harmonic);
-            let (sun, planet) = (of(Part::Sun), of(Part::Planet(0)));
+            let (sun, planet) = (of(Part::SUN), of(Part::Body(Body::Planet(0))));
             own.speeds_rpm.push(sun.0);
             own.sun.push(sun.1);
             own.planet.push(planet.1);

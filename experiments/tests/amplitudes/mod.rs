@@ -4,7 +4,7 @@ use experiments::sweep::{Coordinate, Part, SteadyState};
 
 /// Amplitudes of the sun's rotation, harmonics 1 to 5, rad.
 pub(crate) fn rotation(state: &SteadyState) -> [f64; 5] {
-    [1, 2, 3, 4, 5].map(|l| state.amplitude(Part::Sun, Coordinate::Rotation, l))
+    [1, 2, 3, 4, 5].map(|l| state.amplitude(Part::SUN, Coordinate::Rotation, l))
 }
 
 /// Largest difference of two motions relative to the larger amplitude of the first.

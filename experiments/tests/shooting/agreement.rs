@@ -154,7 +154,7 @@ fn harmonics_of_points_agree() {
         assert!(a.between.unwrap() < 1e-15, "{:?}", a.between);
         for harmonic in 1..=5 {
             let of = |p: &&experiments::sweep::SweepPoint| {
-                p.state.amplitude(Part::Sun, Coordinate::Rotation, harmonic)
+                p.state.amplitude(Part::SUN, Coordinate::Rotation, harmonic)
             };
             assert!((of(a) - of(&b)).abs() < 1e-13, "{harmonic}");
         }

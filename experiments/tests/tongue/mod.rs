@@ -17,7 +17,7 @@ const PHASES: usize = 140;
 /// Transmission error of equal gears that turn by equal angles, m, by harmonic: amplitude and phase.
 fn transmission_error(point: &BranchPoint, radius: f64) -> Vec<(f64, f64, f64)> {
     let own = point.state.lines.iter();
-    own.filter(|l| l.part == Part::Sun && l.coordinate == Coordinate::Rotation)
+    own.filter(|l| l.part == Part::SUN && l.coordinate == Coordinate::Rotation)
         .map(|l| (l.harmonic as f64, 2.0 * radius * l.amplitude, l.phase_rad))
         .collect()
 }

@@ -128,7 +128,7 @@ impl CarrierBody {
             }
         }
         // The seats are filled with material.
-        let r = input.pin_seat_radius;
+        let r = input.pin_seat_radius_m;
         let filling = material.density * face_width * std::f64::consts::PI * r * r;
         for (first, [x, y]) in seat_unknown.iter().zip(&mesh.seats) {
             for k in 0..3 {
@@ -168,7 +168,7 @@ impl CarrierBody {
             flexibility.fill(0.0);
         }
         // Mass and inertia are those of the whole annulus, its seats filled with material.
-        let [r, s] = [input.bore_radius, input.outer_radius].map(|r| r * r);
+        let [r, s] = [input.bore_radius_m, input.outer_radius_m].map(|r| r * r);
         let mass = material.density * face_width * std::f64::consts::PI * (s - r);
         Ok(Self {
             mesh,

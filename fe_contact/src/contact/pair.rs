@@ -257,7 +257,7 @@ impl<'m> PairFrame<'m> {
 impl PairFrame<'_> {
     /// Whether either flank has tip relief.
     fn is_relieved(&self) -> bool {
-        let has = |flank: &Flank<'_>| flank.gear.tip_relief.is_some_and(|r| r.amount > 0.0);
+        let has = |flank: &Flank<'_>| flank.gear.tip_relief.is_some_and(|r| r.amount_m > 0.0);
         has(&self.driver) || has(&self.driven)
     }
 

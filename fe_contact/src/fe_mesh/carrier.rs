@@ -53,7 +53,7 @@ const LAYERS: usize = 5;
 impl FeCarrierMesh {
     /// Meshes the carrier for planets at ψ (rad) on the radius `center_distance` (m).
     pub fn new(carrier: &CarrierInput, center_distance: f64, psi: &[f64]) -> Self {
-        let (inner, outer) = (carrier.bore_radius, carrier.outer_radius);
+        let (inner, outer) = (carrier.bore_radius_m, carrier.outer_radius_m);
         let mut order: Vec<usize> = (0..psi.len()).collect();
         order.sort_by(|a, b| psi[*a].rem_euclid(TAU).total_cmp(&psi[*b].rem_euclid(TAU)));
         let at = |i: usize| psi[order[i % order.len()]].rem_euclid(TAU);
@@ -63,7 +63,7 @@ impl FeCarrierMesh {
             _ => (at(i + 1) - at(i)).rem_euclid(TAU),
         };
         let widest = 0.5 * (outer - inner) / center_distance;
-        let least = 1.4 * carrier.pin_seat_radius / center_distance;
+        let least = 1.4 * carrier.pin_seat_radius_m / center_distance;
         let half = (0..count).map(|i| 0.5 * gap(i)).fold(widest.max(least), f64::min);
         let mut mesh = Self {
             points: Vec::new(),
@@ -107,7 +107,7 @@ impl FeCarrierMesh {
                     let turn = TAU * s as f64 / perimeter as f64 - 3.0 * FRAC_PI_4;
                     let (radial, tangential) = (turn.sin(), turn.cos());
                     let (sin, cos) = at(i).sin_cos();
-                    let r = carrier.pin_seat_radius;
+                    let r = carrier.pin_seat_radius_m;
                     let on_seat = [
                         centre[0] + r * (radial * cos - tangential * sin),
                         centre[1] + r * (radial * sin + tangential * cos),

@@ -54,8 +54,8 @@ pub(super) fn matching<'o>(
     // The deepest point must stay in the tooth even below its tip corner.
     let deepest = (DEEPEST_IN_THICKNESSES * thickness).min(WITHIN_TIP * at_tip);
     let (low, high) = (DEPTH_IN_ELEMENTS[1] * element, deepest / points.max(1) as f64);
-    let depth = input.matching_depth.unwrap_or(default.min(high));
-    if low > high && input.matching_depth.is_none() {
+    let depth = input.matching_depth_m.unwrap_or(default.min(high));
+    if low > high && input.matching_depth_m.is_none() {
         return Err(FeError::Unfit {
             key: "fe_contact.flank_elements".into(),
             value: input.flank_elements.to_string(),
@@ -68,7 +68,7 @@ pub(super) fn matching<'o>(
             ),
         });
     }
-    if depth < low && input.matching_depth.is_none() {
+    if depth < low && input.matching_depth_m.is_none() {
         return Err(FeError::Unfit {
             key: "fe_contact.matching_depth_elements".into(),
             value: format!("{in_elements}"),

@@ -183,7 +183,7 @@ impl Races {
     pub(crate) fn support(&self, body: Body, axis: Axis) -> f64 {
         let Some(support) = self.supports.get(body.index()) else { return 0.0 };
         match axis {
-            Axis::First | Axis::Second => support.bearing,
+            Axis::First | Axis::Second => support.bearing_n_per_m,
             Axis::Rotation => torsional(support, self.radii[body.kind()]),
         }
     }
@@ -348,7 +348,7 @@ impl Races {
 /// Stiffness of one planet's bearing, N/m.
 pub(crate) fn planet_bearing(scene: &Scene, planet: usize) -> f64 {
     let special = scene.overrides.iter().find(|o| o.planet == planet);
-    special.and_then(|o| o.bearing).unwrap_or(scene.supports.planet_bearing)
+    special.and_then(|o| o.bearing_n_per_m).unwrap_or(scene.supports.planet_bearing_n_per_m)
 }
 
 fn torsional(support: &Support, radius: f64) -> f64 {

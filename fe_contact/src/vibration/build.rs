@@ -173,9 +173,9 @@ pub(super) fn body_mass(
                 return Ok([0.0; 3]);
             }
             let lumped = scene.lumped.as_ref();
-            let mass = lumped.and_then(|l| l.mass.carrier);
+            let mass = lumped.and_then(|l| l.mass_kg.carrier);
             let mass = mass.ok_or_else(|| missing("geometry.carrier"))?;
-            let turning = lumped.and_then(|l| l.inertia_over_r2.carrier).unwrap_or(0.0);
+            let turning = lumped.and_then(|l| l.inertia_over_r2_kg.carrier).unwrap_or(0.0);
             Ok([mass, mass, turning])
         }
         Body::Ring if pair.is_some() => Ok([0.0; 3]),

@@ -75,7 +75,7 @@ impl Random {
         // Some members have no bearing, some no torsional support.
         let bearing = if self.one_in(4) { 0.0 } else { self.stiffness() };
         let torsional = if self.one_in(2) { 0.0 } else { self.stiffness() };
-        Support { motion, bearing, torsional: Torsional::PerLength(torsional) }
+        Support { motion, bearing_n_per_m: bearing, torsional: Torsional::PerLength(torsional) }
     }
 
     /// Planet 0 at zero, the others at random but distinct positions.
@@ -101,11 +101,11 @@ impl Random {
         };
         PlanetOverride {
             planet,
-            mass: maybe(Self::mass),
-            inertia_over_r2: maybe(Self::mass),
-            bearing: maybe(Self::stiffness),
-            sun_mesh: maybe(Self::stiffness),
-            ring_mesh: maybe(Self::stiffness),
+            mass_kg: maybe(Self::mass),
+            inertia_over_r2_kg: maybe(Self::mass),
+            bearing_n_per_m: maybe(Self::stiffness),
+            sun_mesh_n_per_m: maybe(Self::stiffness),
+            ring_mesh_n_per_m: maybe(Self::stiffness),
         }
     }
 
@@ -116,13 +116,14 @@ impl Random {
         scene.supports.carrier = self.support();
         scene.supports.ring = self.support();
         scene.supports.sun = self.support();
-        scene.supports.planet_bearing = self.stiffness();
+        scene.supports.planet_bearing_n_per_m = self.stiffness();
         let lumped = scene.lumped.as_mut().unwrap();
-        lumped.mass = self.masses();
-        lumped.inertia_over_r2 = self.masses();
-        lumped.mesh = PerMesh { sun_planet: self.stiffness(), ring_planet: self.stiffness() };
+        lumped.mass_kg = self.masses();
+        lumped.inertia_over_r2_kg = self.masses();
+        lumped.mesh_n_per_m =
+            PerMesh { sun_planet: self.stiffness(), ring_planet: self.stiffness() };
         let angle = |random: &mut Self| random.between(10.0, 35.0).to_radians();
-        lumped.pressure_angle = PerMesh { sun_planet: angle(self), ring_planet: angle(self) };
+        lumped.pressure_angle_rad = PerMesh { sun_planet: angle(self), ring_planet: angle(self) };
         for planet in 0..scene.planets.count() {
             if self.one_in(4) {
                 scene.overrides.push(self.planet_override(planet));

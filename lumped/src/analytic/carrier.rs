@@ -46,8 +46,9 @@ pub(super) fn seat_flexibility(
     psi: &[f64],
     plane: &Plane,
 ) -> Option<DMatrix<f64>> {
-    let [inner, outer, seat] = [carrier.bore_radius, carrier.outer_radius, carrier.pin_seat_radius]
-        .map(|r| r / center_distance);
+    let [inner, outer, seat] =
+        [carrier.bore_radius_m, carrier.outer_radius_m, carrier.pin_seat_radius_m]
+            .map(|r| r / center_distance);
     let apart = |i: usize, j: usize| (0.5 * (psi[i] - psi[j])).sin().abs();
     let next = (1..psi.len()).flat_map(|i| (0..i).map(move |j| (i, j))).map(|(i, j)| apart(i, j));
     let room = next.fold((1.0 - inner).min(outer - 1.0), f64::min);

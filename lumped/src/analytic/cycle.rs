@@ -117,7 +117,7 @@ impl AnalyticCycle {
         let unstable = || LumpedError::NotAnalytic("nothing holds the set");
         let mut stiffness = model.stiffness();
         let of_seats =
-            stand_on_seats(&mut stiffness, &model, &seats, scene.supports.planet_bearing)?;
+            stand_on_seats(&mut stiffness, &model, &seats, scene.supports.planet_bearing_n_per_m)?;
         let mean = stiffness.clone().cholesky().ok_or_else(unstable)?.solve(&f);
         let [suns, rings] = rows;
         let count = suns.len();

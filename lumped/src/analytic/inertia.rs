@@ -47,11 +47,11 @@ impl ElasticBodies {
         };
         let carrier = scene.geometry.as_ref().and_then(|g| g.carrier).filter(|c| !c.is_rigid);
         let a = geometry.center_distance;
-        let k = scene.supports.planet_bearing;
+        let k = scene.supports.planet_bearing_n_per_m;
         let series = DMatrix::identity(seats.nrows(), seats.nrows()) / k + seats;
         Self {
             carrier: carrier.map(|c| OnRadius {
-                body: Accelerated::new(c.bore_radius, c.outer_radius, density, plane),
+                body: Accelerated::new(c.bore_radius_m, c.outer_radius_m, density, plane),
                 at: a,
                 radius: a,
             }),

@@ -471,8 +471,8 @@ mod tests {
         let mut scene = Scene::from_toml(template(SceneKind::Planetary)).unwrap();
         let plain = scene.tooth_geometry().unwrap();
         let relieved = |gear: &gearset::Gear| gearset::TipRelief {
-            start_radius: gear.tip_radius - 0.2 * (gear.tip_radius - gear.root_radius),
-            amount: 12e-6,
+            start_radius_m: gear.tip_radius - 0.2 * (gear.tip_radius - gear.root_radius),
+            amount_m: 12e-6,
             shape: gearset::ReliefShape::Linear,
         };
         let input = scene.geometry.as_mut().unwrap();

@@ -103,14 +103,14 @@ impl AnalyticSet {
         }
         let mut stiffness = model.stiffness();
         let seat_stiffness =
-            stand_on_seats(&mut stiffness, &model, &seats, scene.supports.planet_bearing)?;
+            stand_on_seats(&mut stiffness, &model, &seats, scene.supports.planet_bearing_n_per_m)?;
         for (line, mesh) in lines.iter().zip(suns.iter().chain(&rings)) {
             line.turn(&mut stiffness, force, mesh.rolling);
         }
         let mean = |meshes: &[MeshTangent]| {
             meshes.iter().map(|mesh| mesh.stiffness).sum::<f64>() / meshes.len() as f64
         };
-        parameters.mesh = PerMesh { sun_planet: mean(&suns), ring_planet: mean(&rings) };
+        parameters.mesh_n_per_m = PerMesh { sun_planet: mean(&suns), ring_planet: mean(&rings) };
         let hand_overs = suns.iter().chain(&rings).map(|mesh| mesh.hand_over).collect();
         let bodies = ElasticBodies::new(scene, &geometry.of_scene, &plane, &seats);
         let deflections = suns.iter().chain(&rings).map(|mesh| force / mesh.stiffness);
@@ -247,7 +247,7 @@ fn parameters(scene: &Scene, geometry: &Geometry) -> Option<LumpedInput> {
     let carrier = match scene.geometry.as_ref()?.carrier {
         // The seats are filled with material.
         Some(c) if moved(supports.carrier.motion) => {
-            let [inner, outer] = [c.bore_radius, c.outer_radius];
+            let [inner, outer] = [c.bore_radius_m, c.outer_radius_m];
             let mass = per_area * std::f64::consts::PI * (outer.powi(2) - inner.powi(2));
             let polar = 0.5 * mass * (outer.powi(2) + inner.powi(2));
             Some((mass, polar / geometry.center_distance.powi(2)))
@@ -263,16 +263,16 @@ fn parameters(scene: &Scene, geometry: &Geometry) -> Option<LumpedInput> {
     };
     let (sun_mesh, ring_mesh) = (geometry.sun_planet.as_ref()?, geometry.ring_planet.as_ref()?);
     Some(LumpedInput {
-        mass: per_body(|(mass, _)| mass),
-        inertia_over_r2: per_body(|(_, inertia)| inertia),
-        radius: PerBody {
+        mass_kg: per_body(|(mass, _)| mass),
+        inertia_over_r2_kg: per_body(|(_, inertia)| inertia),
+        radius_m: PerBody {
             carrier: Some(geometry.center_distance),
             ring: Some(ring_gear.base_radius),
             sun: geometry.sun.as_ref().map(|gear| gear.base_radius),
             planet: Some(geometry.planet.base_radius),
         },
-        mesh: PerMesh { sun_planet: 0.0, ring_planet: 0.0 },
-        pressure_angle: PerMesh {
+        mesh_n_per_m: PerMesh { sun_planet: 0.0, ring_planet: 0.0 },
+        pressure_angle_rad: PerMesh {
             sun_planet: sun_mesh.pressure_angle,
             ring_planet: ring_mesh.pressure_angle,
         },

@@ -61,8 +61,11 @@ pub(super) fn with_share(scene: &Scene, share: f64) -> Scene {
 /// The scene with another backlash in both meshes, m.
 pub(super) fn with_backlash(scene: &Scene, backlash: f64) -> Scene {
     let mut scene = scene.clone();
-    if let Some(ThicknessInput::Backlash { sun_planet, ring_planet, .. }) =
-        scene.geometry.as_mut().map(|g| &mut g.thickness)
+    if let Some(ThicknessInput::Backlash {
+        sun_planet_m: sun_planet,
+        ring_planet_m: ring_planet,
+        ..
+    }) = scene.geometry.as_mut().map(|g| &mut g.thickness)
     {
         (*sun_planet, *ring_planet) = (backlash, backlash);
     }
@@ -145,9 +148,9 @@ pub(super) fn with_fillet(scene: &Scene, wheel: Wheel, radius: f64) -> Scene {
     let mut scene = scene.clone();
     if let Some(g) = scene.geometry.as_mut() {
         match wheel {
-            Wheel::Sun => g.sun.iter_mut().for_each(|g| g.fillet_radius = radius),
-            Wheel::Planet => g.planet.fillet_radius = radius,
-            Wheel::Ring => g.ring.iter_mut().for_each(|g| g.fillet_radius = radius),
+            Wheel::Sun => g.sun.iter_mut().for_each(|g| g.fillet_radius_m = radius),
+            Wheel::Planet => g.planet.fillet_radius_m = radius,
+            Wheel::Ring => g.ring.iter_mut().for_each(|g| g.fillet_radius_m = radius),
         }
     }
     scene
@@ -207,7 +210,9 @@ pub(super) fn intervals(scene: &Scene) -> Result<Vec<Interval>, ValidationError>
     let own = geometry(scene)?;
     let input = scene.geometry.as_ref().ok_or_else(incomplete)?;
     let (share, backlash) = match input.thickness {
-        ThicknessInput::Backlash { planet_share, sun_planet, .. } => (planet_share, sun_planet),
+        ThicknessInput::Backlash { planet_share, sun_planet_m: sun_planet, .. } => {
+            (planet_share, sun_planet)
+        }
         ThicknessInput::ProfileShift { .. } => return Err(incomplete()),
     };
     let mut list = Vec::new();
@@ -247,7 +252,7 @@ pub(super) fn intervals(scene: &Scene) -> Result<Vec<Interval>, ValidationError>
         };
         add(&name, "mm", numbers, true, reason);
     }
-    let seat = input.carrier.ok_or(ValidationError::Incomplete("carrier"))?.pin_seat_radius;
+    let seat = input.carrier.ok_or(ValidationError::Incomplete("carrier"))?.pin_seat_radius_m;
     let [thin, thick] = PIN_DIAMETERS.map(|d| 0.5e3 * d);
     add(
         "pin_seat",

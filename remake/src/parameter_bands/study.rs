@@ -90,21 +90,21 @@ fn bodies_and_meshes(set: &Scene, bodies: &Bodies) -> Result<Values, ValidationE
         (
             "sun",
             [sun.mass, sun.inertia],
-            [lumped.mass.sun, lumped.inertia_over_r2.sun],
+            [lumped.mass_kg.sun, lumped.inertia_over_r2_kg.sun],
             r_sun,
             0.5e-6,
         ),
         (
             "planet",
             [bodies.planet.mass, bodies.planet.inertia],
-            [lumped.mass.planet, lumped.inertia_over_r2.planet],
+            [lumped.mass_kg.planet, lumped.inertia_over_r2_kg.planet],
             r_planet,
             0.5e-5,
         ),
         (
             "carrier",
             [carrier.mass, carrier.inertia],
-            [lumped.mass.carrier, lumped.inertia_over_r2.carrier],
+            [lumped.mass_kg.carrier, lumped.inertia_over_r2_kg.carrier],
             r_carrier,
             0.5e-4,
         ),
@@ -151,7 +151,7 @@ fn bodies_and_meshes(set: &Scene, bodies: &Bodies) -> Result<Values, ValidationE
         });
     }
     let series = 1.0 / secants.iter().map(|(_, k)| 1.0 / k).sum::<f64>();
-    let printed = lumped.mesh.sun_planet;
+    let printed = lumped.mesh_n_per_m.sun_planet;
     for (name, value) in
         [("series", series), ("sun_planet", secants[0].1), ("ring_planet", secants[1].1)]
     {
@@ -194,7 +194,7 @@ fn changed(scene: &Scene, interval: &Interval, value: f64) -> Result<Scene, Vali
         "backlash" => changed = with_backlash(scene, 1e-3 * value),
         "pin_seat" => {
             let carrier = changed.geometry.as_mut().and_then(|g| g.carrier.as_mut());
-            carrier.ok_or(ValidationError::Incomplete("carrier"))?.pin_seat_radius = 1e-3 * value;
+            carrier.ok_or(ValidationError::Incomplete("carrier"))?.pin_seat_radius_m = 1e-3 * value;
         }
         "plane_stress" if value > 0.5 => changed.fe_contact.plane = PlaneState::Stress,
         "plane_stress" => {}

@@ -26,12 +26,12 @@ pub(crate) fn shape(
             let is_z_known = !document.is_doubtful(&format!("teeth.{name}"));
             // 2π r_b = Z p_b
             let base = z.filter(|_| is_z_known).map_or(f64::NAN, f64::from);
-            circles(document, name, gear, base * shape.base_pitch / std::f64::consts::TAU);
+            circles(document, name, gear, base * shape.base_pitch_m / std::f64::consts::TAU);
         }
     }
     let is_known = |key: &str| !document.is_doubtful(&format!("planets.{key}"));
     let positions = positions.filter(|_| is_known("position_steps") && is_known("positions_deg"));
-    let a = shape.center_distance;
+    let a = shape.center_distance_m;
     if a.is_nan() || meshes(document, shape, teeth) {
         return;
     }
@@ -40,7 +40,7 @@ pub(crate) fn shape(
     }
     let is_tip_known = !document.is_doubtful("geometry.planet.tip_diameter_mm");
     if let Some(positions) = positions.filter(|_| is_tip_known) {
-        planets_apart(document, positions, a, shape.planet.tip_radius);
+        planets_apart(document, positions, a, shape.planet.tip_radius_m);
     }
 }
 
@@ -57,7 +57,7 @@ fn meshes(document: &Document<'_>, shape: &GeometryInput, teeth: &TeethRead) -> 
     let sun = sound("sun", &shape.sun, teeth.sun);
     let ring = sound("ring", &shape.ring, teeth.ring);
     let (Some(z_planet), true) =
-        (teeth.planet.filter(|_| is_sound("planet")), !shape.base_pitch.is_nan())
+        (teeth.planet.filter(|_| is_sound("planet")), !shape.base_pitch_m.is_nan())
     else {
         return false;
     };
@@ -68,7 +68,7 @@ fn meshes(document: &Document<'_>, shape: &GeometryInput, teeth: &TeethRead) -> 
         && sun.is_some() == shape.sun.is_some()
         && ring.is_some() == shape.ring.is_some();
     let no_backlash =
-        ThicknessInput::Backlash { sun_planet: 0.0, ring_planet: 0.0, planet_share: 0.5 };
+        ThicknessInput::Backlash { sun_planet_m: 0.0, ring_planet_m: 0.0, planet_share: 0.5 };
     let known_teeth = Teeth {
         sun: sun.as_ref().map(|s| s.1),
         planet: z_planet,
@@ -143,8 +143,8 @@ fn carrier(
     if document.is_doubtful("geometry.carrier.pin_seat_diameter_mm") {
         return;
     }
-    let seat = carrier.pin_seat_radius;
-    let (bore, outer) = (carrier.bore_radius, carrier.outer_radius);
+    let seat = carrier.pin_seat_radius_m;
+    let (bore, outer) = (carrier.bore_radius_m, carrier.outer_radius_m);
     let why = "the pin seats stand at the centre distance, inside the annulus";
     if bore >= a - seat {
         let allowed = format!("below {}", mm(2.0 * (a - seat)));
@@ -170,7 +170,7 @@ fn circles(document: &Document<'_>, name: &str, gear: &GearInput, base: f64) {
         document.fault(&format!("geometry.{name}.{k}"), allowed, why);
     };
     let is_ring = name == "ring";
-    let (tip, root, body) = (gear.tip_radius, gear.root_radius, gear.body_radius);
+    let (tip, root, body) = (gear.tip_radius_m, gear.root_radius_m, gear.body_radius_m);
     let diameter = |r: f64| mm(2.0 * r);
     // One circle not outside another, seen from the teeth: outwards on an external gear, inwards on the ring.
     let is_within = |x: f64, y: f64| if is_ring { x >= y } else { x <= y };
@@ -221,7 +221,7 @@ fn tooth(document: &Document<'_>, name: &str, gear: &Gear) {
     if let Some(relief) = gear.tip_relief {
         let (low, high) =
             if is_ring { (tip, gear.form_radius()) } else { (gear.form_radius(), tip) };
-        if !(relief.start_radius > low && relief.start_radius < high) {
+        if !(relief.start_radius_m > low && relief.start_radius_m < high) {
             let allowed = format!("between {} and {}", diameter(low), diameter(high));
             fault("tip_relief.start_diameter_mm", allowed, "relief lies on the flank");
         }

@@ -55,7 +55,7 @@ pub(crate) fn auto_chooses(
             "layout of contact cells at rest",
         ),
         ("contact_cells", own.contact_cells != default.contact_cells, "number of contact cells"),
-        ("matching_depth_mm", own.matching_depth.is_some(), depth),
+        ("matching_depth_mm", own.matching_depth_m.is_some(), depth),
         ("matching_depth_elements", own.matching_depth_elements.is_some(), depth),
     ];
     for (key, _, what) in settings.into_iter().filter(|(_, is_given, _)| *is_given) {

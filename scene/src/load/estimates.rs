@@ -35,7 +35,7 @@ pub(crate) const BODIES: [&str; 4] = ["sun", "planet", "ring", "carrier"];
 /// give both circles.
 pub(crate) fn discs(scene: &Scene) -> [Option<Disc>; 4] {
     let Some(geometry) = &scene.geometry else { return [None; 4] };
-    let per_area = scene.material.density_kg_per_m3 * geometry.face_width;
+    let per_area = scene.material.density_kg_per_m3 * geometry.face_width_m;
     let disc = |inner: f64, outer: f64, outermost: f64| Disc {
         inner,
         outer,
@@ -43,11 +43,12 @@ pub(crate) fn discs(scene: &Scene) -> [Option<Disc>; 4] {
         mass: PI * (outer * outer - inner * inner) * per_area,
     };
     let gear = |gear: &gearset::GearInput| {
-        let (middle, body) = (0.5 * (gear.tip_radius + gear.root_radius), gear.body_radius?);
+        let (middle, body) = (0.5 * (gear.tip_radius_m + gear.root_radius_m), gear.body_radius_m?);
         let (inner, outer) = (middle.min(body), middle.max(body));
-        Some(disc(inner, outer, gear.tip_radius.max(body)))
+        Some(disc(inner, outer, gear.tip_radius_m.max(body)))
     };
-    let carrier = geometry.carrier.map(|c| disc(c.bore_radius, c.outer_radius, c.outer_radius));
+    let carrier =
+        geometry.carrier.map(|c| disc(c.bore_radius_m, c.outer_radius_m, c.outer_radius_m));
     [
         geometry.sun.as_ref().and_then(gear),
         gear(&geometry.planet),
@@ -62,13 +63,13 @@ pub(crate) fn mesh_stiffness(scene: &Scene) -> Option<f64> {
         SceneKind::Planetary => mesh.sun_planet.min(mesh.ring_planet),
         SceneKind::GearPair => mesh.sun_planet,
     };
-    let given = scene.lumped.as_ref().map(|l| softer(&l.mesh));
+    let given = scene.lumped.as_ref().map(|l| softer(&l.mesh_n_per_m));
     given.or_else(|| pair_stiffness(scene))
 }
 
 /// Mean stiffness of one mesh from face width and modulus, N/m: E b/13.
 pub(crate) fn pair_stiffness(scene: &Scene) -> Option<f64> {
-    let width = scene.geometry.as_ref()?.face_width;
+    let width = scene.geometry.as_ref()?.face_width_m;
     Some(scene.material.young_modulus_pa * width / PAIR_STIFFNESS_DIVISOR)
 }
 
@@ -114,7 +115,7 @@ pub(crate) fn way_under(scene: &Scene, geometry: &Geometry, force: f64) -> Optio
     let planets = scene.planets.count() as f64;
     // A pin carries the forces of both meshes.
     let mut length =
-        2.0 * force / pair_stiffness(scene)? + 2.0 * force / scene.supports.planet_bearing;
+        2.0 * force / pair_stiffness(scene)? + 2.0 * force / scene.supports.planet_bearing_n_per_m;
     let (sun, ring) = (geometry.sun.as_ref()?.base_radius, geometry.ring.as_ref()?.base_radius);
     let supports = &scene.supports;
     let members = [
@@ -152,9 +153,9 @@ pub(crate) fn highest_frequency(scene: &Scene) -> Option<f64> {
     let discs = discs(scene);
     let lumped = scene.lumped.as_ref();
     let mass = |given: Option<f64>, i: usize| given.or(discs[i].map(|d| d.mass));
-    let sun = mass(lumped.and_then(|l| l.mass.sun), 0).map(|m| (planets * mesh, m));
-    let planet = mass(lumped.and_then(|l| l.mass.planet), 1);
-    let planet = planet.map(|m| (2.0 * mesh + scene.supports.planet_bearing, m));
+    let sun = mass(lumped.and_then(|l| l.mass_kg.sun), 0).map(|m| (planets * mesh, m));
+    let planet = mass(lumped.and_then(|l| l.mass_kg.planet), 1);
+    let planet = planet.map(|m| (2.0 * mesh + scene.supports.planet_bearing_n_per_m, m));
     let squares = [sun, planet].into_iter().flatten().map(|(k, m)| k / m);
     squares.reduce(f64::max).map(f64::sqrt)
 }

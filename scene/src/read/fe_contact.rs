@@ -20,7 +20,7 @@ pub(crate) fn fe_contact(s: &Section<'_, '_>) -> Option<FeContactInput> {
         contact_cells: s.integer("contact_cells")?,
         cell_layout: s.choice("cell_layout")?,
         cell_layout_at_rest: s.choice("cell_layout_at_rest")?,
-        matching_depth,
+        matching_depth_m: matching_depth,
         matching_depth_elements,
         matching_points: s.integer("matching_points")?,
         mean_positions: s.integer("mean_positions"),

@@ -11,18 +11,18 @@ use crate::read::document::Section;
 
 /// A gear whose table is absent or at fault.
 const UNKNOWN: GearInput = GearInput {
-    tip_radius: f64::NAN,
-    root_radius: f64::NAN,
-    body_radius: None,
-    fillet_radius: f64::NAN,
+    tip_radius_m: f64::NAN,
+    root_radius_m: f64::NAN,
+    body_radius_m: None,
+    fillet_radius_m: f64::NAN,
     tip_relief: None,
 };
 
 pub(crate) fn geometry(s: &Section<'_, '_>, teeth: &TeethRead) -> GeometryInput {
     let (center_distance, face_width) = (s.number("center_distance_mm"), s.number("face_width_mm"));
     let rack = s.section("rack").map(|s| Rack {
-        module: s.number("module_mm"),
-        pressure_angle: s.number("pressure_angle_deg"),
+        module_m: s.number("module_mm"),
+        pressure_angle_rad: s.number("pressure_angle_deg"),
     });
     let base_pitch = base_pitch(s, teeth, rack);
     let one = |key, body, is_wanted: bool| {
@@ -44,17 +44,17 @@ pub(crate) fn geometry(s: &Section<'_, '_>, teeth: &TeethRead) -> GeometryInput 
         }
     }
     GeometryInput {
-        center_distance,
-        base_pitch,
+        center_distance_m: center_distance,
+        base_pitch_m: base_pitch,
         rack,
-        face_width,
+        face_width_m: face_width,
         sun,
         planet: planet.unwrap_or(UNKNOWN),
         ring,
         carrier: s.section("carrier").map(|s| CarrierInput {
-            bore_radius: 0.5 * s.number("bore_diameter_mm"),
-            outer_radius: 0.5 * s.number("outer_diameter_mm"),
-            pin_seat_radius: 0.5 * s.number("pin_seat_diameter_mm"),
+            bore_radius_m: 0.5 * s.number("bore_diameter_mm"),
+            outer_radius_m: 0.5 * s.number("outer_diameter_mm"),
+            pin_seat_radius_m: 0.5 * s.number("pin_seat_diameter_mm"),
             is_rigid: s.word("body") == Some("rigid"),
         }),
         thickness: thickness(s, base_pitch),
@@ -75,20 +75,20 @@ fn base_pitch(s: &Section<'_, '_>, teeth: &TeethRead, rack: Option<Rack>) -> f64
     }
     let from_diameter = diameter_mm.zip(teeth.planet).map(|(d, z)| PI * d * 1e-3 / f64::from(z));
     // p_b = π m cos α₀
-    let from_rack = rack.map(|r| PI * r.module * r.pressure_angle.cos());
+    let from_rack = rack.map(|r| PI * r.module_m * r.pressure_angle_rad.cos());
     pitch.or(from_diameter).or(from_rack).unwrap_or(f64::NAN)
 }
 
 fn gear(s: &Section<'_, '_>, body_key: &'static str, base_pitch: f64) -> GearInput {
     GearInput {
-        tip_radius: 0.5 * s.number("tip_diameter_mm"),
-        root_radius: 0.5 * s.number("root_diameter_mm"),
-        body_radius: s.optional(body_key).map(|d| 0.5 * d),
+        tip_radius_m: 0.5 * s.number("tip_diameter_mm"),
+        root_radius_m: 0.5 * s.number("root_diameter_mm"),
+        body_radius_m: s.optional(body_key).map(|d| 0.5 * d),
         // By default 0.3 p_b/π = 0.3 m cos α, a usual tip rounding of the rack.
-        fillet_radius: s.optional("fillet_radius_mm").unwrap_or(0.3 * base_pitch / PI),
+        fillet_radius_m: s.optional("fillet_radius_mm").unwrap_or(0.3 * base_pitch / PI),
         tip_relief: s.section("tip_relief").map(|s| TipRelief {
-            start_radius: 0.5 * s.number("start_diameter_mm"),
-            amount: s.number("amount_um"),
+            start_radius_m: 0.5 * s.number("start_diameter_mm"),
+            amount_m: s.number("amount_um"),
             shape: s.choice("shape").unwrap_or(ReliefShape::Linear),
         }),
     }
@@ -114,8 +114,8 @@ fn thickness(s: &Section<'_, '_>, base_pitch: f64) -> ThicknessInput {
     // By default 0.04 p_b/π = 0.04 m cos α, a usual value.
     let backlash = |key| t.optional(key).unwrap_or(0.04 * base_pitch / PI);
     ThicknessInput::Backlash {
-        sun_planet: backlash("sun_planet_backlash_mm"),
-        ring_planet: backlash("ring_planet_backlash_mm"),
+        sun_planet_m: backlash("sun_planet_backlash_mm"),
+        ring_planet_m: backlash("ring_planet_backlash_mm"),
         planet_share: t.number("planet_share"),
     }
 }

@@ -134,11 +134,11 @@ pub(crate) fn lumped(
         }
     }
     Some(LumpedInput {
-        mass,
-        inertia_over_r2,
-        radius,
-        mesh: mesh?,
-        pressure_angle: pressure_angle?,
+        mass_kg: mass,
+        inertia_over_r2_kg: inertia_over_r2,
+        radius_m: radius,
+        mesh_n_per_m: mesh?,
+        pressure_angle_rad: pressure_angle?,
     })
 }
 

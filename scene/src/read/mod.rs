@@ -263,11 +263,11 @@ fn overrides(root: &Section<'_, '_>, planets: Option<&PlanetPositions>) -> Vec<P
         }
         list.push(PlanetOverride {
             planet: index.unwrap_or(0),
-            mass: s.optional("mass_kg"),
-            inertia_over_r2: s.optional("inertia_over_r2_kg"),
-            bearing: s.optional("bearing_n_per_m"),
-            sun_mesh: s.optional("sun_planet_n_per_m"),
-            ring_mesh: s.optional("ring_planet_n_per_m"),
+            mass_kg: s.optional("mass_kg"),
+            inertia_over_r2_kg: s.optional("inertia_over_r2_kg"),
+            bearing_n_per_m: s.optional("bearing_n_per_m"),
+            sun_mesh_n_per_m: s.optional("sun_planet_n_per_m"),
+            ring_mesh_n_per_m: s.optional("ring_planet_n_per_m"),
         });
     }
     if !list.is_empty() && !root.may_hold("lumped") {

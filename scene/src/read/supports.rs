@@ -30,7 +30,14 @@ pub(crate) fn supports(
         inertia_kg_m2: s.number("added_inertia_kg_m2"),
     };
     let planet_bearing = s.number("bearing_n_per_m");
-    Supports { carrier, ring, sun, planet_bearing, planet_added, pair: None }
+    Supports {
+        carrier,
+        ring,
+        sun,
+        planet_bearing_n_per_m: planet_bearing,
+        planet_added,
+        pair: None,
+    }
 }
 
 /// Supports of the two gears of a pair. Where no bearing stiffness is given, bearings are rigid.
@@ -61,7 +68,7 @@ fn pair_supports(root: &Section<'_, '_>, mesh: Option<MeshKind>) -> Supports {
         carrier: Support::HELD,
         ring: Support::HELD,
         sun,
-        planet_bearing: 0.0,
+        planet_bearing_n_per_m: 0.0,
         planet_added: AddedMass::default(),
         pair: Some(PairSupports { planet, sun_inertia, planet_inertia }),
     }
@@ -97,5 +104,5 @@ fn support(s: &Section<'_, '_>, is_pair: bool) -> Support {
         Some(k) => Torsional::PerAngle(k),
         None => Torsional::PerLength(per_length.unwrap_or(0.0)),
     };
-    Support { motion, bearing: bearing.unwrap_or(0.0), torsional }
+    Support { motion, bearing_n_per_m: bearing.unwrap_or(0.0), torsional }
 }

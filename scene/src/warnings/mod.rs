@@ -202,8 +202,8 @@ fn of(values: &PerBody, name: &str) -> Option<f64> {
 fn bodies(scene: &Scene, found: &mut Found) {
     let Some(lumped) = &scene.lumped else { return };
     for (name, disc) in BODIES.into_iter().zip(estimates::discs(scene)) {
-        let (mass, over_r2) = (of(&lumped.mass, name), of(&lumped.inertia_over_r2, name));
-        let inertia = over_r2.zip(of(&lumped.radius, name)).map(|(i, r)| i * r * r);
+        let (mass, over_r2) = (of(&lumped.mass_kg, name), of(&lumped.inertia_over_r2_kg, name));
+        let inertia = over_r2.zip(of(&lumped.radius_m, name)).map(|(i, r)| i * r * r);
         let far = |value: f64, own: f64| is_outside([own / BODY_FACTOR, own * BODY_FACTOR], value);
         let against = |disc: f64, unit: &str| {
             format!(
@@ -261,7 +261,7 @@ fn supports(scene: &Scene, geometry: Option<&Geometry>, found: &mut Found) {
     let likely = "likely it is in N/mm (1 N/mm = 1000 N/m) or N/µm (1e6 N/m)";
     let s = &scene.supports;
     let base = |gear: Option<&gearset::Gear>| gear.map(|g| g.base_radius);
-    let lumped = scene.lumped.as_ref().map(|l| l.radius).unwrap_or_default();
+    let lumped = scene.lumped.as_ref().map(|l| l.radius_m).unwrap_or_default();
     let mut members: Vec<(&str, Support, Option<f64>)> = vec![
         ("sun", s.sun, lumped.sun.or(geometry.and_then(|g| base(g.sun.as_ref())))),
         ("ring", s.ring, lumped.ring.or(geometry.and_then(|g| base(g.ring.as_ref())))),
@@ -270,11 +270,11 @@ fn supports(scene: &Scene, geometry: Option<&Geometry>, found: &mut Found) {
     let base_radius = lumped.planet.or(geometry.map(|g| g.planet.base_radius));
     members.extend(s.pair.map(|pair| ("planet", pair.planet, base_radius)));
     for (name, support, radius) in members {
-        if support.motion.translates() && soft(support.bearing, SUPPORT_TO_MESH) {
+        if support.motion.translates() && soft(support.bearing_n_per_m, SUPPORT_TO_MESH) {
             found.add(
                 format!("{name}.bearing_n_per_m"),
-                support.bearing,
-                what(support.bearing),
+                support.bearing_n_per_m,
+                what(support.bearing_n_per_m),
                 likely,
             );
         }
@@ -297,8 +297,13 @@ fn supports(scene: &Scene, geometry: Option<&Geometry>, found: &mut Found) {
             found.add(format!("{name}.{key}"), given, format!("per u = r·θ {}", what(k)), unit);
         }
     }
-    if soft(s.planet_bearing, PIN_TO_MESH) {
-        found.add("planet.bearing_n_per_m", s.planet_bearing, what(s.planet_bearing), likely);
+    if soft(s.planet_bearing_n_per_m, PIN_TO_MESH) {
+        found.add(
+            "planet.bearing_n_per_m",
+            s.planet_bearing_n_per_m,
+            what(s.planet_bearing_n_per_m),
+            likely,
+        );
     }
 }
 

@@ -63,8 +63,8 @@ impl ClosedForm {
             all.map(|(name, value)| (name.to_owned(), value)).into()
         };
         let angles = PerMesh {
-            sun_planet: own.pressure_angle.sun_planet.to_degrees(),
-            ring_planet: own.pressure_angle.ring_planet.to_degrees(),
+            sun_planet: own.pressure_angle_rad.sun_planet.to_degrees(),
+            ring_planet: own.pressure_angle_rad.ring_planet.to_degrees(),
         };
         let bearings = self.set.model.springs.iter().filter_map(|spring| match spring.id {
             SpringId::PlanetBearing(_) => Some(spring.stiffness),
@@ -74,11 +74,11 @@ impl ClosedForm {
         let bearing = bearings.sum::<f64>() / count;
         ClosedParameters {
             sun_torque_nm: self.case.sun_torque_nm,
-            mass_kg: bodies(&own.mass, 1.0),
-            inertia_over_r2_kg: bodies(&own.inertia_over_r2, 1.0),
-            radius_mm: bodies(&own.radius, 1e3),
+            mass_kg: bodies(&own.mass_kg, 1.0),
+            inertia_over_r2_kg: bodies(&own.inertia_over_r2_kg, 1.0),
+            radius_mm: bodies(&own.radius_m, 1e3),
             pressure_angle_deg: meshes(&angles),
-            mesh_n_per_m: meshes(&own.mesh),
+            mesh_n_per_m: meshes(&own.mesh_n_per_m),
             bearing_with_seat_n_per_m: (!self.set.seats.is_empty()).then_some(bearing),
             largest_difference_percent: self.largest_difference(bearing),
         }
@@ -89,7 +89,7 @@ impl ClosedForm {
     fn largest_difference(&self, bearing: f64) -> Option<f64> {
         let mut pasted = self.scene.clone();
         pasted.lumped = Some(self.set.parameters.clone());
-        pasted.supports.planet_bearing = bearing;
+        pasted.supports.planet_bearing_n_per_m = bearing;
         let modes = NaturalModes::of(&LumpedModel::from_scene(&pasted).ok()?).ok()?;
         let each = |modes: &NaturalModes| -> Vec<f64> {
             let of = |g: &ModeGroup| std::iter::repeat_n(g.frequency_hz, g.multiplicity);

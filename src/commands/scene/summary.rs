@@ -236,15 +236,15 @@ fn meshes(geometry: &Geometry) -> Vec<MeshSummary> {
 
 fn relief(gear: &Gear) -> Option<ReliefSummary> {
     let relief = gear.tip_relief?;
-    let start = roll_length_at(gear.base_radius, relief.start_radius);
+    let start = roll_length_at(gear.base_radius, relief.start_radius_m);
     let (tip, form) = (gear.tip_roll_length(), gear.form_roll_length().unwrap_or(0.0));
     Some(ReliefSummary {
         shape: match relief.shape {
             ReliefShape::Linear => "linear".into(),
             ReliefShape::Parabolic => "parabolic".into(),
         },
-        amount_um: 1e6 * relief.amount,
-        start_diameter_mm: 2e3 * relief.start_radius,
+        amount_um: 1e6 * relief.amount_m,
+        start_diameter_mm: 2e3 * relief.start_radius_m,
         start_roll_length_mm: 1e3 * start,
         relieved_share: (tip - start) / (tip - form),
     })

@@ -63,7 +63,7 @@ mod tests {
         let case = |rpm: f64| LoadCase::turning(1130.0, rpm, 0.35 * rpm);
         let point = |rpm: f64, repeats_after: Option<usize>| {
             let line = |coordinate, amplitude| Line {
-                part: experiments::sweep::Part::Sun,
+                part: experiments::sweep::Part::SUN,
                 coordinate,
                 harmonic: 1,
                 amplitude,

@@ -120,7 +120,7 @@ impl Variant {
                 g.carrier.iter_mut().for_each(|c| c.is_rigid = true);
             }
             (Self::PinSeat(radius), Some(g), _) => {
-                g.carrier.iter_mut().for_each(|c| c.pin_seat_radius = radius);
+                g.carrier.iter_mut().for_each(|c| c.pin_seat_radius_m = radius);
             }
             (Self::PlanetShare(share), Some(g), _) => {
                 if let ThicknessInput::Backlash { planet_share, .. } = &mut g.thickness {
@@ -135,21 +135,21 @@ impl Variant {
             }
             (Self::PrintedAngles, _, Some(lumped)) => {
                 let angle = PRINTED_ANGLE_DEG.to_radians();
-                lumped.pressure_angle.sun_planet = angle;
-                lumped.pressure_angle.ring_planet = angle;
+                lumped.pressure_angle_rad.sun_planet = angle;
+                lumped.pressure_angle_rad.ring_planet = angle;
             }
             (Self::PrintedMasses, _, Some(lumped)) => {
                 if let Some(published) = published {
-                    lumped.mass = published.mass;
-                    lumped.inertia_over_r2 = published.inertia_over_r2;
+                    lumped.mass_kg = published.mass_kg;
+                    lumped.inertia_over_r2_kg = published.inertia_over_r2_kg;
                 }
             }
             (Self::PrintedMeshes, _, Some(lumped)) => {
                 if let Some(published) = published {
-                    lumped.mesh = published.mesh;
+                    lumped.mesh_n_per_m = published.mesh_n_per_m;
                 }
                 for own in &mut scene.overrides {
-                    (own.sun_mesh, own.ring_mesh) = (None, None);
+                    (own.sun_mesh_n_per_m, own.ring_mesh_n_per_m) = (None, None);
                 }
             }
             _ => {}
@@ -187,13 +187,13 @@ mod tests {
         let mut from_fe = set.clone();
         let own = |planet| PlanetOverride {
             planet,
-            sun_mesh: Some(7e8 + 1e7 * planet as f64),
-            ring_mesh: Some(9e8),
+            sun_mesh_n_per_m: Some(7e8 + 1e7 * planet as f64),
+            ring_mesh_n_per_m: Some(9e8),
             ..PlanetOverride::default()
         };
         from_fe.overrides = (0..4).map(own).collect();
-        from_fe.lumped.as_mut().unwrap().mass.planet = Some(0.7);
-        from_fe.lumped.as_mut().unwrap().inertia_over_r2.sun = Some(0.5);
+        from_fe.lumped.as_mut().unwrap().mass_kg.planet = Some(0.7);
+        from_fe.lumped.as_mut().unwrap().inertia_over_r2_kg.sun = Some(0.5);
         let nowhere = Preload { load: LoadCase::standing(0.0), position: 0.0, step_s: 0.0 };
         for variant in Variant::TO_PUBLISHED {
             from_fe = variant.applied(&from_fe, &set, nowhere).0;

@@ -47,8 +47,8 @@ pub(crate) fn checks(model: &dyn ModalModel, scenes: &[Scene], reference: &Refer
 pub(crate) fn controls(model: &dyn ModalModel, scenes: &[Scene], reference: &Reference) -> Checks {
     let stiffer = |scene: &mut Scene| {
         if let Some(lumped) = scene.lumped.as_mut().filter(|_| scene.planets.count() == 4) {
-            lumped.mesh.sun_planet *= 2.0;
-            lumped.mesh.ring_planet *= 2.0;
+            lumped.mesh_n_per_m.sun_planet *= 2.0;
+            lumped.mesh_n_per_m.ring_planet *= 2.0;
         }
     };
     let judged = checks(&Changed::new(model, stiffer), scenes, reference)?;

@@ -44,7 +44,7 @@ pub(crate) fn checks(model: &dyn ModalModel, scenes: &[Scene], reference: &Refer
 pub(crate) fn controls(model: &dyn ModalModel, scenes: &[Scene], reference: &Reference) -> Checks {
     let softened = |scene: &mut Scene| {
         if let Some(lumped) = &mut scene.lumped {
-            lumped.mesh.sun_planet *= 0.98;
+            lumped.mesh_n_per_m.sun_planet *= 0.98;
         }
     };
     let control = |what: &str, change: &dyn Fn(&mut Scene)| {

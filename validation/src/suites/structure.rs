@@ -74,16 +74,16 @@ fn random_set(template: &Scene, random: &mut fastrand::Rng, planets: usize) -> S
     };
     let (mass, inertia_over_r2) = (bodies(), bodies());
     if let Some(lumped) = &mut set.lumped {
-        (lumped.mass, lumped.inertia_over_r2) = (mass, inertia_over_r2);
-        lumped.mesh.sun_planet = between(5e7, 1e9);
-        lumped.mesh.ring_planet = between(5e7, 1e9);
-        lumped.pressure_angle.sun_planet = between(0.25, 0.6);
-        lumped.pressure_angle.ring_planet = between(0.25, 0.6);
+        (lumped.mass_kg, lumped.inertia_over_r2_kg) = (mass, inertia_over_r2);
+        lumped.mesh_n_per_m.sun_planet = between(5e7, 1e9);
+        lumped.mesh_n_per_m.ring_planet = between(5e7, 1e9);
+        lumped.pressure_angle_rad.sun_planet = between(0.25, 0.6);
+        lumped.pressure_angle_rad.ring_planet = between(0.25, 0.6);
     }
-    set.supports.carrier.bearing = between(1e7, 1e9);
-    set.supports.ring.bearing = between(1e7, 1e9);
-    set.supports.sun.bearing = between(1e7, 1e9);
-    set.supports.planet_bearing = between(1e7, 1e9);
+    set.supports.carrier.bearing_n_per_m = between(1e7, 1e9);
+    set.supports.ring.bearing_n_per_m = between(1e7, 1e9);
+    set.supports.sun.bearing_n_per_m = between(1e7, 1e9);
+    set.supports.planet_bearing_n_per_m = between(1e7, 1e9);
     set.supports.ring.torsional = Torsional::PerLength(between(1e7, 1e9));
     set
 }
@@ -144,8 +144,8 @@ fn mirrored_set_mirrors_its_modes(
     let mut mirrored = set.clone();
     mirrored.planets.psi_rad.iter_mut().for_each(|psi| *psi = -*psi);
     if let Some(lumped) = &mut mirrored.lumped {
-        lumped.pressure_angle.sun_planet *= -1.0;
-        lumped.pressure_angle.ring_planet *= -1.0;
+        lumped.pressure_angle_rad.sun_planet *= -1.0;
+        lumped.pressure_angle_rad.ring_planet *= -1.0;
     }
     let (model, modes) = model_of(&set)?;
     let (mirror_model, mirror_modes) = model_of(&mirrored)?;

@@ -52,12 +52,16 @@ pub(crate) fn lumped_controls(
             checks.push(reference.control(&format!("{name}.{what}"), &judged)?);
             Ok::<(), ValidationError>(())
         };
-        control("sun_bearing_softened", &|s| s.supports.sun.bearing *= 0.8)?;
+        control("sun_bearing_softened", &|s| s.supports.sun.bearing_n_per_m *= 0.8)?;
         control("planet_heavier", &planet_1_heavier)?;
         if set.planets.count() == 4 {
             control("planet_bearing_softened", &|s| {
-                let bearing = Some(0.8 * s.supports.planet_bearing);
-                s.overrides.push(PlanetOverride { planet: 1, bearing, ..Default::default() });
+                let bearing = Some(0.8 * s.supports.planet_bearing_n_per_m);
+                s.overrides.push(PlanetOverride {
+                    planet: 1,
+                    bearing_n_per_m: bearing,
+                    ..Default::default()
+                });
             })?;
         }
     }
@@ -95,8 +99,8 @@ pub(crate) fn sign_control(scenes: &[Scene], reference: &Reference) -> Checks {
 
 /// Planet 1 heavier by 10 %.
 pub(crate) fn planet_1_heavier(scene: &mut Scene) {
-    let mass = scene.lumped.as_ref().and_then(|l| l.mass.planet).map(|m| 1.1 * m);
-    scene.overrides.push(PlanetOverride { planet: 1, mass, ..Default::default() });
+    let mass = scene.lumped.as_ref().and_then(|l| l.mass_kg.planet).map(|m| 1.1 * m);
+    scene.overrides.push(PlanetOverride { planet: 1, mass_kg: mass, ..Default::default() });
 }
 
 /// One check a printed row: the k-th frequency of the row's type.
@@ -177,8 +181,8 @@ pub(crate) fn geometry_controls(
     let printed = |scene: &mut Scene| {
         if let Some(lumped) = &mut scene.lumped {
             let angle = 24.6f64.to_radians();
-            lumped.pressure_angle.sun_planet = angle;
-            lumped.pressure_angle.ring_planet = angle;
+            lumped.pressure_angle_rad.sun_planet = angle;
+            lumped.pressure_angle_rad.ring_planet = angle;
         }
     };
     let control = |set: &Scene| {

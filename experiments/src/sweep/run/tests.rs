@@ -255,7 +255,7 @@ fn contact_is_watched_over_a_whole_period() {
     let lines = point.state.with_translations();
     let row = |coordinate: &str| {
         let is_it =
-            |l: &&Line| (l.part, l.coordinate.name(), l.harmonic) == (Part::Sun, coordinate, 1);
+            |l: &&Line| (l.part, l.coordinate.name(), l.harmonic) == (Part::SUN, coordinate, 1);
         lines.iter().find(is_it).unwrap().amplitude
     };
     let (radial, tangential) = (row("radial"), row("tangential"));

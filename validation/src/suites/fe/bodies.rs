@@ -28,10 +28,10 @@ fn gears(scene: &Scene) -> Result<[(f64, f64); 4], ValidationError> {
     let inertia = |over_r2: Option<f64>, gear: &Gear| Some(over_r2? * gear.base_radius.powi(2));
     let known = |x: Option<f64>| x.ok_or_else(missing);
     Ok([
-        (known(lumped.mass.sun)?, sun.0),
-        (known(inertia(lumped.inertia_over_r2.sun, sun_gear))?, sun.1),
-        (known(lumped.mass.planet)?, planet.0),
-        (known(inertia(lumped.inertia_over_r2.planet, &geometry.planet))?, planet.1),
+        (known(lumped.mass_kg.sun)?, sun.0),
+        (known(inertia(lumped.inertia_over_r2_kg.sun, sun_gear))?, sun.1),
+        (known(lumped.mass_kg.planet)?, planet.0),
+        (known(inertia(lumped.inertia_over_r2_kg.planet, &geometry.planet))?, planet.1),
     ])
 }
 
@@ -105,7 +105,7 @@ fn masses(lab: &Lab<'_>, scene: &Scene) -> Checks {
     let material = Elastic::new(&scene.material, scene.fe_contact.plane);
     let body = CarrierBody::new(&carrier, a, &scene.planets.psi_rad, &material, width)?;
     let lumped = scene.lumped.as_ref().ok_or(ValidationError::Incomplete("lumped"))?;
-    let printed = lumped.mass.carrier.zip(lumped.inertia_over_r2.carrier.map(|i| i * a * a));
+    let printed = lumped.mass_kg.carrier.zip(lumped.inertia_over_r2_kg.carrier.map(|i| i * a * a));
     let (mass, inertia) = printed.ok_or(ValidationError::Incomplete("carrier's mass"))?;
     let title = "mass of the carrier's annulus against the printed lumped one";
     let about = lab.about("fe.bodies.mass.carrier", title)?.source(source);

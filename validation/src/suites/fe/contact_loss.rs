@@ -133,7 +133,7 @@ fn sun_radius(lab: &Lab<'_>) -> Result<f64, ValidationError> {
 /// Largest amplitude of the sun's translation over that of its rotation at the base circle, harmonics 1 to 5.
 fn translation(point: &BranchPoint, base_radius: f64) -> f64 {
     let largest = |coordinate| {
-        (1..=5).map(|l| point.state.amplitude(Part::Sun, coordinate, l)).fold(0.0, f64::max)
+        (1..=5).map(|l| point.state.amplitude(Part::SUN, coordinate, l)).fold(0.0, f64::max)
     };
     let moved = largest(Coordinate::Radial).max(largest(Coordinate::Tangential));
     moved / (base_radius * largest(Coordinate::Rotation))

@@ -73,7 +73,7 @@ fn elements(lab: &Lab<'_>) -> Checks {
     for flank in grids {
         let mut scene = lab.four.clone();
         scene.fe_contact.flank_elements = flank;
-        scene.fe_contact.matching_depth = Some(lab.bodies.settings.matching.depth);
+        scene.fe_contact.matching_depth_m = Some(lab.bodies.settings.matching.depth);
         let made;
         let bodies: &Bodies = if flank == default {
             &lab.bodies

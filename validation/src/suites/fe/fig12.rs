@@ -105,7 +105,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
 fn with_fillet(mut scene: Scene, radius: f64) -> Scene {
     if let Some(g) = &mut scene.geometry {
         for gear in [g.sun.as_mut(), Some(&mut g.planet), g.ring.as_mut()].into_iter().flatten() {
-            gear.fillet_radius = radius;
+            gear.fillet_radius_m = radius;
         }
     }
     scene
@@ -116,8 +116,11 @@ fn variants(base: &Scene) -> Vec<(String, Scene)> {
     let mut list = Vec::new();
     let thickness = |share: Option<f64>, backlash: Option<f64>| {
         let mut scene = base.clone();
-        if let Some(ThicknessInput::Backlash { sun_planet, ring_planet, planet_share }) =
-            scene.geometry.as_mut().map(|g| &mut g.thickness)
+        if let Some(ThicknessInput::Backlash {
+            sun_planet_m: sun_planet,
+            ring_planet_m: ring_planet,
+            planet_share,
+        }) = scene.geometry.as_mut().map(|g| &mut g.thickness)
         {
             *planet_share = share.unwrap_or(*planet_share);
             *sun_planet = backlash.unwrap_or(*sun_planet);

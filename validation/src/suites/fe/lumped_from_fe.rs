@@ -156,7 +156,7 @@ fn cycle(lab: &Lab<'_>, table: Table, kept: f64) -> Checks {
 fn control(lab: &Lab<'_>) -> Result<Check, ValidationError> {
     let found = agreement_after(&lab.three, &lab.bodies, &preload(0.0), |from_fe| {
         for own in &mut from_fe.overrides {
-            std::mem::swap(&mut own.sun_mesh, &mut own.ring_mesh);
+            std::mem::swap(&mut own.sun_mesh_n_per_m, &mut own.ring_mesh_n_per_m);
         }
     })?;
     let spoilt = [rigid_carrier(lab, "three", 0, &found)?];

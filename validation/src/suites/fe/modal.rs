@@ -49,7 +49,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
         checks.extend(pulses(lab, name, own, half)?);
         if name == "four" {
             let mut stiffer = scene.clone();
-            stiffer.supports.planet_bearing *= 1.05;
+            stiffer.supports.planet_bearing_n_per_m *= 1.05;
             let set = preloaded(&stiffer, &lab.bodies, &settings(POSITION).preload)?;
             let others = linear_modes(&set, &set.linearised()?)?;
             let spoilt = routes(lab, name, &others, &test)?;
@@ -82,9 +82,9 @@ pub(crate) fn tables(lab: &Lab<'_>) -> Checks {
 /// Every bearing 1.5 times as stiff.
 fn stiffer_bearings(scene: &mut Scene) {
     let supports = &mut scene.supports;
-    supports.planet_bearing *= 1.5;
+    supports.planet_bearing_n_per_m *= 1.5;
     for member in [&mut supports.carrier, &mut supports.ring, &mut supports.sun] {
-        member.bearing *= 1.5;
+        member.bearing_n_per_m *= 1.5;
     }
 }
 

@@ -30,7 +30,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
 /// Mean secant stiffnesses (N/m) against the printed stiffness of "each mesh".
 fn judged(lab: &Lab<'_>, secants: &[(MeshKind, f64)]) -> Checks {
     let lumped = lab.four.lumped.as_ref().ok_or(ValidationError::Incomplete("lumped"))?;
-    let printed = 1e-6 * lumped.mesh.sun_planet;
+    let printed = 1e-6 * lumped.mesh_n_per_m.sun_planet;
     let source = &lab.reference.parker.source;
     let mut checks = Vec::new();
     for (kind, secant) in secants {

@@ -384,7 +384,7 @@ fn off_static(lab: &Lab<'_>, steps: u32, rpm: f64) -> Result<f64, ValidationErro
                 let size = re.hypot(*im);
                 // Forbidden harmonics vanish in both and have no relative difference.
                 if size > 1e-6 * largest {
-                    let line = point.line(Part::Sun, coordinate, l);
+                    let line = point.line(Part::SUN, coordinate, l);
                     let (a, p) = line.map_or((f64::NAN, 0.0), |l| (l.amplitude, l.phase_rad));
                     let off = (a * p.cos() - re).hypot(a * p.sin() - im);
                     off_percent.push(100.0 * off / size);
@@ -424,8 +424,12 @@ fn controls(lab: &Lab<'_>) -> Checks {
     let displaced = Imperfections { displaced_planets: vec![(1, 0.0, 50e-6)], ..none() };
     forbids("displaced_planet", &lab.four, displaced)?;
     let mut softer = lab.four.clone();
-    let bearing = Some(0.8 * softer.supports.planet_bearing);
-    softer.overrides.push(PlanetOverride { planet: 1, bearing, ..PlanetOverride::default() });
+    let bearing = Some(0.8 * softer.supports.planet_bearing_n_per_m);
+    softer.overrides.push(PlanetOverride {
+        planet: 1,
+        bearing_n_per_m: bearing,
+        ..PlanetOverride::default()
+    });
     forbids("softer_bearing", &softer, none())?;
     // Half a cycle is then not a whole number of steps, and forbidden harmonics appear as an artefact.
     let mut odd = lab.four.clone();

@@ -4,6 +4,7 @@
 use experiments::sweep::Part;
 use experiments::torque::{Followed, Series, follow, lowest_series, static_growth};
 use experiments::{ModalModel, SteadyStateModel};
+use gearset::Body;
 use scene::Scene;
 
 use super::sweeps::under;
@@ -140,7 +141,7 @@ fn first_peaks(
     system: &System<'_>,
 ) -> Result<Vec<Followed>, ValidationError> {
     let first = [system.series[0], system.series[2]];
-    Ok(follow(model, system.scene, &TORQUES, &first, &[Part::Sun], 1e-5)?)
+    Ok(follow(model, system.scene, &TORQUES, &first, &[Part::SUN], 1e-5)?)
 }
 
 fn first_judged(reference: &Reference, system: &System<'_>, found: &[Followed]) -> Checks {
@@ -179,7 +180,7 @@ fn static_judged(
 /// Every followed resonance, in the full profile.
 fn all_peaks(lab: &Lab<'_>, system: &System<'_>) -> Checks {
     let System { name, words, scene, series } = *system;
-    let both = [Part::Sun, Part::Planet(0)];
+    let both = [Part::SUN, Part::Body(Body::Planet(0))];
     let is_run = lab.runs(&format!("torque.all.monotonic.{name}.sun"))?;
     let found =
         if is_run { Some(follow(&lab.fe, scene, &TORQUES, series, &both, 1e-6)?) } else { None };

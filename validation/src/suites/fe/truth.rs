@@ -1,6 +1,7 @@
 //! The fidelities over speed against bodies with every degree of freedom, whose steady states are kept.
 
 use fe_contact::statics::Imperfections;
+use gearset::Body;
 use scene::Fidelity;
 
 use super::sweeps::under;
@@ -133,7 +134,7 @@ fn differences(kept: &FullSweep, own: &Sweep) -> Result<Differences, ValidationE
     let near = |p: &&&SteadyState| kept.is_about_the_peak(p.case.speed_rpm);
     let incomplete = || ValidationError::Incomplete("peak between three speeds");
     let full = kept.rotational_peak().ok_or_else(incomplete)?;
-    let rotation = |p: &SteadyState| Response::Rotation(Part::Sun).amplitude(p, 2);
+    let rotation = |p: &SteadyState| Response::Rotation(Part::SUN).amplitude(p, 2);
     let own = top_of_three(points.iter().filter(near).map(|p| (p.case.speed_rpm, rotation(p))));
     let own = own.ok_or_else(incomplete)?;
     let percent = |own: f64, full: f64| 100.0 * (own / full - 1.0);
@@ -148,10 +149,10 @@ fn differences(kept: &FullSweep, own: &Sweep) -> Result<Differences, ValidationE
             100.0 * worst(each) / worst(full.iter().copied())
         };
         for (response, full) in [
-            (Response::Rotation(Part::Sun), &full.sun_rotation_rad),
-            (Response::Translation(Part::Sun), &full.sun_translation_m),
-            (Response::Rotation(Part::Planet(0)), &full.planet_0_rotation_rad),
-            (Response::Translation(Part::Planet(0)), &full.planet_0_translation_m),
+            (Response::Rotation(Part::SUN), &full.sun_rotation_rad),
+            (Response::Translation(Part::SUN), &full.sun_translation_m),
+            (Response::Rotation(Part::Body(Body::Planet(0))), &full.planet_0_rotation_rad),
+            (Response::Translation(Part::Body(Body::Planet(0))), &full.planet_0_translation_m),
         ] {
             harmonics[0].push(off(&motion(response), full));
         }

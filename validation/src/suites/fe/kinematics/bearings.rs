@@ -35,7 +35,7 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     let mut softest = lab.three.clone();
     for (id, words, times) in BEARINGS {
         let mut scene = lab.three.clone();
-        scene.supports.planet_bearing *= times;
+        scene.supports.planet_bearing_n_per_m *= times;
         let set = unloaded(&scene, &lab.bodies)?.under(TORQUE)?;
         let found = differences(lab, &set)?;
         for (place, words_of_place, off) in [

@@ -58,8 +58,8 @@ fn judged(lab: &Lab<'_>, name: &str, kept: &ExactPeak, own: Option<(f64, f64)>) 
 /// Place (rpm) and height of a peak between three speeds.
 fn top(lab: &Lab<'_>, kept: &ExactPeak) -> Result<(f64, f64), ValidationError> {
     let response = match kept.harmonic {
-        2 => Response::Rotation(Part::Sun),
-        _ => Response::Translation(Part::Sun),
+        2 => Response::Rotation(Part::SUN),
+        _ => Response::Translation(Part::SUN),
     };
     let bodies: &Bodies = &lab.bodies;
     let model = FeModel::new(
