@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::peaks::Response;
 
 /// What a line is about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Part {
     /// Mesh of the sun with planet n.
@@ -56,7 +56,7 @@ impl Part {
 }
 
 /// Which quantity of it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Coordinate {
     /// Displacement towards planet 0, or away from the centre for a planet, m.
