@@ -7,6 +7,9 @@ use experiments::branches::BranchError;
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource};
 use scene::{Fault, SceneError};
 
+/// What a verb returns.
+pub(crate) type Result<T, E = CommandError> = std::result::Result<T, E>;
+
 /// Why the command could not run (exit code 2).
 #[derive(Debug, thiserror::Error)]
 pub enum CommandError {

@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::arguments::MeshVerb;
-use crate::error::{CommandError, fe_refused};
+use crate::error::{Result, fe_refused};
 #[cfg(feature = "charts")]
 use crate::folder::writable;
 use crate::folder::{folder, save};
@@ -66,11 +66,7 @@ struct TeethOutput {
     neighbour_share: f64,
 }
 
-pub(crate) fn run(
-    arguments: &MeshVerb,
-    out: &mut dyn Write,
-    err: &mut dyn Write,
-) -> Result<(), CommandError> {
+pub(crate) fn run(arguments: &MeshVerb, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let path = &arguments.scene;
     let scene = read_scene(path)?;
     needs::require(path, &scene, Verb::Mesh, |_| false)?;
@@ -82,7 +78,7 @@ pub(crate) fn run(
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let carrier = carrier(&scene, &bodies).transpose().map_err(fe_refused(path))?;
     drop(working);
-    let saved: Result<(), CommandError> = Ok(());
+    let saved: Result<()> = Ok(());
     #[cfg(feature = "charts")]
     let saved = arguments.svg.as_ref().map_or(saved, |file| {
         save(file, &crate::figures::meshes(&scene, &bodies, carrier.as_ref()).svg())
@@ -117,11 +113,7 @@ pub(crate) fn run(
 }
 
 /// One file for each body.
-fn write_vtu(
-    gears: &[&GearBody],
-    carrier: Option<&CarrierBody>,
-    folder: &Path,
-) -> Result<(), CommandError> {
+fn write_vtu(gears: &[&GearBody], carrier: Option<&CarrierBody>, folder: &Path) -> Result<()> {
     for body in gears {
         save(&folder.join(format!("{}.vtu", body.mesh.name)), &vtu(&Drawn::gear(&body.mesh)))?;
     }
@@ -255,11 +247,11 @@ fn table<'r>() -> Table<'r, &'r BodyOutput> {
 }
 
 impl Report for MeshOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         table().csv(&self.bodies, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         writeln!(out, "{}", self.title)?;
         table().text(&self.bodies, out)?;
         Ok(table().legend(out)?)

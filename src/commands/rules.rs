@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::scene::degrees;
 use crate::arguments::Rules;
-use crate::error::{CommandError, unfit};
+use crate::error::{Result, unfit};
 use crate::inputs::read_scene;
 use crate::output::{self, Notation, Report, Table};
 
@@ -48,7 +48,7 @@ struct HarmonicRule {
 
 const ASSUMPTION: &str = "all planets carry the same mesh force, each at its own phase";
 
-pub(crate) fn run(arguments: &Rules, out: &mut dyn Write) -> Result<(), CommandError> {
+pub(crate) fn run(arguments: &Rules, out: &mut dyn Write) -> Result<()> {
     let scene = read_scene(&arguments.scene)?;
     let path = &arguments.scene;
     if scene.kind != SceneKind::Planetary {
@@ -96,11 +96,11 @@ fn table<'r>() -> Table<'r, &'r HarmonicRule> {
 }
 
 impl Report for RulesOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         table().csv(&self.harmonics, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         writeln!(out, "{}", self.heading)?;
         table().text(&self.harmonics, out)?;
         writeln!(out, "strengths from 0 (cancels) to 1 (all planets in step); {ASSUMPTION}")?;

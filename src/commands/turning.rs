@@ -5,7 +5,7 @@ use fe_contact::statics::{Bodies, Imperfections};
 use scene::{Fidelity, LoadCase, Scene};
 
 use crate::arguments::Model;
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::output::{Notation, Table};
 
 /// The model asked for, at the fidelity of the scene.
@@ -17,7 +17,7 @@ pub(super) fn model<'a>(
     scene: &'a Scene,
     bodies: &'a Bodies,
     case: LoadCase,
-) -> Result<Box<dyn SweepModel + 'a>, CommandError> {
+) -> Result<Box<dyn SweepModel + 'a>> {
     Ok(match (asked, scene.dynamics.fidelity) {
         (Model::FeContact, Fidelity::MeshLaw) => Box::new(MeshLawModel::new(scene, bodies, case)?),
         (Model::FeContact, _) => {

@@ -13,9 +13,6 @@ use super::table::Table;
 
 impl<R> Table<'_, R> {
     /// Rows as one row group of a message `name`; every field is optional.
-    ///
-    /// # Errors
-    /// [`ParquetError`] of the writer.
     pub(crate) fn parquet(&self, name: &str, rows: &[R]) -> Result<Vec<u8>, ParquetError> {
         let kind = |kind| match kind {
             Kind::Words => ("BYTE_ARRAY", " (UTF8)"),

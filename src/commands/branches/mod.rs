@@ -19,7 +19,7 @@ use serde::Serialize;
 
 use super::turning;
 use crate::arguments::{Branches, DAMPING_FACTORS, Model};
-use crate::error::{CommandError, fe_refused, refused, unfit};
+use crate::error::{CommandError, Result, fe_refused, refused, unfit};
 use crate::folder::{Claim, KeptFiles, Manifest, PLAN, RunKind, write_results};
 use crate::inputs::{Working, loads, needs, read_scene, scene_text};
 use crate::output::{self, Report};
@@ -66,11 +66,7 @@ impl Kept<'_> {
     ///
     /// # Errors
     /// If the folder is of something else or cannot be written.
-    fn open(
-        &self,
-        folder: &Path,
-        subject: (&str, &str, f64),
-    ) -> Result<(Claim, KeptFiles), CommandError> {
+    fn open(&self, folder: &Path, subject: (&str, &str, f64)) -> Result<(Claim, KeptFiles)> {
         let manifest = Manifest::new(&BRANCHES, subject, self)?;
         let claim = Claim::of(folder, &manifest, |_| Ok(()))?;
         Ok((claim, KeptFiles::open(folder, PLAN, &manifest)?))
@@ -78,11 +74,7 @@ impl Kept<'_> {
 }
 
 /// Follows the branch: results to `out`, warnings to `err`.
-pub(super) fn run(
-    arguments: &Branches,
-    out: &mut dyn Write,
-    err: &mut dyn Write,
-) -> Result<(), CommandError> {
+pub(super) fn run(arguments: &Branches, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let path = &arguments.scene;
     let mut scene = read_scene(path)?;
     let settings = settings(arguments)?;
@@ -191,7 +183,7 @@ fn not_computed(error: SweepError, path: &Path, settings: &BranchSettings) -> Co
 }
 
 /// Table and everything of finished branches.
-fn write_folder(result: &BranchesOutput, folder: &Path) -> Result<(), CommandError> {
+fn write_folder(result: &BranchesOutput, folder: &Path) -> Result<()> {
     let (mut table, mut all) = (Vec::new(), Vec::new());
     result.csv(&mut table)?;
     output::json(&mut all, result)?;
@@ -209,7 +201,7 @@ fn option(over: BranchParameter) -> &'static str {
 }
 
 /// Range and start, checked before anything is computed; options that belong to another parameter are refused.
-fn settings(arguments: &Branches) -> Result<BranchSettings, CommandError> {
+fn settings(arguments: &Branches) -> Result<BranchSettings> {
     let over = arguments.over;
     let name = over.argument();
     let ranges = [
@@ -247,8 +239,7 @@ fn settings(arguments: &Branches) -> Result<BranchSettings, CommandError> {
         let reason = format!("missing: --over {name} needs its range as FROM:TO");
         return Err(refused(option(over), reason));
     };
-    let is_factor = |x: &f64| (DAMPING_FACTORS[0]..=DAMPING_FACTORS[1]).contains(x);
-    if over == BranchParameter::Damping && ![from, to].iter().all(is_factor) {
+    if over == BranchParameter::Damping && ![from, to].iter().all(|x| DAMPING_FACTORS.contains(x)) {
         let reason = format!("{from:?} to {to:?}: allowed are factors from 1e-6 to 100");
         return Err(refused(option(over), reason));
     }
@@ -267,7 +258,7 @@ fn case(
     scene: &Scene,
     settings: &BranchSettings,
     err: &mut dyn Write,
-) -> Result<LoadCase, CommandError> {
+) -> Result<LoadCase> {
     let path = &arguments.scene;
     let verb = Verb::Branches(match arguments.model {
         Model::Lumped => Fidelity::QuasiStatic,

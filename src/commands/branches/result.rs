@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::commands::turning;
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::output::{Notation, Report, Table};
 
 /// What is held fixed along branches, apart from the parameter.
@@ -116,7 +116,7 @@ impl BranchesOutput {
     }
 
     /// One line per point in order along a branch, then why it ends.
-    fn write_branch(&self, branch: &Branch, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn write_branch(&self, branch: &Branch, out: &mut dyn Write) -> Result<()> {
         let unit = self.over.unit();
         let origin = match branch.origin {
             BranchOrigin::Start(_) => None,
@@ -246,7 +246,7 @@ impl BranchesOutput {
 
 impl Report for BranchesOutput {
     /// One row for each harmonic of each quantity of each point in order along the branches.
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         let branches = self.found.branches.iter().enumerate();
         let rows = branches.flat_map(|(index, branch)| {
             branch.points.iter().enumerate().flat_map(move |(number, point)| {
@@ -259,7 +259,7 @@ impl Report for BranchesOutput {
     }
 
     /// One line per point in order along each branch, then why it ends; then a legend.
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         let (scene, fidelity) = (&self.scene, &self.fidelity);
         writeln!(out, "{scene}: {fidelity}, {}\n", self.fixed)?;
         for branch in &self.found.branches {

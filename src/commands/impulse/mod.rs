@@ -19,7 +19,7 @@ use scene::{Fidelity, LoadCase, Scene, Verb};
 use validation::ValidationError;
 
 use crate::arguments::{Format, Impulse};
-use crate::error::{CommandError, fe_refused, refused, unfit};
+use crate::error::{Result, fe_refused, refused, unfit};
 use crate::inputs::{Working, loads, needs, read_scene};
 use crate::output;
 use found::Found;
@@ -33,11 +33,7 @@ const BAND_POSITIONS: usize = 28;
 /// Highest frequency it lists, Hz.
 const BAND_HIGHEST_HZ: f64 = 16e3;
 
-pub(super) fn run(
-    arguments: &Impulse,
-    out: &mut dyn Write,
-    err: &mut dyn Write,
-) -> Result<(), CommandError> {
+pub(super) fn run(arguments: &Impulse, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let scene = read_scene(&arguments.scene)?;
     let preload = preload(arguments, &scene, err)?;
     let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
@@ -46,7 +42,7 @@ pub(super) fn run(
     #[cfg(feature = "charts")]
     needs::figures(&scene, arguments.figures.as_deref(), err)?;
     let found = find(arguments, scene, preload)?;
-    let saved: Result<(), CommandError> = Ok(());
+    let saved: Result<()> = Ok(());
     #[cfg(feature = "charts")]
     let saved = arguments.figures.as_ref().map_or(saved, |folder| draw(&found, folder));
     let result = ImpulseOutput::new(&found);
@@ -55,7 +51,7 @@ pub(super) fn run(
 }
 
 #[cfg(feature = "charts")]
-fn draw(found: &Found, folder: &std::path::Path) -> Result<(), CommandError> {
+fn draw(found: &Found, folder: &std::path::Path) -> Result<()> {
     use crate::figures::{ModalTest, of_impulse_test, save};
     let Found { scene, bodies, races, test, band, .. } = found;
     let geometry = &bodies.geometry;
@@ -64,11 +60,7 @@ fn draw(found: &Found, folder: &std::path::Path) -> Result<(), CommandError> {
 }
 
 /// The preload that is asked for; every argument that can be judged without the set's modes is judged here.
-fn preload(
-    arguments: &Impulse,
-    scene: &Scene,
-    err: &mut dyn Write,
-) -> Result<Preload, CommandError> {
+fn preload(arguments: &Impulse, scene: &Scene, err: &mut dyn Write) -> Result<Preload> {
     let path = &arguments.scene;
     needs::not_ring_pair(path, scene)?;
     if scene.geometry.is_none() {
@@ -126,7 +118,7 @@ fn argument(error: &SettingsError) -> &'static str {
     }
 }
 
-fn find(arguments: &Impulse, scene: Scene, preload: Preload) -> Result<Found, CommandError> {
+fn find(arguments: &Impulse, scene: Scene, preload: Preload) -> Result<Found> {
     let path = &arguments.scene;
     let torque = preload.load.sun_torque_nm;
     let failed = |e: ModalError| match e {

@@ -6,7 +6,7 @@ use super::result::{
     BandMode, BandOutput, IdentifiedMode, ImpulseOutput, KindShares, LinearisedMode, ModeEntry,
     OutsideMode, PulseEntry,
 };
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::output::{Notation, Report, Table};
 
 /// Modes outside the band that the text names.
@@ -17,11 +17,11 @@ type Row<'r> = Result<&'r ModeEntry, &'r OutsideMode>;
 
 impl Report for ImpulseOutput {
     /// One row for each mode in the band, then those of the modes outside it.
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         table().csv(self.modes.iter().map(Ok).chain(self.outside_band.iter().map(Err)), out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         Ok(text(self, out)?)
     }
 }

@@ -14,16 +14,12 @@ use lumped::{AnalyticSet, LumpedError, LumpedModel, NaturalModes, campbell};
 use scene::{AutoQuantity, LoadCase, Scene, SceneKind, Verb};
 
 use crate::arguments::{Format, Modes};
-use crate::error::{CommandError, refused, unfit};
+use crate::error::{Result, refused, unfit};
 use crate::inputs::{Working, needs, read_scene};
 use crate::output;
 use closed_form::StatedErrorEntry;
 
-pub(crate) fn run(
-    arguments: &Modes,
-    out: &mut dyn Write,
-    err: &mut dyn Write,
-) -> Result<(), CommandError> {
+pub(crate) fn run(arguments: &Modes, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let scene = read_scene(&arguments.scene)?;
     needs::warn(&scene, err)?;
     let most = scene::SPEEDS_RPM[1];
@@ -91,7 +87,7 @@ fn chosen(
     question: &FrequencyQuestion<'_>,
     tolerance_percent: f64,
     out: &mut dyn Write,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     let (path, scene) = (&arguments.scene, question.scene);
     if !arguments.carrier_speeds_rpm.is_empty() {
         let reason = "`dynamics.fidelity` = \"auto\" chooses settings for a set without gyroscopic terms: leave it out";
@@ -111,11 +107,7 @@ fn chosen(
 }
 
 /// Modes of a set with parameters in closed form, or these parameters.
-fn in_closed_form(
-    arguments: &Modes,
-    scene: &Scene,
-    out: &mut dyn Write,
-) -> Result<(), CommandError> {
+fn in_closed_form(arguments: &Modes, scene: &Scene, out: &mut dyn Write) -> Result<()> {
     if !arguments.carrier_speeds_rpm.is_empty() {
         let reason = "with parameters in closed form there are no gyroscopic terms: leave it out, or give numbers in [lumped], which \
                       --parameters prints";

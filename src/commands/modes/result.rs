@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use super::closed_form::{ClosedParameters, PARAMETERS, StatedErrorEntry};
 use crate::commands::auto_choice;
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::output::{Notation, Report, Table};
 
 /// `modes --format json`.
@@ -202,11 +202,11 @@ impl ModesOutput {
 }
 
 impl Report for ModesOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         self.table().csv(&self.modes, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         let (title, count) = (&self.title, self.coordinates);
         match (&self.auto, &self.parameters) {
             (Some(choice), _) => {

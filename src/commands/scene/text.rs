@@ -4,12 +4,12 @@ use std::io::Write;
 
 use super::motion::write_motion;
 use super::summary::{GearSummary, MeshSummary, SceneSummary, VerbSummary};
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::output::{Notation, Report, Table};
 
 impl Report for SceneSummary {
     /// One row for each verb.
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         let keys = |v: &&VerbSummary| {
             v.lacks.iter().map(|lack| lack.key.as_str()).collect::<Vec<_>>().join(" ")
         };
@@ -20,7 +20,7 @@ impl Report for SceneSummary {
         table.csv(&self.verbs, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         Ok(text(self, out)?)
     }
 }

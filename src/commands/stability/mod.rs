@@ -14,7 +14,7 @@ use serde::Serialize;
 use validation::PublishedScene;
 
 use crate::arguments::Stability;
-use crate::error::{CommandError, refused, unfit};
+use crate::error::{CommandError, Result, refused, unfit};
 use crate::folder::ResultFiles;
 use crate::inputs::{Working, needs, read_scene};
 use crate::output::{self, Notation, Report, Table};
@@ -44,11 +44,7 @@ struct MapEntry {
     takes_scene: bool,
 }
 
-pub(super) fn run(
-    arguments: &Stability,
-    out: &mut dyn Write,
-    err: &mut dyn Write,
-) -> Result<(), CommandError> {
+pub(super) fn run(arguments: &Stability, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     if arguments.guards {
         return guards::run(arguments.format, out);
     }
@@ -75,31 +71,22 @@ pub(super) fn run(
     })?;
     drop(working);
     let result = StabilityOutput { version: env!("CARGO_PKG_VERSION").into(), map };
-    let saved = files.save(&result, |folder| figure(&result.map, folder));
+    let saved = files.save(&result);
+    #[cfg(feature = "charts")]
+    let saved = saved.and_then(|()| files.draw(|| crate::figures::of_map(&result.map)));
     // What was computed is shown also where it cannot be saved.
     let shown = output::show(arguments.format, &result, out);
     saved.and(shown)
 }
 
-/// Draws a map into a folder.
-#[cfg(feature = "charts")]
-fn figure(map: &StabilityMap, folder: &Path) -> Result<(), CommandError> {
-    Ok(crate::figures::save(&[crate::figures::of_map(map)], folder)?)
-}
-
-#[cfg(not(feature = "charts"))]
-fn figure(_: &StabilityMap, _: &Path) -> Result<(), CommandError> {
-    Ok(())
-}
-
 /// Five equally spaced planets: the set that shows every kind of mode and of phasing.
-pub(super) fn built_in() -> Result<Scene, CommandError> {
+pub(super) fn built_in() -> Result<Scene> {
     validation::scene(PublishedScene::FivePlanets)
         .map_err(|source| CommandError::Scene { path: "the scene built in".into(), source })
 }
 
 /// The maps that there are.
-fn list(arguments: &Stability, out: &mut dyn Write) -> Result<(), CommandError> {
+fn list(arguments: &Stability, out: &mut dyn Write) -> Result<()> {
     if let Some(argument) =
         [("--scene", arguments.scene.is_some()), ("--out", arguments.out.is_some())]
             .into_iter()
@@ -118,7 +105,7 @@ fn list(arguments: &Stability, out: &mut dyn Write) -> Result<(), CommandError> 
 }
 
 impl Report for StabilityList {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         let table = Table::new()
             .column("name", "", |m: &&MapEntry| &m.name)
             .column("meaning", "", |m| &m.meaning)
@@ -126,7 +113,7 @@ impl Report for StabilityList {
         table.csv(&self.maps, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         self.maps.iter().try_for_each(|m| writeln!(out, "{:<19} {}", m.name, m.meaning))?;
         Ok(())
     }
@@ -155,16 +142,16 @@ fn table<'r>() -> Table<'r, &'r Border> {
 }
 
 impl Report for StabilityOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         table().csv(&self.map.borders, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         write_text(&self.map, out)
     }
 }
 
-pub(super) fn write_text(map: &StabilityMap, out: &mut dyn Write) -> Result<(), CommandError> {
+pub(super) fn write_text(map: &StabilityMap, out: &mut dyn Write) -> Result<()> {
     writeln!(out, "{}: {}\n", map.map, map.system)?;
     table().text(&map.borders, out)?;
     Ok(writeln!(out, "{}", map.meaning)?)

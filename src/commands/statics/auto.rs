@@ -8,7 +8,7 @@ use scene::{AutoQuantity, LoadCase, Scene};
 use super::set::{self, SetOutput};
 use crate::arguments::{ContactSolver, Format, Static};
 use crate::commands::auto_choice;
-use crate::error::{CommandError, refused, unfit};
+use crate::error::{Result, refused, unfit};
 use crate::inputs::Working;
 use crate::output;
 
@@ -30,7 +30,7 @@ pub(super) fn run(
     torques: &[f64],
     value: CycleValue,
     (out, err): (&mut dyn Write, &mut dyn Write),
-) -> Result<(), CommandError> {
+) -> Result<()> {
     let path = &arguments.scene;
     let [torque] = torques else {
         let reason = "`dynamics.fidelity` = \"auto\" chooses settings for one torque: name one";

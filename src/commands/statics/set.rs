@@ -13,7 +13,7 @@ use super::pair_load::PairLoad;
 use super::solver::solver;
 use crate::arguments::Static;
 use crate::commands::auto_choice;
-use crate::error::{CommandError, fe_refused, unfit};
+use crate::error::{Result, fe_refused, unfit};
 #[cfg(feature = "charts")]
 use crate::figures;
 use crate::inputs::Working;
@@ -139,7 +139,7 @@ pub(super) fn run(
     torques: &[f64],
     auto: Option<Choice>,
     out: &mut dyn Write,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     let path = &arguments.scene;
     let working = Working::new("meshing the bodies and solving the positions");
     let bodies = Bodies::new(scene).map_err(fe_refused(path))?;
@@ -157,7 +157,7 @@ pub(super) fn run(
     let radius = bodies.geometry.sun.as_ref().map(|sun| sun.base_radius);
     let radius = radius.ok_or_else(|| unfit(path, "`geometry.sun` is absent"))?;
     let loaded = scene.loaded_member().map_err(|e| unfit(path, e.to_string()))?;
-    let saved: Result<(), CommandError> = Ok(());
+    let saved: Result<()> = Ok(());
     #[cfg(feature = "charts")]
     let saved = arguments.figures.as_ref().map_or(saved, |folder| {
         Ok(figures::save(&figures::of_set_cycles(&scene.title, &cycles, radius), folder)?)
@@ -295,7 +295,7 @@ fn torques<'r>(first: &'r TorqueOutput) -> Table<'r, &'r TorqueOutput> {
 }
 
 impl Report for SetOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         let rows = self.torques.iter().flat_map(|torque| {
             let meshes = torque.positions.iter().flat_map(|p| p.meshes.iter().map(move |m| (p, m)));
             meshes.flat_map(move |(p, m)| m.pairs.iter().map(move |load| (torque, p, m, load)))
@@ -303,7 +303,7 @@ impl Report for SetOutput {
         pairs().csv(rows, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         writeln!(out, "{}", self.title)?;
         if let Some(choice) = &self.auto {
             auto_choice::write(choice, out)?;

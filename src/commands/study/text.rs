@@ -4,7 +4,7 @@ use std::io::Write;
 
 use experiments::study::{Doubt, QuantityResult, Quartiles, Row, StudyResult, Work};
 
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::output::{Notation, Table};
 
 /// A setting's result for a quantity.
@@ -67,7 +67,7 @@ fn doubt_word(doubt: Doubt) -> &'static str {
 }
 
 /// A table for each quantity, with its truth above and what follows from it below.
-pub(crate) fn write_text(study: &StudyResult, out: &mut dyn Write) -> Result<(), CommandError> {
+pub(crate) fn write_text(study: &StudyResult, out: &mut dyn Write) -> Result<()> {
     writeln!(out, "{}", study.title)?;
     writeln!(out, "{}, {} N·m on the sun", study.scene, study.sun_torque_nm)?;
     if !study.keys.is_empty() {
@@ -99,7 +99,7 @@ fn write_quantity(
     study: &StudyResult,
     quantity: &QuantityResult,
     out: &mut dyn Write,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     let truth = &quantity.truth;
     let unit = if quantity.unit == "1" { String::new() } else { format!(" {}", quantity.unit) };
     writeln!(

@@ -9,7 +9,7 @@ use scene::{AutoQuantity, AutoResponse, LoadCase, Scene};
 use super::result::SweepOutput;
 use crate::arguments::{Format, Model, Sweep};
 use crate::commands::auto_choice;
-use crate::error::{CommandError, refused, unfit};
+use crate::error::{CommandError, Result, refused, unfit};
 use crate::inputs::{Working, needs};
 use crate::output;
 
@@ -37,7 +37,7 @@ impl Asked<'_> {
         plan: &Plan,
         out: &mut dyn Write,
         err: &mut dyn Write,
-    ) -> Result<(), CommandError> {
+    ) -> Result<()> {
         let Self { arguments, scene, case } = self;
         self.check()?;
         needs::warn(scene, err)?;
@@ -52,7 +52,7 @@ impl Asked<'_> {
             .map_err(|e| unfit(&arguments.scene, format!("`dynamics.fidelity` = \"auto\": {e}")))?;
         drop(working);
         let own = found.choice.settings.applied_to(scene);
-        let saved: Result<(), CommandError> = Ok(());
+        let saved: Result<()> = Ok(());
         #[cfg(feature = "charts")]
         let saved = arguments.figures.as_ref().map_or(saved, |folder| {
             let bodies = fe_contact::statics::Bodies::new(&own)
@@ -74,7 +74,7 @@ impl Asked<'_> {
     }
 
     /// Refuses arguments that say what is to be chosen, or that change what it is chosen for.
-    fn check(&self) -> Result<(), CommandError> {
+    fn check(&self) -> Result<()> {
         let given = self.arguments;
         let refusals = [
             ("--model", given.model == Model::Lumped, "chooses the model"),

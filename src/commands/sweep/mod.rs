@@ -9,7 +9,7 @@ mod table;
 
 pub(crate) use result::SweepOutput;
 
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::Path;
 
 use experiments::sweep::{
@@ -17,15 +17,14 @@ use experiments::sweep::{
     Sweep, SweepError, SweepModel, even_speeds, fidelity_name, run as run_plan,
 };
 use fe_contact::statics::Bodies;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use scene::{Fidelity, LoadCase, Scene, Verb};
 
 use super::turning;
 use crate::arguments::{Format, Model, Sweep as SweepArguments};
-use crate::error::{CommandError, fe_refused, refused, unfit};
+use crate::error::{Result, fe_refused, refused, unfit};
 use crate::folder::{Claim, KeptFiles, Manifest, PLAN, write_results};
 use crate::inputs::needs::{self, not_ring_pair};
-use crate::inputs::{Working, loads, read_scene, scene_text};
+use crate::inputs::{Working, loads, progress, read_scene, scene_text};
 use crate::output;
 use folder::PEAKS;
 
@@ -41,7 +40,7 @@ pub(super) fn run(
     arguments: &SweepArguments,
     out: &mut dyn Write,
     err: &mut dyn Write,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     let path = &arguments.scene;
     let scene = read_scene(path)?;
     let task = Task::new(arguments, &scene, err)?;
@@ -88,7 +87,7 @@ pub(super) fn run(
 }
 
 /// Table and sidecar of a finished sweep.
-fn write_folder(result: &SweepOutput, scene_text: &str, folder: &Path) -> Result<(), CommandError> {
+fn write_folder(result: &SweepOutput, scene_text: &str, folder: &Path) -> Result<()> {
     let mut table = Vec::new();
     output::Report::csv(result, &mut table)?;
     write_results(folder, [("sweep.csv", table)])?;
@@ -104,7 +103,7 @@ pub(super) fn draw(
     case: LoadCase,
     sweep: &Sweep,
     folder: &Path,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     use crate::figures::{SweepContext, of_sweep, save};
     let mut linear = scene.clone();
     if matches!(scene.dynamics.fidelity, Fidelity::Full | Fidelity::MeshLaw) {
@@ -130,11 +129,7 @@ struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
-    fn new(
-        arguments: &'a SweepArguments,
-        scene: &Scene,
-        err: &mut dyn Write,
-    ) -> Result<Self, CommandError> {
+    fn new(arguments: &'a SweepArguments, scene: &Scene, err: &mut dyn Write) -> Result<Self> {
         let path = &arguments.scene;
         not_ring_pair(path, scene)?;
         if scene.geometry.is_none() {
@@ -188,24 +183,20 @@ impl<'a> Task<'a> {
     }
 
     /// What a folder of a plan's points says that they were computed from.
-    fn manifest(&self, plan: &Plan) -> Result<Manifest, CommandError> {
+    fn manifest(&self, plan: &Plan) -> Result<Manifest> {
         folder::manifest((&self.text, &self.fidelity, self.case.sun_torque_nm), plan)
     }
 
     /// The folder of `--out` for this process alone; `None` without that argument.
-    fn claim(&self) -> Result<Option<Claim>, CommandError> {
+    fn claim(&self) -> Result<Option<Claim>> {
         let Some(folder) = &self.arguments.out else { return Ok(None) };
         folder::claim(folder, &self.manifest(&self.plan)?, self.arguments.refine).map(Some)
     }
 
     /// Runs one plan and stores its points if a folder is given.
-    fn march(
-        &self,
-        model: &dyn SweepModel,
-        plan: &Plan,
-        manifest: &str,
-    ) -> Result<Sweep, CommandError> {
-        let bar = progress(plan.points() as u64);
+    fn march(&self, model: &dyn SweepModel, plan: &Plan, manifest: &str) -> Result<Sweep> {
+        let template = "{bar:32} {pos}/{len} speeds, {eta} to go";
+        let bar = progress(template, Some(plan.points() as u64), "");
         let store: Box<dyn PointStore> = match &self.arguments.out {
             Some(folder) => Box::new(KeptFiles::open(folder, manifest, &self.manifest(plan)?)?),
             None => Box::new(Memory),
@@ -217,18 +208,5 @@ impl<'a> Task<'a> {
             SweepError::Fe(e) => unfit(&self.arguments.scene, e.to_string()),
             other => other.into(),
         })
-    }
-}
-
-/// A bar on a terminal, nothing elsewhere.
-fn progress(points: u64) -> ProgressBar {
-    let target = match std::io::stderr().is_terminal() {
-        true => ProgressDrawTarget::stderr(),
-        false => ProgressDrawTarget::hidden(),
-    };
-    let bar = ProgressBar::with_draw_target(Some(points), target);
-    match ProgressStyle::with_template("{bar:32} {pos}/{len} speeds, {eta} to go") {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
     }
 }

@@ -7,12 +7,12 @@ use validation::{KeptStudy, ValidationError, kept_maps, kept_studies};
 
 use crate::commands::stability::{self, built_in};
 use crate::commands::study::{sentence, write_text};
-use crate::error::{CommandError, unfit};
+use crate::error::{Result, unfit};
 use crate::folder::save;
 use crate::inputs::Working;
 
 /// Writes `charts.md` into the folder of the report, and the figures that it shows.
-pub(super) fn write(folder: &Path) -> Result<(), CommandError> {
+pub(super) fn write(folder: &Path) -> Result<()> {
     let _working = Working::new("computing the stability maps of the report");
     let studies = kept_studies().map_err(ValidationError::from)?;
     let kept = kept_maps().map_err(ValidationError::from)?;
@@ -28,7 +28,7 @@ pub(super) fn write(folder: &Path) -> Result<(), CommandError> {
 }
 
 /// All maps, of the set built in; those that take minutes as they are `kept`.
-fn maps(kept: Vec<StabilityMap>) -> Result<Vec<StabilityMap>, CommandError> {
+fn maps(kept: Vec<StabilityMap>) -> Result<Vec<StabilityMap>> {
     let is_kept = |which: &&Map| kept.iter().any(|map| map.map == which.name);
     let others: Vec<&Map> = MAPS.into_iter().filter(|which| !is_kept(which)).collect();
     let refused = |e: MapError| unfit(Path::new("the scene built in"), e.to_string());
@@ -38,14 +38,14 @@ fn maps(kept: Vec<StabilityMap>) -> Result<Vec<StabilityMap>, CommandError> {
     Ok(all)
 }
 
-fn page(studies: &[KeptStudy], maps: &[StabilityMap]) -> Result<String, CommandError> {
+fn page(studies: &[KeptStudy], maps: &[StabilityMap]) -> Result<String> {
     let mut out = Vec::new();
     write_studies(studies, &mut out)?;
     write_maps(maps, &mut out)?;
     Ok(String::from_utf8_lossy(&out).into_owned())
 }
 
-fn write_studies(studies: &[KeptStudy], out: &mut Vec<u8>) -> Result<(), CommandError> {
+fn write_studies(studies: &[KeptStudy], out: &mut Vec<u8>) -> Result<()> {
     use std::io::Write as _;
     writeln!(
         out,
@@ -67,7 +67,7 @@ fn write_studies(studies: &[KeptStudy], out: &mut Vec<u8>) -> Result<(), Command
     Ok(())
 }
 
-fn write_maps(maps: &[StabilityMap], out: &mut Vec<u8>) -> Result<(), CommandError> {
+fn write_maps(maps: &[StabilityMap], out: &mut Vec<u8>) -> Result<()> {
     use std::io::Write as _;
     writeln!(
         out,
@@ -85,7 +85,7 @@ fn write_maps(maps: &[StabilityMap], out: &mut Vec<u8>) -> Result<(), CommandErr
 }
 
 /// The figure of a name, in a build that draws.
-fn show(name: &str, words: &str, out: &mut Vec<u8>) -> Result<(), CommandError> {
+fn show(name: &str, words: &str, out: &mut Vec<u8>) -> Result<()> {
     use std::io::Write as _;
     if cfg!(feature = "charts") {
         writeln!(out, "![{words}]({name}.svg)\n")?;

@@ -17,7 +17,7 @@ use experiments::models::Recorded;
 use validation::{Models, Reference, ValidationError, Verdict, judge_model, validate_with};
 
 use crate::arguments::{Format, Validate};
-use crate::error::{CommandError, refused};
+use crate::error::{Result, refused};
 use crate::folder;
 use crate::output;
 use progress::SuiteProgress;
@@ -27,7 +27,7 @@ pub(crate) fn run(
     arguments: &Validate,
     out: &mut dyn Write,
     err: &mut (dyn Write + Send),
-) -> Result<bool, CommandError> {
+) -> Result<bool> {
     if arguments.details && arguments.format != Format::Text {
         let reason = "JSON and CSV list every check anyway: leave it out, or take --format text";
         return Err(refused("--details", reason));
@@ -79,7 +79,7 @@ pub(crate) fn run(
 }
 
 /// Judges the tables in a folder by every suite whose scenes they contain.
-fn recorded(folder: &Path, only: &str) -> Result<Verdict, CommandError> {
+fn recorded(folder: &Path, only: &str) -> Result<Verdict> {
     let tables = Recorded::read(folder).map_err(|e| refused("--recorded", e.to_string()))?;
     let models = Models {
         modal: (!tables.modes.is_empty()).then_some(&tables),
