@@ -1,4 +1,4 @@
-//! `branches SCENE`: periodic motions over speed, torque, damping or a number of the scene, stable or not.
+//! `branches &scene`: periodic motions over speed, torque, damping or a number of the scene, stable or not.
 
 mod result;
 
@@ -11,10 +11,10 @@ use experiments::branches::{
     BranchError, BranchParameter, BranchSettings, BranchStore, Search, branches_kept, finished,
 };
 use experiments::sweep::{
-    KeyedModel, LUMPED, Memory, SteadySettings, SweepError, SweepModel, fidelity_name, steps_needed,
+    KeyedModel, Memory, SteadySettings, SweepError, SweepModel, steps_needed,
 };
 use fe_contact::statics::Bodies;
-use scene::{Fidelity, LoadCase, Scene, Verb};
+use scene::{LoadCase, Scene, Verb};
 use serde::Serialize;
 
 use super::turning;
@@ -89,10 +89,7 @@ pub(super) fn run(arguments: &Branches, out: &mut dyn Write, err: &mut dyn Write
     needs::figures(&scene, arguments.figures.as_deref(), err)?;
     let fixed = Fixed { case, damping_factor: arguments.damping_factor };
     let search = Search { switch: arguments.switch };
-    let fidelity = match arguments.model {
-        Model::FeContact => fidelity_name(scene.dynamics.fidelity),
-        Model::Lumped => LUMPED.into(),
-    };
+    let fidelity = turning::name(arguments.model, &scene);
     // Bodies and tables take minutes: a folder that cannot be used is refused before.
     let text = scene_text(path)?;
     if let BranchParameter::Key(key) = settings.over {
@@ -260,10 +257,7 @@ fn case(
     err: &mut dyn Write,
 ) -> Result<LoadCase> {
     let path = &arguments.scene;
-    let verb = Verb::Branches(match arguments.model {
-        Model::Lumped => Fidelity::QuasiStatic,
-        Model::FeContact => scene.dynamics.fidelity,
-    });
+    let verb = Verb::Branches(turning::fidelity(arguments.model, scene));
     let over_torque = settings.over == BranchParameter::Torque;
     let gives_damping = match settings.over {
         BranchParameter::Key(key) => scene.is_damped_by(key.path()),

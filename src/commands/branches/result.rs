@@ -170,7 +170,6 @@ impl BranchesOutput {
     fn table<'r>(&self) -> Table<'r, Row<'r>> {
         use Notation::{Fixed, Plain, Power, Share};
         let over = self.over;
-        let line = |r: &Row<'_>| r.line.clone();
         let heading = match (over, over.plain_unit()) {
             (BranchParameter::Damping, _) => "damping",
             (_, "") => "value",
@@ -221,15 +220,8 @@ impl BranchesOutput {
                 "type, by kinetic energy, of the perturbation whose multiplier is nearest in \
              size to 1",
             )
-            .column("arc", "length along the branch from its start", |r| r.point.arc)
-            .column("body", "body or mesh", move |r| line(r).map(|l| l.part.name()))
-            .column("coordinate", "quantity", move |r| line(r).map(|l| l.coordinate.name()))
-            .column("harmonic", "harmonic; 0 is the mean", move |r| line(r).map(|l| l.harmonic))
-            .column("amplitude", "amplitude in the unit of the next column", move |r| {
-                line(r).map(|l| l.amplitude)
-            })
-            .column("unit", "unit", move |r| line(r).map(|l| l.coordinate.unit()))
-            .column("phase_rad", "phase, rad", move |r| line(r).map(|l| l.phase_rad));
+            .column("arc", "length along the branch from its start", |r| r.point.arc);
+        let table = turning::with_harmonic(table, |r| r.line.as_ref());
         turning::with_strongest(table, |r| (&r.point.state, r.result.harmonics))
             .words("lowest N", Fixed(0), |r: &Row<'_>| r.point.lowest_force_n)
             .meaning("lowest force of any mesh during a cycle, N")

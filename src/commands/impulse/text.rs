@@ -3,9 +3,10 @@
 use std::io::Write;
 
 use super::result::{
-    BandMode, BandOutput, IdentifiedMode, ImpulseOutput, KindShares, LinearisedMode, ModeEntry,
-    OutsideMode, PulseEntry,
+    BandMode, BandOutput, DampedMode, ImpulseOutput, LinearisedMode, ModeEntry, OutsideMode,
+    PulseEntry,
 };
+use crate::commands::modes::KindShares;
 use crate::error::Result;
 use crate::output::{Notation, Report, Table};
 
@@ -79,19 +80,20 @@ fn plain(x: f64) -> String {
 
 fn table<'r>() -> Table<'r, Row<'r>> {
     use Notation::{Fixed, Plain, Share, Signed};
-    let found = |value: fn(&IdentifiedMode) -> f64| {
-        move |row: &Row<'r>| row.ok().and_then(|m| m.identified.as_ref()).map(value)
-    };
-    let linear = |value: fn(&LinearisedMode) -> f64| {
-        move |row: &Row<'r>| row.ok().and_then(|m| m.linearised.as_ref()).map(value)
-    };
+    fn identified<'m>(row: &Row<'m>) -> Option<&'m DampedMode> {
+        row.ok()?.identified.as_ref()
+    }
+    fn linearised<'m>(row: &Row<'m>) -> Option<&'m LinearisedMode> {
+        row.ok()?.linearised.as_ref()
+    }
+    let found = |value: fn(&DampedMode) -> f64| move |row: &Row<'r>| identified(row).map(value);
+    let linear =
+        |value: fn(&LinearisedMode) -> f64| move |row: &Row<'r>| linearised(row).map(value);
     // Text shows the shares of a linearised mode where none was found.
     let share = |value: fn(&KindShares) -> f64| {
         move |row: &Row<'r>| {
-            let mode = row.ok();
-            let found = mode.and_then(|m| m.identified.as_ref()).map(|m| &m.shares);
-            let shares = found.or(mode.and_then(|m| m.linearised.as_ref()).map(|m| &m.shares));
-            shares.map_or("–".into(), |shares| Share.number(value(shares)))
+            let mode = identified(row).or(linearised(row).map(|linear| &linear.mode));
+            mode.map_or("–".into(), |mode| Share.number(value(&mode.shares)))
         }
     };
     Table::new()
@@ -118,12 +120,12 @@ fn table<'r>() -> Table<'r, Row<'r>> {
         .shown_as("planet", share(|s| s.planet))
         .column("linearised_hz", "natural frequency of the linearised set", |row: &Row<'r>| {
             match row {
-                Ok(mode) => mode.linearised.as_ref().map(|m| m.frequency_hz),
+                Ok(mode) => mode.linearised.as_ref().map(|m| m.mode.frequency_hz),
                 Err(outside) => Some(outside.frequency_hz),
             }
         })
         .shown("linear Hz", Fixed(2))
-        .column("linearised_damping_ratio", "its damping ratio", linear(|m| m.damping_ratio))
+        .column("linearised_damping_ratio", "its damping ratio", linear(|m| m.mode.damping_ratio))
         .scaled("ζ %", 100.0, Fixed(3))
         .column(
             "difference_percent",

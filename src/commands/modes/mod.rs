@@ -4,7 +4,7 @@ mod closed_form;
 mod result;
 
 pub(crate) use closed_form::{ClosedForm, PARAMETERS};
-pub(crate) use result::ModesOutput;
+pub(crate) use result::{KindShares, ModesOutput};
 
 use std::f64::consts::TAU;
 use std::io::Write;

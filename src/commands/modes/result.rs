@@ -5,8 +5,8 @@ use std::io::Write;
 
 use experiments::auto::Choice;
 use lumped::{
-    LumpedModel, ModeGroup, NaturalModes, Parameter, SpeedModes, kinetic_energy, sensitivities,
-    strain_energy,
+    LumpedModel, ModeGroup, NaturalModes, Parameter, Participation, SpeedModes, kinetic_energy,
+    sensitivities, strain_energy,
 };
 use scene::Scene;
 use schemars::JsonSchema;
@@ -54,7 +54,7 @@ pub(crate) struct ModeEntry {
     /// rotational, translational, planet or mixed.
     pub(crate) mode_type: String,
     pub(crate) multiplicity: usize,
-    participation: Shares,
+    participation: KindShares,
     /// Kinetic energy share by kind of body.
     kinetic_energy: BTreeMap<String, f64>,
     /// Strain energy share by family of springs.
@@ -63,12 +63,12 @@ pub(crate) struct ModeEntry {
     sensitivity: BTreeMap<String, f64>,
 }
 
-/// Shares of the kinds of modes.
+/// Shares of a mode's kinetic energy by kind of motion.
 #[derive(Debug, Serialize, JsonSchema)]
-struct Shares {
-    rotational: f64,
-    translational: f64,
-    planet: f64,
+pub(crate) struct KindShares {
+    pub(crate) rotational: f64,
+    pub(crate) translational: f64,
+    pub(crate) planet: f64,
 }
 
 /// Frequencies at one carrier speed.
@@ -245,18 +245,14 @@ fn entry(model: &LumpedModel, group: &ModeGroup) -> ModeEntry {
         }
         _ => None,
     });
-    let p = group.participation;
+    let Participation { rotational, translational, planet } = group.participation;
     ModeEntry {
         frequency_hz: group.frequency_hz,
         uncertainty_hz: group.uncertainty * group.frequency_hz,
         stated_error: None,
         mode_type: group.mode_type.name().to_owned(),
         multiplicity: group.multiplicity,
-        participation: Shares {
-            rotational: p.rotational,
-            translational: p.translational,
-            planet: p.planet,
-        },
+        participation: KindShares { rotational, translational, planet },
         kinetic_energy: kinetic,
         strain_energy: strain,
         sensitivity: sensitivity.collect(),

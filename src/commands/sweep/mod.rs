@@ -1,4 +1,4 @@
-//! `sweep SCENE`: steady states over speed.
+//! `sweep scene`: steady states over speed.
 
 mod auto;
 mod folder;
@@ -13,14 +13,14 @@ use std::io::Write;
 use std::path::Path;
 
 use experiments::sweep::{
-    Direction, Kept, LUMPED, Memory, Plan, PlanError, PointStore, SteadyMethod, SteadySettings,
-    Sweep, SweepError, SweepModel, even_speeds, fidelity_name, run as run_plan,
+    Direction, Kept, Memory, Plan, PlanError, PointStore, SteadyMethod, SteadySettings, Sweep,
+    SweepError, SweepModel, even_speeds, run as run_plan,
 };
 use fe_contact::statics::Bodies;
 use scene::{Fidelity, LoadCase, Scene, Verb};
 
 use super::turning;
-use crate::arguments::{Format, Model, Sweep as SweepArguments};
+use crate::arguments::{Format, Sweep as SweepArguments};
 use crate::error::{Result, fe_refused, refused, unfit};
 use crate::folder::{Claim, KeptFiles, Manifest, PLAN, write_results};
 use crate::inputs::needs::{self, not_ring_pair};
@@ -139,11 +139,7 @@ impl<'a> Task<'a> {
         let missing =
             || unfit(path, "[operation] is absent: it says which member's speed is swept");
         let case = LoadCase::of_scene(scene).map_err(|_| missing())?.with_sun_torque(torque_nm);
-        // The lumped model takes its mesh forces from quasi-static bodies, whatever the scene's fidelity.
-        let verb = Verb::Sweep(match arguments.model {
-            Model::Lumped => Fidelity::QuasiStatic,
-            Model::FeContact => scene.dynamics.fidelity,
-        });
+        let verb = Verb::Sweep(turning::fidelity(arguments.model, scene));
         let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
         needs::require(path, scene, verb, is_given)?;
         let [from, to, step] = arguments.speeds_rpm;
@@ -175,10 +171,7 @@ impl<'a> Task<'a> {
         let plan = Plan::new(&speeds, directions, steady).map_err(refuse("--speeds-rpm"))?;
         let plan = plan.with_random_starts(arguments.random_starts);
         let text = scene_text(path)?;
-        let fidelity = match arguments.model {
-            Model::FeContact => fidelity_name(scene.dynamics.fidelity),
-            Model::Lumped => LUMPED.into(),
-        };
+        let fidelity = turning::name(arguments.model, scene);
         Ok(Self { arguments, text, case, plan, fidelity })
     }
 
