@@ -157,8 +157,8 @@ pub(crate) struct Static {
     pub solver: ContactSolver,
     /// Also draw figures into this folder (SVG, PNG): transmission_error, load_sharing, mesh_stiffness; of one mesh
     /// pressure, of several torques rms_against_torque. Not with --approach-um.
-    #[cfg(feature = "charts")]
-    #[arg(long, value_name = "DIR", conflicts_with = "approach_um")]
+    #[cfg_attr(feature = "charts", arg(long, value_name = "DIR", conflicts_with = "approach_um"))]
+    #[cfg_attr(not(feature = "charts"), arg(skip))]
     pub figures: Option<PathBuf>,
     /// Gear pair only: instead of loading the driving gear, rotate its race by this approach divided by its
     /// base radius, at one phase; µm.
@@ -236,8 +236,8 @@ pub(crate) struct Impulse {
     #[arg(long)]
     pub band: bool,
     /// Also draw figures into this folder (SVG, PNG): spectrum, stabilisation, mode_shapes; with --band also band.
-    #[cfg(feature = "charts")]
-    #[arg(long, value_name = "DIR")]
+    #[cfg_attr(feature = "charts", arg(long, value_name = "DIR"))]
+    #[cfg_attr(not(feature = "charts"), arg(skip))]
     pub figures: Option<PathBuf>,
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,

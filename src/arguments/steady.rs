@@ -90,8 +90,8 @@ pub(crate) struct Sweep {
     pub out: Option<PathBuf>,
     /// Also draw figures into this folder (SVG, PNG): waterfalls, frequencies, harmonics_* of each quantity and,
     /// of a model with derivative, multipliers.
-    #[cfg(feature = "charts")]
-    #[arg(long, value_name = "DIR")]
+    #[cfg_attr(feature = "charts", arg(long, value_name = "DIR"))]
+    #[cfg_attr(not(feature = "charts"), arg(skip))]
     pub figures: Option<PathBuf>,
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
@@ -152,8 +152,8 @@ pub(crate) struct Branches {
     pub out: Option<PathBuf>,
     /// Also draw the strongest motions of the sun into this folder (SVG, PNG), stable solid, unstable dashed:
     /// branch_sun_rotation, branch_sun_translation.
-    #[cfg(feature = "charts")]
-    #[arg(long, value_name = "DIR")]
+    #[cfg_attr(feature = "charts", arg(long, value_name = "DIR"))]
+    #[cfg_attr(not(feature = "charts"), arg(skip))]
     pub figures: Option<PathBuf>,
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,

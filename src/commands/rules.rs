@@ -2,9 +2,7 @@
 
 use std::io::Write;
 
-use gearset::{
-    DiametricalRule, ExcitationStrengths, Spacing, Table4, diametrical_rule, excitation, table4,
-};
+use gearset::{ExcitationStrengths, Spacing, Table4, diametrical_rule, excitation, table4};
 use scene::SceneKind;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -13,7 +11,7 @@ use super::scene::degrees;
 use crate::arguments::Rules;
 use crate::error::{Result, unfit};
 use crate::inputs::read_scene;
-use crate::output::{self, Notation, Report, Table};
+use crate::output::{self, Notation, Report, Table, word};
 
 /// `rules --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -125,25 +123,14 @@ fn rule(spacing: &Spacing, sun_teeth: u32, harmonic: u32) -> HarmonicRule {
     let excites = kinds.iter().filter(|k| k.1).map(|k| k.0.to_owned()).collect();
     let planets = spacing.planets() as u32;
     let is_equal = spacing.is_equal();
+    let spoken = |rule: String| rule.replace('_', " ");
     let printed_rule = if is_equal {
-        table4(planets, sun_teeth, harmonic).map(|rule| {
-            match rule {
-                Table4::RotationalOnly => "rotational only",
-                Table4::TranslationalOnly => "translational only",
-                Table4::Neither => "neither rotational nor translational",
-            }
-            .to_owned()
+        table4(planets, sun_teeth, harmonic).map(|rule| match rule {
+            Table4::Neither => "neither rotational nor translational".to_owned(),
+            other => spoken(word(&other)),
         })
-    } else if spacing.is_diametrical() {
-        Some(
-            match diametrical_rule(sun_teeth, harmonic) {
-                DiametricalRule::TranslationalForbidden => "translational forbidden",
-                DiametricalRule::RotationalForbidden => "rotational forbidden",
-            }
-            .to_owned(),
-        )
     } else {
-        None
+        spacing.is_diametrical().then(|| spoken(word(&diametrical_rule(sun_teeth, harmonic))))
     };
     HarmonicRule {
         harmonic,

@@ -33,11 +33,6 @@ pub(crate) fn not_ring_pair(path: &Path, scene: &Scene) -> Result<()> {
     }
 }
 
-/// Writes a scene's warnings, one a line.
-pub(crate) fn warn(scene: &Scene, err: &mut dyn Write) -> std::io::Result<()> {
-    scene::warnings(scene).iter().try_for_each(|warning| writeln!(err, "warning: {warning}"))
-}
-
 /// Writes what to know of harmonics that few steps resolve.
 pub(crate) fn caution(
     settings: &SteadySettings,
@@ -47,15 +42,19 @@ pub(crate) fn caution(
     settings.caution(steps).map_or(Ok(()), |words| writeln!(err, "warning: {words}"))
 }
 
-/// Refuses a folder of figures that cannot be made, and warns of characters in the title that figures cannot show.
-#[cfg(feature = "charts")]
-pub(crate) fn figures(scene: &Scene, figures: Option<&Path>, err: &mut dyn Write) -> Result<()> {
+/// Writes a scene's warnings, one a line. Refuses a folder of figures that cannot be made, and warns of characters in
+/// the title that figures cannot show.
+pub(crate) fn warn(scene: &Scene, figures: Option<&Path>, err: &mut dyn Write) -> Result<()> {
+    scene::warnings(scene).iter().try_for_each(|warning| writeln!(err, "warning: {warning}"))?;
     crate::folder::folder("--figures", figures)?;
-    let lacking: Vec<String> =
-        crate::figures::lacking(&scene.title).into_iter().map(String::from).collect();
+    #[cfg(feature = "charts")]
+    let lacking = crate::figures::lacking(&scene.title);
+    #[cfg(not(feature = "charts"))]
+    let lacking: Vec<char> = Vec::new();
     if figures.is_none() || lacking.is_empty() {
         return Ok(());
     }
+    let lacking: Vec<String> = lacking.into_iter().map(String::from).collect();
     Ok(writeln!(
         err,
         "warning: `title` has characters that the font of PNG figures lacks ({}): `?` stands for them there, and the SVG \

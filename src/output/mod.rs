@@ -45,3 +45,9 @@ pub(crate) fn json(out: &mut dyn Write, value: &impl Serialize) -> Result<()> {
     writeln!(out)?;
     Ok(())
 }
+
+/// The word by which JSON names a variant without data; empty for anything else.
+pub(crate) fn word(variant: &impl Serialize) -> String {
+    let value = serde_json::to_value(variant).unwrap_or_default();
+    value.as_str().unwrap_or_default().to_owned()
+}

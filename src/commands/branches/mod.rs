@@ -84,9 +84,7 @@ pub(super) fn run(arguments: &Branches, out: &mut dyn Write, err: &mut dyn Write
     let harmonics = SteadySettings { harmonics: settings.harmonics, ..SteadySettings::default() };
     harmonics.check(steps).map_err(|e| unfit(path, e.to_string()))?;
     needs::caution(&harmonics, steps, err)?;
-    needs::warn(&scene, err)?;
-    #[cfg(feature = "charts")]
-    needs::figures(&scene, arguments.figures.as_deref(), err)?;
+    needs::warn(&scene, arguments.figures.as_deref(), err)?;
     let fixed = Fixed { case, damping_factor: arguments.damping_factor };
     let search = Search { switch: arguments.switch };
     let fidelity = turning::name(arguments.model, &scene);
@@ -187,29 +185,19 @@ fn write_folder(result: &BranchesOutput, folder: &Path) -> Result<()> {
     write_results(folder, BRANCHES.results.iter().copied().zip([table, all]))
 }
 
-/// The option that gives the range of a parameter.
-fn option(over: BranchParameter) -> &'static str {
-    match over {
-        BranchParameter::Speed => "--speeds-rpm",
-        BranchParameter::Torque => "--torques-nm",
-        BranchParameter::Damping => "--damping-factors",
-        BranchParameter::Key(_) => "--from",
-    }
-}
-
 /// Range and start, checked before anything is computed; options that belong to another parameter are refused.
 fn settings(arguments: &Branches) -> Result<BranchSettings> {
     let over = arguments.over;
     let name = over.argument();
     let ranges = [
-        (BranchParameter::Speed, arguments.speeds_rpm),
-        (BranchParameter::Torque, arguments.torques_nm),
-        (BranchParameter::Damping, arguments.damping_factors),
+        (BranchParameter::Speed, "--speeds-rpm", arguments.speeds_rpm),
+        (BranchParameter::Torque, "--torques-nm", arguments.torques_nm),
+        (BranchParameter::Damping, "--damping-factors", arguments.damping_factors),
     ];
-    let other = ranges.iter().find(|(own, range)| *own != over && range.is_some());
-    if let Some((other, _)) = other {
+    let other = ranges.iter().find(|(own, _, range)| *own != over && range.is_some());
+    if let Some((other, option, _)) = other {
         let reason = format!("the range for --over {}; this is --over {name}", other.argument());
-        return Err(refused(option(*other), reason));
+        return Err(refused(option, reason));
     }
     let is_key = matches!(over, BranchParameter::Key(_));
     for (argument, value) in [("--from", arguments.from), ("--to", arguments.to)] {
@@ -222,28 +210,29 @@ fn settings(arguments: &Branches) -> Result<BranchSettings> {
         }
     }
     if over == BranchParameter::Speed && arguments.rpm.is_some() {
-        let reason =
-            "one speed, for --over torque, damping and KEY; this is --over speed".to_owned();
+        let reason = "one speed, for --over torque, damping and KEY; this is --over speed";
         return Err(refused("--rpm", reason));
     }
     if over == BranchParameter::Damping && arguments.damping_factor != 1.0 {
         let reason = "one factor; --over damping takes its factors from --damping-factors";
-        return Err(refused("--damping-factor", reason.to_owned()));
+        return Err(refused("--damping-factor", reason));
     }
     let of_key = arguments.from.zip(arguments.to).map(|(from, to)| [from, to]);
-    let given = ranges.iter().find(|(own, _)| *own == over).map_or(of_key, |(_, range)| *range);
+    let of_option = ranges.into_iter().find(|(own, ..)| *own == over);
+    let (option, given) =
+        of_option.map_or(("--from", of_key), |(_, option, range)| (option, range));
     let Some([from, to]) = given else {
         let reason = format!("missing: --over {name} needs its range as FROM:TO");
-        return Err(refused(option(over), reason));
+        return Err(refused(option, reason));
     };
     if over == BranchParameter::Damping && ![from, to].iter().all(|x| DAMPING_FACTORS.contains(x)) {
         let reason = format!("{from:?} to {to:?}: allowed are factors from 1e-6 to 100");
-        return Err(refused(option(over), reason));
+        return Err(refused(option, reason));
     }
     let most_points = arguments.max_points as usize;
     let whole =
         BranchSettings { start: to, most_points, ..BranchSettings::along(over, [from, to]) };
-    whole.check().map_err(|e| refused(option(over), e.to_string()))?;
+    whole.check().map_err(|e| refused(option, e.to_string()))?;
     let own = BranchSettings { start: arguments.start.unwrap_or(to), ..whole };
     own.check().map_err(|e| refused("--start", e.to_string()))?;
     Ok(own)
@@ -291,7 +280,7 @@ fn case(
             Err(refused("--rpm", format!("{rpm:?}: allowed are speeds from 0.001 to 1e7 rpm")))
         }
         None if settings.over != BranchParameter::Speed && case.speed_rpm == 0.0 => {
-            Err(refused("--rpm", "missing: the scene's operating speed is 0".to_owned()))
+            Err(refused("--rpm", "missing: the scene's operating speed is 0"))
         }
         None => Ok(case.at_speed(case.speed_rpm.abs())),
     }

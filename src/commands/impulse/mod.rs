@@ -38,9 +38,7 @@ pub(super) fn run(arguments: &Impulse, out: &mut dyn Write, err: &mut dyn Write)
     let preload = preload(arguments, &scene, err)?;
     let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
     needs::require(&arguments.scene, &scene, Verb::Impulse, is_given)?;
-    needs::warn(&scene, err)?;
-    #[cfg(feature = "charts")]
-    needs::figures(&scene, arguments.figures.as_deref(), err)?;
+    needs::warn(&scene, arguments.figures.as_deref(), err)?;
     let found = find(arguments, scene, preload)?;
     let saved: Result<()> = Ok(());
     #[cfg(feature = "charts")]
@@ -84,11 +82,7 @@ fn preload(arguments: &Impulse, scene: &Scene, err: &mut dyn Write) -> Result<Pr
         let reason = "`dynamics.fidelity` = \"full\" has no small linearisation: take \"modal\"";
         return Err(refused("--band", reason));
     }
-    #[cfg(feature = "charts")]
-    let is_drawn = arguments.figures.is_some();
-    #[cfg(not(feature = "charts"))]
-    let is_drawn = false;
-    if arguments.band && arguments.format == Format::Csv && !is_drawn {
+    if arguments.band && arguments.format == Format::Csv && arguments.figures.is_none() {
         let reason = "CSV has one row a mode and no place for it: take text, json or --figures";
         return Err(refused("--band", reason));
     }

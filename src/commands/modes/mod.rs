@@ -21,7 +21,7 @@ use closed_form::StatedErrorEntry;
 
 pub(crate) fn run(arguments: &Modes, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let scene = read_scene(&arguments.scene)?;
-    needs::warn(&scene, err)?;
+    needs::warn(&scene, None, err)?;
     let most = scene::SPEEDS_RPM[1];
     // Not `abs() > most`: what is no number is within nothing.
     if let Some(bad) = arguments.carrier_speeds_rpm.iter().find(|s| !(-most..=most).contains(*s)) {

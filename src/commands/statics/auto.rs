@@ -51,7 +51,6 @@ pub(super) fn run(
         if arguments.format == Format::Csv {
             return Err(refused("--format csv", reason));
         }
-        #[cfg(feature = "charts")]
         if arguments.figures.is_some() {
             return Err(refused("--figures", reason));
         }

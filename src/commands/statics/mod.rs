@@ -29,9 +29,7 @@ pub(crate) fn run(arguments: &Static, out: &mut dyn Write, err: &mut dyn Write) 
         return Err(refused(option, "has no use without --approach-um, which turns a gear pair"));
     }
     let path = &arguments.scene;
-    needs::warn(&scene, err)?;
-    #[cfg(feature = "charts")]
-    needs::figures(&scene, arguments.figures.as_deref(), err)?;
+    needs::warn(&scene, arguments.figures.as_deref(), err)?;
     match scene.kind {
         SceneKind::GearPair if arguments.approach_um.is_some() => {
             approach::run(arguments, &scene, out, err)

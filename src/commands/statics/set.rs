@@ -4,7 +4,7 @@ use std::io::Write;
 
 use experiments::auto::Choice;
 use fe_contact::statics::{Bodies, Imperfections, MeshState, SetCycle, SetState, StaticSet};
-use gearset::Member;
+use gearset::{Member, MemberTorques};
 use scene::{LoadCase, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -45,7 +45,7 @@ struct TorqueOutput {
     sun_translation_rms_um: f64,
     /// External torques on the central members, means over the mesh cycle, counter-clockwise: one of them acts, the
     /// supports of the others react.
-    member_torques_nm: MemberTorquesOutput,
+    member_torques_nm: MemberTorques,
     /// Member that the torque acts on: the one that turns without support.
     torque_acts_on: &'static str,
     /// r_b · rotation of that member (of a carrier: the base radii of sun and ring times its rotation).
@@ -61,14 +61,6 @@ struct TorqueOutput {
     /// Whether what the linearisation leaves is worth a warning.
     #[serde(skip)]
     is_beyond_linear: bool,
-}
-
-/// Torques on the central members.
-#[derive(Debug, Serialize, JsonSchema)]
-struct MemberTorquesOutput {
-    sun: f64,
-    ring: f64,
-    carrier: f64,
 }
 
 /// One mesh over the cycle.
@@ -224,7 +216,7 @@ fn describe(cycle: &SetCycle, (radius, loaded): (f64, Member)) -> TorqueOutput {
         sun_rotation_rms_urad: rotation * 1e6,
         sun_translation_rms_um: translation * 1e6,
         // In equilibrium they sum to nothing.
-        member_torques_nm: MemberTorquesOutput { sun: -(ring + carrier), ring, carrier },
+        member_torques_nm: MemberTorques { sun: -(ring + carrier), ring, carrier },
         torque_acts_on: loaded.name(),
         transmission_error_mean_um: error.mean * 1e6,
         transmission_error_peak_to_peak_um: error.peak_to_peak() * 1e6,

@@ -2,10 +2,10 @@
 
 use std::io::Write;
 
-use experiments::study::{Doubt, QuantityResult, Quartiles, Row, StudyResult, Work};
+use experiments::study::{QuantityResult, Quartiles, Row, StudyResult, Work};
 
 use crate::error::Result;
-use crate::output::{Notation, Table};
+use crate::output::{Notation, Table, word};
 
 /// A setting's result for a quantity.
 pub(super) type Entry<'r> = (&'r QuantityResult, &'r Row, &'r str);
@@ -35,7 +35,7 @@ pub(super) fn table<'r>() -> Table<'r, Entry<'r>> {
         .column("uncertainty_percent", "", |(q, ..)| q.truth.uncertainty_percent)
         .column("error_percent", "", |(_, row, _)| row.error_percent)
         .column("guarded_percent", "", |(_, row, _)| row.guarded_percent)
-        .column("doubt", "", |(_, row, _)| row.doubt.map(doubt_word))
+        .column("doubt", "", |(_, row, _)| row.doubt.as_ref().map(word))
         .column("rank", "", |(_, row, _)| row.rank)
         .column("least_rank", "", |(_, row, _)| row.ranks.map(|ranks| ranks[0]))
         .column("greatest_rank", "", |(_, row, _)| row.ranks.map(|ranks| ranks[1]))
@@ -57,13 +57,6 @@ pub(super) fn table<'r>() -> Table<'r, Entry<'r>> {
         .column("cost_cycles_high", "", cycles(|row| row.time.cost_cycles, |q| q.high))
         .column("is_efficient", "", |(_, row, _)| row.time.is_efficient)
         .column("refusal", "", |(_, row, _)| row.refusal.clone())
-}
-
-fn doubt_word(doubt: Doubt) -> &'static str {
-    match doubt {
-        Doubt::Crossing => "crossing",
-        Doubt::GrowsWithRefinement => "grows_with_refinement",
-    }
 }
 
 /// A table for each quantity, with its truth above and what follows from it below.

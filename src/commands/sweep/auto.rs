@@ -40,9 +40,7 @@ impl Asked<'_> {
     ) -> Result<()> {
         let Self { arguments, scene, case } = self;
         self.check()?;
-        needs::warn(scene, err)?;
-        #[cfg(feature = "charts")]
-        needs::figures(scene, arguments.figures.as_deref(), err)?;
+        needs::warn(scene, arguments.figures.as_deref(), err)?;
         let speeds_rpm = plan.chains.iter().flat_map(|c| c.speeds_rpm.iter().copied()).collect();
         let tolerance_percent = scene.dynamics.auto.map_or(f64::NAN, |a| a.tolerance_percent);
         let steady = plan.steady.clone();

@@ -50,9 +50,7 @@ pub(super) fn run(
     }
     // Bodies and tables take minutes: a folder that cannot be used is refused before.
     let _claim = task.claim()?;
-    needs::warn(&scene, err)?;
-    #[cfg(feature = "charts")]
-    needs::figures(&scene, arguments.figures.as_deref(), err)?;
+    needs::warn(&scene, arguments.figures.as_deref(), err)?;
     let working = Working::new("meshing the bodies and laying out tables");
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let model = turning::model(arguments.model, &scene, &bodies, task.case)?;
