@@ -100,8 +100,8 @@ impl From<csv::Error> for CommandError {
 }
 
 /// The error for an argument whose value is not allowed.
-pub(crate) fn refused(argument: &'static str, reason: impl Into<String>) -> CommandError {
-    CommandError::Argument { argument, reason: reason.into() }
+pub(crate) fn refused(argument: &'static str, reason: impl ToString) -> CommandError {
+    CommandError::Argument { argument, reason: reason.to_string() }
 }
 
 /// The error for a valid scene that a verb cannot use.

@@ -66,8 +66,8 @@ fn table<'r>() -> Table<'r, &'r Match> {
         [] => "–".to_owned(),
         list => list.iter().map(|f| format!("{f:.2}")).collect::<Vec<_>>().join(", "),
     };
-    Table::new()
-        .column("model_hz", "", |m: &&Match| m.model_hz)
+    Table::<&Match>::new()
+        .column("model_hz", "", |m| m.model_hz)
         .shown("model Hz", Fixed(2))
         .column("model_type", "", |m| m.model_type.clone())
         .shown("type", Plain)

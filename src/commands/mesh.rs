@@ -166,11 +166,10 @@ fn gear(body: &GearBody, bodies: &Bodies, lumped: Option<&LumpedInput>) -> BodyO
 
 fn table<'r>() -> Table<'r, &'r BodyOutput> {
     use Notation::{Fixed, Plain, Power};
-    type Body<'r> = &'r BodyOutput;
-    let teeth = |value: fn(&TeethOutput) -> f64| move |b: &Body<'_>| b.teeth.as_ref().map(value);
+    let teeth = |value: fn(&TeethOutput) -> f64| move |b: &&BodyOutput| b.teeth.as_ref().map(value);
     let excess = |given: Option<f64>, meshed: f64| Some(100.0 * (meshed / given? - 1.0));
-    Table::new()
-        .column("body", "", |b: &Body<'_>| &b.body)
+    Table::<&BodyOutput>::new()
+        .column("body", "", |b| &b.body)
         .shown("body", Plain)
         .key()
         .column("elements", "number of finite elements", |b| b.elements)
@@ -183,9 +182,7 @@ fn table<'r>() -> Table<'r, &'r BodyOutput> {
         .shown("mass kg", Fixed(4))
         .column("lumped_mass_kg", "the scene's value in [lumped], kg", |b| b.lumped_mass_kg)
         .shown("lumped kg", Power(4))
-        .words("above %", Notation::Signed(1), move |b: &Body<'_>| {
-            excess(b.lumped_mass_kg, b.mass_kg)
-        })
+        .words("above %", Notation::Signed(1), move |b| excess(b.lumped_mass_kg, b.mass_kg))
         .meaning("by how much the mesh's value is above that in [lumped]")
         .column(
             "polar_inertia_kg_m2",
@@ -197,7 +194,7 @@ fn table<'r>() -> Table<'r, &'r BodyOutput> {
             b.lumped_inertia_kg_m2
         })
         .shown("lumped kg m²", Power(4))
-        .words("above %", Notation::Signed(1), move |b: &Body<'_>| {
+        .words("above %", Notation::Signed(1), move |b| {
             excess(b.lumped_inertia_kg_m2, b.polar_inertia_kg_m2)
         })
         .column(

@@ -75,8 +75,8 @@ pub(crate) fn run(arguments: &Rules, out: &mut dyn Write) -> Result<()> {
 
 fn table<'r>() -> Table<'r, &'r HarmonicRule> {
     use Notation::{Plain, Share};
-    Table::new()
-        .column("harmonic", "", |h: &&HarmonicRule| h.harmonic)
+    Table::<&HarmonicRule>::new()
+        .column("harmonic", "", |h| h.harmonic)
         .shown("l", Plain)
         .column("k", "", |h| h.k.map(|k| k as i64))
         .shown("k", Plain)

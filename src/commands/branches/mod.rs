@@ -61,18 +61,6 @@ struct Kept<'s> {
     search: Search,
 }
 
-impl Kept<'_> {
-    /// Takes a folder for these branches: the claim must be held as long as the store is used.
-    ///
-    /// # Errors
-    /// If the folder is of something else or cannot be written.
-    fn open(&self, folder: &Path, subject: (&str, &str, f64)) -> Result<(Claim, KeptFiles)> {
-        let manifest = Manifest::new(&BRANCHES, subject, self)?;
-        let claim = Claim::of(folder, &manifest, |_| Ok(()))?;
-        Ok((claim, KeptFiles::open(folder, PLAN, &manifest)?))
-    }
-}
-
 /// Follows the branch: results to `out`, warnings to `err`.
 pub(super) fn run(arguments: &Branches, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let path = &arguments.scene;
@@ -82,7 +70,7 @@ pub(super) fn run(arguments: &Branches, out: &mut dyn Write, err: &mut dyn Write
     let case = case(arguments, &scene, &settings, err)?;
     let steps = scene.dynamics.steps_per_cycle as usize;
     let harmonics = SteadySettings { harmonics: settings.harmonics, ..SteadySettings::default() };
-    harmonics.check(steps).map_err(|e| unfit(path, e.to_string()))?;
+    harmonics.check(steps).map_err(|e| unfit(path, e))?;
     needs::caution(&harmonics, steps, err)?;
     needs::warn(&scene, arguments.figures.as_deref(), err)?;
     let fixed = Fixed { case, damping_factor: arguments.damping_factor };
@@ -92,14 +80,18 @@ pub(super) fn run(arguments: &Branches, out: &mut dyn Write, err: &mut dyn Write
     let text = scene_text(path)?;
     if let BranchParameter::Key(key) = settings.over {
         for (argument, value) in ["--from", "--to"].into_iter().zip(settings.range) {
-            KeyedModel::check(&text, key, value).map_err(|e| refused(argument, e.to_string()))?;
+            KeyedModel::check(&text, key, value).map_err(|e| refused(argument, e))?;
         }
     }
     let mut kept = None;
     if let Some(folder) = &arguments.out {
         let (speed_rpm, damping_factor) = (case.speed_rpm, fixed.damping_factor);
         let parts = Kept { speed_rpm, damping_factor, branches: &settings, search };
-        kept = Some(parts.open(folder, (&text, &fidelity, case.sun_torque_nm))?);
+        let subject = (text.as_str(), fidelity.as_str(), case.sun_torque_nm);
+        let manifest = Manifest::new(&BRANCHES, subject, &parts)?;
+        // The claim is held as long as the store is used.
+        let claim = Claim::of(folder, &manifest, |_| Ok(()))?;
+        kept = Some((claim, KeptFiles::open(folder, PLAN, &manifest)?));
     }
     let store: &dyn BranchStore = kept.as_ref().map_or(&Memory, |(_, steps)| steps);
     scene.damping = scene.damping.times(arguments.damping_factor);
@@ -131,9 +123,9 @@ pub(super) fn run(arguments: &Branches, out: &mut dyn Write, err: &mut dyn Write
             }
             working.now("following the branch");
             branches_kept(model.as_ref(), &settings, &search, store).map_err(|e| match e {
-                BranchError::NoDerivative(_) => unfit(path, e.to_string()),
-                BranchError::NoStart { .. } => refused("--start", e.to_string()),
-                BranchError::NoEffect { .. } => refused("--over", e.to_string()),
+                BranchError::NoDerivative(_) => unfit(path, e),
+                BranchError::NoStart { .. } => refused("--start", e),
+                BranchError::NoEffect { .. } => refused("--over", e),
                 BranchError::Sweep(e) => not_computed(e, path, &settings),
                 BranchError::Range { .. } | BranchError::Points(_) => e.into(),
             })?
@@ -172,7 +164,7 @@ fn not_computed(error: SweepError, path: &Path, settings: &BranchSettings) -> Co
             let words = format!("from {from:?} to {to:?}, begun at {start:?}: {e}; {remedy}");
             refused("--over", format!("{} {words}", key.path()))
         }
-        (SweepError::Fe(e), _) => unfit(path, e.to_string()),
+        (SweepError::Fe(e), _) => unfit(path, e),
         (other, _) => other.into(),
     }
 }
@@ -232,9 +224,9 @@ fn settings(arguments: &Branches) -> Result<BranchSettings> {
     let most_points = arguments.max_points as usize;
     let whole =
         BranchSettings { start: to, most_points, ..BranchSettings::along(over, [from, to]) };
-    whole.check().map_err(|e| refused(option, e.to_string()))?;
+    whole.check().map_err(|e| refused(option, e))?;
     let own = BranchSettings { start: arguments.start.unwrap_or(to), ..whole };
-    own.check().map_err(|e| refused("--start", e.to_string()))?;
+    own.check().map_err(|e| refused("--start", e))?;
     Ok(own)
 }
 

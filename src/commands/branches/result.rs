@@ -175,8 +175,8 @@ impl BranchesOutput {
             (_, "") => "value",
             (_, unit) => unit,
         };
-        let table = Table::new()
-            .column("scene", "title of the scene", |r: &Row<'_>| &r.result.scene)
+        let table = Table::<Row<'_>>::new()
+            .column("scene", "title of the scene", |r| &r.result.scene)
             .column("fidelity", "fidelity or model", |r| &r.branch.fidelity)
             .column("sun_torque_nm", "torque on the sun, N m", |r| r.point.state.case.sun_torque_nm)
             .column("speed_rpm", "speed of the input member, rpm", |r| r.point.state.case.speed_rpm)
@@ -213,7 +213,7 @@ impl BranchesOutput {
                 |r| r.point.largest_multiplier(),
             )
             .shown("μ", Fixed(4))
-            .words("mode", Plain, |r: &Row<'_>| {
+            .words("mode", Plain, |r| {
                 r.point.critical.as_ref().map(|critical| critical.mode_type.clone())
             })
             .meaning(

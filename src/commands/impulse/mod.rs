@@ -77,7 +77,7 @@ fn preload(arguments: &Impulse, scene: &Scene, err: &mut dyn Write) -> Result<Pr
         Some(_) => asked(arguments, usual.preload, band_hz),
         None => usual,
     };
-    judged.check().map_err(|e| refused(argument(&e), e.to_string()))?;
+    judged.check().map_err(|e| refused(argument(&e), e))?;
     if arguments.band && scene.dynamics.fidelity == Fidelity::Full {
         let reason = "`dynamics.fidelity` = \"full\" has no small linearisation: take \"modal\"";
         return Err(refused("--band", reason));
@@ -116,11 +116,11 @@ fn find(arguments: &Impulse, scene: Scene, preload: Preload) -> Result<Found> {
     let path = &arguments.scene;
     let torque = preload.load.sun_torque_nm;
     let failed = |e: ModalError| match e {
-        ModalError::Unsteady { .. } => refused("--sun-torque-nm", e.to_string()),
+        ModalError::Unsteady { .. } => refused("--sun-torque-nm", e),
         ModalError::Fe(FeError::NotConverged { .. } | FeError::NoEquilibrium(_)) => {
             refused("--sun-torque-nm", format!("{torque:e} N·m: {e}"))
         }
-        _ => unfit(path, e.to_string()),
+        _ => unfit(path, e),
     };
     let working = Working::new("meshing and factorising the bodies");
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
@@ -144,7 +144,7 @@ fn find(arguments: &Impulse, scene: Scene, preload: Preload) -> Result<Found> {
             .ok_or_else(|| unfit(path, "no body can move: every `motion` is \"held\""))?,
     };
     let settings = asked(arguments, preload, band_hz);
-    settings.check().map_err(|e| refused(argument(&e), e.to_string()))?;
+    settings.check().map_err(|e| refused(argument(&e), e))?;
     let (low, high) = band_hz;
     let is_inside = |m: &FeMode| (low..=high).contains(&m.frequency_hz);
     let (inside, outside): (Vec<_>, Vec<_>) = modes

@@ -96,8 +96,8 @@ fn table<'r>() -> Table<'r, Row<'r>> {
             mode.map_or("–".into(), |mode| Share.number(value(&mode.shares)))
         }
     };
-    Table::new()
-        .column("mode_type", "", |row: &Row<'r>| match row {
+    Table::<Row<'r>>::new()
+        .column("mode_type", "", |row| match row {
             Ok(mode) => &mode.mode_type,
             Err(outside) => &outside.mode_type,
         })
@@ -118,11 +118,9 @@ fn table<'r>() -> Table<'r, Row<'r>> {
         .shown_as("transl.", share(|s| s.translational))
         .column("planet", "", found(|m| m.shares.planet))
         .shown_as("planet", share(|s| s.planet))
-        .column("linearised_hz", "natural frequency of the linearised set", |row: &Row<'r>| {
-            match row {
-                Ok(mode) => mode.linearised.as_ref().map(|m| m.mode.frequency_hz),
-                Err(outside) => Some(outside.frequency_hz),
-            }
+        .column("linearised_hz", "natural frequency of the linearised set", |row| match row {
+            Ok(mode) => mode.linearised.as_ref().map(|m| m.mode.frequency_hz),
+            Err(outside) => Some(outside.frequency_hz),
         })
         .shown("linear Hz", Fixed(2))
         .column("linearised_damping_ratio", "its damping ratio", linear(|m| m.mode.damping_ratio))
@@ -130,7 +128,7 @@ fn table<'r>() -> Table<'r, Row<'r>> {
         .column(
             "difference_percent",
             "of the frequency found from the linearised one, over that",
-            |row: &Row<'r>| row.ok().and_then(|m| m.difference_percent),
+            |row| row.ok().and_then(|m| m.difference_percent),
         )
         .shown("difference %", Signed(3))
         .column(
@@ -139,25 +137,24 @@ fn table<'r>() -> Table<'r, Row<'r>> {
             linear(|m| m.mesh_sensitivity),
         )
         .shown("∂ln f/∂ln k", Fixed(4))
-        .column("is_in_band", "", |row: &Row<'r>| row.is_ok())
+        .column("is_in_band", "", |row| row.is_ok())
 }
 
 fn pulses<'r>() -> Table<'r, &'r PulseEntry> {
     use Notation::{Fixed, Plain, Power};
-    type Pulse<'r> = &'r PulseEntry;
-    Table::new()
-        .words("pulse", Plain, |p: &Pulse<'_>| &p.pulse)
+    Table::<&PulseEntry>::new()
+        .words("pulse", Plain, |p| &p.pulse)
         .key()
-        .words("force N", Fixed(3), |p: &Pulse<'_>| p.force_n)
+        .words("force N", Fixed(3), |p| p.force_n)
         .meaning("acts for one time step; of a torque, over the base radius")
-        .words("force change", Power(1), |p: &Pulse<'_>| p.force_change)
+        .words("force change", Power(1), |p| p.force_change)
         .meaning("of a mesh, over the largest mesh force")
-        .words("nonlinearity", Power(1), |p: &Pulse<'_>| p.nonlinearity)
+        .words("nonlinearity", Power(1), |p| p.nonlinearity)
         .meaning(
             "of half the pulse, the response less half the response to the whole, over \
              its largest value",
         )
-        .words("the sun's other motion", Plain, |p: &Pulse<'_>| {
+        .words("the sun's other motion", Plain, |p| {
             // With planets in phase a force excites no rotation and a torque no translation.
             let (t, r) = p.sun_translation_um.zip(p.sun_rotation_um)?;
             Some(match p.pulse.ends_with("torque") {
@@ -181,8 +178,7 @@ fn band(band: &BandOutput, out: &mut dyn Write) -> std::io::Result<()> {
         torques.join(", ")
     )?;
     use Notation::{Fixed, Plain};
-    type Mode<'r> = &'r BandMode;
-    let mut table = Table::<Mode<'_>>::new()
+    let mut table = Table::<&BandMode>::new()
         .words("type", Plain, |m| &m.mode_type)
         .key()
         .words("place", Plain, |m| m.place)

@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &Modes, out: &mut dyn Write, err: &mut dyn Write) -
         // No other quantity is given by this verb, which the line above refuses.
         if let AutoQuantity::NaturalFrequency { mode_type, number } = wanted.quantity {
             let case = LoadCase::of_scene(&scene);
-            let case = case.map_err(|e| unfit(&arguments.scene, e.to_string()))?;
+            let case = case.map_err(|e| unfit(&arguments.scene, e))?;
             let question = FrequencyQuestion::new(&scene, &case, mode_type, number);
             return chosen(arguments, &question, wanted.tolerance_percent, out);
         }
@@ -99,7 +99,7 @@ fn chosen(
     drop(working);
     let is_lumped = choice.settings.model == AutoModel::Lumped;
     let listed = is_lumped.then(|| of_auto(scene, question.case)).transpose();
-    let listed = listed.map_err(|e| unfit(path, e.to_string()))?;
+    let listed = listed.map_err(|e| unfit(path, e))?;
     let listed = listed.as_ref().map(|(model, modes)| (model, modes));
     let mut result = ModesOutput::new(scene, listed, arguments.details);
     result.auto = Some(choice);

@@ -125,10 +125,9 @@ impl ModesOutput {
 
     fn table<'r>(&self) -> Table<'r, &'r ModeEntry> {
         use Notation::{Fixed, Plain, Share};
-        type Mode<'r> = &'r ModeEntry;
         let is_mixed = self.modes.iter().any(|m| m.mode_type == "mixed");
         let is_stated = self.modes.iter().any(|m| m.stated_error.is_some());
-        Table::<Mode<'r>>::new()
+        Table::<&ModeEntry>::new()
             .column("frequency_hz", "", |m| m.frequency_hz)
             .shown_as("Hz", |m| frequency(m))
             .key()
@@ -156,11 +155,10 @@ impl ModesOutput {
     /// Sensitivities of each frequency by family of parameters.
     fn sensitivities(&self, out: &mut dyn Write) -> std::io::Result<()> {
         writeln!(out, "∂ln f/∂ln p: what each frequency depends on")?;
-        type Mode<'r> = &'r ModeEntry;
         let mut table =
-            Table::<Mode<'_>>::new().words("Hz", Notation::Plain, |m| frequency(m)).right().key();
+            Table::<&ModeEntry>::new().words("Hz", Notation::Plain, |m| frequency(m)).right().key();
         for family in self.modes.first().into_iter().flat_map(|m| m.sensitivity.keys()) {
-            let value = move |m: &Mode<'_>| m.sensitivity.get(family).copied().map(plain_zero);
+            let value = move |m: &&ModeEntry| m.sensitivity.get(family).copied().map(plain_zero);
             table = table.words(family, Notation::Fixed(3), value);
         }
         table.text(&self.modes, out)

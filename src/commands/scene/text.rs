@@ -13,8 +13,8 @@ impl Report for SceneSummary {
         let keys = |v: &&VerbSummary| {
             v.lacks.iter().map(|lack| lack.key.as_str()).collect::<Vec<_>>().join(" ")
         };
-        let table = Table::new()
-            .column("verb", "", |v: &&VerbSummary| &v.verb)
+        let table = Table::<&VerbSummary>::new()
+            .column("verb", "", |v| &v.verb)
             .column("runs", "", |v| v.runs)
             .column("lacks", "", keys);
         table.csv(&self.verbs, out)
@@ -40,24 +40,22 @@ fn text(summary: &SceneSummary, out: &mut dyn Write) -> std::io::Result<()> {
         writeln!(out, "centre distance {a:.4} mm, base pitch {p:.5} mm")?;
     }
     if !summary.gears.is_empty() {
-        type Gear<'r> = &'r GearSummary;
         let mm = Notation::Fixed(4);
-        Table::new()
-            .words("gear", Notation::Plain, |g: &Gear<'_>| &g.gear)
-            .words("Z", Notation::Plain, |g: &Gear<'_>| g.teeth)
-            .words("base mm", mm, |g: &Gear<'_>| g.base_diameter_mm)
-            .words("tip mm", mm, |g: &Gear<'_>| g.tip_diameter_mm)
-            .words("root mm", mm, |g: &Gear<'_>| g.root_diameter_mm)
-            .words("form mm", mm, |g: &Gear<'_>| g.form_diameter_mm)
-            .words("tip land mm", mm, |g: &Gear<'_>| g.tooth_thickness_at_tip_mm)
+        Table::<&GearSummary>::new()
+            .words("gear", Notation::Plain, |g| &g.gear)
+            .words("Z", Notation::Plain, |g| g.teeth)
+            .words("base mm", mm, |g| g.base_diameter_mm)
+            .words("tip mm", mm, |g| g.tip_diameter_mm)
+            .words("root mm", mm, |g| g.root_diameter_mm)
+            .words("form mm", mm, |g| g.form_diameter_mm)
+            .words("tip land mm", mm, |g| g.tooth_thickness_at_tip_mm)
             .text(&summary.gears, out)?;
-        type Mesh<'r> = &'r MeshSummary;
-        Table::new()
-            .words("mesh", Notation::Plain, |m: &Mesh<'_>| &m.mesh)
-            .words("angle °", mm, |m: &Mesh<'_>| m.pressure_angle_deg)
-            .words("module mm", mm, |m: &Mesh<'_>| m.operating_module_mm)
-            .words("contact ratio", mm, |m: &Mesh<'_>| m.contact_ratio)
-            .words("backlash mm", mm, |m: &Mesh<'_>| m.backlash_mm)
+        Table::<&MeshSummary>::new()
+            .words("mesh", Notation::Plain, |m| &m.mesh)
+            .words("angle °", mm, |m| m.pressure_angle_deg)
+            .words("module mm", mm, |m| m.operating_module_mm)
+            .words("contact ratio", mm, |m| m.contact_ratio)
+            .words("backlash mm", mm, |m| m.backlash_mm)
             .text(&summary.meshes, out)?;
     }
     if let (Some(gamma), Some(sun), Some(ring)) =

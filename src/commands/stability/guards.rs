@@ -20,7 +20,7 @@ pub(crate) struct GuardList {
 /// Walks across every border; the text is `docs/guards.md`.
 pub(super) fn run(format: Format, out: &mut dyn Write) -> Result<()> {
     let working = Working::new("walking across every border");
-    let guards = guards().map_err(|e| refused("--guards", e.to_string()))?;
+    let guards = guards().map_err(|e| refused("--guards", e))?;
     drop(working);
     let list = GuardList { guards };
     match format {
@@ -32,8 +32,8 @@ pub(super) fn run(format: Format, out: &mut dyn Write) -> Result<()> {
 
 impl Report for GuardList {
     fn csv(&self, out: &mut dyn Write) -> Result<()> {
-        let table = Table::new()
-            .column("name", "", |g: &&Guard| &g.name)
+        let table = Table::<&Guard>::new()
+            .column("name", "", |g| &g.name)
             .column("border", "", |g| &g.border)
             .column("within", "", |g| g.within.clone())
             .column("beyond", "", |g| g.beyond.clone());

@@ -66,8 +66,8 @@ pub(super) fn run(arguments: &Stability, out: &mut dyn Write, err: &mut dyn Writ
     let files = ResultFiles::new(arguments.out.as_deref(), which.name)?;
     let working = Working::new("computing the map");
     let map = stability_map(which, &scene).map_err(|e| match &arguments.scene {
-        Some(path) => unfit(path, e.to_string()),
-        None => unfit(Path::new("the scene built in"), e.to_string()),
+        Some(path) => unfit(path, e),
+        None => unfit(Path::new("the scene built in"), e),
     })?;
     drop(working);
     let result = StabilityOutput { version: env!("CARGO_PKG_VERSION").into(), map };
@@ -106,8 +106,8 @@ fn list(arguments: &Stability, out: &mut dyn Write) -> Result<()> {
 
 impl Report for StabilityList {
     fn csv(&self, out: &mut dyn Write) -> Result<()> {
-        let table = Table::new()
-            .column("name", "", |m: &&MapEntry| &m.name)
+        let table = Table::<&MapEntry>::new()
+            .column("name", "", |m| &m.name)
             .column("meaning", "", |m| &m.meaning)
             .column("takes_scene", "", |m| m.takes_scene);
         table.csv(&self.maps, out)
@@ -127,8 +127,8 @@ fn table<'r>() -> Table<'r, &'r Border> {
     };
     // Zero without a sign.
     let percent = |x: f64| Fixed(2).number(if x.abs() < 0.005 { 0.0 } else { x });
-    Table::new()
-        .column("of", "", |b: &&Border| &b.of)
+    Table::<&Border>::new()
+        .column("of", "", |b| &b.of)
         .shown("of", Plain)
         .column("quantity", "", |b| &b.quantity)
         .shown_as("what", what)

@@ -95,8 +95,8 @@ pub(super) fn run(
 
 impl Report for ApproachOutput {
     fn csv(&self, out: &mut dyn Write) -> Result<()> {
-        let table = Table::new()
-            .column("pair", "", |p: &&ApproachPair| p.index)
+        let table = Table::<&ApproachPair>::new()
+            .column("pair", "", |p| p.index)
             .column("force_n", "", |p| p.force_n)
             .column("peak_pressure_pa", "", |p| p.peak_pressure_pa);
         table.csv(&self.pairs, out)

@@ -110,8 +110,8 @@ fn table<'r>() -> Table<'r, Row<'r>> {
         };
         position.pairs.iter().map(pair).collect::<Vec<_>>().join(", ")
     };
-    Table::new()
-        .column("phase", "", |(p, _): &Row<'r>| p.phase)
+    Table::<Row<'r>>::new()
+        .column("phase", "", |(p, _)| p.phase)
         .shown("phase", Fixed(4))
         .column("transmission_error_um", "", |(p, _)| p.transmission_error_um)
         .shown("δ µm", Fixed(4))

@@ -148,7 +148,7 @@ pub(super) fn run(
     drop(working);
     let radius = bodies.geometry.sun.as_ref().map(|sun| sun.base_radius);
     let radius = radius.ok_or_else(|| unfit(path, "`geometry.sun` is absent"))?;
-    let loaded = scene.loaded_member().map_err(|e| unfit(path, e.to_string()))?;
+    let loaded = scene.loaded_member().map_err(|e| unfit(path, e))?;
     let saved: Result<()> = Ok(());
     #[cfg(feature = "charts")]
     let saved = arguments.figures.as_ref().map_or(saved, |folder| {
@@ -238,8 +238,8 @@ fn describe(cycle: &SetCycle, (radius, loaded): (f64, Member)) -> TorqueOutput {
 type Row<'r> = (&'r TorqueOutput, &'r SetPosition, &'r MeshPosition, &'r PairLoad);
 
 fn pairs<'r>() -> Table<'r, Row<'r>> {
-    Table::new()
-        .column("sun_torque_nm", "", |(torque, ..): &Row<'r>| torque.sun_torque_nm)
+    Table::<Row<'r>>::new()
+        .column("sun_torque_nm", "", |(torque, ..)| torque.sun_torque_nm)
         .column("position", "", |(_, position, ..)| position.position)
         .column("mesh", "", |(_, _, mesh, _)| &mesh.mesh)
         .column("planet", "", |(_, _, mesh, _)| mesh.planet)
@@ -255,33 +255,31 @@ fn pairs<'r>() -> Table<'r, Row<'r>> {
 
 fn meshes<'r>() -> Table<'r, &'r MeshSummary> {
     use Notation::{Fixed, Plain};
-    type Mesh<'r> = &'r MeshSummary;
-    Table::new()
-        .words("mesh", Plain, |m: &Mesh<'_>| &m.mesh)
+    Table::<&MeshSummary>::new()
+        .words("mesh", Plain, |m| &m.mesh)
         .key()
-        .words("planet", Plain, |m: &Mesh<'_>| m.planet)
+        .words("planet", Plain, |m| m.planet)
         .key()
-        .words("mean N", Fixed(1), |m: &Mesh<'_>| m.mean_force_n)
-        .words("least N", Fixed(1), |m: &Mesh<'_>| m.least_force_n)
-        .words("largest N", Fixed(1), |m: &Mesh<'_>| m.largest_force_n)
-        .words("secant 1e6 N/m", Fixed(1), |m: &Mesh<'_>| 1e-6 * m.mean_secant_stiffness_n_per_m)
-        .words("tangent 1e6 N/m", Fixed(1), |m: &Mesh<'_>| 1e-6 * m.mean_tangent_stiffness_n_per_m)
+        .words("mean N", Fixed(1), |m| m.mean_force_n)
+        .words("least N", Fixed(1), |m| m.least_force_n)
+        .words("largest N", Fixed(1), |m| m.largest_force_n)
+        .words("secant 1e6 N/m", Fixed(1), |m| 1e-6 * m.mean_secant_stiffness_n_per_m)
+        .words("tangent 1e6 N/m", Fixed(1), |m| 1e-6 * m.mean_tangent_stiffness_n_per_m)
 }
 
 /// Motion of the sun under several torques, beside that under the first.
 fn torques<'r>(first: &'r TorqueOutput) -> Table<'r, &'r TorqueOutput> {
     use Notation::{Fixed, Plain};
-    type Torque<'r> = &'r TorqueOutput;
     // A cycle of one position and a sun that stays put have no ratio.
     let over = |value: f64, first: f64| (first > 0.0).then_some(value / first);
-    Table::new()
-        .words("torque N·m", Plain, |t: &Torque<'_>| t.sun_torque_nm)
-        .words("rotation µrad", Fixed(4), |t: &Torque<'_>| t.sun_rotation_rms_urad)
-        .words("translation µm", Fixed(4), |t: &Torque<'_>| t.sun_translation_rms_um)
-        .words("rotation ÷ first", Fixed(3), move |t: &Torque<'_>| {
+    Table::<&TorqueOutput>::new()
+        .words("torque N·m", Plain, |t| t.sun_torque_nm)
+        .words("rotation µrad", Fixed(4), |t| t.sun_rotation_rms_urad)
+        .words("translation µm", Fixed(4), |t| t.sun_translation_rms_um)
+        .words("rotation ÷ first", Fixed(3), move |t| {
             over(t.sun_rotation_rms_urad, first.sun_rotation_rms_urad)
         })
-        .words("translation ÷ first", Fixed(3), move |t: &Torque<'_>| {
+        .words("translation ÷ first", Fixed(3), move |t| {
             over(t.sun_translation_rms_um, first.sun_translation_rms_um)
         })
 }

@@ -25,8 +25,8 @@ pub(super) fn table<'r>() -> Table<'r, Entry<'r>> {
     let cycles = |quartiles: fn(&Row) -> Option<Quartiles>, part: fn(Quartiles) -> f64| {
         move |(_, row, _): &Entry<'r>| quartiles(row).map(part)
     };
-    Table::new()
-        .column("quantity", "", |(quantity, ..): &Entry<'r>| &quantity.name)
+    Table::<Entry<'r>>::new()
+        .column("quantity", "", |(quantity, ..)| &quantity.name)
         .column("setting", "", |(_, row, _)| &row.setting)
         .column("group", "", |(.., group)| *group)
         .column("unit", "", |(quantity, ..)| &quantity.unit)
@@ -123,35 +123,34 @@ fn write_quantity(
 /// What text shows of a quantity's settings.
 fn shown_table<'r>(quantity: &'r QuantityResult) -> Table<'r, &'r Row> {
     use Notation::{Digits, Plain};
-    type Entry<'r> = &'r Row;
     let percent = |x: Option<f64>| x.map_or("–".to_owned(), shown_percent);
-    let cost = |r: &Entry<'_>, words: fn(&Quartiles) -> String| {
+    let cost = |r: &&Row, words: fn(&Quartiles) -> String| {
         r.time.cost_cycles.as_ref().map_or("–".to_owned(), words)
     };
-    let rank = |r: &Entry<'_>| match (r.rank, r.ranks) {
+    let rank = |r: &&Row| match (r.rank, r.ranks) {
         (Some(rank), Some([low, high])) if low != high => format!("{rank} ({low}–{high})"),
         (Some(rank), _) => rank.to_string(),
         _ => "–".into(),
     };
-    Table::new()
-        .words("setting", Plain, |r: &Entry<'_>| &r.setting)
+    Table::<&Row>::new()
+        .words("setting", Plain, |r| &r.setting)
         .key()
-        .words("value", Digits, |r: &Entry<'_>| r.value)
-        .words("error %", Plain, move |r: &Entry<'_>| percent(r.error_percent))
+        .words("value", Digits, |r| r.value)
+        .words("error %", Plain, move |r| percent(r.error_percent))
         .right()
-        .words("ranked by %", Plain, move |r: &Entry<'_>| percent(r.guarded_percent))
+        .words("ranked by %", Plain, move |r| percent(r.guarded_percent))
         .right()
         .words("rank", Plain, rank)
         .right()
-        .words("cost", Plain, move |r: &Entry<'_>| cost(r, |q| shown_cost(q.median)))
+        .words("cost", Plain, move |r| cost(r, |q| shown_cost(q.median)))
         .right()
-        .words("quartiles", Plain, move |r: &Entry<'_>| {
+        .words("quartiles", Plain, move |r| {
             cost(r, |q| format!("[{}, {}]", shown_cost(q.low), shown_cost(q.high)))
         })
         .right()
-        .words("set-up", Plain, |r: &Entry<'_>| r.time.set_up_cycles.map(|q| shown_cost(q.median)))
+        .words("set-up", Plain, |r| r.time.set_up_cycles.map(|q| shown_cost(q.median)))
         .right()
-        .words(quantity.work.words(), Digits, |r: &Entry<'_>| r.work.of(quantity.work))
+        .words(quantity.work.words(), Digits, |r| r.work.of(quantity.work))
         .words("", Plain, marks)
 }
 

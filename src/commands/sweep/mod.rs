@@ -45,8 +45,7 @@ pub(super) fn run(
     let scene = read_scene(path)?;
     let task = Task::new(arguments, &scene, err)?;
     if let Some(response) = auto::response(&scene) {
-        let asked = auto::Asked { arguments, scene: &scene, case: task.case };
-        return asked.run(response, &task.plan, out, err);
+        return auto::run(&task, &scene, response, out, err);
     }
     // Bodies and tables take minutes: a folder that cannot be used is refused before.
     let _claim = task.claim()?;
@@ -141,7 +140,7 @@ impl<'a> Task<'a> {
         let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
         needs::require(path, scene, verb, is_given)?;
         let [from, to, step] = arguments.speeds_rpm;
-        let refuse = |argument| move |e: PlanError| refused(argument, e.to_string());
+        let refuse = |argument| move |e: PlanError| refused(argument, e);
         let speeds = even_speeds(from, to, step).map_err(refuse("--speeds-rpm"))?;
         let steady = SteadySettings {
             method: arguments.method,
@@ -196,7 +195,7 @@ impl<'a> Task<'a> {
         let found = run_plan(model, plan, store.as_ref(), &done);
         bar.finish_and_clear();
         found.map_err(|e| match e {
-            SweepError::Fe(e) => unfit(&self.arguments.scene, e.to_string()),
+            SweepError::Fe(e) => unfit(&self.arguments.scene, e),
             other => other.into(),
         })
     }

@@ -42,8 +42,8 @@ pub(super) fn table<'r>() -> Table<'r, Row<'r>> {
     use Notation::{Fixed, Plain, Power, Share};
     let case = |r: &Row<'_>| r.point.state.case;
     let largest = |r: &Row<'_>| r.point.largest_multiplier.clone();
-    let table = Table::new()
-        .column("scene", "title of the scene", |r: &Row<'_>| &r.result.scene)
+    let table = Table::<Row<'_>>::new()
+        .column("scene", "title of the scene", |r| &r.result.scene)
         .column("fidelity", "fidelity of the fidelity ladder", |r| &r.result.fidelity)
         .column("sun_torque_nm", "torque on the sun, N m", move |r| case(r).sun_torque_nm)
         .column("speed_rpm", "speed of the input member, rpm", move |r| case(r).speed_rpm)

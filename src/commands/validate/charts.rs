@@ -31,7 +31,7 @@ pub(super) fn write(folder: &Path) -> Result<()> {
 fn maps(kept: Vec<StabilityMap>) -> Result<Vec<StabilityMap>> {
     let is_kept = |which: &&Map| kept.iter().any(|map| map.map == which.name);
     let others: Vec<&Map> = MAPS.into_iter().filter(|which| !is_kept(which)).collect();
-    let refused = |e: MapError| unfit(Path::new("the scene built in"), e.to_string());
+    let refused = |e: MapError| unfit(Path::new("the scene built in"), e);
     let mut all = stability_maps(&others, &built_in()?).map_err(refused)?;
     all.extend(kept);
     all.sort_by_key(|map| MAPS.iter().position(|which| which.name == map.map));

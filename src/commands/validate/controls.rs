@@ -55,8 +55,8 @@ pub(super) fn run(arguments: &Validate, out: &mut dyn Write) -> Result<()> {
 impl Report for ControlsOutput {
     fn csv(&self, out: &mut dyn Write) -> Result<()> {
         type Row<'r> = (&'r SuiteControls, &'r ControlOutput);
-        let table = Table::new()
-            .column("suite", "", |(suite, _): &Row<'_>| &suite.suite)
+        let table = Table::<Row<'_>>::new()
+            .column("suite", "", |(suite, _)| &suite.suite)
             .column("control", "", |(_, control)| &control.id)
             .column("spoils", "", |(_, control)| &control.spoils)
             .column("breaks", "", |(_, control)| &control.breaks);

@@ -80,11 +80,11 @@ pub(crate) fn run(
 
 /// Judges the tables in a folder by every suite whose scenes they contain.
 fn recorded(folder: &Path, only: &str) -> Result<Verdict> {
-    let tables = Recorded::read(folder).map_err(|e| refused("--recorded", e.to_string()))?;
+    let tables = Recorded::read(folder).map_err(|e| refused("--recorded", e))?;
     let models = Models {
         modal: (!tables.modes.is_empty()).then_some(&tables),
         at_rest: (!tables.mesh_cycles.is_empty()).then_some(&tables),
         in_time: (!tables.steady_states.is_empty()).then_some(&tables),
     };
-    judge_model(&models, only).map_err(|e| refused("--recorded", e.to_string()))
+    judge_model(&models, only).map_err(|e| refused("--recorded", e))
 }

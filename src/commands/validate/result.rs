@@ -24,16 +24,15 @@ pub(super) struct VerdictOutput {
 }
 
 fn table<'r>() -> Table<'r, &'r Check> {
-    type Row<'r> = &'r Check;
-    let cell = |i: usize| move |check: &Row<'_>| cells(check)[i].clone();
+    let cell = |i: usize| move |check: &&Check| cells(check)[i].clone();
     // Lists have no place in a cell of a file.
     let value = |value: Option<&Value>| match value? {
         Value::Number(x) => Some(x.to_string()),
         Value::Text(text) => Some(text.clone()),
         Value::List(_) => None,
     };
-    Table::new()
-        .column("check", "", |check: &Row<'_>| &check.id)
+    Table::<&Check>::new()
+        .column("check", "", |check| &check.id)
         .shown("check", Notation::Plain)
         .key()
         .column("title", "", |check| &check.title)
