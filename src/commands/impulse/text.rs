@@ -23,52 +23,48 @@ impl Report for ImpulseOutput {
     }
 
     fn text(&self, out: &mut dyn Write) -> Result<()> {
-        Ok(text(self, out)?)
-    }
-}
-
-fn text(result: &ImpulseOutput, out: &mut dyn Write) -> std::io::Result<()> {
-    writeln!(out, "{}", result.title)?;
-    writeln!(
-        out,
-        "{} N·m on the sun at position {} of the mesh cycle; decays of {} ms in steps \
-             of {} µs",
-        plain(result.sun_torque_nm),
-        plain(result.position),
-        plain(result.duration_ms),
-        plain(result.step_us)
-    )?;
-    let bodies = match (result.fidelity.as_str(), result.body_modes) {
-        ("modal", Some(n)) => format!("modal, {n} modes of each body"),
-        (fidelity, _) => fidelity.to_owned(),
-    };
-    writeln!(out, "fidelity: {bodies}; {} steps taken in all", result.steps)?;
-    if !result.has_linearisation {
-        writeln!(out, "no small linearisation on this fidelity: its columns are empty")?;
-    }
-    table().text(result.modes.iter().map(Ok), out)?;
-    pulses().text(&result.pulses, out)?;
-    let (order, [low, high]) = (result.identification.order, result.band_limits_hz);
-    writeln!(out, "identified at order {order} between {low:.0} and {high:.0} Hz")?;
-    if !result.outside_band.is_empty() {
-        let one = |m: &OutsideMode| format!("{:.1} ({})", m.frequency_hz, m.mode_type);
-        let list: Vec<String> = result.outside_band.iter().map(one).collect();
-        let shown = list.len().min(MOST_OUTSIDE);
-        let more = match list.len() - shown {
-            0 => String::new(),
-            n => format!(" and {n} more (--format json lists all)"),
-        };
+        writeln!(out, "{}", self.title)?;
         writeln!(
             out,
-            "outside this band, which --band-hz sets, linearised modes at {} Hz{more}",
-            list[..shown].join(", ")
+            "{} N·m on the sun at position {} of the mesh cycle; decays of {} ms in steps \
+             of {} µs",
+            plain(self.sun_torque_nm),
+            plain(self.position),
+            plain(self.duration_ms),
+            plain(self.step_us)
         )?;
-    }
-    table().legend(out)?;
-    pulses().legend(out)?;
-    match &result.band {
-        Some(found) => band(found, out),
-        None => Ok(()),
+        let bodies = match (self.fidelity.as_str(), self.body_modes) {
+            ("modal", Some(n)) => format!("modal, {n} modes of each body"),
+            (fidelity, _) => fidelity.to_owned(),
+        };
+        writeln!(out, "fidelity: {bodies}; {} steps taken in all", self.steps)?;
+        if !self.has_linearisation {
+            writeln!(out, "no small linearisation on this fidelity: its columns are empty")?;
+        }
+        table().text(self.modes.iter().map(Ok), out)?;
+        pulses().text(&self.pulses, out)?;
+        let (order, [low, high]) = (self.identification.order, self.band_limits_hz);
+        writeln!(out, "identified at order {order} between {low:.0} and {high:.0} Hz")?;
+        if !self.outside_band.is_empty() {
+            let one = |m: &OutsideMode| format!("{:.1} ({})", m.frequency_hz, m.mode_type);
+            let list: Vec<String> = self.outside_band.iter().map(one).collect();
+            let shown = list.len().min(MOST_OUTSIDE);
+            let more = match list.len() - shown {
+                0 => String::new(),
+                n => format!(" and {n} more (--format json lists all)"),
+            };
+            writeln!(
+                out,
+                "outside this band, which --band-hz sets, linearised modes at {} Hz{more}",
+                list[..shown].join(", ")
+            )?;
+        }
+        table().legend(out)?;
+        pulses().legend(out)?;
+        match &self.band {
+            Some(found) => Ok(band(found, out)?),
+            None => Ok(()),
+        }
     }
 }
 

@@ -14,6 +14,7 @@ use lumped::{AnalyticSet, LumpedError, LumpedModel, NaturalModes, campbell};
 use scene::{AutoQuantity, LoadCase, Scene, SceneKind, Verb};
 
 use crate::arguments::{Format, Modes};
+use crate::commands::auto_choice;
 use crate::error::{Result, refused, unfit};
 use crate::inputs::{Working, needs, read_scene};
 use crate::output;
@@ -89,10 +90,9 @@ fn chosen(
     out: &mut dyn Write,
 ) -> Result<()> {
     let (path, scene) = (&arguments.scene, question.scene);
-    if !arguments.carrier_speeds_rpm.is_empty() {
-        let reason = "`dynamics.fidelity` = \"auto\" chooses settings for a set without gyroscopic terms: leave it out";
-        return Err(refused("--carrier-speeds-rpm", reason));
-    }
+    let is_turning = !arguments.carrier_speeds_rpm.is_empty();
+    let why = "chooses settings for a set without gyroscopic terms";
+    auto_choice::refuse_given(&[("--carrier-speeds-rpm", is_turning, why)])?;
     let working = Working::new("choosing settings");
     let choice = choose_frequency(question, tolerance_percent)
         .map_err(|e| unfit(path, format!("`dynamics.fidelity` = \"auto\": {e}")))?;

@@ -36,14 +36,11 @@ pub(super) fn run(
         let reason = "`dynamics.fidelity` = \"auto\" chooses settings for one torque: name one";
         return Err(refused("--sun-torque-nm", reason));
     };
-    if arguments.positions.is_some() {
-        let reason = "`dynamics.fidelity` = \"auto\" chooses the number of positions: leave it out";
-        return Err(refused("--positions", reason));
-    }
-    if arguments.solver != ContactSolver::ActiveSet {
-        let reason = "`dynamics.fidelity` = \"auto\" solves by active sets: leave it out";
-        return Err(refused("--solver", reason));
-    }
+    let is_other_solver = arguments.solver != ContactSolver::ActiveSet;
+    auto_choice::refuse_given(&[
+        ("--positions", arguments.positions.is_some(), "chooses the number of positions"),
+        ("--solver", is_other_solver, "solves by active sets"),
+    ])?;
     // The lumped model, which may be enough for a mean, has no tooth pairs to list or draw.
     if value == CycleValue::Mean {
         let reason = "`dynamics.quantity` = \"mean_transmission_error\" may be answered by the lumped model, which has no \

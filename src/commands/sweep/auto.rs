@@ -7,9 +7,9 @@ use scene::{AutoQuantity, AutoResponse, Scene};
 
 use super::Task;
 use super::result::SweepOutput;
-use crate::arguments::{Format, Model, Sweep};
+use crate::arguments::{Format, Model};
 use crate::commands::auto_choice;
-use crate::error::{CommandError, Result, refused, unfit};
+use crate::error::{CommandError, Result, unfit};
 use crate::inputs::{Working, needs};
 use crate::output;
 
@@ -29,7 +29,17 @@ pub(super) fn run(
     out: &mut dyn Write,
     err: &mut dyn Write,
 ) -> Result<()> {
-    check(arguments)?;
+    let one_motion = "compares settings by one motion at each speed";
+    let named_speeds = "gives the largest amplitude over the speeds that are named";
+    let no_folder = "has no folder of points, which belong to one named fidelity";
+    auto_choice::refuse_given(&[
+        ("--model", arguments.model == Model::Lumped, "chooses the model"),
+        ("--refine", arguments.refine > 0, named_speeds),
+        ("--both-ways", arguments.both_ways, one_motion),
+        ("--random-starts", arguments.random_starts > 0, one_motion),
+        ("--harmonics", arguments.harmonics > 5, "chooses steps that resolve up to 5 harmonics"),
+        ("--out", arguments.out.is_some(), no_folder),
+    ])?;
     needs::warn(scene, arguments.figures.as_deref(), err)?;
     let speeds_rpm = plan.chains.iter().flat_map(|c| c.speeds_rpm.iter().copied()).collect();
     let tolerance_percent = scene.dynamics.auto.map_or(f64::NAN, |a| a.tolerance_percent);
@@ -59,35 +69,4 @@ pub(super) fn run(
     // What was computed is shown also where its figures cannot be saved.
     let shown = output::show(arguments.format, &result.chosen_by(found.choice), out);
     saved.and(shown).and(said)
-}
-
-/// Refuses arguments that say what is to be chosen, or that change what it is chosen for.
-fn check(given: &Sweep) -> Result<()> {
-    let refusals = [
-        ("--model", given.model == Model::Lumped, "chooses the model"),
-        (
-            "--refine",
-            given.refine > 0,
-            "gives the largest amplitude over the speeds that are named",
-        ),
-        ("--both-ways", given.both_ways, "compares settings by one motion at each speed"),
-        (
-            "--random-starts",
-            given.random_starts > 0,
-            "compares settings by one motion at each speed",
-        ),
-        ("--harmonics", given.harmonics > 5, "chooses steps that resolve up to 5 harmonics"),
-        (
-            "--out",
-            given.out.is_some(),
-            "has no folder of points, which belong to one named fidelity",
-        ),
-    ];
-    match refusals.into_iter().find(|(_, is_given, _)| *is_given) {
-        Some((argument, _, why)) => {
-            let reason = format!("`dynamics.fidelity` = \"auto\" {why}: leave it out");
-            Err(refused(argument, reason))
-        }
-        None => Ok(()),
-    }
 }

@@ -17,7 +17,7 @@ use experiments::sweep::{
     SweepError, SweepModel, even_speeds, run as run_plan,
 };
 use fe_contact::statics::Bodies;
-use scene::{Fidelity, LoadCase, Scene, Verb};
+use scene::{LoadCase, Scene, Verb};
 
 use super::turning;
 use crate::arguments::{Format, Sweep as SweepArguments};
@@ -102,6 +102,7 @@ pub(super) fn draw(
     folder: &Path,
 ) -> Result<()> {
     use crate::figures::{SweepContext, of_sweep, save};
+    use scene::Fidelity;
     let mut linear = scene.clone();
     if matches!(scene.dynamics.fidelity, Fidelity::Full | Fidelity::MeshLaw) {
         // These have no linearisation of small order: the figure shows the quasi-static frequencies instead.

@@ -1,5 +1,6 @@
 //! Charts of the report: error against cost by every shipped study, and every stability map.
 
+use std::io::Write as _;
 use std::path::Path;
 
 use experiments::stability::{MAPS, Map, MapError, StabilityMap, stability_maps};
@@ -46,7 +47,6 @@ fn page(studies: &[KeptStudy], maps: &[StabilityMap]) -> Result<String> {
 }
 
 fn write_studies(studies: &[KeptStudy], out: &mut Vec<u8>) -> Result<()> {
-    use std::io::Write as _;
     writeln!(
         out,
         "# Charts\n\n## Error against cost\n\nEvery study as it was run once: costs are those of that run; values, \
@@ -68,7 +68,6 @@ fn write_studies(studies: &[KeptStudy], out: &mut Vec<u8>) -> Result<()> {
 }
 
 fn write_maps(maps: &[StabilityMap], out: &mut Vec<u8>) -> Result<()> {
-    use std::io::Write as _;
     writeln!(
         out,
         "## Stability\n\nMethods and sets pushed until they fail, what was measured beside theory. `epicyclic stability MAP` \
@@ -86,7 +85,6 @@ fn write_maps(maps: &[StabilityMap], out: &mut Vec<u8>) -> Result<()> {
 
 /// The figure of a name, in a build that draws.
 fn show(name: &str, words: &str, out: &mut Vec<u8>) -> Result<()> {
-    use std::io::Write as _;
     if cfg!(feature = "charts") {
         writeln!(out, "![{words}]({name}.svg)\n")?;
     }
