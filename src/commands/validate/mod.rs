@@ -17,7 +17,7 @@ use experiments::models::Recorded;
 use validation::{Models, Reference, ValidationError, Verdict, judge_model, validate_with};
 
 use crate::arguments::{Format, Validate};
-use crate::error::{CommandError, refused};
+use crate::error::{Result, refused};
 use crate::folder;
 use crate::output;
 use progress::SuiteProgress;
@@ -27,7 +27,7 @@ pub(crate) fn run(
     arguments: &Validate,
     out: &mut dyn Write,
     err: &mut (dyn Write + Send),
-) -> Result<bool, CommandError> {
+) -> Result<bool> {
     if arguments.details && arguments.format != Format::Text {
         let reason = "JSON and CSV list every check anyway: leave it out, or take --format text";
         return Err(refused("--details", reason));
@@ -79,12 +79,12 @@ pub(crate) fn run(
 }
 
 /// Judges the tables in a folder by every suite whose scenes they contain.
-fn recorded(folder: &Path, only: &str) -> Result<Verdict, CommandError> {
-    let tables = Recorded::read(folder).map_err(|e| refused("--recorded", e.to_string()))?;
+fn recorded(folder: &Path, only: &str) -> Result<Verdict> {
+    let tables = Recorded::read(folder).map_err(|e| refused("--recorded", e))?;
     let models = Models {
         modal: (!tables.modes.is_empty()).then_some(&tables),
         at_rest: (!tables.mesh_cycles.is_empty()).then_some(&tables),
         in_time: (!tables.steady_states.is_empty()).then_some(&tables),
     };
-    judge_model(&models, only).map_err(|e| refused("--recorded", e.to_string()))
+    judge_model(&models, only).map_err(|e| refused("--recorded", e))
 }
