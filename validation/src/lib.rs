@@ -18,6 +18,7 @@ mod published_table;
 mod reference;
 mod reference_file;
 mod registry;
+pub mod results;
 mod suites;
 mod verdict;
 mod worst;
