@@ -1,12 +1,29 @@
-//! Results of any program as a folder of tables: read as spreadsheets and MATLAB write them.
+//! Results of any program as a folder of tables: read as spreadsheets and MATLAB write them, and held against
+//! themselves before any check judges them.
+//!
+//! | file | a row is | columns |
+//! |---|---|---|
+//! | `results.toml` | | [`Manifest`] |
+//! | `modes.csv` | a natural frequency | [`ModeRow`] |
+//! | `mesh_cycle.csv` | one quantity at one position of the mesh cycle | [`CycleRow`] |
+//! | `steady_states.csv` | one harmonic of one quantity at one speed | [`StateRow`] |
+//!
+//! A [`ResultsFolder`] that is read tells what its reader took for granted as [`Remark`]s, and what in it cannot be
+//! true as [`Contradiction`]s.
 
+mod contradictions;
+mod folder;
 mod known_scenes;
 mod manifest;
 mod manifest_error;
 mod nearest;
+mod rows;
 pub mod table;
 
+pub use contradictions::Contradiction;
+pub use folder::{FolderError, ResultsFolder};
 pub use known_scenes::{KnownScene, KnownScenes, UnknownScene};
 pub use manifest::{Convention, Frame, Kind, Manifest, Radius, RotationCoordinate};
 pub use manifest_error::ManifestError;
+pub use rows::{CycleRow, ModeRow, StateRow};
 pub use table::{Remark, TableError};
