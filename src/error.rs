@@ -70,6 +70,12 @@ pub enum CommandError {
     /// The models or the reference data could not be used.
     #[error(transparent)]
     Validation(#[from] validation::ValidationError),
+    /// A results folder cannot be read.
+    #[error(transparent)]
+    Folder(#[from] validation::results::FolderError),
+    /// Results cannot be judged.
+    #[error(transparent)]
+    Judge(#[from] validation::results::JudgeError),
     /// A figure could not be saved.
     #[cfg(feature = "charts")]
     #[error(transparent)]

@@ -9,7 +9,7 @@ use clap::builder::TypedValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use experiments::stability::Map;
 use scene::SceneKind;
-use validation::Profile;
+use validation::{ModelKind, Profile};
 
 pub(crate) use steady::{Branches, Model, Sweep};
 pub(crate) use values::DAMPING_FACTORS;
@@ -76,18 +76,32 @@ pub(crate) struct Validate {
     /// List the suites with what they ask of a model and their negative controls; run nothing.
     #[arg(long, conflicts_with_all = ["report", "details", "profile", "recorded"])]
     pub controls: bool,
-    /// Judge tables of results instead of this project's models: a folder with any of modes.csv,
-    /// mesh_cycle.csv and steady_states.csv (columns in docs/suites.md).
+    /// Judge tables of results instead of this project's models: a results folder (docs/results.md).
     #[arg(long, value_name = "DIR", conflicts_with = "profile")]
     pub recorded: Option<PathBuf>,
+    /// What kind of model the results come from, instead of what results.toml says.
+    #[arg(long = "as", value_name = "KIND", requires = "recorded", value_parser = model_kinds())]
+    pub kind: Option<ModelKind>,
+    /// Rows that the results are known to miss: a TOML file with [[miss]] entries of id, value, tolerance and analysis.
+    #[arg(long, value_name = "FILE", requires = "recorded")]
+    pub accept: Option<PathBuf>,
     /// How much to run; checks left out are listed as not run.
     #[arg(long, default_value = "quick", value_parser = profiles())]
     pub profile: Profile,
-    /// Only checks whose id starts with this prefix, e.g. `table3.` or `fe.hertz`.
-    #[arg(long, value_name = "PREFIX", default_value = "", hide_default_value = true)]
-    pub only: String,
+    /// Only checks whose ids start so, e.g. `table3.` or `fe.hertz,fe.sets`; may be repeated.
+    #[arg(long, value_name = "PREFIX,…", value_delimiter = ',')]
+    pub only: Vec<String>,
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
+}
+
+fn model_kinds() -> impl TypedValueParser<Value = ModelKind> {
+    one_of([
+        ("lumped", "Rigid bodies on springs that move in the plane", ModelKind::Lumped),
+        ("fe_contact", "Elastic teeth in contact", ModelKind::FeContact),
+        ("torsional", "Rigid bodies on springs that only turn", ModelKind::Torsional),
+        ("measured", "A test rig: compared, never failed", ModelKind::Measured),
+    ])
 }
 
 fn profiles() -> impl TypedValueParser<Value = Profile> {

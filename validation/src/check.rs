@@ -34,6 +34,8 @@ pub enum Status {
     Miss,
     /// Not part of the profile that ran.
     NotRun,
+    /// Results of another kind of model than the reference: shown beside it, not judged.
+    OtherKind,
 }
 
 /// A checked value.

@@ -121,3 +121,36 @@ fn natural_modes_that_are_wrong_without_contradiction() {
     let modes = modes.into_iter().map(|mode| (set.title.clone(), mode)).collect();
     has_no_contradiction(&Recorded { modes, ..Recorded::default() }, "lumped", None);
 }
+
+#[test]
+fn what_is_written_is_read_back() {
+    let title = || scene(PublishedScene::Oh58FourPlanets).unwrap().title;
+    let mode = |frequency_hz, mode_type| (title(), NaturalMode { frequency_hz, mode_type });
+    let rest = |position: f64| RestState {
+        position,
+        sun: [1e-6, -2e-6, 3e-5 + position],
+        sun_mesh_n: vec![100.25, 99.0],
+        ring_mesh_n: vec![98.0, 97.0],
+    };
+    let line = |harmonic| Line {
+        part: Part::SunMesh(1),
+        coordinate: Coordinate::Force,
+        harmonic,
+        amplitude: 0.1 * harmonic as f64,
+        phase_rad: -1.0,
+    };
+    let state = |rpm: f64| SteadyState {
+        case: LoadCase::turning(1130.0, rpm, 0.35 * rpm),
+        lines: vec![line(0), line(3)],
+    };
+    let case = LoadCase::standing(1130.0);
+    let cycle = MeshCycle { case, states: [0.0, 0.25, 0.5, 0.75].map(rest).to_vec() };
+    let record = Recorded {
+        modes: vec![mode(770.0, ModeType::Translational), mode(1156.5, ModeType::Rotational)],
+        mesh_cycles: vec![(title(), cycle)],
+        steady_states: [500.0, 510.0].map(|rpm| (title(), state(rpm))).to_vec(),
+    };
+    let folder = tempfile::tempdir().unwrap();
+    record.write(folder.path()).unwrap();
+    assert_eq!(ResultsFolder::read(folder.path()).unwrap().recorded(), record);
+}

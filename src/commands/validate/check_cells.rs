@@ -59,6 +59,7 @@ pub(super) fn status_word(status: Status) -> &'static str {
         Status::Fail => "FAIL",
         Status::Miss => "miss",
         Status::NotRun => "not run",
+        Status::OtherKind => "other kind",
     }
 }
 
@@ -68,7 +69,7 @@ pub(super) fn coloured(word: &str, status: Status) -> String {
         Status::Pass => AnsiColor::Green,
         Status::Miss => AnsiColor::Yellow,
         Status::Fail => AnsiColor::Red,
-        Status::NotRun => return word.to_owned(),
+        Status::NotRun | Status::OtherKind => return word.to_owned(),
     };
     if word.trim() == "–" {
         return word.to_owned();

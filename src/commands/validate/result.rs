@@ -23,7 +23,7 @@ pub(super) struct VerdictOutput {
     pub(super) details: bool,
 }
 
-fn table<'r>() -> Table<'r, &'r Check> {
+pub(super) fn table<'r>() -> Table<'r, &'r Check> {
     type Row<'r> = &'r Check;
     let cell = |i: usize| move |check: &Row<'_>| cells(check)[i].clone();
     // Lists have no place in a cell of a file.

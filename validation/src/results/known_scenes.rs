@@ -4,7 +4,7 @@ use std::sync::{Arc, LazyLock};
 
 use scene::Scene;
 
-use super::nearest::did_you_mean;
+use crate::nearest::did_you_mean;
 
 /// A scene with the names that tables may call it by.
 #[derive(Debug, Clone, PartialEq)]

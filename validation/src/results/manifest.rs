@@ -27,7 +27,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::manifest_error::ManifestError;
-use super::nearest::did_you_mean;
+use crate::model_kind::ModelKind;
+use crate::nearest::did_you_mean;
 
 /// Longest file that is read, bytes.
 const MOST_BYTES: u64 = 1_000_000;
@@ -41,8 +42,8 @@ const ORDER: [&str; 4] = ["carrier", "ring", "sun", "planets"];
 /// What `results.toml` says.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Manifest {
-    /// Kind of model; `None` where the folder has no `results.toml`.
-    pub kind: Option<Kind>,
+    /// ModelKind of model; `None` where the folder has no `results.toml`.
+    pub kind: Option<ModelKind>,
     /// The program that computed the results.
     pub program: Option<String>,
     /// Its version.
@@ -55,20 +56,6 @@ pub struct Manifest {
     pub positions: usize,
     /// How vectors and matrices are to be read.
     pub convention: Convention,
-}
-
-/// What results come from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    /// Rigid bodies on springs that move in the plane.
-    Lumped,
-    /// Elastic teeth in contact.
-    FeContact,
-    /// Rigid bodies on springs that only turn.
-    Torsional,
-    /// A test rig.
-    Measured,
 }
 
 /// How vectors and matrices are to be read.
@@ -179,7 +166,7 @@ impl Manifest {
         if format.is_none() {
             return Err(file.fault("format", 0, "is absent: allowed is 1".to_owned()));
         }
-        let kinds = ["lumped", "fe_contact", "torsional", "measured"];
+        let kinds = ModelKind::ALL.map(ModelKind::name);
         let kind = file.choice("kind", &kinds)?;
         if kind.is_none() {
             return Err(file.fault(
@@ -328,7 +315,7 @@ impl<'d> Keys<'d> {
 }
 
 /// The line, from 1, that holds byte `at`.
-fn line_of(text: &str, at: usize) -> usize {
+pub(super) fn line_of(text: &str, at: usize) -> usize {
     1 + text.bytes().take(at).filter(|byte| *byte == b'\n').count()
 }
 
@@ -348,11 +335,14 @@ mod tests {
         let example = example.split("```").nth(1).unwrap().trim_start_matches("toml");
         let read = Manifest::parse("results.toml".as_ref(), example).unwrap();
         assert_eq!(read.convention, Convention::default());
-        assert_eq!((read.positions, read.kind), (POSITIONS, Some(Kind::Lumped)));
+        assert_eq!((read.positions, read.kind), (POSITIONS, Some(ModelKind::Lumped)));
         assert_eq!(read.held, [Member::Ring]);
         assert_eq!(read.scene.as_deref(), Some("lin_parker_1999_4p"));
         let short = Manifest::parse("results.toml".as_ref(), "format = 1\nkind = \"measured\"\n");
-        assert_eq!(short.unwrap(), Manifest { kind: Some(Kind::Measured), ..Manifest::default() });
+        assert_eq!(
+            short.unwrap(),
+            Manifest { kind: Some(ModelKind::Measured), ..Manifest::default() }
+        );
     }
 
     #[test]

@@ -11,19 +11,23 @@
 //! A [`ResultsFolder`] that is read tells what its reader took for granted as [`Remark`]s, and what in it cannot be
 //! true as [`Contradiction`]s.
 
+mod accepted;
 mod contradictions;
 mod folder;
+mod judge;
 mod known_scenes;
 mod manifest;
 mod manifest_error;
-mod nearest;
+mod recorded;
 mod rows;
 pub mod table;
 
+pub use accepted::accepted_misses;
 pub use contradictions::Contradiction;
 pub use folder::{FolderError, ResultsFolder};
+pub use judge::{JudgeError, Judgement};
 pub use known_scenes::{KnownScene, KnownScenes, UnknownScene};
-pub use manifest::{Convention, Frame, Kind, Manifest, Radius, RotationCoordinate};
+pub use manifest::{Convention, Frame, Manifest, Radius, RotationCoordinate};
 pub use manifest_error::ManifestError;
 pub use rows::{CycleRow, ModeRow, StateRow};
 pub use table::{Remark, TableError};

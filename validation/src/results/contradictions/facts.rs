@@ -44,7 +44,7 @@ impl SceneFacts {
     fn new(scene: &Scene) -> Self {
         let geometry = scene.tooth_geometry().ok();
         let sun = geometry.as_ref().and_then(|geometry| geometry.sun.as_ref());
-        let radius = scene.lumped.as_ref().and_then(|lumped| lumped.radius.sun);
+        let radius = scene.lumped.as_ref().and_then(|lumped| lumped.radius_m.sun);
         let phasing = geometry.as_ref().and_then(|g| Phasing::new(g, &scene.planets));
         let phases = phasing.map(|p| p.phases(0.0, Facing::CounterClockwise).sun_planet);
         let case = LoadCase::of_scene(scene).ok();

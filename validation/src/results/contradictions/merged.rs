@@ -55,8 +55,8 @@ pub(super) fn merged(path: &Path, facts: &SceneFacts, rows: &[PlanetRow]) -> Opt
 
 fn kind(part: Part) -> u8 {
     match part {
-        Part::Carrier | Part::Ring | Part::Sun => 0,
-        Part::Planet(_) => 1,
+        Part::CARRIER | Part::RING | Part::SUN => 0,
+        Part::Body(_) => 1,
         Part::SunMesh(_) => 2,
         Part::RingMesh(_) => 3,
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::contradiction::Contradiction;
 use super::facts::{Facts, SceneFacts};
 use super::frequency_factor::factor;
-use crate::results::manifest::Kind;
+use crate::model_kind::ModelKind;
 use crate::results::rows::ModeRow;
 
 /// Coordinates of a body in the plane.
@@ -15,14 +15,14 @@ const COORDINATES: usize = 3;
 pub(in crate::results) fn modes(
     path: &Path,
     rows: &[ModeRow],
-    kind: Option<Kind>,
+    kind: Option<ModelKind>,
     facts: &mut Facts,
 ) -> Vec<Contradiction> {
     let mut found = Vec::new();
     for rows in by_scene(rows) {
         let facts = facts.about(&rows[0].scene);
         let twice = listed_twice(path, &rows, &facts);
-        if twice.is_none() && matches!(kind, Some(Kind::Lumped | Kind::Torsional)) {
+        if twice.is_none() && matches!(kind, Some(ModelKind::Lumped | ModelKind::Torsional)) {
             found.extend(too_many(path, &rows, &facts));
         }
         found.extend(twice);

@@ -5,7 +5,7 @@ use std::path::Path;
 use super::column::{Column, Content};
 use super::error::TableError;
 use super::remark::Remark;
-use crate::results::nearest::did_you_mean;
+use crate::nearest::did_you_mean;
 
 /// Where the columns asked for stand.
 pub(super) struct Header {
