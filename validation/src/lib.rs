@@ -101,25 +101,27 @@ pub fn judge_model(
     models: &Models<'_>,
     only: impl Into<Selection>,
 ) -> Result<Verdict, ValidationError> {
-    judge_with(models, &only.into(), &[])
+    judge_with(models, &only.into(), &[], &|_| Ok(Vec::new()))
 }
 
-/// The same; `accepted` are rows that this model is known to miss, each with its pinned value and its analysis, beside
+/// The same with `further` checks; `accepted` are rows that this model is known to miss, each with its pinned value and its analysis, beside
 /// those that are listed for the models of this project.
 ///
 /// # Errors
 /// As [`judge_model`].
-pub fn judge_with(
+pub(crate) fn judge_with(
     models: &Models<'_>,
     only: &Selection,
     accepted: &[Miss],
+    further: &dyn Fn(&Reference) -> Result<Vec<Check>, ValidationError>,
 ) -> Result<Verdict, ValidationError> {
     if models.modal.is_none() && models.at_rest.is_none() && models.in_time.is_none() {
         return Err(ValidationError::NoModel);
     }
     let reference = Reference::load()?;
     only.check(&reference.registry)?;
-    let (checks, not_asked) = suites::foreign(&reference, models, only)?;
+    let (mut checks, not_asked) = suites::foreign(&reference, models, only)?;
+    checks.extend(further(&reference)?.into_iter().filter(|check| only.holds(&check.id)));
     if checks.is_empty() {
         return Err(ValidationError::NothingAsked(not_asked));
     }

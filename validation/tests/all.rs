@@ -4,6 +4,7 @@
 
 mod closed_forms;
 mod good_results;
+mod judged_results;
 mod lumped_from_fe;
 mod made_scenes;
 mod sweep;

@@ -12,6 +12,7 @@ pub(super) fn cells(check: &Check) -> [String; 4] {
     };
     let is_tiny = check.tolerance.absolute > 0.0 && check.tolerance.absolute < 1e-4;
     let number = |x: f64| match is_tiny && x != 0.0 {
+        _ if x.is_nan() => "none".to_owned(),
         true => format!("{x:.1e}"),
         false => format!("{x:.digits$}"),
     };

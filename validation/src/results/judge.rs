@@ -2,11 +2,14 @@
 
 use super::contradictions::Contradiction;
 use super::folder::ResultsFolder;
+use super::known_scenes::KnownScene;
+use crate::check::Check;
+use crate::compare::ListedMode;
 use crate::error::ValidationError;
 use crate::model_kind::ModelKind;
-use crate::reference::Miss;
+use crate::reference::{Miss, Reference};
 use crate::selection::Selection;
-use crate::suites::Models;
+use crate::suites::{Models, lumped_model};
 use crate::verdict::Verdict;
 
 /// Why results cannot be judged.
@@ -52,13 +55,46 @@ impl ResultsFolder {
             return Err(JudgeError::Contradictions(contradictions));
         }
         let tables = self.recorded();
+        let kind = self.kind(how.kind);
         let models = Models {
-            kind: Some(self.kind(how.kind)),
+            kind: Some(kind),
             // Empty tables answer nothing: suites are then listed with what they lack.
             modal: Some(&tables),
             at_rest: Some(&tables),
             in_time: Some(&tables),
         };
-        Ok(crate::judge_with(&models, &how.only, &how.accepted)?)
+        let beside = |reference: &Reference| self.beside_lumped_model(kind, reference);
+        Ok(crate::judge_with(&models, &how.only, &how.accepted, &beside)?)
+    }
+
+    /// Frequencies of lumped and torsional models beside this project's, of every scene that has lumped parameters.
+    fn beside_lumped_model(
+        &self,
+        kind: ModelKind,
+        reference: &Reference,
+    ) -> Result<Vec<Check>, ValidationError> {
+        let mut checks = Vec::new();
+        if !matches!(kind, ModelKind::Lumped | ModelKind::Torsional) {
+            return Ok(checks);
+        }
+        let is_torsional = kind == ModelKind::Torsional;
+        let mut scenes: Vec<&KnownScene> = self.modes.iter().map(|row| &*row.scene).collect();
+        scenes.sort_by_key(|known| &known.id);
+        scenes.dedup_by_key(|known| &known.id);
+        for KnownScene { id, scene } in scenes {
+            if scene.lumped.is_none() {
+                continue;
+            }
+            let rows = self.modes.iter().filter(|row| row.scene.id == *id);
+            let listed: Vec<ListedMode> = rows
+                .map(|row| ListedMode {
+                    frequency_hz: row.frequency_hz,
+                    mode_type: row.mode_type.clone().filter(|_| !is_torsional),
+                    multiplicity: Some(row.multiplicity).filter(|times| *times > 1),
+                })
+                .collect();
+            checks.extend(lumped_model::beside(id, scene, &listed, is_torsional, reference)?);
+        }
+        Ok(checks)
     }
 }

@@ -6,6 +6,7 @@ pub(crate) mod explained;
 pub(crate) mod fe;
 mod lab;
 mod lin_parker;
+pub(crate) mod lumped_model;
 pub(crate) mod mode_lists;
 mod rules;
 pub(crate) mod statements;
@@ -154,7 +155,7 @@ impl Askable {
 type Own = (&'static [&'static str], fn(&Lab<'_>) -> Checks);
 
 /// All suites in the order of the report.
-const OWN: [Own; 32] = [
+const OWN: [Own; 33] = [
     (&["table2.lumped", "table3.lumped"], own_lumped_tables),
     (&["table2.geometry_consistent", "table3.geometry_consistent"], own_geometry),
     (&["table3.explained"], |lab| own_modes(lab, "table3.explained", explained::controls)),
@@ -163,6 +164,7 @@ const OWN: [Own; 32] = [
     (&["table1"], table1::checks),
     (&["rules"], rules::checks),
     (&["structure"], own_structure),
+    (&["lumped_model"], lumped_model::checks),
     (&["fe.hertz"], fe::hertz::checks),
     (&["fe.convergence"], fe::convergence::checks),
     (&["fe.resolved"], fe::resolved::checks),
