@@ -7,6 +7,9 @@ use experiments::branches::BranchError;
 use miette::{GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteDiagnostic, NamedSource};
 use scene::{Fault, SceneError};
 
+/// What a verb returns.
+pub(crate) type Result<T, E = CommandError> = std::result::Result<T, E>;
+
 /// Why the command could not run (exit code 2).
 #[derive(Debug, thiserror::Error)]
 pub enum CommandError {
@@ -103,8 +106,8 @@ impl From<csv::Error> for CommandError {
 }
 
 /// The error for an argument whose value is not allowed.
-pub(crate) fn refused(argument: &'static str, reason: impl Into<String>) -> CommandError {
-    CommandError::Argument { argument, reason: reason.into() }
+pub(crate) fn refused(argument: &'static str, reason: impl ToString) -> CommandError {
+    CommandError::Argument { argument, reason: reason.to_string() }
 }
 
 /// The error for a valid scene that a verb cannot use.

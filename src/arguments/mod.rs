@@ -13,7 +13,7 @@ use validation::{ModelKind, Profile};
 
 pub(crate) use steady::{Branches, Model, Sweep};
 pub(crate) use values::DAMPING_FACTORS;
-use values::{elements, map, one_of, tolerance, two, whole};
+use values::{map, number, numbers, one_of, whole};
 
 /// Verification and benchmark suite for planetary gear dynamics (2-D, spur, single stage).
 #[derive(Debug, Parser)]
@@ -171,8 +171,8 @@ pub(crate) struct Static {
     pub solver: ContactSolver,
     /// Also draw figures into this folder (SVG, PNG): transmission_error, load_sharing, mesh_stiffness; of one mesh
     /// pressure, of several torques rms_against_torque. Not with --approach-um.
-    #[cfg(feature = "charts")]
-    #[arg(long, value_name = "DIR", conflicts_with = "approach_um")]
+    #[cfg_attr(feature = "charts", arg(long, value_name = "DIR", conflicts_with = "approach_um"))]
+    #[cfg_attr(not(feature = "charts"), arg(skip))]
     pub figures: Option<PathBuf>,
     /// Gear pair only: instead of loading the driving gear, rotate its race by this approach divided by its
     /// base radius, at one phase; µm.
@@ -186,7 +186,8 @@ pub(crate) struct Static {
     #[arg(long, value_name = "FILE", requires = "approach_um")]
     pub export_inp: Option<PathBuf>,
     /// Elements per half-width of the contact in that deck [default: 12].
-    #[arg(long, value_name = "N", value_parser = elements, requires = "export_inp")]
+    #[arg(long, value_name = "N", requires = "export_inp",
+          value_parser = number(1.0..=100.0, "a number from 1 to 100"))]
     pub export_per_half_width: Option<f64>,
     /// Elements along the other flanks in that deck [default: 12].
     #[arg(long, value_name = "N", requires = "export_inp",
@@ -242,14 +243,15 @@ pub(crate) struct Impulse {
     pub duration_ms: Option<f64>,
     /// Frequencies in which modes are identified, Hz; if left out, the lower half of the linearised modes and on
     /// to the next gap. Linearised modes outside the band are listed.
-    #[arg(long, value_name = "LOW:HIGH", value_parser = two, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LOW:HIGH", allow_negative_numbers = true,
+          value_parser = numbers::<2>("two frequencies as LOW:HIGH, in Hz"))]
     pub band_hz: Option<[f64; 2]>,
     /// Also linearise over the mesh cycle at half, once and one and a half times the torque.
     #[arg(long)]
     pub band: bool,
     /// Also draw figures into this folder (SVG, PNG): spectrum, stabilisation, mode_shapes; with --band also band.
-    #[cfg(feature = "charts")]
-    #[arg(long, value_name = "DIR")]
+    #[cfg_attr(feature = "charts", arg(long, value_name = "DIR"))]
+    #[cfg_attr(not(feature = "charts"), arg(skip))]
     pub figures: Option<PathBuf>,
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
@@ -340,7 +342,8 @@ pub(crate) struct Compare {
     #[arg(long)]
     pub scene: PathBuf,
     /// Largest difference that counts as agreement, percent.
-    #[arg(long, default_value_t = 1.0, value_parser = tolerance, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 1.0, allow_negative_numbers = true,
+          value_parser = number(f64::MIN_POSITIVE..=100.0, "a number above 0, at most 100"))]
     pub tolerance_percent: f64,
     /// Demand every mode of the model: without it, modes above the list's highest frequency may be absent.
     #[arg(long)]

@@ -8,7 +8,7 @@ use experiments::branches::BranchParameter;
 use experiments::sweep::SteadyMethod;
 
 use super::Format;
-use super::values::{damping_factor, one_of, over, range, small, span, whole};
+use super::values::{DAMPING_FACTORS, number, numbers, one_of, over, whole};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Model {
@@ -17,6 +17,9 @@ pub(crate) enum Model {
     /// Lumped, its mesh forces tabulated over deflection and phase by FE/contact.
     Lumped,
 }
+
+/// A range that `branches` takes.
+const SPAN: &str = "two numbers as FROM:TO";
 
 /// Both methods with their help.
 fn methods() -> impl TypedValueParser<Value = SteadyMethod> {
@@ -39,8 +42,8 @@ pub(crate) struct Sweep {
     /// Scene file of a whole set, or a sun–planet gear pair; its `[dynamics]` gives fidelity and steps per mesh cycle.
     pub scene: PathBuf,
     /// Speeds of the input member: first, last and step, rpm.
-    #[arg(long, value_name = "FROM:TO:STEP", default_value = "100:2500:25", value_parser = range,
-          allow_negative_numbers = true)]
+    #[arg(long, value_name = "FROM:TO:STEP", default_value = "100:2500:25", allow_negative_numbers = true,
+          value_parser = numbers::<3>("three numbers as FROM:TO:STEP, in rpm"))]
     pub speeds_rpm: [f64; 3],
     /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out.
     #[arg(long, value_name = "NM", allow_negative_numbers = true)]
@@ -71,7 +74,8 @@ pub(crate) struct Sweep {
     #[arg(long, default_value_t = 5, value_parser = whole::<1, 10>, allow_negative_numbers = true)]
     pub harmonics: u32,
     /// Largest change of a steady state from cycle to cycle, over its peak-to-peak vibration.
-    #[arg(long, default_value_t = 1e-9, value_parser = small, allow_negative_numbers = true)]
+    #[arg(long, default_value_t = 1e-9, allow_negative_numbers = true,
+          value_parser = number(1e-12..=0.1, "a number from 1e-12 to 0.1"))]
     pub tolerance: f64,
     /// Cycles after which a march is given up; the motion is then recorded as it is, flagged as not shown to attract.
     #[arg(long, default_value_t = 2000, value_parser = whole::<2, 1_000_000>, allow_negative_numbers = true)]
@@ -86,8 +90,8 @@ pub(crate) struct Sweep {
     pub out: Option<PathBuf>,
     /// Also draw figures into this folder (SVG, PNG): waterfalls, frequencies, harmonics_* of each quantity and,
     /// of a model with derivative, multipliers.
-    #[cfg(feature = "charts")]
-    #[arg(long, value_name = "DIR")]
+    #[cfg_attr(feature = "charts", arg(long, value_name = "DIR"))]
+    #[cfg_attr(not(feature = "charts"), arg(skip))]
     pub figures: Option<PathBuf>,
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
@@ -103,13 +107,13 @@ pub(crate) struct Branches {
     #[arg(long, value_name = "WHAT", default_value = "speed", value_parser = over)]
     pub over: BranchParameter,
     /// Least and greatest speed of the input member, rpm; with --over speed, which needs it.
-    #[arg(long, value_name = "FROM:TO", value_parser = span, allow_hyphen_values = true)]
+    #[arg(long, value_name = "FROM:TO", value_parser = numbers::<2>(SPAN), allow_hyphen_values = true)]
     pub speeds_rpm: Option<[f64; 2]>,
     /// Least and greatest torque on the sun, N·m, both of one sign; with --over torque, which needs it.
-    #[arg(long, value_name = "FROM:TO", value_parser = span, allow_hyphen_values = true)]
+    #[arg(long, value_name = "FROM:TO", value_parser = numbers::<2>(SPAN), allow_hyphen_values = true)]
     pub torques_nm: Option<[f64; 2]>,
     /// Least and greatest factor on every damping of the scene; with --over damping, which needs it.
-    #[arg(long, value_name = "FROM:TO", value_parser = span, allow_hyphen_values = true)]
+    #[arg(long, value_name = "FROM:TO", value_parser = numbers::<2>(SPAN), allow_hyphen_values = true)]
     pub damping_factors: Option<[f64; 2]>,
     /// Least value of the key, in its unit; with --over KEY, which needs it.
     #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
@@ -132,8 +136,8 @@ pub(crate) struct Branches {
     #[arg(long, value_enum, default_value_t = Model::FeContact)]
     pub model: Model,
     /// Factor on every damping of the scene; not with --over damping.
-    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = damping_factor,
-          allow_negative_numbers = true)]
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, allow_negative_numbers = true,
+          value_parser = number(DAMPING_FACTORS, "a number from 1e-6 to 100"))]
     pub damping_factor: f64,
     /// Also follow the branches that leave at period doublings and branch points.
     #[arg(long)]
@@ -148,8 +152,8 @@ pub(crate) struct Branches {
     pub out: Option<PathBuf>,
     /// Also draw the strongest motions of the sun into this folder (SVG, PNG), stable solid, unstable dashed:
     /// branch_sun_rotation, branch_sun_translation.
-    #[cfg(feature = "charts")]
-    #[arg(long, value_name = "DIR")]
+    #[cfg_attr(feature = "charts", arg(long, value_name = "DIR"))]
+    #[cfg_attr(not(feature = "charts"), arg(skip))]
     pub figures: Option<PathBuf>,
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,

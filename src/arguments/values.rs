@@ -1,5 +1,7 @@
 //! Values of the command line with their bounds.
 
+use std::ops::RangeInclusive;
+
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use experiments::branches::BranchParameter;
 use experiments::stability::{MAPS, Map};
@@ -25,10 +27,21 @@ pub(super) fn map() -> impl TypedValueParser<Value = &'static Map> {
     PossibleValuesParser::new(MAPS.map(value)).try_map(|name| Map::named(&name).ok_or("no map"))
 }
 
-pub(super) fn elements(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(x) if (1.0..=100.0).contains(&x) => Ok(x),
-        _ => Err("a number from 1 to 100".into()),
+/// A number within bounds, which `allowed` says.
+pub(super) fn number(
+    bounds: RangeInclusive<f64>,
+    allowed: &'static str,
+) -> impl Fn(&str) -> Result<f64, &'static str> + Clone {
+    move |text| text.parse().ok().filter(|x| bounds.contains(x)).ok_or(allowed)
+}
+
+/// So many numbers between colons, which `allowed` says.
+pub(super) fn numbers<const N: usize>(
+    allowed: &'static str,
+) -> impl Fn(&str) -> Result<[f64; N], &'static str> + Clone {
+    move |text| {
+        let parts: Result<Vec<f64>, _> = text.split(':').map(|part| part.trim().parse()).collect();
+        parts.ok().and_then(|parts| parts.try_into().ok()).ok_or(allowed)
     }
 }
 
@@ -40,42 +53,8 @@ pub(super) fn whole<const LOW: u32, const HIGH: u32>(text: &str) -> Result<u32, 
     }
 }
 
-pub(super) fn two(text: &str) -> Result<[f64; 2], String> {
-    let parts: Vec<Option<f64>> = text.split(':').map(|part| part.trim().parse().ok()).collect();
-    match parts[..] {
-        [Some(low), Some(high)] => Ok([low, high]),
-        _ => Err("two frequencies as LOW:HIGH, in Hz".into()),
-    }
-}
-
-pub(super) fn span(text: &str) -> Result<[f64; 2], String> {
-    two(text).map_err(|_| "two numbers as FROM:TO".into())
-}
-
-pub(super) fn range(text: &str) -> Result<[f64; 3], String> {
-    let parts: Vec<Option<f64>> = text.split(':').map(|part| part.trim().parse().ok()).collect();
-    match parts[..] {
-        [Some(from), Some(to), Some(step)] => Ok([from, to, step]),
-        _ => Err("three numbers as FROM:TO:STEP, in rpm".into()),
-    }
-}
-
-pub(super) fn small(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(x) if f64::is_finite(x) && (1e-12..=0.1).contains(&x) => Ok(x),
-        _ => Err("a number from 1e-12 to 0.1".into()),
-    }
-}
-
 /// Least and greatest factor on every damping of a scene: with a millionth of it a set is undamped for all purposes.
-pub(crate) const DAMPING_FACTORS: [f64; 2] = [1e-6, 100.0];
-
-pub(super) fn damping_factor(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(x) if (DAMPING_FACTORS[0]..=DAMPING_FACTORS[1]).contains(&x) => Ok(x),
-        _ => Err("a number from 1e-6 to 100".into()),
-    }
-}
+pub(crate) const DAMPING_FACTORS: RangeInclusive<f64> = 1e-6..=100.0;
 
 /// What is varied along a branch: a word, or the path of a scene key.
 pub(super) fn over(text: &str) -> Result<BranchParameter, String> {
@@ -87,12 +66,5 @@ pub(super) fn over(text: &str) -> Result<BranchParameter, String> {
             VariedKey::named(path).map(BranchParameter::Key).map_err(|e| e.to_string())
         }
         _ => Err("speed, torque, damping, or a scene key with its table".into()),
-    }
-}
-
-pub(super) fn tolerance(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(x) if f64::is_finite(x) && x > 0.0 && x <= 100.0 => Ok(x),
-        _ => Err("a number above 0, at most 100".into()),
     }
 }

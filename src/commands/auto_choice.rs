@@ -4,6 +4,8 @@ use std::io::Write;
 
 use experiments::auto::{AutoModel, Choice, SHARED_KEYS};
 
+use crate::error::{Result, refused};
+
 /// The quantity with its estimated error, the settings chosen and why, and what was passed over.
 pub(super) fn write(choice: &Choice, out: &mut dyn Write) -> std::io::Result<()> {
     let Choice { quantity, value, unit, tolerance_percent, estimated_error_percent, .. } = choice;
@@ -24,4 +26,16 @@ pub(super) fn write(choice: &Choice, out: &mut dyn Write) -> std::io::Result<()>
         writeln!(out, "passed over: {}: {}", other.settings, other.why)?;
     }
     Ok(())
+}
+
+/// Refuses the first of some arguments that is given although `auto` chooses what it says, or does without it; each
+/// has its name, whether it is given, and why it has no place.
+pub(super) fn refuse_given(arguments: &[(&'static str, bool, &str)]) -> Result<()> {
+    match arguments.iter().find(|(_, is_given, _)| *is_given) {
+        Some((argument, _, why)) => {
+            let reason = format!("`dynamics.fidelity` = \"auto\" {why}: leave it out");
+            Err(refused(argument, reason))
+        }
+        None => Ok(()),
+    }
 }

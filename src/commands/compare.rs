@@ -9,7 +9,7 @@ use validation::{Comparison, ListedMode, Match, ModelMode, compare};
 
 use super::modes::{self, PARAMETERS};
 use crate::arguments::Compare;
-use crate::error::{CommandError, unfit, unread};
+use crate::error::{CommandError, Result, unfit, unread};
 use crate::inputs::{needs, read_scene};
 use crate::output::{self, Notation, Report, Table};
 
@@ -18,7 +18,7 @@ const MOST_BYTES: u64 = 1_000_000;
 
 const TYPES: [&str; 4] = ["rotational", "translational", "planet", "mixed"];
 
-pub(crate) fn run(arguments: &Compare, out: &mut dyn Write) -> Result<bool, CommandError> {
+pub(crate) fn run(arguments: &Compare, out: &mut dyn Write) -> Result<bool> {
     let listed = read_modes(&arguments.modes)?;
     let scene = read_scene(&arguments.scene)?;
     match scene.has_closed_forms() {
@@ -66,8 +66,8 @@ fn table<'r>() -> Table<'r, &'r Match> {
         [] => "–".to_owned(),
         list => list.iter().map(|f| format!("{f:.2}")).collect::<Vec<_>>().join(", "),
     };
-    Table::new()
-        .column("model_hz", "", |m: &&Match| m.model_hz)
+    Table::<&Match>::new()
+        .column("model_hz", "", |m| m.model_hz)
         .shown("model Hz", Fixed(2))
         .column("model_type", "", |m| m.model_type.clone())
         .shown("type", Plain)
@@ -85,11 +85,11 @@ fn table<'r>() -> Table<'r, &'r Match> {
 }
 
 impl Report for CompareOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         table().csv(&self.result.matches, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         writeln!(out, "{}", self.against)?;
         let Comparison { matches, agreed, disagreed, beyond_list, .. } = &self.result;
         table().text(matches, out)?;
@@ -109,7 +109,7 @@ impl Report for CompareOutput {
 }
 
 /// Reads somebody's modes; the first fault of the table is reported with its line and column.
-fn read_modes(path: &Path) -> Result<Vec<ListedMode>, CommandError> {
+fn read_modes(path: &Path) -> Result<Vec<ListedMode>> {
     let bad = |reason: String| CommandError::Table { path: path.to_owned(), reason };
     let text = scene::read_text(path, MOST_BYTES).map_err(unread(path))?;
     let mut reader = csv::ReaderBuilder::new()

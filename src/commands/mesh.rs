@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::arguments::MeshVerb;
-use crate::error::{CommandError, fe_refused};
+use crate::error::{Result, fe_refused};
 #[cfg(feature = "charts")]
 use crate::folder::writable;
 use crate::folder::{folder, save};
@@ -66,15 +66,11 @@ struct TeethOutput {
     neighbour_share: f64,
 }
 
-pub(crate) fn run(
-    arguments: &MeshVerb,
-    out: &mut dyn Write,
-    err: &mut dyn Write,
-) -> Result<(), CommandError> {
+pub(crate) fn run(arguments: &MeshVerb, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let path = &arguments.scene;
     let scene = read_scene(path)?;
     needs::require(path, &scene, Verb::Mesh, |_| false)?;
-    needs::warn(&scene, err)?;
+    needs::warn(&scene, None, err)?;
     #[cfg(feature = "charts")]
     writable(arguments.svg.as_deref())?;
     folder("--vtu", arguments.vtu.as_deref())?;
@@ -82,7 +78,7 @@ pub(crate) fn run(
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let carrier = carrier(&scene, &bodies).transpose().map_err(fe_refused(path))?;
     drop(working);
-    let saved: Result<(), CommandError> = Ok(());
+    let saved: Result<()> = Ok(());
     #[cfg(feature = "charts")]
     let saved = arguments.svg.as_ref().map_or(saved, |file| {
         save(file, &crate::figures::meshes(&scene, &bodies, carrier.as_ref()).svg())
@@ -117,11 +113,7 @@ pub(crate) fn run(
 }
 
 /// One file for each body.
-fn write_vtu(
-    gears: &[&GearBody],
-    carrier: Option<&CarrierBody>,
-    folder: &Path,
-) -> Result<(), CommandError> {
+fn write_vtu(gears: &[&GearBody], carrier: Option<&CarrierBody>, folder: &Path) -> Result<()> {
     for body in gears {
         save(&folder.join(format!("{}.vtu", body.mesh.name)), &vtu(&Drawn::gear(&body.mesh)))?;
     }
@@ -174,11 +166,10 @@ fn gear(body: &GearBody, bodies: &Bodies, lumped: Option<&LumpedInput>) -> BodyO
 
 fn table<'r>() -> Table<'r, &'r BodyOutput> {
     use Notation::{Fixed, Plain, Power};
-    type Body<'r> = &'r BodyOutput;
-    let teeth = |value: fn(&TeethOutput) -> f64| move |b: &Body<'_>| b.teeth.as_ref().map(value);
+    let teeth = |value: fn(&TeethOutput) -> f64| move |b: &&BodyOutput| b.teeth.as_ref().map(value);
     let excess = |given: Option<f64>, meshed: f64| Some(100.0 * (meshed / given? - 1.0));
-    Table::new()
-        .column("body", "", |b: &Body<'_>| &b.body)
+    Table::<&BodyOutput>::new()
+        .column("body", "", |b| &b.body)
         .shown("body", Plain)
         .key()
         .column("elements", "number of finite elements", |b| b.elements)
@@ -191,9 +182,7 @@ fn table<'r>() -> Table<'r, &'r BodyOutput> {
         .shown("mass kg", Fixed(4))
         .column("lumped_mass_kg", "the scene's value in [lumped], kg", |b| b.lumped_mass_kg)
         .shown("lumped kg", Power(4))
-        .words("above %", Notation::Signed(1), move |b: &Body<'_>| {
-            excess(b.lumped_mass_kg, b.mass_kg)
-        })
+        .words("above %", Notation::Signed(1), move |b| excess(b.lumped_mass_kg, b.mass_kg))
         .meaning("by how much the mesh's value is above that in [lumped]")
         .column(
             "polar_inertia_kg_m2",
@@ -205,7 +194,7 @@ fn table<'r>() -> Table<'r, &'r BodyOutput> {
             b.lumped_inertia_kg_m2
         })
         .shown("lumped kg m²", Power(4))
-        .words("above %", Notation::Signed(1), move |b: &Body<'_>| {
+        .words("above %", Notation::Signed(1), move |b| {
             excess(b.lumped_inertia_kg_m2, b.polar_inertia_kg_m2)
         })
         .column(
@@ -255,11 +244,11 @@ fn table<'r>() -> Table<'r, &'r BodyOutput> {
 }
 
 impl Report for MeshOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         table().csv(&self.bodies, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         writeln!(out, "{}", self.title)?;
         table().text(&self.bodies, out)?;
         Ok(table().legend(out)?)

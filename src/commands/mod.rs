@@ -24,7 +24,7 @@ use std::io::Write;
 use clap::Parser;
 
 use crate::arguments::{Arguments, Verb};
-use crate::error::CommandError;
+use crate::error::Result;
 
 /// Runs the command: results to `out`, everything else to `err`. Returns the exit code: 0 ran and
 /// every check passed, 1 ran and a check failed, 2 bad input.
@@ -59,7 +59,7 @@ fn dispatch(
     arguments: Arguments,
     out: &mut dyn Write,
     err: &mut (dyn Write + Send),
-) -> Result<bool, CommandError> {
+) -> Result<bool> {
     match arguments.verb {
         Verb::Validate(arguments) => validate::run(&arguments, out, err),
         Verb::Modes(arguments) => modes::run(&arguments, out, err).map(|()| true),

@@ -2,18 +2,16 @@
 
 use std::io::Write;
 
-use gearset::{
-    DiametricalRule, ExcitationStrengths, Spacing, Table4, diametrical_rule, excitation, table4,
-};
+use gearset::{ExcitationStrengths, Spacing, Table4, diametrical_rule, excitation, table4};
 use scene::SceneKind;
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::scene::degrees;
 use crate::arguments::Rules;
-use crate::error::{CommandError, unfit};
+use crate::error::{Result, unfit};
 use crate::inputs::read_scene;
-use crate::output::{self, Notation, Report, Table};
+use crate::output::{self, Notation, Report, Table, word};
 
 /// `rules --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -48,7 +46,7 @@ struct HarmonicRule {
 
 const ASSUMPTION: &str = "all planets carry the same mesh force, each at its own phase";
 
-pub(crate) fn run(arguments: &Rules, out: &mut dyn Write) -> Result<(), CommandError> {
+pub(crate) fn run(arguments: &Rules, out: &mut dyn Write) -> Result<()> {
     let scene = read_scene(&arguments.scene)?;
     let path = &arguments.scene;
     if scene.kind != SceneKind::Planetary {
@@ -77,8 +75,8 @@ pub(crate) fn run(arguments: &Rules, out: &mut dyn Write) -> Result<(), CommandE
 
 fn table<'r>() -> Table<'r, &'r HarmonicRule> {
     use Notation::{Plain, Share};
-    Table::new()
-        .column("harmonic", "", |h: &&HarmonicRule| h.harmonic)
+    Table::<&HarmonicRule>::new()
+        .column("harmonic", "", |h| h.harmonic)
         .shown("l", Plain)
         .column("k", "", |h| h.k.map(|k| k as i64))
         .shown("k", Plain)
@@ -96,11 +94,11 @@ fn table<'r>() -> Table<'r, &'r HarmonicRule> {
 }
 
 impl Report for RulesOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         table().csv(&self.harmonics, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         writeln!(out, "{}", self.heading)?;
         table().text(&self.harmonics, out)?;
         writeln!(out, "strengths from 0 (cancels) to 1 (all planets in step); {ASSUMPTION}")?;
@@ -125,25 +123,14 @@ fn rule(spacing: &Spacing, sun_teeth: u32, harmonic: u32) -> HarmonicRule {
     let excites = kinds.iter().filter(|k| k.1).map(|k| k.0.to_owned()).collect();
     let planets = spacing.planets() as u32;
     let is_equal = spacing.is_equal();
+    let spoken = |rule: String| rule.replace('_', " ");
     let printed_rule = if is_equal {
-        table4(planets, sun_teeth, harmonic).map(|rule| {
-            match rule {
-                Table4::RotationalOnly => "rotational only",
-                Table4::TranslationalOnly => "translational only",
-                Table4::Neither => "neither rotational nor translational",
-            }
-            .to_owned()
+        table4(planets, sun_teeth, harmonic).map(|rule| match rule {
+            Table4::Neither => "neither rotational nor translational".to_owned(),
+            other => spoken(word(&other)),
         })
-    } else if spacing.is_diametrical() {
-        Some(
-            match diametrical_rule(sun_teeth, harmonic) {
-                DiametricalRule::TranslationalForbidden => "translational forbidden",
-                DiametricalRule::RotationalForbidden => "rotational forbidden",
-            }
-            .to_owned(),
-        )
     } else {
-        None
+        spacing.is_diametrical().then(|| spoken(word(&diametrical_rule(sun_teeth, harmonic))))
     };
     HarmonicRule {
         harmonic,

@@ -1,11 +1,13 @@
-//! What `sweep` and `branches` share: the model that turns, and the strongest motion of the sun in their tables.
+//! What `sweep` and `branches` share: the model that turns, and columns of their tables.
 
-use experiments::sweep::{FeModel, MeshLawModel, Response, SteadyState, SweepModel};
+use experiments::sweep::{
+    FeModel, LUMPED, Line, MeshLawModel, Response, SteadyState, SweepModel, fidelity_name,
+};
 use fe_contact::statics::{Bodies, Imperfections};
 use scene::{Fidelity, LoadCase, Scene};
 
 use crate::arguments::Model;
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::output::{Notation, Table};
 
 /// The model asked for, at the fidelity of the scene.
@@ -17,7 +19,7 @@ pub(super) fn model<'a>(
     scene: &'a Scene,
     bodies: &'a Bodies,
     case: LoadCase,
-) -> Result<Box<dyn SweepModel + 'a>, CommandError> {
+) -> Result<Box<dyn SweepModel + 'a>> {
     Ok(match (asked, scene.dynamics.fidelity) {
         (Model::FeContact, Fidelity::MeshLaw) => Box::new(MeshLawModel::new(scene, bodies, case)?),
         (Model::FeContact, _) => {
@@ -25,6 +27,22 @@ pub(super) fn model<'a>(
         }
         (Model::Lumped, _) => Box::new(MeshLawModel::new(scene, bodies, case)?.lumped()),
     })
+}
+
+/// The fidelity whose keys of the scene the model needs: the lumped one takes its mesh forces from quasi-static bodies.
+pub(super) fn fidelity(asked: Model, scene: &Scene) -> Fidelity {
+    match asked {
+        Model::FeContact => scene.dynamics.fidelity,
+        Model::Lumped => Fidelity::QuasiStatic,
+    }
+}
+
+/// What results call the model.
+pub(super) fn name(asked: Model, scene: &Scene) -> String {
+    match asked {
+        Model::FeContact => fidelity_name(scene.dynamics.fidelity),
+        Model::Lumped => LUMPED.into(),
+    }
 }
 
 /// Adds the strongest harmonics of the rotation and of the translation of the sun, or of the member that turns where it
@@ -55,3 +73,39 @@ pub(super) fn with_strongest<'t, R: 't>(
             (amplitude > 1e-12).then_some(harmonic)
         })
 }
+
+/// Adds what files hold of one harmonic of a quantity; a row of text has none.
+pub(super) fn with_harmonic<'t, R: 't>(
+    table: Table<'t, R>,
+    line: impl Fn(&R) -> Option<&Line> + Copy + 't,
+) -> Table<'t, R> {
+    table
+        .column("body", "carrier, ring, sun, planet_n, sun_mesh_n, ring_mesh_n", move |r: &R| {
+            line(r).map(|l| l.part.name())
+        })
+        .column("coordinate", COORDINATE, move |r| line(r).map(|l| l.coordinate.name()))
+        .column(
+            "harmonic",
+            "harmonic of the mesh frequency; 0 is the mean, and stands beside quantities \
+             without harmonics",
+            move |r| line(r).map(|l| l.harmonic),
+        )
+        .column("amplitude", "amplitude in the unit of the next column", move |r| {
+            line(r).map(|l| l.amplitude)
+        })
+        .column("unit", "unit", move |r| line(r).map(|l| l.coordinate.unit()))
+        .column(
+            "phase_rad",
+            "phase of A cos(2 pi l f_m t + phase), t from position 0, rad; 0 for \
+             quantities without phase",
+            move |r| line(r).map(|l| l.phase_rad),
+        )
+}
+
+/// What the column of coordinates holds.
+const COORDINATE: &str = "radial, tangential (m; central bodies: towards planet 0), rotation (rad), \
+             translation (m; square root of the sum of the squared amplitudes of radial \
+             and tangential), force (N); with harmonic 0 alone: share (largest load share \
+             of the mesh), contact_loss (part of the time without force), \
+             backside_contact (part of the time in which backside flanks press), \
+             lowest_force (N)";

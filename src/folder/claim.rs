@@ -9,7 +9,7 @@ use scene::read_text;
 
 use super::kept_files::MOST_BYTES;
 use super::manifest::{Manifest, PLAN, RunKind};
-use crate::error::{CommandError, refused, unread, unwritten};
+use crate::error::{CommandError, Result, refused, unread, unwritten};
 
 /// How often a lock is tried whose file its holder removes at that moment.
 const ATTEMPTS: usize = 10;
@@ -31,8 +31,8 @@ impl Claim {
     pub(crate) fn of(
         folder: &Path,
         wanted: &Manifest,
-        further: impl Fn(&Path) -> Result<(), CommandError>,
-    ) -> Result<Self, CommandError> {
+        further: impl Fn(&Path) -> Result<()>,
+    ) -> Result<Self> {
         let inspect = || inspect(folder, wanted).and_then(|()| further(folder));
         inspect()?;
         fs::create_dir_all(folder).map_err(unwritten(folder))?;
@@ -51,7 +51,7 @@ impl Drop for Claim {
 }
 
 /// Locks a file and writes the number of this process into it.
-fn lock(path: &Path, kind: &RunKind) -> Result<Claim, CommandError> {
+fn lock(path: &Path, kind: &RunKind) -> Result<Claim> {
     let failed = unwritten(path);
     let busy = || {
         let holder = fs::read_to_string(path).unwrap_or_default();
@@ -90,7 +90,7 @@ fn lock(path: &Path, kind: &RunKind) -> Result<Claim, CommandError> {
 }
 
 /// Refuses a folder that is none, or whose contents are not those of this run.
-fn inspect(folder: &Path, wanted: &Manifest) -> Result<(), CommandError> {
+fn inspect(folder: &Path, wanted: &Manifest) -> Result<()> {
     match fs::metadata(folder) {
         Ok(found) if !found.is_dir() => {
             let path = folder.display();
@@ -120,7 +120,7 @@ fn inspect(folder: &Path, wanted: &Manifest) -> Result<(), CommandError> {
 }
 
 /// Refuses a folder without manifest in which something is that the run would write.
-fn refuse_foreign(folder: &Path, kind: &RunKind) -> Result<(), CommandError> {
+fn refuse_foreign(folder: &Path, kind: &RunKind) -> Result<()> {
     for name in kind.results.iter().chain(kind.others).chain([&kind.parts]) {
         let path = folder.join(name);
         if fs::symlink_metadata(&path).is_ok() {

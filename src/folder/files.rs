@@ -4,7 +4,9 @@ use std::fs::{self, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::error::{CommandError, refused, unwritten};
+use crate::error::{Result, refused, unwritten};
+#[cfg(feature = "charts")]
+use crate::figures::{self, Figure};
 use crate::output::{self, Report};
 
 /// The folder of `--out`, if it is given, which receives a result as `NAME.json`, its table as `NAME.csv`, and its
@@ -16,7 +18,7 @@ pub(crate) struct ResultFiles<'f> {
 
 impl<'f> ResultFiles<'f> {
     /// Refuses what cannot be written, before the work whose results it is to hold.
-    pub(crate) fn new(folder: Option<&'f Path>, name: &'f str) -> Result<Self, CommandError> {
+    pub(crate) fn new(folder: Option<&'f Path>, name: &'f str) -> Result<Self> {
         self::folder("--out", folder)?;
         let own = Self { folder, name };
         for ending in ["json", "csv"] {
@@ -29,28 +31,27 @@ impl<'f> ResultFiles<'f> {
         Some(self.folder?.join(format!("{}.{ending}", self.name)))
     }
 
-    /// Writes the result and its table; `figure` draws into the folder.
-    pub(crate) fn save(
-        &self,
-        result: &impl Report,
-        figure: impl FnOnce(&Path) -> Result<(), CommandError>,
-    ) -> Result<(), CommandError> {
-        let (Some(folder), Some(json_file), Some(csv_file)) =
-            (self.folder, self.file("json"), self.file("csv"))
-        else {
+    /// Writes the result and its table.
+    pub(crate) fn save(&self, result: &impl Report) -> Result<()> {
+        let (Some(json_file), Some(csv_file)) = (self.file("json"), self.file("csv")) else {
             return Ok(());
         };
         let [mut json, mut table] = [Vec::new(), Vec::new()];
         output::json(&mut json, result)?;
         result.csv(&mut table)?;
         save(&json_file, &String::from_utf8_lossy(&json))?;
-        save(&csv_file, &String::from_utf8_lossy(&table))?;
-        figure(folder)
+        save(&csv_file, &String::from_utf8_lossy(&table))
+    }
+
+    /// Draws the figure.
+    #[cfg(feature = "charts")]
+    pub(crate) fn draw(&self, figure: impl FnOnce() -> Figure) -> Result<()> {
+        self.folder.map_or(Ok(()), |folder| Ok(figures::save(&[figure()], folder)?))
     }
 }
 
 /// Writes a file, creating its folder if need be.
-pub(crate) fn save(path: &Path, text: &str) -> Result<(), CommandError> {
+pub(crate) fn save(path: &Path, text: &str) -> Result<()> {
     if let Some(folder) = folder_of(path) {
         fs::create_dir_all(folder).map_err(unwritten(path))?;
     }
@@ -60,7 +61,7 @@ pub(crate) fn save(path: &Path, text: &str) -> Result<(), CommandError> {
 /// Refuses a file that cannot be written, before the work whose results it is to hold: a folder in its place, a file in
 /// place of its folder, which is made if need be, or what the user may not write. A file that is there is left as it
 /// is.
-pub(crate) fn writable(path: Option<&Path>) -> Result<(), CommandError> {
+pub(crate) fn writable(path: Option<&Path>) -> Result<()> {
     let Some(path) = path else { return Ok(()) };
     if path.is_dir() {
         return Err(unwritten(path)(io::ErrorKind::IsADirectory.into()));
@@ -72,7 +73,7 @@ pub(crate) fn writable(path: Option<&Path>) -> Result<(), CommandError> {
 }
 
 /// Refuses a folder that cannot be made or written into, before the work whose results it is to hold.
-pub(crate) fn folder(argument: &'static str, path: Option<&Path>) -> Result<(), CommandError> {
+pub(crate) fn folder(argument: &'static str, path: Option<&Path>) -> Result<()> {
     let Some(path) = path else { return Ok(()) };
     if path.exists() && !path.is_dir() {
         let reason = format!("`{}` is a file: allowed is a folder", path.display());

@@ -12,7 +12,7 @@ use serde::de::DeserializeOwned;
 
 use super::claim::other_results;
 use super::manifest::Manifest;
-use crate::error::{CommandError, unread, unwritten};
+use crate::error::{Result, unread, unwritten};
 
 /// Longest manifest or part that is read, bytes: some million numbers, as the state of full bodies has, fit several
 /// times.
@@ -38,7 +38,7 @@ impl KeptFiles {
     ///
     /// # Errors
     /// If the folder holds the manifest of something else, or cannot be read or written.
-    pub(crate) fn open(folder: &Path, name: &str, wanted: &Manifest) -> Result<Self, CommandError> {
+    pub(crate) fn open(folder: &Path, name: &str, wanted: &Manifest) -> Result<Self> {
         let path = folder.join(name);
         match read_text(&path, MOST_BYTES) {
             Ok(text) => {
@@ -144,7 +144,7 @@ impl BranchStore for KeptFiles {
 pub(crate) fn write_results(
     folder: &Path,
     results: impl IntoIterator<Item = (&'static str, Vec<u8>)>,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     results.into_iter().try_for_each(|(name, bytes)| {
         let path = folder.join(name);
         write_whole(&path, &bytes).map_err(unwritten(&path))

@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::error::CommandError;
+use crate::error::Result;
 
 /// Name of the manifest in a folder.
 pub(crate) const PLAN: &str = "plan.json";
@@ -66,7 +66,7 @@ impl Manifest {
         kind: &'static RunKind,
         (scene, fidelity, sun_torque_nm): (&str, &str, f64),
         settings: &S,
-    ) -> Result<Self, CommandError> {
+    ) -> Result<Self> {
         let (format, version) = (kind.format, env!("CARGO_PKG_VERSION"));
         let subject = Subject { format, version, scene, fidelity, sun_torque_nm, settings };
         let text = serde_json::to_string_pretty(&subject)?;

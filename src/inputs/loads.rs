@@ -6,7 +6,7 @@ use std::path::Path;
 
 use scene::{LoadCase, LoadSize, Scene};
 
-use crate::error::{CommandError, refused, unfit};
+use crate::error::{Result, refused, unfit};
 
 /// Torque on the sun, N·m: that of `--sun-torque-nm`, or the operating point's; neither 0.
 pub(crate) fn sun_torque(
@@ -14,7 +14,7 @@ pub(crate) fn sun_torque(
     path: &Path,
     scene: &Scene,
     err: &mut dyn Write,
-) -> Result<f64, CommandError> {
+) -> Result<f64> {
     let Some(torque) = asked else {
         let torque = operating_torque(path, scene)?;
         // A scene with more than the linear theory can bear is refused when it is read, and one that comes near it
@@ -41,17 +41,13 @@ pub(crate) fn torque_range(
     ends: [f64; 2],
     scene: &Scene,
     err: &mut dyn Write,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     ends.into_iter()
         .try_for_each(|end| sized(argument, end, "N·m", scene.size_of_sun_torque(end), err))
 }
 
 /// Normal force of a gear pair, N.
-pub(crate) fn normal_force(
-    asked: Option<f64>,
-    scene: &Scene,
-    err: &mut dyn Write,
-) -> Result<f64, CommandError> {
+pub(crate) fn normal_force(asked: Option<f64>, scene: &Scene, err: &mut dyn Write) -> Result<f64> {
     let Some(force) = asked else {
         let name = &scene.title;
         let reason = format!("is absent: `{name}` is a gear pair, loaded by a normal force in N");
@@ -66,11 +62,7 @@ pub(crate) fn normal_force(
 }
 
 /// Approach of a gear pair, µm.
-pub(crate) fn approach(
-    asked_um: f64,
-    scene: &Scene,
-    err: &mut dyn Write,
-) -> Result<f64, CommandError> {
+pub(crate) fn approach(asked_um: f64, scene: &Scene, err: &mut dyn Write) -> Result<f64> {
     if !(asked_um.is_finite() && asked_um > 0.0) {
         let reason = format!("{asked_um}: allowed is a finite approach above 0 µm");
         return Err(refused("--approach-um", reason));
@@ -87,7 +79,7 @@ fn sized(
     unit: &str,
     size: Option<LoadSize>,
     err: &mut dyn Write,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     let Some(size) = size else { return Ok(()) };
     if let Some(reason) = size.refusal(load, unit) {
         return Err(refused(argument, reason));
@@ -100,7 +92,7 @@ fn sized(
 }
 
 /// Torque on the sun at the operating point, other than 0.
-fn operating_torque(path: &Path, scene: &Scene) -> Result<f64, CommandError> {
+fn operating_torque(path: &Path, scene: &Scene) -> Result<f64> {
     let torque = LoadCase::of_scene(scene).ok().map(|case| case.sun_torque_nm);
     torque.filter(|t| *t != 0.0).ok_or_else(|| {
         let reason =

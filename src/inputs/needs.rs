@@ -6,7 +6,7 @@ use std::path::Path;
 use experiments::sweep::SteadySettings;
 use scene::{Scene, Verb};
 
-use crate::error::{CommandError, unfit};
+use crate::error::{Result, unfit};
 
 /// Refuses a scene that lacks what the verb needs; `is_given` says whether an argument stands in for a key.
 pub(crate) fn require(
@@ -14,7 +14,7 @@ pub(crate) fn require(
     scene: &Scene,
     verb: Verb,
     is_given: impl Fn(&str) -> bool,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     let lacks = scene.lacks(verb);
     let mut open = lacks.iter().filter(|lack| !lack.argument.is_some_and(&is_given)).peekable();
     if open.peek().is_none() {
@@ -25,7 +25,7 @@ pub(crate) fn require(
 }
 
 /// Refuses a ring–planet pair, of which only statics are computed.
-pub(crate) fn not_ring_pair(path: &Path, scene: &Scene) -> Result<(), CommandError> {
+pub(crate) fn not_ring_pair(path: &Path, scene: &Scene) -> Result<()> {
     let lacks = scene.lacks(Verb::Modes);
     match lacks.iter().find(|lack| lack.key == "mesh") {
         Some(lack) => Err(unfit(path, format!("`{}`: {}", lack.key, lack.why))),
@@ -33,18 +33,7 @@ pub(crate) fn not_ring_pair(path: &Path, scene: &Scene) -> Result<(), CommandErr
     }
 }
 
-/// Writes a scene's warnings, one a line.
-///
-/// # Errors
-/// If they cannot be written.
-pub(crate) fn warn(scene: &Scene, err: &mut dyn Write) -> std::io::Result<()> {
-    scene::warnings(scene).iter().try_for_each(|warning| writeln!(err, "warning: {warning}"))
-}
-
 /// Writes what to know of harmonics that few steps resolve.
-///
-/// # Errors
-/// If it cannot be written.
 pub(crate) fn caution(
     settings: &SteadySettings,
     steps: usize,
@@ -53,22 +42,19 @@ pub(crate) fn caution(
     settings.caution(steps).map_or(Ok(()), |words| writeln!(err, "warning: {words}"))
 }
 
-/// Refuses a folder of figures that cannot be made, and warns of characters in the title that figures cannot show.
-///
-/// # Errors
-/// [`CommandError`] for the folder, or if the warning cannot be written.
-#[cfg(feature = "charts")]
-pub(crate) fn figures(
-    scene: &Scene,
-    figures: Option<&Path>,
-    err: &mut dyn Write,
-) -> Result<(), CommandError> {
+/// Writes a scene's warnings, one a line. Refuses a folder of figures that cannot be made, and warns of characters in
+/// the title that figures cannot show.
+pub(crate) fn warn(scene: &Scene, figures: Option<&Path>, err: &mut dyn Write) -> Result<()> {
+    scene::warnings(scene).iter().try_for_each(|warning| writeln!(err, "warning: {warning}"))?;
     crate::folder::folder("--figures", figures)?;
-    let lacking: Vec<String> =
-        crate::figures::lacking(&scene.title).into_iter().map(String::from).collect();
+    #[cfg(feature = "charts")]
+    let lacking = crate::figures::lacking(&scene.title);
+    #[cfg(not(feature = "charts"))]
+    let lacking: Vec<char> = Vec::new();
     if figures.is_none() || lacking.is_empty() {
         return Ok(());
     }
+    let lacking: Vec<String> = lacking.into_iter().map(String::from).collect();
     Ok(writeln!(
         err,
         "warning: `title` has characters that the font of PNG figures lacks ({}): `?` stands for them there, and the SVG \

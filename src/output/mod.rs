@@ -15,23 +15,19 @@ use std::io::Write;
 use serde::Serialize;
 
 use crate::arguments::Format;
-use crate::error::CommandError;
+use crate::error::Result;
 
 /// A result of a verb. Its JSON is that of `Serialize`.
 pub(crate) trait Report: Serialize {
     /// Text for people.
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError>;
+    fn text(&self, out: &mut dyn Write) -> Result<()>;
 
     /// Its table, for programs.
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError>;
+    fn csv(&self, out: &mut dyn Write) -> Result<()>;
 }
 
 /// Writes a result in the format asked for.
-pub(crate) fn show(
-    format: Format,
-    report: &impl Report,
-    out: &mut dyn Write,
-) -> Result<(), CommandError> {
+pub(crate) fn show(format: Format, report: &impl Report, out: &mut dyn Write) -> Result<()> {
     match format {
         Format::Json => json(out, report),
         Format::Csv => report.csv(out),
@@ -44,8 +40,14 @@ pub(crate) fn show(
 }
 
 /// Writes a value as indented JSON and a newline.
-pub(crate) fn json(out: &mut dyn Write, value: &impl Serialize) -> Result<(), CommandError> {
+pub(crate) fn json(out: &mut dyn Write, value: &impl Serialize) -> Result<()> {
     serde_json::to_writer_pretty(&mut *out, value)?;
     writeln!(out)?;
     Ok(())
+}
+
+/// The word by which JSON names a variant without data; empty for anything else.
+pub(crate) fn word(variant: &impl Serialize) -> String {
+    let value = serde_json::to_value(variant).unwrap_or_default();
+    value.as_str().unwrap_or_default().to_owned()
 }

@@ -13,9 +13,6 @@ use super::table::Table;
 
 impl<R> Table<'_, R> {
     /// Rows as one row group of a message `name`; every field is optional.
-    ///
-    /// # Errors
-    /// [`ParquetError`] of the writer.
     pub(crate) fn parquet(&self, name: &str, rows: &[R]) -> Result<Vec<u8>, ParquetError> {
         let kind = |kind| match kind {
             Kind::Words => ("BYTE_ARRAY", " (UTF8)"),
@@ -36,39 +33,21 @@ impl<R> Table<'_, R> {
             let cells: Vec<Cell> = rows.iter().map(|row| (column.cell)(row)).collect();
             let present: Vec<i16> = cells.iter().map(|c| (*c != Cell::Nothing).into()).collect();
             let levels = Some(present.as_slice());
+            let (mut words, mut numbers, mut counts, mut flags) = (vec![], vec![], vec![], vec![]);
+            for cell in &cells {
+                match cell {
+                    Cell::Words(text) => words.push(ByteArray::from(text.as_str())),
+                    Cell::Number(x) => numbers.push(*x),
+                    Cell::Count(n) => counts.push(*n),
+                    Cell::Flag(is) => flags.push(*is),
+                    Cell::Nothing => {}
+                }
+            }
             match target.untyped() {
-                ColumnWriter::ByteArrayColumnWriter(target) => {
-                    let words = |cell: &Cell| match cell {
-                        Cell::Words(text) => Some(ByteArray::from(text.as_str())),
-                        _ => None,
-                    };
-                    let values: Vec<_> = cells.iter().filter_map(words).collect();
-                    target.write_batch(&values, levels, None)?
-                }
-                ColumnWriter::DoubleColumnWriter(target) => {
-                    let number = |cell: &Cell| match cell {
-                        Cell::Number(x) => Some(*x),
-                        _ => None,
-                    };
-                    let values: Vec<_> = cells.iter().filter_map(number).collect();
-                    target.write_batch(&values, levels, None)?
-                }
-                ColumnWriter::Int64ColumnWriter(target) => {
-                    let count = |cell: &Cell| match cell {
-                        Cell::Count(n) => Some(*n),
-                        _ => None,
-                    };
-                    let values: Vec<_> = cells.iter().filter_map(count).collect();
-                    target.write_batch(&values, levels, None)?
-                }
-                ColumnWriter::BoolColumnWriter(target) => {
-                    let flag = |cell: &Cell| match cell {
-                        Cell::Flag(is) => Some(*is),
-                        _ => None,
-                    };
-                    let values: Vec<_> = cells.iter().filter_map(flag).collect();
-                    target.write_batch(&values, levels, None)?
-                }
+                ColumnWriter::ByteArrayColumnWriter(to) => to.write_batch(&words, levels, None)?,
+                ColumnWriter::DoubleColumnWriter(to) => to.write_batch(&numbers, levels, None)?,
+                ColumnWriter::Int64ColumnWriter(to) => to.write_batch(&counts, levels, None)?,
+                ColumnWriter::BoolColumnWriter(to) => to.write_batch(&flags, levels, None)?,
                 _ => return Err(ParquetError::General("a column of another type".into())),
             };
             target.close()?;

@@ -6,7 +6,7 @@ use comfy_table::{CellAlignment, LineStyle, TableStyle};
 
 use super::column::{Cell, Column, Kind, Look, Notation, Shown, Value};
 use super::wrapped::WIDTH;
-use crate::error::CommandError;
+use crate::error::Result;
 
 /// A rule under the header, one at the end, nothing else.
 const RULED: TableStyle = TableStyle::new()
@@ -164,11 +164,7 @@ impl<'t, R> Table<'t, R> {
     }
 
     /// Writes rows as CSV: numbers in the shortest form that reads as the same number.
-    pub(crate) fn csv(
-        &self,
-        rows: impl IntoIterator<Item = R>,
-        out: &mut dyn Write,
-    ) -> Result<(), CommandError> {
+    pub(crate) fn csv(&self, rows: impl IntoIterator<Item = R>, out: &mut dyn Write) -> Result<()> {
         let mut writer = csv::Writer::from_writer(out);
         writer.write_record(self.named().map(|(name, _)| name))?;
         for row in rows {

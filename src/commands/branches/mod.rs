@@ -1,4 +1,4 @@
-//! `branches SCENE`: periodic motions over speed, torque, damping or a number of the scene, stable or not.
+//! `branches &scene`: periodic motions over speed, torque, damping or a number of the scene, stable or not.
 
 mod result;
 
@@ -11,15 +11,15 @@ use experiments::branches::{
     BranchError, BranchParameter, BranchSettings, BranchStore, Search, branches_kept, finished,
 };
 use experiments::sweep::{
-    KeyedModel, LUMPED, Memory, SteadySettings, SweepError, SweepModel, fidelity_name, steps_needed,
+    KeyedModel, Memory, SteadySettings, SweepError, SweepModel, steps_needed,
 };
 use fe_contact::statics::Bodies;
-use scene::{Fidelity, LoadCase, Scene, Verb};
+use scene::{LoadCase, Scene, Verb};
 use serde::Serialize;
 
 use super::turning;
 use crate::arguments::{Branches, DAMPING_FACTORS, Model};
-use crate::error::{CommandError, fe_refused, refused, unfit};
+use crate::error::{CommandError, Result, fe_refused, refused, unfit};
 use crate::folder::{Claim, KeptFiles, Manifest, PLAN, RunKind, write_results};
 use crate::inputs::{Working, loads, needs, read_scene, scene_text};
 use crate::output::{self, Report};
@@ -61,28 +61,8 @@ struct Kept<'s> {
     search: Search,
 }
 
-impl Kept<'_> {
-    /// Takes a folder for these branches: the claim must be held as long as the store is used.
-    ///
-    /// # Errors
-    /// If the folder is of something else or cannot be written.
-    fn open(
-        &self,
-        folder: &Path,
-        subject: (&str, &str, f64),
-    ) -> Result<(Claim, KeptFiles), CommandError> {
-        let manifest = Manifest::new(&BRANCHES, subject, self)?;
-        let claim = Claim::of(folder, &manifest, |_| Ok(()))?;
-        Ok((claim, KeptFiles::open(folder, PLAN, &manifest)?))
-    }
-}
-
 /// Follows the branch: results to `out`, warnings to `err`.
-pub(super) fn run(
-    arguments: &Branches,
-    out: &mut dyn Write,
-    err: &mut dyn Write,
-) -> Result<(), CommandError> {
+pub(super) fn run(arguments: &Branches, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let path = &arguments.scene;
     let mut scene = read_scene(path)?;
     let settings = settings(arguments)?;
@@ -90,29 +70,28 @@ pub(super) fn run(
     let case = case(arguments, &scene, &settings, err)?;
     let steps = scene.dynamics.steps_per_cycle as usize;
     let harmonics = SteadySettings { harmonics: settings.harmonics, ..SteadySettings::default() };
-    harmonics.check(steps).map_err(|e| unfit(path, e.to_string()))?;
+    harmonics.check(steps).map_err(|e| unfit(path, e))?;
     needs::caution(&harmonics, steps, err)?;
-    needs::warn(&scene, err)?;
-    #[cfg(feature = "charts")]
-    needs::figures(&scene, arguments.figures.as_deref(), err)?;
+    needs::warn(&scene, arguments.figures.as_deref(), err)?;
     let fixed = Fixed { case, damping_factor: arguments.damping_factor };
     let search = Search { switch: arguments.switch };
-    let fidelity = match arguments.model {
-        Model::FeContact => fidelity_name(scene.dynamics.fidelity),
-        Model::Lumped => LUMPED.into(),
-    };
+    let fidelity = turning::name(arguments.model, &scene);
     // Bodies and tables take minutes: a folder that cannot be used is refused before.
     let text = scene_text(path)?;
     if let BranchParameter::Key(key) = settings.over {
         for (argument, value) in ["--from", "--to"].into_iter().zip(settings.range) {
-            KeyedModel::check(&text, key, value).map_err(|e| refused(argument, e.to_string()))?;
+            KeyedModel::check(&text, key, value).map_err(|e| refused(argument, e))?;
         }
     }
     let mut kept = None;
     if let Some(folder) = &arguments.out {
         let (speed_rpm, damping_factor) = (case.speed_rpm, fixed.damping_factor);
         let parts = Kept { speed_rpm, damping_factor, branches: &settings, search };
-        kept = Some(parts.open(folder, (&text, &fidelity, case.sun_torque_nm))?);
+        let subject = (text.as_str(), fidelity.as_str(), case.sun_torque_nm);
+        let manifest = Manifest::new(&BRANCHES, subject, &parts)?;
+        // The claim is held as long as the store is used.
+        let claim = Claim::of(folder, &manifest, |_| Ok(()))?;
+        kept = Some((claim, KeptFiles::open(folder, PLAN, &manifest)?));
     }
     let store: &dyn BranchStore = kept.as_ref().map_or(&Memory, |(_, steps)| steps);
     scene.damping = scene.damping.times(arguments.damping_factor);
@@ -144,9 +123,9 @@ pub(super) fn run(
             }
             working.now("following the branch");
             branches_kept(model.as_ref(), &settings, &search, store).map_err(|e| match e {
-                BranchError::NoDerivative(_) => unfit(path, e.to_string()),
-                BranchError::NoStart { .. } => refused("--start", e.to_string()),
-                BranchError::NoEffect { .. } => refused("--over", e.to_string()),
+                BranchError::NoDerivative(_) => unfit(path, e),
+                BranchError::NoStart { .. } => refused("--start", e),
+                BranchError::NoEffect { .. } => refused("--over", e),
                 BranchError::Sweep(e) => not_computed(e, path, &settings),
                 BranchError::Range { .. } | BranchError::Points(_) => e.into(),
             })?
@@ -185,42 +164,32 @@ fn not_computed(error: SweepError, path: &Path, settings: &BranchSettings) -> Co
             let words = format!("from {from:?} to {to:?}, begun at {start:?}: {e}; {remedy}");
             refused("--over", format!("{} {words}", key.path()))
         }
-        (SweepError::Fe(e), _) => unfit(path, e.to_string()),
+        (SweepError::Fe(e), _) => unfit(path, e),
         (other, _) => other.into(),
     }
 }
 
 /// Table and everything of finished branches.
-fn write_folder(result: &BranchesOutput, folder: &Path) -> Result<(), CommandError> {
+fn write_folder(result: &BranchesOutput, folder: &Path) -> Result<()> {
     let (mut table, mut all) = (Vec::new(), Vec::new());
     result.csv(&mut table)?;
     output::json(&mut all, result)?;
     write_results(folder, BRANCHES.results.iter().copied().zip([table, all]))
 }
 
-/// The option that gives the range of a parameter.
-fn option(over: BranchParameter) -> &'static str {
-    match over {
-        BranchParameter::Speed => "--speeds-rpm",
-        BranchParameter::Torque => "--torques-nm",
-        BranchParameter::Damping => "--damping-factors",
-        BranchParameter::Key(_) => "--from",
-    }
-}
-
 /// Range and start, checked before anything is computed; options that belong to another parameter are refused.
-fn settings(arguments: &Branches) -> Result<BranchSettings, CommandError> {
+fn settings(arguments: &Branches) -> Result<BranchSettings> {
     let over = arguments.over;
     let name = over.argument();
     let ranges = [
-        (BranchParameter::Speed, arguments.speeds_rpm),
-        (BranchParameter::Torque, arguments.torques_nm),
-        (BranchParameter::Damping, arguments.damping_factors),
+        (BranchParameter::Speed, "--speeds-rpm", arguments.speeds_rpm),
+        (BranchParameter::Torque, "--torques-nm", arguments.torques_nm),
+        (BranchParameter::Damping, "--damping-factors", arguments.damping_factors),
     ];
-    let other = ranges.iter().find(|(own, range)| *own != over && range.is_some());
-    if let Some((other, _)) = other {
+    let other = ranges.iter().find(|(own, _, range)| *own != over && range.is_some());
+    if let Some((other, option, _)) = other {
         let reason = format!("the range for --over {}; this is --over {name}", other.argument());
-        return Err(refused(option(*other), reason));
+        return Err(refused(option, reason));
     }
     let is_key = matches!(over, BranchParameter::Key(_));
     for (argument, value) in [("--from", arguments.from), ("--to", arguments.to)] {
@@ -233,31 +202,31 @@ fn settings(arguments: &Branches) -> Result<BranchSettings, CommandError> {
         }
     }
     if over == BranchParameter::Speed && arguments.rpm.is_some() {
-        let reason =
-            "one speed, for --over torque, damping and KEY; this is --over speed".to_owned();
+        let reason = "one speed, for --over torque, damping and KEY; this is --over speed";
         return Err(refused("--rpm", reason));
     }
     if over == BranchParameter::Damping && arguments.damping_factor != 1.0 {
         let reason = "one factor; --over damping takes its factors from --damping-factors";
-        return Err(refused("--damping-factor", reason.to_owned()));
+        return Err(refused("--damping-factor", reason));
     }
     let of_key = arguments.from.zip(arguments.to).map(|(from, to)| [from, to]);
-    let given = ranges.iter().find(|(own, _)| *own == over).map_or(of_key, |(_, range)| *range);
+    let of_option = ranges.into_iter().find(|(own, ..)| *own == over);
+    let (option, given) =
+        of_option.map_or(("--from", of_key), |(_, option, range)| (option, range));
     let Some([from, to]) = given else {
         let reason = format!("missing: --over {name} needs its range as FROM:TO");
-        return Err(refused(option(over), reason));
+        return Err(refused(option, reason));
     };
-    let is_factor = |x: &f64| (DAMPING_FACTORS[0]..=DAMPING_FACTORS[1]).contains(x);
-    if over == BranchParameter::Damping && ![from, to].iter().all(is_factor) {
+    if over == BranchParameter::Damping && ![from, to].iter().all(|x| DAMPING_FACTORS.contains(x)) {
         let reason = format!("{from:?} to {to:?}: allowed are factors from 1e-6 to 100");
-        return Err(refused(option(over), reason));
+        return Err(refused(option, reason));
     }
     let most_points = arguments.max_points as usize;
     let whole =
         BranchSettings { start: to, most_points, ..BranchSettings::along(over, [from, to]) };
-    whole.check().map_err(|e| refused(option(over), e.to_string()))?;
+    whole.check().map_err(|e| refused(option, e))?;
     let own = BranchSettings { start: arguments.start.unwrap_or(to), ..whole };
-    own.check().map_err(|e| refused("--start", e.to_string()))?;
+    own.check().map_err(|e| refused("--start", e))?;
     Ok(own)
 }
 
@@ -267,12 +236,9 @@ fn case(
     scene: &Scene,
     settings: &BranchSettings,
     err: &mut dyn Write,
-) -> Result<LoadCase, CommandError> {
+) -> Result<LoadCase> {
     let path = &arguments.scene;
-    let verb = Verb::Branches(match arguments.model {
-        Model::Lumped => Fidelity::QuasiStatic,
-        Model::FeContact => scene.dynamics.fidelity,
-    });
+    let verb = Verb::Branches(turning::fidelity(arguments.model, scene));
     let over_torque = settings.over == BranchParameter::Torque;
     let gives_damping = match settings.over {
         BranchParameter::Key(key) => scene.is_damped_by(key.path()),
@@ -306,7 +272,7 @@ fn case(
             Err(refused("--rpm", format!("{rpm:?}: allowed are speeds from 0.001 to 1e7 rpm")))
         }
         None if settings.over != BranchParameter::Speed && case.speed_rpm == 0.0 => {
-            Err(refused("--rpm", "missing: the scene's operating speed is 0".to_owned()))
+            Err(refused("--rpm", "missing: the scene's operating speed is 0"))
         }
         None => Ok(case.at_speed(case.speed_rpm.abs())),
     }

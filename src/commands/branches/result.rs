@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::commands::turning;
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::output::{Notation, Report, Table};
 
 /// What is held fixed along branches, apart from the parameter.
@@ -116,7 +116,7 @@ impl BranchesOutput {
     }
 
     /// One line per point in order along a branch, then why it ends.
-    fn write_branch(&self, branch: &Branch, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn write_branch(&self, branch: &Branch, out: &mut dyn Write) -> Result<()> {
         let unit = self.over.unit();
         let origin = match branch.origin {
             BranchOrigin::Start(_) => None,
@@ -170,14 +170,13 @@ impl BranchesOutput {
     fn table<'r>(&self) -> Table<'r, Row<'r>> {
         use Notation::{Fixed, Plain, Power, Share};
         let over = self.over;
-        let line = |r: &Row<'_>| r.line.clone();
         let heading = match (over, over.plain_unit()) {
             (BranchParameter::Damping, _) => "damping",
             (_, "") => "value",
             (_, unit) => unit,
         };
-        let table = Table::new()
-            .column("scene", "title of the scene", |r: &Row<'_>| &r.result.scene)
+        let table = Table::<Row<'_>>::new()
+            .column("scene", "title of the scene", |r| &r.result.scene)
             .column("fidelity", "fidelity or model", |r| &r.branch.fidelity)
             .column("sun_torque_nm", "torque on the sun, N m", |r| r.point.state.case.sun_torque_nm)
             .column("speed_rpm", "speed of the input member, rpm", |r| r.point.state.case.speed_rpm)
@@ -214,22 +213,15 @@ impl BranchesOutput {
                 |r| r.point.largest_multiplier(),
             )
             .shown("μ", Fixed(4))
-            .words("mode", Plain, |r: &Row<'_>| {
+            .words("mode", Plain, |r| {
                 r.point.critical.as_ref().map(|critical| critical.mode_type.clone())
             })
             .meaning(
                 "type, by kinetic energy, of the perturbation whose multiplier is nearest in \
              size to 1",
             )
-            .column("arc", "length along the branch from its start", |r| r.point.arc)
-            .column("body", "body or mesh", move |r| line(r).map(|l| l.part.name()))
-            .column("coordinate", "quantity", move |r| line(r).map(|l| l.coordinate.name()))
-            .column("harmonic", "harmonic; 0 is the mean", move |r| line(r).map(|l| l.harmonic))
-            .column("amplitude", "amplitude in the unit of the next column", move |r| {
-                line(r).map(|l| l.amplitude)
-            })
-            .column("unit", "unit", move |r| line(r).map(|l| l.coordinate.unit()))
-            .column("phase_rad", "phase, rad", move |r| line(r).map(|l| l.phase_rad));
+            .column("arc", "length along the branch from its start", |r| r.point.arc);
+        let table = turning::with_harmonic(table, |r| r.line.as_ref());
         turning::with_strongest(table, |r| (&r.point.state, r.result.harmonics))
             .words("lowest N", Fixed(0), |r: &Row<'_>| r.point.lowest_force_n)
             .meaning("lowest force of any mesh during a cycle, N")
@@ -246,7 +238,7 @@ impl BranchesOutput {
 
 impl Report for BranchesOutput {
     /// One row for each harmonic of each quantity of each point in order along the branches.
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         let branches = self.found.branches.iter().enumerate();
         let rows = branches.flat_map(|(index, branch)| {
             branch.points.iter().enumerate().flat_map(move |(number, point)| {
@@ -259,7 +251,7 @@ impl Report for BranchesOutput {
     }
 
     /// One line per point in order along each branch, then why it ends; then a legend.
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         let (scene, fidelity) = (&self.scene, &self.fidelity);
         writeln!(out, "{scene}: {fidelity}, {}\n", self.fixed)?;
         for branch in &self.found.branches {

@@ -19,7 +19,7 @@ use scene::{Fidelity, LoadCase, Scene, Verb};
 use validation::ValidationError;
 
 use crate::arguments::{Format, Impulse};
-use crate::error::{CommandError, fe_refused, refused, unfit};
+use crate::error::{Result, fe_refused, refused, unfit};
 use crate::inputs::{Working, loads, needs, read_scene};
 use crate::output;
 use found::Found;
@@ -33,20 +33,14 @@ const BAND_POSITIONS: usize = 28;
 /// Highest frequency it lists, Hz.
 const BAND_HIGHEST_HZ: f64 = 16e3;
 
-pub(super) fn run(
-    arguments: &Impulse,
-    out: &mut dyn Write,
-    err: &mut dyn Write,
-) -> Result<(), CommandError> {
+pub(super) fn run(arguments: &Impulse, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let scene = read_scene(&arguments.scene)?;
     let preload = preload(arguments, &scene, err)?;
     let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
     needs::require(&arguments.scene, &scene, Verb::Impulse, is_given)?;
-    needs::warn(&scene, err)?;
-    #[cfg(feature = "charts")]
-    needs::figures(&scene, arguments.figures.as_deref(), err)?;
+    needs::warn(&scene, arguments.figures.as_deref(), err)?;
     let found = find(arguments, scene, preload)?;
-    let saved: Result<(), CommandError> = Ok(());
+    let saved: Result<()> = Ok(());
     #[cfg(feature = "charts")]
     let saved = arguments.figures.as_ref().map_or(saved, |folder| draw(&found, folder));
     let result = ImpulseOutput::new(&found);
@@ -55,7 +49,7 @@ pub(super) fn run(
 }
 
 #[cfg(feature = "charts")]
-fn draw(found: &Found, folder: &std::path::Path) -> Result<(), CommandError> {
+fn draw(found: &Found, folder: &std::path::Path) -> Result<()> {
     use crate::figures::{ModalTest, of_impulse_test, save};
     let Found { scene, bodies, races, test, band, .. } = found;
     let geometry = &bodies.geometry;
@@ -64,11 +58,7 @@ fn draw(found: &Found, folder: &std::path::Path) -> Result<(), CommandError> {
 }
 
 /// The preload that is asked for; every argument that can be judged without the set's modes is judged here.
-fn preload(
-    arguments: &Impulse,
-    scene: &Scene,
-    err: &mut dyn Write,
-) -> Result<Preload, CommandError> {
+fn preload(arguments: &Impulse, scene: &Scene, err: &mut dyn Write) -> Result<Preload> {
     let path = &arguments.scene;
     needs::not_ring_pair(path, scene)?;
     if scene.geometry.is_none() {
@@ -87,16 +77,12 @@ fn preload(
         Some(_) => asked(arguments, usual.preload, band_hz),
         None => usual,
     };
-    judged.check().map_err(|e| refused(argument(&e), e.to_string()))?;
+    judged.check().map_err(|e| refused(argument(&e), e))?;
     if arguments.band && scene.dynamics.fidelity == Fidelity::Full {
         let reason = "`dynamics.fidelity` = \"full\" has no small linearisation: take \"modal\"";
         return Err(refused("--band", reason));
     }
-    #[cfg(feature = "charts")]
-    let is_drawn = arguments.figures.is_some();
-    #[cfg(not(feature = "charts"))]
-    let is_drawn = false;
-    if arguments.band && arguments.format == Format::Csv && !is_drawn {
+    if arguments.band && arguments.format == Format::Csv && arguments.figures.is_none() {
         let reason = "CSV has one row a mode and no place for it: take text, json or --figures";
         return Err(refused("--band", reason));
     }
@@ -126,15 +112,15 @@ fn argument(error: &SettingsError) -> &'static str {
     }
 }
 
-fn find(arguments: &Impulse, scene: Scene, preload: Preload) -> Result<Found, CommandError> {
+fn find(arguments: &Impulse, scene: Scene, preload: Preload) -> Result<Found> {
     let path = &arguments.scene;
     let torque = preload.load.sun_torque_nm;
     let failed = |e: ModalError| match e {
-        ModalError::Unsteady { .. } => refused("--sun-torque-nm", e.to_string()),
+        ModalError::Unsteady { .. } => refused("--sun-torque-nm", e),
         ModalError::Fe(FeError::NotConverged { .. } | FeError::NoEquilibrium(_)) => {
             refused("--sun-torque-nm", format!("{torque:e} N·m: {e}"))
         }
-        _ => unfit(path, e.to_string()),
+        _ => unfit(path, e),
     };
     let working = Working::new("meshing and factorising the bodies");
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
@@ -158,7 +144,7 @@ fn find(arguments: &Impulse, scene: Scene, preload: Preload) -> Result<Found, Co
             .ok_or_else(|| unfit(path, "no body can move: every `motion` is \"held\""))?,
     };
     let settings = asked(arguments, preload, band_hz);
-    settings.check().map_err(|e| refused(argument(&e), e.to_string()))?;
+    settings.check().map_err(|e| refused(argument(&e), e))?;
     let (low, high) = band_hz;
     let is_inside = |m: &FeMode| (low..=high).contains(&m.frequency_hz);
     let (inside, outside): (Vec<_>, Vec<_>) = modes

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::found::Found;
+use crate::commands::modes::KindShares;
 
 /// `impulse --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -53,16 +54,16 @@ pub(super) struct ModeEntry {
     /// rotational, translational, planet or mixed.
     pub(super) mode_type: String,
     /// From the decays; null if not found in them.
-    pub(super) identified: Option<IdentifiedMode>,
+    pub(super) identified: Option<DampedMode>,
     /// From the linearised set; null if there is none, or none of this type.
     pub(super) linearised: Option<LinearisedMode>,
     /// 100 (identified − linearised)/linearised.
     pub(super) difference_percent: Option<f64>,
 }
 
-/// A mode found in the decays.
+/// Frequency, damping and motion of a mode.
 #[derive(Debug, Serialize, JsonSchema)]
-pub(super) struct IdentifiedMode {
+pub(super) struct DampedMode {
     pub(super) frequency_hz: f64,
     pub(super) damping_ratio: f64,
     pub(super) shares: KindShares,
@@ -71,19 +72,10 @@ pub(super) struct IdentifiedMode {
 /// A mode of the linearised set.
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct LinearisedMode {
-    pub(super) frequency_hz: f64,
-    pub(super) damping_ratio: f64,
-    pub(super) shares: KindShares,
+    #[serde(flatten)]
+    pub(super) mode: DampedMode,
     /// ∂ln f/∂ln k, all meshes alike.
     pub(super) mesh_sensitivity: f64,
-}
-
-/// Shares of kinetic energy by kind of motion.
-#[derive(Debug, Serialize, JsonSchema)]
-pub(super) struct KindShares {
-    pub(super) rotational: f64,
-    pub(super) translational: f64,
-    pub(super) planet: f64,
 }
 
 /// One pulse and what it did.
@@ -199,15 +191,9 @@ fn modes(identified: &[FeMode], linear: &[(FeMode, f64)]) -> Vec<ModeEntry> {
         let mode_type = ours.or(theirs.map(|l| &l.0))?.mode_type;
         Some(ModeEntry {
             mode_type: mode_type.name().into(),
-            identified: ours.map(|m| IdentifiedMode {
-                frequency_hz: m.frequency_hz,
-                damping_ratio: m.damping_ratio,
-                shares: shares(m),
-            }),
+            identified: ours.map(damped),
             linearised: theirs.map(|(m, influence)| LinearisedMode {
-                frequency_hz: m.frequency_hz,
-                damping_ratio: m.damping_ratio,
-                shares: shares(m),
+                mode: damped(m),
                 mesh_sensitivity: *influence,
             }),
             difference_percent: ours
@@ -218,9 +204,11 @@ fn modes(identified: &[FeMode], linear: &[(FeMode, f64)]) -> Vec<ModeEntry> {
     beside(identified, &linearised).into_iter().filter_map(entry).collect()
 }
 
-fn shares(mode: &FeMode) -> KindShares {
-    let [rotational, translational, planet] = mode.shares;
-    KindShares { rotational, translational, planet }
+fn damped(mode: &FeMode) -> DampedMode {
+    let FeMode { frequency_hz, damping_ratio, shares, .. } = *mode;
+    let [rotational, translational, planet] = shares;
+    let shares = KindShares { rotational, translational, planet };
+    DampedMode { frequency_hz, damping_ratio, shares }
 }
 
 fn pulse(found: &Found, decay: &Decay) -> PulseEntry {

@@ -3,10 +3,11 @@
 use std::io::Write;
 
 use super::result::{
-    BandMode, BandOutput, IdentifiedMode, ImpulseOutput, KindShares, LinearisedMode, ModeEntry,
-    OutsideMode, PulseEntry,
+    BandMode, BandOutput, DampedMode, ImpulseOutput, LinearisedMode, ModeEntry, OutsideMode,
+    PulseEntry,
 };
-use crate::error::CommandError;
+use crate::commands::modes::KindShares;
+use crate::error::Result;
 use crate::output::{Notation, Report, Table};
 
 /// Modes outside the band that the text names.
@@ -17,57 +18,53 @@ type Row<'r> = Result<&'r ModeEntry, &'r OutsideMode>;
 
 impl Report for ImpulseOutput {
     /// One row for each mode in the band, then those of the modes outside it.
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         table().csv(self.modes.iter().map(Ok).chain(self.outside_band.iter().map(Err)), out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
-        Ok(text(self, out)?)
-    }
-}
-
-fn text(result: &ImpulseOutput, out: &mut dyn Write) -> std::io::Result<()> {
-    writeln!(out, "{}", result.title)?;
-    writeln!(
-        out,
-        "{} N·m on the sun at position {} of the mesh cycle; decays of {} ms in steps \
-             of {} µs",
-        plain(result.sun_torque_nm),
-        plain(result.position),
-        plain(result.duration_ms),
-        plain(result.step_us)
-    )?;
-    let bodies = match (result.fidelity.as_str(), result.body_modes) {
-        ("modal", Some(n)) => format!("modal, {n} modes of each body"),
-        (fidelity, _) => fidelity.to_owned(),
-    };
-    writeln!(out, "fidelity: {bodies}; {} steps taken in all", result.steps)?;
-    if !result.has_linearisation {
-        writeln!(out, "no small linearisation on this fidelity: its columns are empty")?;
-    }
-    table().text(result.modes.iter().map(Ok), out)?;
-    pulses().text(&result.pulses, out)?;
-    let (order, [low, high]) = (result.identification.order, result.band_limits_hz);
-    writeln!(out, "identified at order {order} between {low:.0} and {high:.0} Hz")?;
-    if !result.outside_band.is_empty() {
-        let one = |m: &OutsideMode| format!("{:.1} ({})", m.frequency_hz, m.mode_type);
-        let list: Vec<String> = result.outside_band.iter().map(one).collect();
-        let shown = list.len().min(MOST_OUTSIDE);
-        let more = match list.len() - shown {
-            0 => String::new(),
-            n => format!(" and {n} more (--format json lists all)"),
-        };
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
+        writeln!(out, "{}", self.title)?;
         writeln!(
             out,
-            "outside this band, which --band-hz sets, linearised modes at {} Hz{more}",
-            list[..shown].join(", ")
+            "{} N·m on the sun at position {} of the mesh cycle; decays of {} ms in steps \
+             of {} µs",
+            plain(self.sun_torque_nm),
+            plain(self.position),
+            plain(self.duration_ms),
+            plain(self.step_us)
         )?;
-    }
-    table().legend(out)?;
-    pulses().legend(out)?;
-    match &result.band {
-        Some(found) => band(found, out),
-        None => Ok(()),
+        let bodies = match (self.fidelity.as_str(), self.body_modes) {
+            ("modal", Some(n)) => format!("modal, {n} modes of each body"),
+            (fidelity, _) => fidelity.to_owned(),
+        };
+        writeln!(out, "fidelity: {bodies}; {} steps taken in all", self.steps)?;
+        if !self.has_linearisation {
+            writeln!(out, "no small linearisation on this fidelity: its columns are empty")?;
+        }
+        table().text(self.modes.iter().map(Ok), out)?;
+        pulses().text(&self.pulses, out)?;
+        let (order, [low, high]) = (self.identification.order, self.band_limits_hz);
+        writeln!(out, "identified at order {order} between {low:.0} and {high:.0} Hz")?;
+        if !self.outside_band.is_empty() {
+            let one = |m: &OutsideMode| format!("{:.1} ({})", m.frequency_hz, m.mode_type);
+            let list: Vec<String> = self.outside_band.iter().map(one).collect();
+            let shown = list.len().min(MOST_OUTSIDE);
+            let more = match list.len() - shown {
+                0 => String::new(),
+                n => format!(" and {n} more (--format json lists all)"),
+            };
+            writeln!(
+                out,
+                "outside this band, which --band-hz sets, linearised modes at {} Hz{more}",
+                list[..shown].join(", ")
+            )?;
+        }
+        table().legend(out)?;
+        pulses().legend(out)?;
+        match &self.band {
+            Some(found) => Ok(band(found, out)?),
+            None => Ok(()),
+        }
     }
 }
 
@@ -79,23 +76,24 @@ fn plain(x: f64) -> String {
 
 fn table<'r>() -> Table<'r, Row<'r>> {
     use Notation::{Fixed, Plain, Share, Signed};
-    let found = |value: fn(&IdentifiedMode) -> f64| {
-        move |row: &Row<'r>| row.ok().and_then(|m| m.identified.as_ref()).map(value)
-    };
-    let linear = |value: fn(&LinearisedMode) -> f64| {
-        move |row: &Row<'r>| row.ok().and_then(|m| m.linearised.as_ref()).map(value)
-    };
+    fn identified<'m>(row: &Row<'m>) -> Option<&'m DampedMode> {
+        row.ok()?.identified.as_ref()
+    }
+    fn linearised<'m>(row: &Row<'m>) -> Option<&'m LinearisedMode> {
+        row.ok()?.linearised.as_ref()
+    }
+    let found = |value: fn(&DampedMode) -> f64| move |row: &Row<'r>| identified(row).map(value);
+    let linear =
+        |value: fn(&LinearisedMode) -> f64| move |row: &Row<'r>| linearised(row).map(value);
     // Text shows the shares of a linearised mode where none was found.
     let share = |value: fn(&KindShares) -> f64| {
         move |row: &Row<'r>| {
-            let mode = row.ok();
-            let found = mode.and_then(|m| m.identified.as_ref()).map(|m| &m.shares);
-            let shares = found.or(mode.and_then(|m| m.linearised.as_ref()).map(|m| &m.shares));
-            shares.map_or("–".into(), |shares| Share.number(value(shares)))
+            let mode = identified(row).or(linearised(row).map(|linear| &linear.mode));
+            mode.map_or("–".into(), |mode| Share.number(value(&mode.shares)))
         }
     };
-    Table::new()
-        .column("mode_type", "", |row: &Row<'r>| match row {
+    Table::<Row<'r>>::new()
+        .column("mode_type", "", |row| match row {
             Ok(mode) => &mode.mode_type,
             Err(outside) => &outside.mode_type,
         })
@@ -116,19 +114,17 @@ fn table<'r>() -> Table<'r, Row<'r>> {
         .shown_as("transl.", share(|s| s.translational))
         .column("planet", "", found(|m| m.shares.planet))
         .shown_as("planet", share(|s| s.planet))
-        .column("linearised_hz", "natural frequency of the linearised set", |row: &Row<'r>| {
-            match row {
-                Ok(mode) => mode.linearised.as_ref().map(|m| m.frequency_hz),
-                Err(outside) => Some(outside.frequency_hz),
-            }
+        .column("linearised_hz", "natural frequency of the linearised set", |row| match row {
+            Ok(mode) => mode.linearised.as_ref().map(|m| m.mode.frequency_hz),
+            Err(outside) => Some(outside.frequency_hz),
         })
         .shown("linear Hz", Fixed(2))
-        .column("linearised_damping_ratio", "its damping ratio", linear(|m| m.damping_ratio))
+        .column("linearised_damping_ratio", "its damping ratio", linear(|m| m.mode.damping_ratio))
         .scaled("ζ %", 100.0, Fixed(3))
         .column(
             "difference_percent",
             "of the frequency found from the linearised one, over that",
-            |row: &Row<'r>| row.ok().and_then(|m| m.difference_percent),
+            |row| row.ok().and_then(|m| m.difference_percent),
         )
         .shown("difference %", Signed(3))
         .column(
@@ -137,25 +133,24 @@ fn table<'r>() -> Table<'r, Row<'r>> {
             linear(|m| m.mesh_sensitivity),
         )
         .shown("∂ln f/∂ln k", Fixed(4))
-        .column("is_in_band", "", |row: &Row<'r>| row.is_ok())
+        .column("is_in_band", "", |row| row.is_ok())
 }
 
 fn pulses<'r>() -> Table<'r, &'r PulseEntry> {
     use Notation::{Fixed, Plain, Power};
-    type Pulse<'r> = &'r PulseEntry;
-    Table::new()
-        .words("pulse", Plain, |p: &Pulse<'_>| &p.pulse)
+    Table::<&PulseEntry>::new()
+        .words("pulse", Plain, |p| &p.pulse)
         .key()
-        .words("force N", Fixed(3), |p: &Pulse<'_>| p.force_n)
+        .words("force N", Fixed(3), |p| p.force_n)
         .meaning("acts for one time step; of a torque, over the base radius")
-        .words("force change", Power(1), |p: &Pulse<'_>| p.force_change)
+        .words("force change", Power(1), |p| p.force_change)
         .meaning("of a mesh, over the largest mesh force")
-        .words("nonlinearity", Power(1), |p: &Pulse<'_>| p.nonlinearity)
+        .words("nonlinearity", Power(1), |p| p.nonlinearity)
         .meaning(
             "of half the pulse, the response less half the response to the whole, over \
              its largest value",
         )
-        .words("the sun's other motion", Plain, |p: &Pulse<'_>| {
+        .words("the sun's other motion", Plain, |p| {
             // With planets in phase a force excites no rotation and a torque no translation.
             let (t, r) = p.sun_translation_um.zip(p.sun_rotation_um)?;
             Some(match p.pulse.ends_with("torque") {
@@ -179,8 +174,7 @@ fn band(band: &BandOutput, out: &mut dyn Write) -> std::io::Result<()> {
         torques.join(", ")
     )?;
     use Notation::{Fixed, Plain};
-    type Mode<'r> = &'r BandMode;
-    let mut table = Table::<Mode<'_>>::new()
+    let mut table = Table::<&BandMode>::new()
         .words("type", Plain, |m| &m.mode_type)
         .key()
         .words("place", Plain, |m| m.place)

@@ -4,7 +4,7 @@ mod closed_form;
 mod result;
 
 pub(crate) use closed_form::{ClosedForm, PARAMETERS};
-pub(crate) use result::ModesOutput;
+pub(crate) use result::{KindShares, ModesOutput};
 
 use std::f64::consts::TAU;
 use std::io::Write;
@@ -14,18 +14,15 @@ use lumped::{AnalyticSet, LumpedError, LumpedModel, NaturalModes, campbell};
 use scene::{AutoQuantity, LoadCase, Scene, SceneKind, Verb};
 
 use crate::arguments::{Format, Modes};
-use crate::error::{CommandError, refused, unfit};
+use crate::commands::auto_choice;
+use crate::error::{Result, refused, unfit};
 use crate::inputs::{Working, needs, read_scene};
 use crate::output;
 use closed_form::StatedErrorEntry;
 
-pub(crate) fn run(
-    arguments: &Modes,
-    out: &mut dyn Write,
-    err: &mut dyn Write,
-) -> Result<(), CommandError> {
+pub(crate) fn run(arguments: &Modes, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let scene = read_scene(&arguments.scene)?;
-    needs::warn(&scene, err)?;
+    needs::warn(&scene, None, err)?;
     let most = scene::SPEEDS_RPM[1];
     // Not `abs() > most`: what is no number is within nothing.
     if let Some(bad) = arguments.carrier_speeds_rpm.iter().find(|s| !(-most..=most).contains(*s)) {
@@ -49,7 +46,7 @@ pub(crate) fn run(
         // No other quantity is given by this verb, which the line above refuses.
         if let AutoQuantity::NaturalFrequency { mode_type, number } = wanted.quantity {
             let case = LoadCase::of_scene(&scene);
-            let case = case.map_err(|e| unfit(&arguments.scene, e.to_string()))?;
+            let case = case.map_err(|e| unfit(&arguments.scene, e))?;
             let question = FrequencyQuestion::new(&scene, &case, mode_type, number);
             return chosen(arguments, &question, wanted.tolerance_percent, out);
         }
@@ -91,19 +88,18 @@ fn chosen(
     question: &FrequencyQuestion<'_>,
     tolerance_percent: f64,
     out: &mut dyn Write,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     let (path, scene) = (&arguments.scene, question.scene);
-    if !arguments.carrier_speeds_rpm.is_empty() {
-        let reason = "`dynamics.fidelity` = \"auto\" chooses settings for a set without gyroscopic terms: leave it out";
-        return Err(refused("--carrier-speeds-rpm", reason));
-    }
+    let is_turning = !arguments.carrier_speeds_rpm.is_empty();
+    let why = "chooses settings for a set without gyroscopic terms";
+    auto_choice::refuse_given(&[("--carrier-speeds-rpm", is_turning, why)])?;
     let working = Working::new("choosing settings");
     let choice = choose_frequency(question, tolerance_percent)
         .map_err(|e| unfit(path, format!("`dynamics.fidelity` = \"auto\": {e}")))?;
     drop(working);
     let is_lumped = choice.settings.model == AutoModel::Lumped;
     let listed = is_lumped.then(|| of_auto(scene, question.case)).transpose();
-    let listed = listed.map_err(|e| unfit(path, e.to_string()))?;
+    let listed = listed.map_err(|e| unfit(path, e))?;
     let listed = listed.as_ref().map(|(model, modes)| (model, modes));
     let mut result = ModesOutput::new(scene, listed, arguments.details);
     result.auto = Some(choice);
@@ -111,11 +107,7 @@ fn chosen(
 }
 
 /// Modes of a set with parameters in closed form, or these parameters.
-fn in_closed_form(
-    arguments: &Modes,
-    scene: &Scene,
-    out: &mut dyn Write,
-) -> Result<(), CommandError> {
+fn in_closed_form(arguments: &Modes, scene: &Scene, out: &mut dyn Write) -> Result<()> {
     if !arguments.carrier_speeds_rpm.is_empty() {
         let reason = "with parameters in closed form there are no gyroscopic terms: leave it out, or give numbers in [lumped], which \
                       --parameters prints";

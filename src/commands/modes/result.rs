@@ -5,8 +5,8 @@ use std::io::Write;
 
 use experiments::auto::Choice;
 use lumped::{
-    LumpedModel, ModeGroup, NaturalModes, Parameter, SpeedModes, kinetic_energy, sensitivities,
-    strain_energy,
+    LumpedModel, ModeGroup, NaturalModes, Parameter, Participation, SpeedModes, kinetic_energy,
+    sensitivities, strain_energy,
 };
 use scene::Scene;
 use schemars::JsonSchema;
@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use super::closed_form::{ClosedParameters, PARAMETERS, StatedErrorEntry};
 use crate::commands::auto_choice;
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::output::{Notation, Report, Table};
 
 /// `modes --format json`.
@@ -54,7 +54,7 @@ pub(crate) struct ModeEntry {
     /// rotational, translational, planet or mixed.
     pub(crate) mode_type: String,
     pub(crate) multiplicity: usize,
-    participation: Shares,
+    participation: KindShares,
     /// Kinetic energy share by kind of body.
     kinetic_energy: BTreeMap<String, f64>,
     /// Strain energy share by family of springs.
@@ -63,12 +63,12 @@ pub(crate) struct ModeEntry {
     sensitivity: BTreeMap<String, f64>,
 }
 
-/// Shares of the kinds of modes.
+/// Shares of a mode's kinetic energy by kind of motion.
 #[derive(Debug, Serialize, JsonSchema)]
-struct Shares {
-    rotational: f64,
-    translational: f64,
-    planet: f64,
+pub(crate) struct KindShares {
+    pub(crate) rotational: f64,
+    pub(crate) translational: f64,
+    pub(crate) planet: f64,
 }
 
 /// Frequencies at one carrier speed.
@@ -125,10 +125,9 @@ impl ModesOutput {
 
     fn table<'r>(&self) -> Table<'r, &'r ModeEntry> {
         use Notation::{Fixed, Plain, Share};
-        type Mode<'r> = &'r ModeEntry;
         let is_mixed = self.modes.iter().any(|m| m.mode_type == "mixed");
         let is_stated = self.modes.iter().any(|m| m.stated_error.is_some());
-        Table::<Mode<'r>>::new()
+        Table::<&ModeEntry>::new()
             .column("frequency_hz", "", |m| m.frequency_hz)
             .shown_as("Hz", |m| frequency(m))
             .key()
@@ -156,11 +155,10 @@ impl ModesOutput {
     /// Sensitivities of each frequency by family of parameters.
     fn sensitivities(&self, out: &mut dyn Write) -> std::io::Result<()> {
         writeln!(out, "∂ln f/∂ln p: what each frequency depends on")?;
-        type Mode<'r> = &'r ModeEntry;
         let mut table =
-            Table::<Mode<'_>>::new().words("Hz", Notation::Plain, |m| frequency(m)).right().key();
+            Table::<&ModeEntry>::new().words("Hz", Notation::Plain, |m| frequency(m)).right().key();
         for family in self.modes.first().into_iter().flat_map(|m| m.sensitivity.keys()) {
-            let value = move |m: &Mode<'_>| m.sensitivity.get(family).copied().map(plain_zero);
+            let value = move |m: &&ModeEntry| m.sensitivity.get(family).copied().map(plain_zero);
             table = table.words(family, Notation::Fixed(3), value);
         }
         table.text(&self.modes, out)
@@ -202,11 +200,11 @@ impl ModesOutput {
 }
 
 impl Report for ModesOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         self.table().csv(&self.modes, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         let (title, count) = (&self.title, self.coordinates);
         match (&self.auto, &self.parameters) {
             (Some(choice), _) => {
@@ -245,18 +243,14 @@ fn entry(model: &LumpedModel, group: &ModeGroup) -> ModeEntry {
         }
         _ => None,
     });
-    let p = group.participation;
+    let Participation { rotational, translational, planet } = group.participation;
     ModeEntry {
         frequency_hz: group.frequency_hz,
         uncertainty_hz: group.uncertainty * group.frequency_hz,
         stated_error: None,
         mode_type: group.mode_type.name().to_owned(),
         multiplicity: group.multiplicity,
-        participation: Shares {
-            rotational: p.rotational,
-            translational: p.translational,
-            planet: p.planet,
-        },
+        participation: KindShares { rotational, translational, planet },
         kinetic_energy: kinetic,
         strain_energy: strain,
         sensitivity: sensitivity.collect(),

@@ -13,11 +13,11 @@ use gearset::PlanetPositions;
 use scene::{SceneKind, template};
 
 use crate::arguments::SceneVerb;
-use crate::error::{CommandError, unwritten};
+use crate::error::{Result, unwritten};
 use crate::inputs::read_scene;
 use crate::output;
 
-pub(crate) fn run(verb: &SceneVerb, out: &mut dyn Write) -> Result<(), CommandError> {
+pub(crate) fn run(verb: &SceneVerb, out: &mut dyn Write) -> Result<()> {
     match verb {
         SceneVerb::New { path, kind } => new(path, *kind, out),
         SceneVerb::Check { scene, format } => {
@@ -27,7 +27,7 @@ pub(crate) fn run(verb: &SceneVerb, out: &mut dyn Write) -> Result<(), CommandEr
     }
 }
 
-fn new(path: &Path, kind: SceneKind, out: &mut dyn Write) -> Result<(), CommandError> {
+fn new(path: &Path, kind: SceneKind, out: &mut dyn Write) -> Result<()> {
     let text = template(kind);
     if path == Path::new("-") {
         return Ok(out.write_all(text.as_bytes())?);

@@ -68,10 +68,10 @@ pub(super) fn write_motion(motion: &MotionSummary, out: &mut dyn Write) -> std::
     let on_pin = speeds.planet_relative_to_carrier;
     let planets = [("planet", speeds.planet, None), ("planet on its pin", on_pin, None)];
     type Row = (&'static str, f64, Option<f64>);
-    let table = Table::new()
-        .words("member", Notation::Plain, |r: &Row| r.0)
-        .words("rpm", Notation::Fixed(4), |r: &Row| r.1)
-        .words("torque N·m", Notation::Fixed(1), |r: &Row| r.2);
+    let table = Table::<Row>::new()
+        .words("member", Notation::Plain, |r| r.0)
+        .words("rpm", Notation::Fixed(4), |r| r.1)
+        .words("torque N·m", Notation::Fixed(1), |r| r.2);
     table.text(members.into_iter().chain(planets), out)?;
     let (from, to, sign) = match motion.pairs_run {
         PathDirection::Forward => ("start", "end", "positive"),

@@ -3,13 +3,14 @@
 use fe_contact::FeError;
 use fe_contact::statics::within_memory;
 use gearset::involute::roll_length_at;
-use gearset::{Gear, Geometry, Mesh, MeshKind, Phasing, ReliefShape};
+use gearset::{Gear, Geometry, Mesh, MeshKind, Phasing};
 use scene::{LoadCase, Scene, SceneKind, Verb};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::motion::MotionSummary;
 use crate::commands::modes::ClosedForm;
+use crate::output::word;
 
 /// What a scene describes, with the quantities that follow from it: `scene check --format json`.
 #[derive(Debug, Serialize, JsonSchema)]
@@ -133,10 +134,7 @@ impl SceneSummary {
         let admitted = within_memory(scene);
         Self {
             title: scene.title.clone(),
-            kind: match scene.kind {
-                SceneKind::Planetary => "planetary".into(),
-                SceneKind::GearPair => "gear_pair".into(),
-            },
+            kind: word(&scene.kind),
             source: scene.source.clone(),
             planet_positions_deg: scene.planets.psi_rad.iter().map(|p| p.to_degrees()).collect(),
             planet_position_steps: scene.planets.steps.clone(),
@@ -239,10 +237,7 @@ fn relief(gear: &Gear) -> Option<ReliefSummary> {
     let start = roll_length_at(gear.base_radius, relief.start_radius_m);
     let (tip, form) = (gear.tip_roll_length(), gear.form_roll_length().unwrap_or(0.0));
     Some(ReliefSummary {
-        shape: match relief.shape {
-            ReliefShape::Linear => "linear".into(),
-            ReliefShape::Parabolic => "parabolic".into(),
-        },
+        shape: word(&relief.shape),
         amount_um: 1e6 * relief.amount_m,
         start_diameter_mm: 2e3 * relief.start_radius_m,
         start_roll_length_mm: 1e3 * start,

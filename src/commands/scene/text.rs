@@ -4,103 +4,98 @@ use std::io::Write;
 
 use super::motion::write_motion;
 use super::summary::{GearSummary, MeshSummary, SceneSummary, VerbSummary};
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::output::{Notation, Report, Table};
 
 impl Report for SceneSummary {
     /// One row for each verb.
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         let keys = |v: &&VerbSummary| {
             v.lacks.iter().map(|lack| lack.key.as_str()).collect::<Vec<_>>().join(" ")
         };
-        let table = Table::new()
-            .column("verb", "", |v: &&VerbSummary| &v.verb)
+        let table = Table::<&VerbSummary>::new()
+            .column("verb", "", |v| &v.verb)
             .column("runs", "", |v| v.runs)
             .column("lacks", "", keys);
         table.csv(&self.verbs, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
-        Ok(text(self, out)?)
-    }
-}
-
-/// Writes the summary of a scene.
-fn text(summary: &SceneSummary, out: &mut dyn Write) -> std::io::Result<()> {
-    writeln!(out, "{} ({}): a valid scene", summary.title, summary.kind)?;
-    if let Some(source) = &summary.source {
-        writeln!(out, "source: {source}")?;
-    }
-    let degrees: Vec<_> = summary.planet_positions_deg.iter().map(|d| format!("{d:.4}°")).collect();
-    writeln!(out, "planets: {} at {}", degrees.len(), degrees.join(", "))?;
-    if let Some(steps) = &summary.planet_position_steps {
-        writeln!(out, "in assembly steps: {steps:?}")?;
-    }
-    if let (Some(a), Some(p)) = (summary.center_distance_mm, summary.base_pitch_mm) {
-        writeln!(out, "centre distance {a:.4} mm, base pitch {p:.5} mm")?;
-    }
-    if !summary.gears.is_empty() {
-        type Gear<'r> = &'r GearSummary;
-        let mm = Notation::Fixed(4);
-        Table::new()
-            .words("gear", Notation::Plain, |g: &Gear<'_>| &g.gear)
-            .words("Z", Notation::Plain, |g: &Gear<'_>| g.teeth)
-            .words("base mm", mm, |g: &Gear<'_>| g.base_diameter_mm)
-            .words("tip mm", mm, |g: &Gear<'_>| g.tip_diameter_mm)
-            .words("root mm", mm, |g: &Gear<'_>| g.root_diameter_mm)
-            .words("form mm", mm, |g: &Gear<'_>| g.form_diameter_mm)
-            .words("tip land mm", mm, |g: &Gear<'_>| g.tooth_thickness_at_tip_mm)
-            .text(&summary.gears, out)?;
-        type Mesh<'r> = &'r MeshSummary;
-        Table::new()
-            .words("mesh", Notation::Plain, |m: &Mesh<'_>| &m.mesh)
-            .words("angle °", mm, |m: &Mesh<'_>| m.pressure_angle_deg)
-            .words("module mm", mm, |m: &Mesh<'_>| m.operating_module_mm)
-            .words("contact ratio", mm, |m: &Mesh<'_>| m.contact_ratio)
-            .words("backlash mm", mm, |m: &Mesh<'_>| m.backlash_mm)
-            .text(&summary.meshes, out)?;
-    }
-    if let (Some(gamma), Some(sun), Some(ring)) =
-        (summary.gamma, &summary.sun_mesh_phases, &summary.ring_mesh_phases)
-    {
-        let list = |p: &[f64]| p.iter().map(|x| format!("{x:.5}")).collect::<Vec<_>>().join(", ");
-        writeln!(out, "γ = {gamma:.5} cycles")?;
-        writeln!(out, "sun mesh phases:  {}", list(sun))?;
-        writeln!(out, "ring mesh phases: {}", list(ring))?;
-    }
-    if let (Some(f), Some(n)) = (summary.mesh_frequency_hz, summary.carrier_speed_rpm) {
-        writeln!(out, "mesh frequency {f:.2} Hz, carrier at {n:.2} rpm")?;
-    }
-    if let Some(motion) = &summary.motion {
-        write_motion(motion, out)?;
-    }
-    for g in &summary.gears {
-        if let Some(r) = &g.tip_relief {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
+        writeln!(out, "{} ({}): a valid scene", self.title, self.kind)?;
+        if let Some(source) = &self.source {
+            writeln!(out, "source: {source}")?;
+        }
+        let degrees: Vec<_> =
+            self.planet_positions_deg.iter().map(|d| format!("{d:.4}°")).collect();
+        writeln!(out, "planets: {} at {}", degrees.len(), degrees.join(", "))?;
+        if let Some(steps) = &self.planet_position_steps {
+            writeln!(out, "in assembly steps: {steps:?}")?;
+        }
+        if let (Some(a), Some(p)) = (self.center_distance_mm, self.base_pitch_mm) {
+            writeln!(out, "centre distance {a:.4} mm, base pitch {p:.5} mm")?;
+        }
+        if !self.gears.is_empty() {
+            let mm = Notation::Fixed(4);
+            Table::<&GearSummary>::new()
+                .words("gear", Notation::Plain, |g| &g.gear)
+                .words("Z", Notation::Plain, |g| g.teeth)
+                .words("base mm", mm, |g| g.base_diameter_mm)
+                .words("tip mm", mm, |g| g.tip_diameter_mm)
+                .words("root mm", mm, |g| g.root_diameter_mm)
+                .words("form mm", mm, |g| g.form_diameter_mm)
+                .words("tip land mm", mm, |g| g.tooth_thickness_at_tip_mm)
+                .text(&self.gears, out)?;
+            Table::<&MeshSummary>::new()
+                .words("mesh", Notation::Plain, |m| &m.mesh)
+                .words("angle °", mm, |m| m.pressure_angle_deg)
+                .words("module mm", mm, |m| m.operating_module_mm)
+                .words("contact ratio", mm, |m| m.contact_ratio)
+                .words("backlash mm", mm, |m| m.backlash_mm)
+                .text(&self.meshes, out)?;
+        }
+        if let (Some(gamma), Some(sun), Some(ring)) =
+            (self.gamma, &self.sun_mesh_phases, &self.ring_mesh_phases)
+        {
+            let list =
+                |p: &[f64]| p.iter().map(|x| format!("{x:.5}")).collect::<Vec<_>>().join(", ");
+            writeln!(out, "γ = {gamma:.5} cycles")?;
+            writeln!(out, "sun mesh phases:  {}", list(sun))?;
+            writeln!(out, "ring mesh phases: {}", list(ring))?;
+        }
+        if let (Some(f), Some(n)) = (self.mesh_frequency_hz, self.carrier_speed_rpm) {
+            writeln!(out, "mesh frequency {f:.2} Hz, carrier at {n:.2} rpm")?;
+        }
+        if let Some(motion) = &self.motion {
+            write_motion(motion, out)?;
+        }
+        for g in &self.gears {
+            if let Some(r) = &g.tip_relief {
+                writeln!(
+                    out,
+                    "{}: {} tip relief of {:.3} µm from diameter {:.4} mm, over {:.1} % of the flank's roll length",
+                    g.gear,
+                    r.shape,
+                    r.amount_um,
+                    r.start_diameter_mm,
+                    100.0 * r.relieved_share
+                )?;
+            }
+        }
+        if let Some(fe) = &self.fe_bodies {
             writeln!(
                 out,
-                "{}: {} tip relief of {:.3} µm from diameter {:.4} mm, over {:.1} % of the flank's roll length",
-                g.gear,
-                r.shape,
-                r.amount_um,
-                r.start_diameter_mm,
-                100.0 * r.relieved_share
+                "finite-element bodies: {} degrees of freedom, about {:.0} MB",
+                fe.degrees_of_freedom, fe.memory_mb
             )?;
         }
+        for limit in &self.limits {
+            writeln!(out, "note: {limit}")?;
+        }
+        for w in &self.warnings {
+            writeln!(out, "warning: `{}` is {}: {}; {}", w.key, w.value, w.what, w.likely)?;
+        }
+        Ok(verbs(&self.verbs, out)?)
     }
-    if let Some(fe) = &summary.fe_bodies {
-        writeln!(
-            out,
-            "finite-element bodies: {} degrees of freedom, about {:.0} MB",
-            fe.degrees_of_freedom, fe.memory_mb
-        )?;
-    }
-    for limit in &summary.limits {
-        writeln!(out, "note: {limit}")?;
-    }
-    for w in &summary.warnings {
-        writeln!(out, "warning: `{}` is {}: {}; {}", w.key, w.value, w.what, w.likely)?;
-    }
-    verbs(&summary.verbs, out)
 }
 
 /// Which verbs run, and what the others lack.

@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::arguments::Format;
-use crate::error::{CommandError, refused};
+use crate::error::{Result, refused};
 use crate::inputs::Working;
 use crate::output::{self, Report, Table};
 
@@ -18,9 +18,9 @@ pub(crate) struct GuardList {
 }
 
 /// Walks across every border; the text is `docs/guards.md`.
-pub(super) fn run(format: Format, out: &mut dyn Write) -> Result<(), CommandError> {
+pub(super) fn run(format: Format, out: &mut dyn Write) -> Result<()> {
     let working = Working::new("walking across every border");
-    let guards = guards().map_err(|e| refused("--guards", e.to_string()))?;
+    let guards = guards().map_err(|e| refused("--guards", e))?;
     drop(working);
     let list = GuardList { guards };
     match format {
@@ -31,21 +31,21 @@ pub(super) fn run(format: Format, out: &mut dyn Write) -> Result<(), CommandErro
 }
 
 impl Report for GuardList {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
-        let table = Table::new()
-            .column("name", "", |g: &&Guard| &g.name)
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
+        let table = Table::<&Guard>::new()
+            .column("name", "", |g| &g.name)
             .column("border", "", |g| &g.border)
             .column("within", "", |g| g.within.clone())
             .column("beyond", "", |g| g.beyond.clone());
         table.csv(&self.guards, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         page(&self.guards, out)
     }
 }
 
-fn page(guards: &[Guard], out: &mut dyn Write) -> Result<(), CommandError> {
+fn page(guards: &[Guard], out: &mut dyn Write) -> Result<()> {
     writeln!(
         out,
         "# Guards\n\n\

@@ -14,7 +14,7 @@ use serde::Serialize;
 use validation::PublishedScene;
 
 use crate::arguments::Stability;
-use crate::error::{CommandError, refused, unfit};
+use crate::error::{CommandError, Result, refused, unfit};
 use crate::folder::ResultFiles;
 use crate::inputs::{Working, needs, read_scene};
 use crate::output::{self, Notation, Report, Table};
@@ -44,11 +44,7 @@ struct MapEntry {
     takes_scene: bool,
 }
 
-pub(super) fn run(
-    arguments: &Stability,
-    out: &mut dyn Write,
-    err: &mut dyn Write,
-) -> Result<(), CommandError> {
+pub(super) fn run(arguments: &Stability, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     if arguments.guards {
         return guards::run(arguments.format, out);
     }
@@ -62,7 +58,7 @@ pub(super) fn run(
     let scene = match &arguments.scene {
         Some(path) => {
             let scene = read_scene(path)?;
-            needs::warn(&scene, err)?;
+            needs::warn(&scene, None, err)?;
             scene
         }
         None => built_in()?,
@@ -70,36 +66,27 @@ pub(super) fn run(
     let files = ResultFiles::new(arguments.out.as_deref(), which.name)?;
     let working = Working::new("computing the map");
     let map = stability_map(which, &scene).map_err(|e| match &arguments.scene {
-        Some(path) => unfit(path, e.to_string()),
-        None => unfit(Path::new("the scene built in"), e.to_string()),
+        Some(path) => unfit(path, e),
+        None => unfit(Path::new("the scene built in"), e),
     })?;
     drop(working);
     let result = StabilityOutput { version: env!("CARGO_PKG_VERSION").into(), map };
-    let saved = files.save(&result, |folder| figure(&result.map, folder));
+    let saved = files.save(&result);
+    #[cfg(feature = "charts")]
+    let saved = saved.and_then(|()| files.draw(|| crate::figures::of_map(&result.map)));
     // What was computed is shown also where it cannot be saved.
     let shown = output::show(arguments.format, &result, out);
     saved.and(shown)
 }
 
-/// Draws a map into a folder.
-#[cfg(feature = "charts")]
-fn figure(map: &StabilityMap, folder: &Path) -> Result<(), CommandError> {
-    Ok(crate::figures::save(&[crate::figures::of_map(map)], folder)?)
-}
-
-#[cfg(not(feature = "charts"))]
-fn figure(_: &StabilityMap, _: &Path) -> Result<(), CommandError> {
-    Ok(())
-}
-
 /// Five equally spaced planets: the set that shows every kind of mode and of phasing.
-pub(super) fn built_in() -> Result<Scene, CommandError> {
+pub(super) fn built_in() -> Result<Scene> {
     validation::scene(PublishedScene::FivePlanets)
         .map_err(|source| CommandError::Scene { path: "the scene built in".into(), source })
 }
 
 /// The maps that there are.
-fn list(arguments: &Stability, out: &mut dyn Write) -> Result<(), CommandError> {
+fn list(arguments: &Stability, out: &mut dyn Write) -> Result<()> {
     if let Some(argument) =
         [("--scene", arguments.scene.is_some()), ("--out", arguments.out.is_some())]
             .into_iter()
@@ -118,15 +105,15 @@ fn list(arguments: &Stability, out: &mut dyn Write) -> Result<(), CommandError> 
 }
 
 impl Report for StabilityList {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
-        let table = Table::new()
-            .column("name", "", |m: &&MapEntry| &m.name)
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
+        let table = Table::<&MapEntry>::new()
+            .column("name", "", |m| &m.name)
             .column("meaning", "", |m| &m.meaning)
             .column("takes_scene", "", |m| m.takes_scene);
         table.csv(&self.maps, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         self.maps.iter().try_for_each(|m| writeln!(out, "{:<19} {}", m.name, m.meaning))?;
         Ok(())
     }
@@ -140,8 +127,8 @@ fn table<'r>() -> Table<'r, &'r Border> {
     };
     // Zero without a sign.
     let percent = |x: f64| Fixed(2).number(if x.abs() < 0.005 { 0.0 } else { x });
-    Table::new()
-        .column("of", "", |b: &&Border| &b.of)
+    Table::<&Border>::new()
+        .column("of", "", |b| &b.of)
         .shown("of", Plain)
         .column("quantity", "", |b| &b.quantity)
         .shown_as("what", what)
@@ -155,16 +142,16 @@ fn table<'r>() -> Table<'r, &'r Border> {
 }
 
 impl Report for StabilityOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         table().csv(&self.map.borders, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         write_text(&self.map, out)
     }
 }
 
-pub(super) fn write_text(map: &StabilityMap, out: &mut dyn Write) -> Result<(), CommandError> {
+pub(super) fn write_text(map: &StabilityMap, out: &mut dyn Write) -> Result<()> {
     writeln!(out, "{}: {}\n", map.map, map.system)?;
     table().text(&map.borders, out)?;
     Ok(writeln!(out, "{}", map.meaning)?)

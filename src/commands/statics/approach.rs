@@ -12,7 +12,7 @@ use serde::Serialize;
 
 use super::solver::solver;
 use crate::arguments::Static;
-use crate::error::{CommandError, fe_refused, refused, unfit};
+use crate::error::{Result, fe_refused, refused, unfit};
 use crate::folder::{save, writable};
 use crate::inputs::{Working, loads};
 use crate::output::{self, Report, Table};
@@ -46,7 +46,7 @@ pub(super) fn run(
     scene: &Scene,
     out: &mut dyn Write,
     err: &mut dyn Write,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     let path = &arguments.scene;
     let kind = scene.pair.ok_or_else(|| unfit(path, "`mesh` is absent"))?;
     let approach_um = loads::approach(arguments.approach_um.unwrap_or(0.0), scene, err)?;
@@ -94,15 +94,15 @@ pub(super) fn run(
 }
 
 impl Report for ApproachOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
-        let table = Table::new()
-            .column("pair", "", |p: &&ApproachPair| p.index)
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
+        let table = Table::<&ApproachPair>::new()
+            .column("pair", "", |p| p.index)
             .column("force_n", "", |p| p.force_n)
             .column("peak_pressure_pa", "", |p| p.peak_pressure_pa);
         table.csv(&self.pairs, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         writeln!(out, "{}: {:.2} N", self.heading, self.force_n)?;
         for p in &self.pairs {
             let peak = p

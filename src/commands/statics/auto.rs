@@ -8,7 +8,7 @@ use scene::{AutoQuantity, LoadCase, Scene};
 use super::set::{self, SetOutput};
 use crate::arguments::{ContactSolver, Format, Static};
 use crate::commands::auto_choice;
-use crate::error::{CommandError, refused, unfit};
+use crate::error::{Result, refused, unfit};
 use crate::inputs::Working;
 use crate::output;
 
@@ -30,20 +30,17 @@ pub(super) fn run(
     torques: &[f64],
     value: CycleValue,
     (out, err): (&mut dyn Write, &mut dyn Write),
-) -> Result<(), CommandError> {
+) -> Result<()> {
     let path = &arguments.scene;
     let [torque] = torques else {
         let reason = "`dynamics.fidelity` = \"auto\" chooses settings for one torque: name one";
         return Err(refused("--sun-torque-nm", reason));
     };
-    if arguments.positions.is_some() {
-        let reason = "`dynamics.fidelity` = \"auto\" chooses the number of positions: leave it out";
-        return Err(refused("--positions", reason));
-    }
-    if arguments.solver != ContactSolver::ActiveSet {
-        let reason = "`dynamics.fidelity` = \"auto\" solves by active sets: leave it out";
-        return Err(refused("--solver", reason));
-    }
+    let is_other_solver = arguments.solver != ContactSolver::ActiveSet;
+    auto_choice::refuse_given(&[
+        ("--positions", arguments.positions.is_some(), "chooses the number of positions"),
+        ("--solver", is_other_solver, "solves by active sets"),
+    ])?;
     // The lumped model, which may be enough for a mean, has no tooth pairs to list or draw.
     if value == CycleValue::Mean {
         let reason = "`dynamics.quantity` = \"mean_transmission_error\" may be answered by the lumped model, which has no \
@@ -51,7 +48,6 @@ pub(super) fn run(
         if arguments.format == Format::Csv {
             return Err(refused("--format csv", reason));
         }
-        #[cfg(feature = "charts")]
         if arguments.figures.is_some() {
             return Err(refused("--figures", reason));
         }

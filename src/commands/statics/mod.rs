@@ -16,14 +16,10 @@ use std::io::Write;
 use scene::{Scene, SceneKind, Verb};
 
 use crate::arguments::Static;
-use crate::error::{CommandError, refused, unfit};
+use crate::error::{Result, refused, unfit};
 use crate::inputs::{loads, needs, read_scene};
 
-pub(crate) fn run(
-    arguments: &Static,
-    out: &mut dyn Write,
-    err: &mut dyn Write,
-) -> Result<(), CommandError> {
+pub(crate) fn run(arguments: &Static, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let scene = read_scene(&arguments.scene)?;
     if scene.geometry.is_none() {
         let reason = "[geometry] is absent: teeth are needed to touch";
@@ -33,9 +29,7 @@ pub(crate) fn run(
         return Err(refused(option, "has no use without --approach-um, which turns a gear pair"));
     }
     let path = &arguments.scene;
-    needs::warn(&scene, err)?;
-    #[cfg(feature = "charts")]
-    needs::figures(&scene, arguments.figures.as_deref(), err)?;
+    needs::warn(&scene, arguments.figures.as_deref(), err)?;
     match scene.kind {
         SceneKind::GearPair if arguments.approach_um.is_some() => {
             approach::run(arguments, &scene, out, err)
@@ -62,7 +56,7 @@ pub(crate) fn run(
 }
 
 /// Normal force of a gear pair.
-fn pair_force(arguments: &Static, scene: &Scene, err: &mut dyn Write) -> Result<f64, CommandError> {
+fn pair_force(arguments: &Static, scene: &Scene, err: &mut dyn Write) -> Result<f64> {
     if !arguments.sun_torque_nm.is_empty() {
         let argument = "--sun-torque-nm";
         return Err(refused(argument, "a gear pair is loaded by --normal-force-n, in N"));
@@ -71,11 +65,7 @@ fn pair_force(arguments: &Static, scene: &Scene, err: &mut dyn Write) -> Result<
 }
 
 /// Torques on the sun: those asked for, or the operating point's.
-fn set_torques(
-    arguments: &Static,
-    scene: &Scene,
-    err: &mut dyn Write,
-) -> Result<Vec<f64>, CommandError> {
+fn set_torques(arguments: &Static, scene: &Scene, err: &mut dyn Write) -> Result<Vec<f64>> {
     if arguments.normal_force_n.is_some() {
         let argument = "--normal-force-n";
         return Err(refused(argument, "a whole set is loaded by --sun-torque-nm"));

@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::pair_load::PairLoad;
 use super::solver::solver;
 use crate::arguments::Static;
-use crate::error::{CommandError, fe_refused, unfit};
+use crate::error::{Result, fe_refused, unfit};
 #[cfg(feature = "charts")]
 use crate::figures;
 use crate::inputs::Working;
@@ -59,7 +59,7 @@ pub(super) fn run(
     scene: &Scene,
     force: f64,
     out: &mut dyn Write,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     let path = &arguments.scene;
     let kind = scene.pair.ok_or_else(|| unfit(path, "`mesh` is absent"))?;
     let working = Working::new("meshing the bodies and solving the positions");
@@ -68,7 +68,7 @@ pub(super) fn run(
     let positions = arguments.position_count();
     let cycle = pair_cycle(&bodies, kind, force, positions, solver).map_err(fe_refused(path))?;
     drop(working);
-    let saved: Result<(), CommandError> = Ok(());
+    let saved: Result<()> = Ok(());
     #[cfg(feature = "charts")]
     let saved = arguments.figures.as_ref().map_or(saved, |folder| {
         Ok(figures::save(&figures::of_pair_cycle(&scene.title, &cycle), folder)?)
@@ -110,8 +110,8 @@ fn table<'r>() -> Table<'r, Row<'r>> {
         };
         position.pairs.iter().map(pair).collect::<Vec<_>>().join(", ")
     };
-    Table::new()
-        .column("phase", "", |(p, _): &Row<'r>| p.phase)
+    Table::<Row<'r>>::new()
+        .column("phase", "", |(p, _)| p.phase)
         .shown("phase", Fixed(4))
         .column("transmission_error_um", "", |(p, _)| p.transmission_error_um)
         .shown("δ µm", Fixed(4))
@@ -124,12 +124,12 @@ fn table<'r>() -> Table<'r, Row<'r>> {
 }
 
 impl Report for PairOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         let rows = self.positions.iter().flat_map(|p| p.pairs.iter().map(move |l| (p, Some(l))));
         table().csv(rows, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         writeln!(out, "{}", self.title)?;
         let count = self.positions.len();
         writeln!(

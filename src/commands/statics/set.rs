@@ -4,7 +4,7 @@ use std::io::Write;
 
 use experiments::auto::Choice;
 use fe_contact::statics::{Bodies, Imperfections, MeshState, SetCycle, SetState, StaticSet};
-use gearset::Member;
+use gearset::{Member, MemberTorques};
 use scene::{LoadCase, Scene};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -13,7 +13,7 @@ use super::pair_load::PairLoad;
 use super::solver::solver;
 use crate::arguments::Static;
 use crate::commands::auto_choice;
-use crate::error::{CommandError, fe_refused, unfit};
+use crate::error::{Result, fe_refused, unfit};
 #[cfg(feature = "charts")]
 use crate::figures;
 use crate::inputs::Working;
@@ -45,7 +45,7 @@ struct TorqueOutput {
     sun_translation_rms_um: f64,
     /// External torques on the central members, means over the mesh cycle, counter-clockwise: one of them acts, the
     /// supports of the others react.
-    member_torques_nm: MemberTorquesOutput,
+    member_torques_nm: MemberTorques,
     /// Member that the torque acts on: the one that turns without support.
     torque_acts_on: &'static str,
     /// r_b · rotation of that member (of a carrier: the base radii of sun and ring times its rotation).
@@ -61,14 +61,6 @@ struct TorqueOutput {
     /// Whether what the linearisation leaves is worth a warning.
     #[serde(skip)]
     is_beyond_linear: bool,
-}
-
-/// Torques on the central members.
-#[derive(Debug, Serialize, JsonSchema)]
-struct MemberTorquesOutput {
-    sun: f64,
-    ring: f64,
-    carrier: f64,
 }
 
 /// One mesh over the cycle.
@@ -139,7 +131,7 @@ pub(super) fn run(
     torques: &[f64],
     auto: Option<Choice>,
     out: &mut dyn Write,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     let path = &arguments.scene;
     let working = Working::new("meshing the bodies and solving the positions");
     let bodies = Bodies::new(scene).map_err(fe_refused(path))?;
@@ -156,8 +148,8 @@ pub(super) fn run(
     drop(working);
     let radius = bodies.geometry.sun.as_ref().map(|sun| sun.base_radius);
     let radius = radius.ok_or_else(|| unfit(path, "`geometry.sun` is absent"))?;
-    let loaded = scene.loaded_member().map_err(|e| unfit(path, e.to_string()))?;
-    let saved: Result<(), CommandError> = Ok(());
+    let loaded = scene.loaded_member().map_err(|e| unfit(path, e))?;
+    let saved: Result<()> = Ok(());
     #[cfg(feature = "charts")]
     let saved = arguments.figures.as_ref().map_or(saved, |folder| {
         Ok(figures::save(&figures::of_set_cycles(&scene.title, &cycles, radius), folder)?)
@@ -224,7 +216,7 @@ fn describe(cycle: &SetCycle, (radius, loaded): (f64, Member)) -> TorqueOutput {
         sun_rotation_rms_urad: rotation * 1e6,
         sun_translation_rms_um: translation * 1e6,
         // In equilibrium they sum to nothing.
-        member_torques_nm: MemberTorquesOutput { sun: -(ring + carrier), ring, carrier },
+        member_torques_nm: MemberTorques { sun: -(ring + carrier), ring, carrier },
         torque_acts_on: loaded.name(),
         transmission_error_mean_um: error.mean * 1e6,
         transmission_error_peak_to_peak_um: error.peak_to_peak() * 1e6,
@@ -246,8 +238,8 @@ fn describe(cycle: &SetCycle, (radius, loaded): (f64, Member)) -> TorqueOutput {
 type Row<'r> = (&'r TorqueOutput, &'r SetPosition, &'r MeshPosition, &'r PairLoad);
 
 fn pairs<'r>() -> Table<'r, Row<'r>> {
-    Table::new()
-        .column("sun_torque_nm", "", |(torque, ..): &Row<'r>| torque.sun_torque_nm)
+    Table::<Row<'r>>::new()
+        .column("sun_torque_nm", "", |(torque, ..)| torque.sun_torque_nm)
         .column("position", "", |(_, position, ..)| position.position)
         .column("mesh", "", |(_, _, mesh, _)| &mesh.mesh)
         .column("planet", "", |(_, _, mesh, _)| mesh.planet)
@@ -263,39 +255,37 @@ fn pairs<'r>() -> Table<'r, Row<'r>> {
 
 fn meshes<'r>() -> Table<'r, &'r MeshSummary> {
     use Notation::{Fixed, Plain};
-    type Mesh<'r> = &'r MeshSummary;
-    Table::new()
-        .words("mesh", Plain, |m: &Mesh<'_>| &m.mesh)
+    Table::<&MeshSummary>::new()
+        .words("mesh", Plain, |m| &m.mesh)
         .key()
-        .words("planet", Plain, |m: &Mesh<'_>| m.planet)
+        .words("planet", Plain, |m| m.planet)
         .key()
-        .words("mean N", Fixed(1), |m: &Mesh<'_>| m.mean_force_n)
-        .words("least N", Fixed(1), |m: &Mesh<'_>| m.least_force_n)
-        .words("largest N", Fixed(1), |m: &Mesh<'_>| m.largest_force_n)
-        .words("secant 1e6 N/m", Fixed(1), |m: &Mesh<'_>| 1e-6 * m.mean_secant_stiffness_n_per_m)
-        .words("tangent 1e6 N/m", Fixed(1), |m: &Mesh<'_>| 1e-6 * m.mean_tangent_stiffness_n_per_m)
+        .words("mean N", Fixed(1), |m| m.mean_force_n)
+        .words("least N", Fixed(1), |m| m.least_force_n)
+        .words("largest N", Fixed(1), |m| m.largest_force_n)
+        .words("secant 1e6 N/m", Fixed(1), |m| 1e-6 * m.mean_secant_stiffness_n_per_m)
+        .words("tangent 1e6 N/m", Fixed(1), |m| 1e-6 * m.mean_tangent_stiffness_n_per_m)
 }
 
 /// Motion of the sun under several torques, beside that under the first.
 fn torques<'r>(first: &'r TorqueOutput) -> Table<'r, &'r TorqueOutput> {
     use Notation::{Fixed, Plain};
-    type Torque<'r> = &'r TorqueOutput;
     // A cycle of one position and a sun that stays put have no ratio.
     let over = |value: f64, first: f64| (first > 0.0).then_some(value / first);
-    Table::new()
-        .words("torque N·m", Plain, |t: &Torque<'_>| t.sun_torque_nm)
-        .words("rotation µrad", Fixed(4), |t: &Torque<'_>| t.sun_rotation_rms_urad)
-        .words("translation µm", Fixed(4), |t: &Torque<'_>| t.sun_translation_rms_um)
-        .words("rotation ÷ first", Fixed(3), move |t: &Torque<'_>| {
+    Table::<&TorqueOutput>::new()
+        .words("torque N·m", Plain, |t| t.sun_torque_nm)
+        .words("rotation µrad", Fixed(4), |t| t.sun_rotation_rms_urad)
+        .words("translation µm", Fixed(4), |t| t.sun_translation_rms_um)
+        .words("rotation ÷ first", Fixed(3), move |t| {
             over(t.sun_rotation_rms_urad, first.sun_rotation_rms_urad)
         })
-        .words("translation ÷ first", Fixed(3), move |t: &Torque<'_>| {
+        .words("translation ÷ first", Fixed(3), move |t| {
             over(t.sun_translation_rms_um, first.sun_translation_rms_um)
         })
 }
 
 impl Report for SetOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         let rows = self.torques.iter().flat_map(|torque| {
             let meshes = torque.positions.iter().flat_map(|p| p.meshes.iter().map(move |m| (p, m)));
             meshes.flat_map(move |(p, m)| m.pairs.iter().map(move |load| (torque, p, m, load)))
@@ -303,7 +293,7 @@ impl Report for SetOutput {
         pairs().csv(rows, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         writeln!(out, "{}", self.title)?;
         if let Some(choice) = &self.auto {
             auto_choice::write(choice, out)?;

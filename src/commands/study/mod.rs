@@ -5,14 +5,13 @@ mod text;
 pub(super) use text::{sentence, write_text};
 
 use std::io::Write;
-use std::path::Path;
 
 use experiments::study::{StudyError, StudyFile, StudyResult, run_study};
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::arguments::Study;
-use crate::error::CommandError;
+use crate::error::{CommandError, Result};
 use crate::folder::ResultFiles;
 use crate::inputs::Working;
 use crate::output::{self, Report};
@@ -30,7 +29,7 @@ pub(super) fn run(
     arguments: &Study,
     out: &mut dyn Write,
     err: &mut (dyn Write + Send),
-) -> Result<(), CommandError> {
+) -> Result<()> {
     let refused = |error: StudyError| CommandError::Study { path: arguments.file.clone(), error };
     let mut study = StudyFile::read(&arguments.file).map_err(refused)?;
     if let Some(rounds) = arguments.rounds {
@@ -39,35 +38,26 @@ pub(super) fn run(
     let name = arguments.file.file_stem().unwrap_or_default().to_string_lossy();
     let files = ResultFiles::new(arguments.out.as_deref(), &name)?;
     let working = Working::new("study");
-    let result = run_study(&study, &|words| working.say(words)).map_err(refused)?;
+    let result = run_study(&study, &|words| working.now(words.to_owned())).map_err(refused)?;
     drop(working);
     warn(&result, err)?;
     let result = StudyOutput { version: env!("CARGO_PKG_VERSION").into(), study: result };
-    let saved = files.save(&result, |folder| figure(&result.study, &name, folder));
+    let saved = files.save(&result);
+    #[cfg(feature = "charts")]
+    let saved = saved.and_then(|()| files.draw(|| crate::figures::of_study(&result.study, &name)));
     // What was computed is shown also where it cannot be saved.
     let shown = output::show(arguments.format, &result, out);
     saved.and(shown)
 }
 
 impl Report for StudyOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         text::table().csv(text::rows(&self.study), out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         write_text(&self.study, out)
     }
-}
-
-/// Draws a study into a folder.
-#[cfg(feature = "charts")]
-fn figure(study: &StudyResult, name: &str, folder: &Path) -> Result<(), CommandError> {
-    Ok(crate::figures::save(&[crate::figures::of_study(study, name)], folder)?)
-}
-
-#[cfg(not(feature = "charts"))]
-fn figure(_: &StudyResult, _: &str, _: &Path) -> Result<(), CommandError> {
-    Ok(())
 }
 
 /// Ratio of the yardstick's times, of the last third to the first or of the upper quartile to the lower, beyond which
@@ -75,7 +65,7 @@ fn figure(_: &StudyResult, _: &str, _: &Path) -> Result<(), CommandError> {
 /// a machine as restless as this may have changed in between.
 const RESTLESS: f64 = 1.2;
 
-fn warn(study: &StudyResult, err: &mut dyn Write) -> Result<(), CommandError> {
+fn warn(study: &StudyResult, err: &mut dyn Write) -> Result<()> {
     let (drift, q) = (study.time.yardstick_drift, &study.time.yardstick_s);
     let scatter = q.high / q.low;
     if scatter > RESTLESS || !(1.0 / RESTLESS..=RESTLESS).contains(&drift) {

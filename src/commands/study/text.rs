@@ -2,10 +2,10 @@
 
 use std::io::Write;
 
-use experiments::study::{Doubt, QuantityResult, Quartiles, Row, StudyResult, Work};
+use experiments::study::{QuantityResult, Quartiles, Row, StudyResult, Work};
 
-use crate::error::CommandError;
-use crate::output::{Notation, Table};
+use crate::error::Result;
+use crate::output::{Notation, Table, word};
 
 /// A setting's result for a quantity.
 pub(super) type Entry<'r> = (&'r QuantityResult, &'r Row, &'r str);
@@ -25,8 +25,8 @@ pub(super) fn table<'r>() -> Table<'r, Entry<'r>> {
     let cycles = |quartiles: fn(&Row) -> Option<Quartiles>, part: fn(Quartiles) -> f64| {
         move |(_, row, _): &Entry<'r>| quartiles(row).map(part)
     };
-    Table::new()
-        .column("quantity", "", |(quantity, ..): &Entry<'r>| &quantity.name)
+    Table::<Entry<'r>>::new()
+        .column("quantity", "", |(quantity, ..)| &quantity.name)
         .column("setting", "", |(_, row, _)| &row.setting)
         .column("group", "", |(.., group)| *group)
         .column("unit", "", |(quantity, ..)| &quantity.unit)
@@ -35,7 +35,7 @@ pub(super) fn table<'r>() -> Table<'r, Entry<'r>> {
         .column("uncertainty_percent", "", |(q, ..)| q.truth.uncertainty_percent)
         .column("error_percent", "", |(_, row, _)| row.error_percent)
         .column("guarded_percent", "", |(_, row, _)| row.guarded_percent)
-        .column("doubt", "", |(_, row, _)| row.doubt.map(doubt_word))
+        .column("doubt", "", |(_, row, _)| row.doubt.as_ref().map(word))
         .column("rank", "", |(_, row, _)| row.rank)
         .column("least_rank", "", |(_, row, _)| row.ranks.map(|ranks| ranks[0]))
         .column("greatest_rank", "", |(_, row, _)| row.ranks.map(|ranks| ranks[1]))
@@ -59,15 +59,8 @@ pub(super) fn table<'r>() -> Table<'r, Entry<'r>> {
         .column("refusal", "", |(_, row, _)| row.refusal.clone())
 }
 
-fn doubt_word(doubt: Doubt) -> &'static str {
-    match doubt {
-        Doubt::Crossing => "crossing",
-        Doubt::GrowsWithRefinement => "grows_with_refinement",
-    }
-}
-
 /// A table for each quantity, with its truth above and what follows from it below.
-pub(crate) fn write_text(study: &StudyResult, out: &mut dyn Write) -> Result<(), CommandError> {
+pub(crate) fn write_text(study: &StudyResult, out: &mut dyn Write) -> Result<()> {
     writeln!(out, "{}", study.title)?;
     writeln!(out, "{}, {} N·m on the sun", study.scene, study.sun_torque_nm)?;
     if !study.keys.is_empty() {
@@ -99,7 +92,7 @@ fn write_quantity(
     study: &StudyResult,
     quantity: &QuantityResult,
     out: &mut dyn Write,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     let truth = &quantity.truth;
     let unit = if quantity.unit == "1" { String::new() } else { format!(" {}", quantity.unit) };
     writeln!(
@@ -130,35 +123,34 @@ fn write_quantity(
 /// What text shows of a quantity's settings.
 fn shown_table<'r>(quantity: &'r QuantityResult) -> Table<'r, &'r Row> {
     use Notation::{Digits, Plain};
-    type Entry<'r> = &'r Row;
     let percent = |x: Option<f64>| x.map_or("–".to_owned(), shown_percent);
-    let cost = |r: &Entry<'_>, words: fn(&Quartiles) -> String| {
+    let cost = |r: &&Row, words: fn(&Quartiles) -> String| {
         r.time.cost_cycles.as_ref().map_or("–".to_owned(), words)
     };
-    let rank = |r: &Entry<'_>| match (r.rank, r.ranks) {
+    let rank = |r: &&Row| match (r.rank, r.ranks) {
         (Some(rank), Some([low, high])) if low != high => format!("{rank} ({low}–{high})"),
         (Some(rank), _) => rank.to_string(),
         _ => "–".into(),
     };
-    Table::new()
-        .words("setting", Plain, |r: &Entry<'_>| &r.setting)
+    Table::<&Row>::new()
+        .words("setting", Plain, |r| &r.setting)
         .key()
-        .words("value", Digits, |r: &Entry<'_>| r.value)
-        .words("error %", Plain, move |r: &Entry<'_>| percent(r.error_percent))
+        .words("value", Digits, |r| r.value)
+        .words("error %", Plain, move |r| percent(r.error_percent))
         .right()
-        .words("ranked by %", Plain, move |r: &Entry<'_>| percent(r.guarded_percent))
+        .words("ranked by %", Plain, move |r| percent(r.guarded_percent))
         .right()
         .words("rank", Plain, rank)
         .right()
-        .words("cost", Plain, move |r: &Entry<'_>| cost(r, |q| shown_cost(q.median)))
+        .words("cost", Plain, move |r| cost(r, |q| shown_cost(q.median)))
         .right()
-        .words("quartiles", Plain, move |r: &Entry<'_>| {
+        .words("quartiles", Plain, move |r| {
             cost(r, |q| format!("[{}, {}]", shown_cost(q.low), shown_cost(q.high)))
         })
         .right()
-        .words("set-up", Plain, |r: &Entry<'_>| r.time.set_up_cycles.map(|q| shown_cost(q.median)))
+        .words("set-up", Plain, |r| r.time.set_up_cycles.map(|q| shown_cost(q.median)))
         .right()
-        .words(quantity.work.words(), Digits, |r: &Entry<'_>| r.work.of(quantity.work))
+        .words(quantity.work.words(), Digits, |r| r.work.of(quantity.work))
         .words("", Plain, marks)
 }
 

@@ -3,13 +3,13 @@
 use std::io::Write;
 
 use experiments::auto::{AmplitudeQuestion, choose_amplitude};
-use experiments::sweep::Plan;
-use scene::{AutoQuantity, AutoResponse, LoadCase, Scene};
+use scene::{AutoQuantity, AutoResponse, Scene};
 
+use super::Task;
 use super::result::SweepOutput;
-use crate::arguments::{Format, Model, Sweep};
+use crate::arguments::{Format, Model};
 use crate::commands::auto_choice;
-use crate::error::{CommandError, refused, unfit};
+use crate::error::{CommandError, Result, unfit};
 use crate::inputs::{Working, needs};
 use crate::output;
 
@@ -21,87 +21,52 @@ pub(super) fn response(scene: &Scene) -> Option<AutoResponse> {
     }
 }
 
-/// A sweep whose settings are to be chosen.
-pub(super) struct Asked<'a> {
-    pub(super) arguments: &'a Sweep,
-    pub(super) scene: &'a Scene,
-    /// Torque and driven member.
-    pub(super) case: LoadCase,
-}
-
-impl Asked<'_> {
-    /// The sweep with the cheapest settings within the tolerance. Beside a table (CSV) the choice goes to `err`.
-    pub(super) fn run(
-        &self,
-        response: AutoResponse,
-        plan: &Plan,
-        out: &mut dyn Write,
-        err: &mut dyn Write,
-    ) -> Result<(), CommandError> {
-        let Self { arguments, scene, case } = self;
-        self.check()?;
-        needs::warn(scene, err)?;
-        #[cfg(feature = "charts")]
-        needs::figures(scene, arguments.figures.as_deref(), err)?;
-        let speeds_rpm = plan.chains.iter().flat_map(|c| c.speeds_rpm.iter().copied()).collect();
-        let tolerance_percent = scene.dynamics.auto.map_or(f64::NAN, |a| a.tolerance_percent);
-        let steady = plan.steady.clone();
-        let question = AmplitudeQuestion::new((scene, case), response, speeds_rpm, steady);
-        let working = Working::new("choosing settings");
-        let found = choose_amplitude(&question, tolerance_percent)
-            .map_err(|e| unfit(&arguments.scene, format!("`dynamics.fidelity` = \"auto\": {e}")))?;
-        drop(working);
-        let own = found.choice.settings.applied_to(scene);
-        let saved: Result<(), CommandError> = Ok(());
-        #[cfg(feature = "charts")]
-        let saved = arguments.figures.as_ref().map_or(saved, |folder| {
-            let bodies = fe_contact::statics::Bodies::new(&own)
-                .map_err(crate::error::fe_refused(&arguments.scene))?;
-            super::draw(&own, &bodies, *case, &found.sweep, folder)
-        });
-        let (torque, sweep) = (case.sun_torque_nm, &found.sweep);
-        let result = SweepOutput::new(&own, torque, &plan.steady, sweep);
-        // Beside a table, which has no place for them, choice and failed speeds go to `err`.
-        let said = match arguments.format {
-            Format::Csv => auto_choice::write(&found.choice, err)
-                .map_err(CommandError::from)
-                .and_then(|()| result.write_failed(err)),
-            _ => Ok(()),
-        };
-        // What was computed is shown also where its figures cannot be saved.
-        let shown = output::show(arguments.format, &result.chosen_by(found.choice), out);
-        saved.and(shown).and(said)
-    }
-
-    /// Refuses arguments that say what is to be chosen, or that change what it is chosen for.
-    fn check(&self) -> Result<(), CommandError> {
-        let given = self.arguments;
-        let refusals = [
-            ("--model", given.model == Model::Lumped, "chooses the model"),
-            (
-                "--refine",
-                given.refine > 0,
-                "gives the largest amplitude over the speeds that are named",
-            ),
-            ("--both-ways", given.both_ways, "compares settings by one motion at each speed"),
-            (
-                "--random-starts",
-                given.random_starts > 0,
-                "compares settings by one motion at each speed",
-            ),
-            ("--harmonics", given.harmonics > 5, "chooses steps that resolve up to 5 harmonics"),
-            (
-                "--out",
-                given.out.is_some(),
-                "has no folder of points, which belong to one named fidelity",
-            ),
-        ];
-        match refusals.into_iter().find(|(_, is_given, _)| *is_given) {
-            Some((argument, _, why)) => {
-                let reason = format!("`dynamics.fidelity` = \"auto\" {why}: leave it out");
-                Err(refused(argument, reason))
-            }
-            None => Ok(()),
-        }
-    }
+/// The sweep with the cheapest settings within the tolerance. Beside a table (CSV) the choice goes to `err`.
+pub(super) fn run(
+    Task { arguments, case, plan, .. }: &Task<'_>,
+    scene: &Scene,
+    response: AutoResponse,
+    out: &mut dyn Write,
+    err: &mut dyn Write,
+) -> Result<()> {
+    let one_motion = "compares settings by one motion at each speed";
+    let named_speeds = "gives the largest amplitude over the speeds that are named";
+    let no_folder = "has no folder of points, which belong to one named fidelity";
+    auto_choice::refuse_given(&[
+        ("--model", arguments.model == Model::Lumped, "chooses the model"),
+        ("--refine", arguments.refine > 0, named_speeds),
+        ("--both-ways", arguments.both_ways, one_motion),
+        ("--random-starts", arguments.random_starts > 0, one_motion),
+        ("--harmonics", arguments.harmonics > 5, "chooses steps that resolve up to 5 harmonics"),
+        ("--out", arguments.out.is_some(), no_folder),
+    ])?;
+    needs::warn(scene, arguments.figures.as_deref(), err)?;
+    let speeds_rpm = plan.chains.iter().flat_map(|c| c.speeds_rpm.iter().copied()).collect();
+    let tolerance_percent = scene.dynamics.auto.map_or(f64::NAN, |a| a.tolerance_percent);
+    let steady = plan.steady.clone();
+    let question = AmplitudeQuestion::new((scene, case), response, speeds_rpm, steady);
+    let working = Working::new("choosing settings");
+    let found = choose_amplitude(&question, tolerance_percent)
+        .map_err(|e| unfit(&arguments.scene, format!("`dynamics.fidelity` = \"auto\": {e}")))?;
+    drop(working);
+    let own = found.choice.settings.applied_to(scene);
+    let saved: Result<()> = Ok(());
+    #[cfg(feature = "charts")]
+    let saved = arguments.figures.as_ref().map_or(saved, |folder| {
+        let bodies = fe_contact::statics::Bodies::new(&own)
+            .map_err(crate::error::fe_refused(&arguments.scene))?;
+        super::draw(&own, &bodies, *case, &found.sweep, folder)
+    });
+    let (torque, sweep) = (case.sun_torque_nm, &found.sweep);
+    let result = SweepOutput::new(&own, torque, &plan.steady, sweep);
+    // Beside a table, which has no place for them, choice and failed speeds go to `err`.
+    let said = match arguments.format {
+        Format::Csv => auto_choice::write(&found.choice, err)
+            .map_err(CommandError::from)
+            .and_then(|()| result.write_failed(err)),
+        _ => Ok(()),
+    };
+    // What was computed is shown also where its figures cannot be saved.
+    let shown = output::show(arguments.format, &result.chosen_by(found.choice), out);
+    saved.and(shown).and(said)
 }

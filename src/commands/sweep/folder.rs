@@ -7,7 +7,7 @@ use scene::read_text;
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::folder::{Claim, MOST_BYTES, Manifest, RunKind, other_results};
 
 /// Manifest of the speeds about peaks.
@@ -49,7 +49,7 @@ fn speeds(manifest: &Value) -> String {
 }
 
 /// What the points of a plan are computed from.
-pub(super) fn manifest(subject: (&str, &str, f64), plan: &Plan) -> Result<Manifest, CommandError> {
+pub(super) fn manifest(subject: (&str, &str, f64), plan: &Plan) -> Result<Manifest> {
     #[derive(Serialize)]
     struct Settings<'p> {
         plan: &'p Plan,
@@ -61,7 +61,7 @@ pub(super) fn manifest(subject: (&str, &str, f64), plan: &Plan) -> Result<Manife
 ///
 /// # Errors
 /// As [`Claim::of`], or if the folder holds speeds about peaks of another refinement.
-pub(super) fn claim(folder: &Path, wanted: &Manifest, refine: u32) -> Result<Claim, CommandError> {
+pub(super) fn claim(folder: &Path, wanted: &Manifest, refine: u32) -> Result<Claim> {
     Claim::of(folder, wanted, |folder| match refine {
         0 => Ok(()),
         refine => check_refinement(&folder.join(PEAKS), refine),
@@ -69,7 +69,7 @@ pub(super) fn claim(folder: &Path, wanted: &Manifest, refine: u32) -> Result<Cla
 }
 
 /// Refuses speeds about peaks that an earlier run laid out for another number of them.
-fn check_refinement(path: &Path, refine: u32) -> Result<(), CommandError> {
+fn check_refinement(path: &Path, refine: u32) -> Result<()> {
     let Ok(text) = read_text(path, MOST_BYTES) else { return Ok(()) };
     let plan = serde_json::from_str::<Value>(&text).unwrap_or_default();
     let Some(chains) = plan.pointer("/plan/chains").and_then(Value::as_array) else {

@@ -1,4 +1,4 @@
-//! `sweep SCENE`: steady states over speed.
+//! `sweep scene`: steady states over speed.
 
 mod auto;
 mod folder;
@@ -9,23 +9,22 @@ mod table;
 
 pub(crate) use result::SweepOutput;
 
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::Path;
 
 use experiments::sweep::{
-    Direction, Kept, LUMPED, Memory, Plan, PlanError, PointStore, SteadyMethod, SteadySettings,
-    Sweep, SweepError, SweepModel, even_speeds, fidelity_name, run as run_plan,
+    Direction, Kept, Memory, Plan, PlanError, PointStore, SteadyMethod, SteadySettings, Sweep,
+    SweepError, SweepModel, even_speeds, run as run_plan,
 };
 use fe_contact::statics::Bodies;
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use scene::{Fidelity, LoadCase, Scene, Verb};
+use scene::{LoadCase, Scene, Verb};
 
 use super::turning;
-use crate::arguments::{Format, Model, Sweep as SweepArguments};
-use crate::error::{CommandError, fe_refused, refused, unfit};
+use crate::arguments::{Format, Sweep as SweepArguments};
+use crate::error::{Result, fe_refused, refused, unfit};
 use crate::folder::{Claim, KeptFiles, Manifest, PLAN, write_results};
 use crate::inputs::needs::{self, not_ring_pair};
-use crate::inputs::{Working, loads, read_scene, scene_text};
+use crate::inputs::{Working, loads, progress, read_scene, scene_text};
 use crate::output;
 use folder::PEAKS;
 
@@ -41,19 +40,16 @@ pub(super) fn run(
     arguments: &SweepArguments,
     out: &mut dyn Write,
     err: &mut dyn Write,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     let path = &arguments.scene;
     let scene = read_scene(path)?;
     let task = Task::new(arguments, &scene, err)?;
     if let Some(response) = auto::response(&scene) {
-        let asked = auto::Asked { arguments, scene: &scene, case: task.case };
-        return asked.run(response, &task.plan, out, err);
+        return auto::run(&task, &scene, response, out, err);
     }
     // Bodies and tables take minutes: a folder that cannot be used is refused before.
     let _claim = task.claim()?;
-    needs::warn(&scene, err)?;
-    #[cfg(feature = "charts")]
-    needs::figures(&scene, arguments.figures.as_deref(), err)?;
+    needs::warn(&scene, arguments.figures.as_deref(), err)?;
     let working = Working::new("meshing the bodies and laying out tables");
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let model = turning::model(arguments.model, &scene, &bodies, task.case)?;
@@ -88,7 +84,7 @@ pub(super) fn run(
 }
 
 /// Table and sidecar of a finished sweep.
-fn write_folder(result: &SweepOutput, scene_text: &str, folder: &Path) -> Result<(), CommandError> {
+fn write_folder(result: &SweepOutput, scene_text: &str, folder: &Path) -> Result<()> {
     let mut table = Vec::new();
     output::Report::csv(result, &mut table)?;
     write_results(folder, [("sweep.csv", table)])?;
@@ -104,8 +100,9 @@ pub(super) fn draw(
     case: LoadCase,
     sweep: &Sweep,
     folder: &Path,
-) -> Result<(), CommandError> {
+) -> Result<()> {
     use crate::figures::{SweepContext, of_sweep, save};
+    use scene::Fidelity;
     let mut linear = scene.clone();
     if matches!(scene.dynamics.fidelity, Fidelity::Full | Fidelity::MeshLaw) {
         // These have no linearisation of small order: the figure shows the quasi-static frequencies instead.
@@ -130,11 +127,7 @@ struct Task<'a> {
 }
 
 impl<'a> Task<'a> {
-    fn new(
-        arguments: &'a SweepArguments,
-        scene: &Scene,
-        err: &mut dyn Write,
-    ) -> Result<Self, CommandError> {
+    fn new(arguments: &'a SweepArguments, scene: &Scene, err: &mut dyn Write) -> Result<Self> {
         let path = &arguments.scene;
         not_ring_pair(path, scene)?;
         if scene.geometry.is_none() {
@@ -144,15 +137,11 @@ impl<'a> Task<'a> {
         let missing =
             || unfit(path, "[operation] is absent: it says which member's speed is swept");
         let case = LoadCase::of_scene(scene).map_err(|_| missing())?.with_sun_torque(torque_nm);
-        // The lumped model takes its mesh forces from quasi-static bodies, whatever the scene's fidelity.
-        let verb = Verb::Sweep(match arguments.model {
-            Model::Lumped => Fidelity::QuasiStatic,
-            Model::FeContact => scene.dynamics.fidelity,
-        });
+        let verb = Verb::Sweep(turning::fidelity(arguments.model, scene));
         let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
         needs::require(path, scene, verb, is_given)?;
         let [from, to, step] = arguments.speeds_rpm;
-        let refuse = |argument| move |e: PlanError| refused(argument, e.to_string());
+        let refuse = |argument| move |e: PlanError| refused(argument, e);
         let speeds = even_speeds(from, to, step).map_err(refuse("--speeds-rpm"))?;
         let steady = SteadySettings {
             method: arguments.method,
@@ -180,32 +169,25 @@ impl<'a> Task<'a> {
         let plan = Plan::new(&speeds, directions, steady).map_err(refuse("--speeds-rpm"))?;
         let plan = plan.with_random_starts(arguments.random_starts);
         let text = scene_text(path)?;
-        let fidelity = match arguments.model {
-            Model::FeContact => fidelity_name(scene.dynamics.fidelity),
-            Model::Lumped => LUMPED.into(),
-        };
+        let fidelity = turning::name(arguments.model, scene);
         Ok(Self { arguments, text, case, plan, fidelity })
     }
 
     /// What a folder of a plan's points says that they were computed from.
-    fn manifest(&self, plan: &Plan) -> Result<Manifest, CommandError> {
+    fn manifest(&self, plan: &Plan) -> Result<Manifest> {
         folder::manifest((&self.text, &self.fidelity, self.case.sun_torque_nm), plan)
     }
 
     /// The folder of `--out` for this process alone; `None` without that argument.
-    fn claim(&self) -> Result<Option<Claim>, CommandError> {
+    fn claim(&self) -> Result<Option<Claim>> {
         let Some(folder) = &self.arguments.out else { return Ok(None) };
         folder::claim(folder, &self.manifest(&self.plan)?, self.arguments.refine).map(Some)
     }
 
     /// Runs one plan and stores its points if a folder is given.
-    fn march(
-        &self,
-        model: &dyn SweepModel,
-        plan: &Plan,
-        manifest: &str,
-    ) -> Result<Sweep, CommandError> {
-        let bar = progress(plan.points() as u64);
+    fn march(&self, model: &dyn SweepModel, plan: &Plan, manifest: &str) -> Result<Sweep> {
+        let template = "{bar:32} {pos}/{len} speeds, {eta} to go";
+        let bar = progress(template, Some(plan.points() as u64), "");
         let store: Box<dyn PointStore> = match &self.arguments.out {
             Some(folder) => Box::new(KeptFiles::open(folder, manifest, &self.manifest(plan)?)?),
             None => Box::new(Memory),
@@ -214,21 +196,8 @@ impl<'a> Task<'a> {
         let found = run_plan(model, plan, store.as_ref(), &done);
         bar.finish_and_clear();
         found.map_err(|e| match e {
-            SweepError::Fe(e) => unfit(&self.arguments.scene, e.to_string()),
+            SweepError::Fe(e) => unfit(&self.arguments.scene, e),
             other => other.into(),
         })
-    }
-}
-
-/// A bar on a terminal, nothing elsewhere.
-fn progress(points: u64) -> ProgressBar {
-    let target = match std::io::stderr().is_terminal() {
-        true => ProgressDrawTarget::stderr(),
-        false => ProgressDrawTarget::hidden(),
-    };
-    let bar = ProgressBar::with_draw_target(Some(points), target);
-    match ProgressStyle::with_template("{bar:32} {pos}/{len} speeds, {eta} to go") {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar,
     }
 }

@@ -7,11 +7,11 @@ use experiments::sweep::{
 };
 
 use super::result::SweepOutput;
-use crate::error::CommandError;
+use crate::error::Result;
 
 impl SweepOutput {
     /// What is worth saying of some of the speeds.
-    pub(super) fn remarks(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    pub(super) fn remarks(&self, out: &mut dyn Write) -> Result<()> {
         let points = || self.points.iter().map(|chained| &chained.point);
         let count = |is: fn(&SweepPoint) -> bool| points().filter(|p| is(p)).count();
         let usual = self.steps_per_cycle as usize;
@@ -88,7 +88,7 @@ impl SweepOutput {
     }
 
     /// What may be wrong at some of the speeds.
-    fn warnings(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn warnings(&self, out: &mut dyn Write) -> Result<()> {
         let points = || self.points.iter().map(|chained| &chained.point);
         let beyond = points().filter(|p| p.is_beyond_linear).count();
         if beyond > 0 {
@@ -145,7 +145,7 @@ impl SweepOutput {
     }
 
     /// Speeds that could not be computed, each with its reason; nothing if there are none.
-    pub(super) fn write_failed(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    pub(super) fn write_failed(&self, out: &mut dyn Write) -> Result<()> {
         if self.failed.is_empty() {
             return Ok(());
         }

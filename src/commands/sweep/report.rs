@@ -5,17 +5,17 @@ use std::io::Write;
 use super::result::SweepOutput;
 use super::table::table;
 use crate::commands::auto_choice;
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::output::Report;
 
 impl Report for SweepOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         table().csv(self.harmonics(), out)
     }
 
     /// One line per speed: strongest harmonics of the sun's motion, contact, cycles and residual; then a legend,
     /// warnings, and the speeds that could not be computed.
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         let (scene, fidelity, torque) = (&self.scene, &self.fidelity, self.sun_torque_nm);
         writeln!(out, "{scene}: {fidelity}, {torque} N·m on the sun\n")?;
         if let Some(choice) = &self.auto {
@@ -30,7 +30,7 @@ impl Report for SweepOutput {
 
 impl SweepOutput {
     /// The JSON file beside the table: the result without the harmonics, which the table has, and what its columns are.
-    pub(super) fn sidecar(&self, scene_file: &str) -> Result<Vec<u8>, CommandError> {
+    pub(super) fn sidecar(&self, scene_file: &str) -> Result<Vec<u8>> {
         let mut value = serde_json::to_value(self)?;
         for point in value["points"].as_array_mut().into_iter().flatten() {
             if let Some(point) = point.as_object_mut() {
@@ -43,9 +43,9 @@ impl SweepOutput {
     }
 
     #[cfg(feature = "parquet")]
-    pub(super) fn parquet(&self) -> Result<Vec<u8>, CommandError> {
+    pub(super) fn parquet(&self) -> Result<Vec<u8>> {
         let bytes = table().parquet("sweep", &self.harmonics());
-        bytes.map_err(|e| CommandError::Output(std::io::Error::other(e)))
+        bytes.map_err(|e| crate::error::CommandError::Output(std::io::Error::other(e)))
     }
 }
 

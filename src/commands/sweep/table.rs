@@ -41,10 +41,9 @@ pub(super) struct Row<'r> {
 pub(super) fn table<'r>() -> Table<'r, Row<'r>> {
     use Notation::{Fixed, Plain, Power, Share};
     let case = |r: &Row<'_>| r.point.state.case;
-    let line = |r: &Row<'_>| r.line.clone();
     let largest = |r: &Row<'_>| r.point.largest_multiplier.clone();
-    let table = Table::new()
-        .column("scene", "title of the scene", |r: &Row<'_>| &r.result.scene)
+    let table = Table::<Row<'_>>::new()
+        .column("scene", "title of the scene", |r| &r.result.scene)
         .column("fidelity", "fidelity of the fidelity ladder", |r| &r.result.fidelity)
         .column("sun_torque_nm", "torque on the sun, N m", move |r| case(r).sun_torque_nm)
         .column("speed_rpm", "speed of the input member, rpm", move |r| case(r).speed_rpm)
@@ -56,27 +55,8 @@ pub(super) fn table<'r>() -> Table<'r, Row<'r>> {
             r.chain
         })
         .shown("chain", Plain)
-        .key()
-        .column("body", "carrier, ring, sun, planet_n, sun_mesh_n, ring_mesh_n", move |r| {
-            line(r).map(|l| l.part.name())
-        })
-        .column("coordinate", COORDINATE, move |r| line(r).map(|l| l.coordinate.name()))
-        .column(
-            "harmonic",
-            "harmonic of the mesh frequency; 0 is the mean, and stands beside quantities \
-             without harmonics",
-            move |r| line(r).map(|l| l.harmonic),
-        )
-        .column("amplitude", "amplitude in the unit of the next column", move |r| {
-            line(r).map(|l| l.amplitude)
-        })
-        .column("unit", "unit", move |r| line(r).map(|l| l.coordinate.unit()))
-        .column(
-            "phase_rad",
-            "phase of A cos(2 pi l f_m t + phase), t from position 0, rad; 0 for \
-             quantities without phase",
-            move |r| line(r).map(|l| l.phase_rad),
-        );
+        .key();
+    let table = turning::with_harmonic(table, |r| r.line.as_ref());
     turning::with_strongest(table, |r| (&r.point.state, r.result.harmonics))
         .words("lowest N", Fixed(0), |r: &Row<'_>| r.point.lowest_force_n)
         .meaning("lowest force of any mesh during a cycle, N")
@@ -148,17 +128,9 @@ pub(super) fn table<'r>() -> Table<'r, Row<'r>> {
             case(r).sun_turns.name()
         })
         .column("frequency_hz", "frequency of the harmonic, l f_m, Hz", move |r| {
-            line(r).map(|l| l.harmonic as f64 * case(r).mesh_frequency_hz)
+            r.line.as_ref().map(|l| l.harmonic as f64 * case(r).mesh_frequency_hz)
         })
 }
-
-/// What the column of coordinates holds.
-const COORDINATE: &str = "radial, tangential (m; central bodies: towards planet 0), rotation (rad), \
-             translation (m; square root of the sum of the squared amplitudes of radial \
-             and tangential), force (N); with harmonic 0 alone: share (largest load share \
-             of the mesh), contact_loss (part of the time without force), \
-             backside_contact (part of the time in which backside flanks press), \
-             lowest_force (N)";
 
 /// Whether a motion attracts, in a word.
 fn attracts(attraction: Attraction) -> &'static str {

@@ -1,5 +1,6 @@
 //! Charts of the report: error against cost by every shipped study, and every stability map.
 
+use std::io::Write as _;
 use std::path::Path;
 
 use experiments::stability::{MAPS, Map, MapError, StabilityMap, stability_maps};
@@ -7,12 +8,12 @@ use validation::{KeptStudy, ValidationError, kept_maps, kept_studies};
 
 use crate::commands::stability::{self, built_in};
 use crate::commands::study::{sentence, write_text};
-use crate::error::{CommandError, unfit};
+use crate::error::{Result, unfit};
 use crate::folder::save;
 use crate::inputs::Working;
 
 /// Writes `charts.md` into the folder of the report, and the figures that it shows.
-pub(super) fn write(folder: &Path) -> Result<(), CommandError> {
+pub(super) fn write(folder: &Path) -> Result<()> {
     let _working = Working::new("computing the stability maps of the report");
     let studies = kept_studies().map_err(ValidationError::from)?;
     let kept = kept_maps().map_err(ValidationError::from)?;
@@ -28,25 +29,24 @@ pub(super) fn write(folder: &Path) -> Result<(), CommandError> {
 }
 
 /// All maps, of the set built in; those that take minutes as they are `kept`.
-fn maps(kept: Vec<StabilityMap>) -> Result<Vec<StabilityMap>, CommandError> {
+fn maps(kept: Vec<StabilityMap>) -> Result<Vec<StabilityMap>> {
     let is_kept = |which: &&Map| kept.iter().any(|map| map.map == which.name);
     let others: Vec<&Map> = MAPS.into_iter().filter(|which| !is_kept(which)).collect();
-    let refused = |e: MapError| unfit(Path::new("the scene built in"), e.to_string());
+    let refused = |e: MapError| unfit(Path::new("the scene built in"), e);
     let mut all = stability_maps(&others, &built_in()?).map_err(refused)?;
     all.extend(kept);
     all.sort_by_key(|map| MAPS.iter().position(|which| which.name == map.map));
     Ok(all)
 }
 
-fn page(studies: &[KeptStudy], maps: &[StabilityMap]) -> Result<String, CommandError> {
+fn page(studies: &[KeptStudy], maps: &[StabilityMap]) -> Result<String> {
     let mut out = Vec::new();
     write_studies(studies, &mut out)?;
     write_maps(maps, &mut out)?;
     Ok(String::from_utf8_lossy(&out).into_owned())
 }
 
-fn write_studies(studies: &[KeptStudy], out: &mut Vec<u8>) -> Result<(), CommandError> {
-    use std::io::Write as _;
+fn write_studies(studies: &[KeptStudy], out: &mut Vec<u8>) -> Result<()> {
     writeln!(
         out,
         "# Charts\n\n## Error against cost\n\nEvery study as it was run once: costs are those of that run; values, \
@@ -67,8 +67,7 @@ fn write_studies(studies: &[KeptStudy], out: &mut Vec<u8>) -> Result<(), Command
     Ok(())
 }
 
-fn write_maps(maps: &[StabilityMap], out: &mut Vec<u8>) -> Result<(), CommandError> {
-    use std::io::Write as _;
+fn write_maps(maps: &[StabilityMap], out: &mut Vec<u8>) -> Result<()> {
     writeln!(
         out,
         "## Stability\n\nMethods and sets pushed until they fail, what was measured beside theory. `epicyclic stability MAP` \
@@ -85,8 +84,7 @@ fn write_maps(maps: &[StabilityMap], out: &mut Vec<u8>) -> Result<(), CommandErr
 }
 
 /// The figure of a name, in a build that draws.
-fn show(name: &str, words: &str, out: &mut Vec<u8>) -> Result<(), CommandError> {
-    use std::io::Write as _;
+fn show(name: &str, words: &str, out: &mut Vec<u8>) -> Result<()> {
     if cfg!(feature = "charts") {
         writeln!(out, "![{words}]({name}.svg)\n")?;
     }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use validation::{Asks, Registry, ValidationError};
 
 use crate::arguments::Validate;
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::output::{self, Report, Table};
 
 /// `validate --controls --format json`.
@@ -34,7 +34,7 @@ struct ControlOutput {
 }
 
 /// Lists the suites whose names begin with `--only`, with their negative controls.
-pub(super) fn run(arguments: &Validate, out: &mut dyn Write) -> Result<(), CommandError> {
+pub(super) fn run(arguments: &Validate, out: &mut dyn Write) -> Result<()> {
     let registry = Registry::load().map_err(ValidationError::from)?;
     let listed = registry.suite.into_iter().filter(|s| {
         arguments.only.is_empty() || arguments.only.iter().any(|o| s.name.starts_with(o))
@@ -55,17 +55,17 @@ pub(super) fn run(arguments: &Validate, out: &mut dyn Write) -> Result<(), Comma
 }
 
 impl Report for ControlsOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         type Row<'r> = (&'r SuiteControls, &'r ControlOutput);
-        let table = Table::new()
-            .column("suite", "", |(suite, _): &Row<'_>| &suite.suite)
+        let table = Table::<Row<'_>>::new()
+            .column("suite", "", |(suite, _)| &suite.suite)
             .column("control", "", |(_, control)| &control.id)
             .column("spoils", "", |(_, control)| &control.spoils)
             .column("breaks", "", |(_, control)| &control.breaks);
         table.csv(self.suites.iter().flat_map(|s| s.controls.iter().map(move |c| (s, c))), out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         for suite in &self.suites {
             let asks = match suite.asks {
                 Asks::NaturalModes => "natural modes of any model",

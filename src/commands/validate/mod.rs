@@ -16,7 +16,7 @@ use std::io::Write;
 use validation::{Reference, Selection, ValidationError, validate_with};
 
 use crate::arguments::{Format, Validate};
-use crate::error::{CommandError, refused};
+use crate::error::{Result, refused};
 use crate::folder;
 use crate::output;
 use progress::SuiteProgress;
@@ -26,7 +26,7 @@ pub(crate) fn run(
     arguments: &Validate,
     out: &mut dyn Write,
     err: &mut (dyn Write + Send),
-) -> Result<bool, CommandError> {
+) -> Result<bool> {
     if arguments.details && arguments.format != Format::Text {
         let reason = "JSON and CSV list every check anyway: leave it out, or take --format text";
         return Err(refused("--details", reason));

@@ -1,14 +1,12 @@
 //! Progress of `validate`: one line per finished suite and, on a terminal, the suite that is running.
 
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::sync::{Mutex, PoisonError};
-use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use validation::Progress;
 
-/// How often the seconds on a terminal are redrawn.
-const TICK: Duration = Duration::from_millis(200);
+use crate::inputs::progress;
 
 /// Writes the progress of the suites to `err`.
 pub(super) struct SuiteProgress<'e> {
@@ -18,19 +16,7 @@ pub(super) struct SuiteProgress<'e> {
 
 impl<'e> SuiteProgress<'e> {
     pub(super) fn new(err: &'e mut (dyn Write + Send)) -> Self {
-        let is_terminal = std::io::stderr().is_terminal();
-        let target = match is_terminal {
-            true => ProgressDrawTarget::stderr(),
-            false => ProgressDrawTarget::hidden(),
-        };
-        let running = ProgressBar::with_draw_target(None, target);
-        if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} {elapsed}") {
-            running.set_style(style);
-        }
-        if is_terminal {
-            running.enable_steady_tick(TICK);
-        }
-        Self { err: Mutex::new(err), running }
+        Self { err: Mutex::new(err), running: progress("{spinner} {msg} {elapsed}", None, "") }
     }
 
     pub(super) fn tell(&self, progress: Progress<'_>) {

@@ -7,13 +7,13 @@ use std::path::Path;
 
 use validation::{Check, Reference, Status, ValidationError, Verdict, steps};
 
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::folder::save;
 
 use super::check_cells::{cells, status_word};
 
 /// Writes the folder, creating it if need be.
-pub(crate) fn write(verdict: &Verdict, folder: &Path) -> Result<(), CommandError> {
+pub(crate) fn write(verdict: &Verdict, folder: &Path) -> Result<()> {
     let json = serde_json::to_string_pretty(verdict)? + "\n";
     save(&folder.join("verdict.json"), &json)?;
     save(&folder.join("verdict.md"), &markdown(verdict)?)?;
@@ -23,7 +23,7 @@ pub(crate) fn write(verdict: &Verdict, folder: &Path) -> Result<(), CommandError
 }
 
 #[cfg(feature = "charts")]
-fn draw(verdict: &Verdict, folder: &Path) -> Result<(), CommandError> {
+fn draw(verdict: &Verdict, folder: &Path) -> Result<()> {
     use crate::commands::modes;
     use crate::figures;
     use validation::{PublishedScene, scene};
@@ -66,7 +66,7 @@ fn paper_gamma() -> Result<f64, ValidationError> {
     Ok(Phasing::new(&geometry, &scene.planets).ok_or_else(incomplete)?.gamma())
 }
 
-fn markdown(verdict: &Verdict) -> Result<String, CommandError> {
+fn markdown(verdict: &Verdict) -> Result<String> {
     let mut text = String::from("# Verdict\n\n");
     let Verdict { passed, missed, failed, .. } = verdict;
     // Writing to a string cannot fail.

@@ -7,7 +7,7 @@ use validation::{Check, Miss, Status, Value, Verdict};
 
 use super::check_cells::{cells, coloured, status_word};
 use super::summary;
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::output::{Notation, Report, Table};
 
 /// A verdict, and how text shows it.
@@ -24,16 +24,15 @@ pub(super) struct VerdictOutput {
 }
 
 pub(super) fn table<'r>() -> Table<'r, &'r Check> {
-    type Row<'r> = &'r Check;
-    let cell = |i: usize| move |check: &Row<'_>| cells(check)[i].clone();
+    let cell = |i: usize| move |check: &&Check| cells(check)[i].clone();
     // Lists have no place in a cell of a file.
     let value = |value: Option<&Value>| match value? {
         Value::Number(x) => Some(x.to_string()),
         Value::Text(text) => Some(text.clone()),
         Value::List(_) => None,
     };
-    Table::new()
-        .column("check", "", |check: &Row<'_>| &check.id)
+    Table::<&Check>::new()
+        .column("check", "", |check| &check.id)
         .shown("check", Notation::Plain)
         .key()
         .column("title", "", |check| &check.title)
@@ -54,11 +53,11 @@ pub(super) fn table<'r>() -> Table<'r, &'r Check> {
 }
 
 impl Report for VerdictOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         table().csv(&self.verdict.checks, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         match self.details {
             true => details(&self.verdict, out),
             false => Ok(summary::write(&self.verdict, &self.misses, out)?),
@@ -67,7 +66,7 @@ impl Report for VerdictOutput {
 }
 
 /// Every check, then those that failed in full.
-fn details(verdict: &Verdict, out: &mut dyn Write) -> Result<(), CommandError> {
+fn details(verdict: &Verdict, out: &mut dyn Write) -> Result<()> {
     let mut text = Vec::new();
     table().text(&verdict.checks, &mut text)?;
     for line in String::from_utf8_lossy(&text).lines().map(str::trim_end) {

@@ -10,7 +10,7 @@ use validation::results::{Judgement, ResultsFolder, accepted_misses};
 use validation::{ModelKind, Selection, Verdict};
 
 use crate::arguments::Validate;
-use crate::error::{CommandError, refused};
+use crate::error::{Result, refused};
 use crate::output;
 
 /// `validate --recorded --format json`.
@@ -39,17 +39,13 @@ struct About {
     remarks: Vec<String>,
 }
 
-pub(super) fn run(
-    arguments: &Validate,
-    folder: &Path,
-    out: &mut dyn Write,
-) -> Result<bool, CommandError> {
+pub(super) fn run(arguments: &Validate, folder: &Path, out: &mut dyn Write) -> Result<bool> {
     let read = ResultsFolder::read(folder)?;
     let how = Judgement {
         kind: arguments.kind,
         only: Selection::from(arguments.only.as_slice()),
         accepted: match &arguments.accept {
-            Some(path) => accepted_misses(path).map_err(|e| refused("--accept", e.to_string()))?,
+            Some(path) => accepted_misses(path).map_err(|e| refused("--accept", e))?,
             None => Vec::new(),
         },
     };

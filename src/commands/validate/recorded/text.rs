@@ -7,7 +7,7 @@ use validation::{Check, NotAsked, Status};
 use super::RecordedOutput;
 use crate::commands::validate::check_cells::{cells, status_word};
 use crate::commands::validate::result;
-use crate::error::CommandError;
+use crate::error::Result;
 use crate::output::{Notation, Report, Table, paragraph};
 
 /// Rows shown of each status.
@@ -17,11 +17,11 @@ const MOST_ROWS: usize = 12;
 const MOST_SUITES: usize = 10;
 
 impl Report for RecordedOutput {
-    fn csv(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
         result::table().csv(&self.verdict.checks, out)
     }
 
-    fn text(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
         let about = &self.about;
         let program = about.program.as_deref().unwrap_or("results");
         let version = about.version.as_ref().map_or(String::new(), |v| format!(" {v}"));
@@ -73,12 +73,7 @@ fn table<'r>() -> Table<'r, &'r Check> {
 }
 
 /// The first rows of a status under a heading, and how many more there are.
-fn some(
-    checks: &[Check],
-    status: Status,
-    heading: &str,
-    out: &mut dyn Write,
-) -> Result<(), CommandError> {
+fn some(checks: &[Check], status: Status, heading: &str, out: &mut dyn Write) -> Result<()> {
     let rows: Vec<&Check> = checks.iter().filter(|check| check.status == status).collect();
     if rows.is_empty() {
         return Ok(());
@@ -91,7 +86,7 @@ fn some(
     Ok(())
 }
 
-fn not_asked(suites: &[NotAsked], out: &mut dyn Write) -> Result<(), CommandError> {
+fn not_asked(suites: &[NotAsked], out: &mut dyn Write) -> Result<()> {
     if suites.is_empty() {
         return Ok(());
     }
