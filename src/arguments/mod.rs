@@ -67,7 +67,8 @@ pub(crate) enum Format {
 
 #[derive(Debug, Args)]
 pub(crate) struct Validate {
-    /// Also write the verdict and the mode tables to this folder (Markdown, JSON) and draw figures.
+    /// Also write the verdict and the mode tables to this folder (Markdown, JSON) and draw figures; with --recorded
+    /// Markdown, JSON, JUnit XML and one HTML page about the judged results.
     #[arg(long, value_name = "DIR")]
     pub report: Option<PathBuf>,
     /// List every check instead of one line per suite.

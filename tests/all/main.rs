@@ -15,6 +15,7 @@ mod machines;
 mod mutated_scenes;
 mod progress;
 mod readings;
+mod recorded_report;
 mod refusals;
 mod scene_check;
 mod scene_schema;

@@ -53,6 +53,17 @@ fn summary(list: &[Value]) -> String {
     words.join("; ")
 }
 
+/// (actual − expected)/tolerance, `None` of what is no number, has no tolerance or has not run; NaN of NaN.
+pub(super) fn signed_part(check: &Check) -> Option<f64> {
+    let tolerance = check.tolerance.absolute;
+    match (&check.expected, check.actual.as_ref()?) {
+        (Value::Number(expected), Value::Number(actual)) if tolerance > 0.0 => {
+            Some((actual - expected) / tolerance)
+        }
+        _ => None,
+    }
+}
+
 /// Word shown for a status.
 pub(super) fn status_word(status: Status) -> &'static str {
     match status {

@@ -24,6 +24,8 @@ pub struct ResultsFolder {
     pub mesh_cycle: Vec<CycleRow>,
     /// `steady_states.csv`.
     pub steady_states: Vec<StateRow>,
+    /// Every file that was read, in order.
+    pub files: Vec<PathBuf>,
     /// What was read in another way than it is written.
     pub remarks: Vec<Remark>,
 }
@@ -75,8 +77,14 @@ impl ResultsFolder {
     /// [`FolderError`] with the first fault.
     pub fn read(folder: &Path) -> Result<Self, FolderError> {
         let path = folder.join("results.toml");
-        let manifest = if path.exists() { Manifest::read(&path)? } else { Manifest::default() };
-        let known = scenes(folder)?;
+        let mut files = Vec::new();
+        let manifest = if path.exists() {
+            files.push(path.clone());
+            Manifest::read(&path)?
+        } else {
+            Manifest::default()
+        };
+        let known = scenes(folder, &mut files)?;
         if let Some(name) = &manifest.scene {
             let unknown = |source| FolderError::UnknownScene { path, name: name.clone(), source };
             known.find(name).map_err(unknown)?;
@@ -84,15 +92,19 @@ impl ResultsFolder {
         let mut remarks = Vec::new();
         let standard = manifest.scene.as_deref();
         let names = || SceneNames::new(&known, standard);
-        let modes = table(folder, "modes.csv", &mut remarks, |p| ModeRow::read(p, names()))?;
-        let mesh_cycle =
-            table(folder, "mesh_cycle.csv", &mut remarks, |p| CycleRow::read(p, names()))?;
-        let steady_states =
-            table(folder, "steady_states.csv", &mut remarks, |p| StateRow::read(p, names()))?;
+        let modes =
+            table(folder, "modes.csv", &mut files, &mut remarks, |p| ModeRow::read(p, names()))?;
+        let mesh_cycle = table(folder, "mesh_cycle.csv", &mut files, &mut remarks, |p| {
+            CycleRow::read(p, names())
+        })?;
+        let steady_states = table(folder, "steady_states.csv", &mut files, &mut remarks, |p| {
+            StateRow::read(p, names())
+        })?;
         if modes.is_empty() && mesh_cycle.is_empty() && steady_states.is_empty() {
             return Err(FolderError::Empty { path: folder.to_owned() });
         }
-        Ok(Self { path: folder.to_owned(), manifest, modes, mesh_cycle, steady_states, remarks })
+        let path = folder.to_owned();
+        Ok(Self { path, manifest, modes, mesh_cycle, steady_states, files, remarks })
     }
 
     /// Everything in the tables that cannot be true, in the order of tables; empty for results that can be judged.
@@ -123,6 +135,7 @@ impl ResultsFolder {
 fn table<T>(
     folder: &Path,
     name: &str,
+    files: &mut Vec<PathBuf>,
     remarks: &mut Vec<Remark>,
     read: impl Fn(&Path) -> Rows<T>,
 ) -> Result<Vec<T>, TableError> {
@@ -131,12 +144,13 @@ fn table<T>(
         return Ok(Vec::new());
     }
     let (rows, found) = read(&path)?;
+    files.push(path);
     remarks.extend(found);
     Ok(rows)
 }
 
 /// Shipped scenes and those in the folder.
-fn scenes(folder: &Path) -> Result<KnownScenes, FolderError> {
+fn scenes(folder: &Path, read: &mut Vec<PathBuf>) -> Result<KnownScenes, FolderError> {
     let mut known = KnownScenes::shipped();
     let files = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let is_scene = |path: &PathBuf| {
@@ -148,6 +162,7 @@ fn scenes(folder: &Path) -> Result<KnownScenes, FolderError> {
         let Some(id) = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()) else {
             continue;
         };
+        read.push(path.clone());
         let scene =
             Scene::from_file(&path).map_err(|source| FolderError::Scene { path, source })?;
         known.add(id, scene);

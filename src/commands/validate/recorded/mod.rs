@@ -1,5 +1,14 @@
 //! `validate --recorded DIR`: results of any program, judged by the references of their kind.
 
+mod escape;
+mod file_hash;
+mod html;
+mod junit;
+mod markdown;
+mod meaning;
+mod report;
+mod row;
+mod suite;
 mod text;
 
 use std::io::Write;
@@ -7,11 +16,12 @@ use std::path::Path;
 
 use serde::Serialize;
 use validation::results::{Judgement, ResultsFolder, accepted_misses};
-use validation::{ModelKind, Selection, Verdict};
+use validation::{Miss, ModelKind, Selection, Verdict};
 
-use crate::arguments::Validate;
+use crate::arguments::{Format, Validate};
 use crate::error::{Result, refused};
 use crate::output;
+use file_hash::FileHash;
 
 /// `validate --recorded --format json`.
 #[derive(Debug, Serialize)]
@@ -20,6 +30,9 @@ pub(super) struct RecordedOutput {
     about: About,
     #[serde(flatten)]
     verdict: Verdict,
+    /// Rows that the author knows to miss.
+    #[serde(skip)]
+    accepted: Vec<Miss>,
     /// Whether text lists every check.
     #[serde(skip)]
     details: bool,
@@ -35,6 +48,13 @@ struct About {
     program: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     version: Option<String>,
+    /// Version of epicyclic that judged.
+    epicyclic: &'static str,
+    /// Fronts of the ids of the checks that were asked for; every check without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    only: Vec<String>,
+    /// Files that were read.
+    files: Vec<FileHash>,
     /// What was read in another way than it is written, a sentence each.
     remarks: Vec<String>,
 }
@@ -50,6 +70,8 @@ pub(super) fn run(arguments: &Validate, folder: &Path, out: &mut dyn Write) -> R
         },
     };
     let verdict = read.judge(&how)?;
+    let files = read.files.iter().chain(&arguments.accept).map(|path| FileHash::read(path));
+    let files = files.collect::<Result<_, _>>()?;
     let mut remarks: Vec<String> = read.remarks.iter().map(ToString::to_string).collect();
     if arguments.kind.is_none() && read.manifest.kind.is_none() {
         let kinds = ModelKind::ALL.map(ModelKind::name).join(", ");
@@ -62,9 +84,25 @@ pub(super) fn run(arguments: &Validate, folder: &Path, out: &mut dyn Write) -> R
         kind: read.kind(arguments.kind),
         program: read.manifest.program,
         version: read.manifest.version,
+        epicyclic: env!("CARGO_PKG_VERSION"),
+        only: arguments.only.iter().filter(|front| !front.is_empty()).cloned().collect(),
+        files,
         remarks,
     };
-    let result = RecordedOutput { about, verdict, details: arguments.details };
+    let result =
+        RecordedOutput { about, verdict, accepted: how.accepted, details: arguments.details };
+    // What was judged is shown also where its report cannot be saved.
+    let saved = arguments.report.as_ref().map_or(Ok(()), |folder| report::write(&result, folder));
+    let appended = report::append_to_step_summary(&result);
     output::show(arguments.format, &result, out)?;
+    if arguments.format == Format::Text {
+        if let (Some(folder), Ok(())) = (&arguments.report, &saved) {
+            writeln!(out, "report in {}", folder.display())?;
+        }
+        if let Ok(Some(path)) = &appended {
+            writeln!(out, "step summary appended to {}", path.display())?;
+        }
+    }
+    saved.and(appended.map(drop))?;
     Ok(result.verdict.is_sound())
 }

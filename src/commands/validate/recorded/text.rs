@@ -23,9 +23,7 @@ impl Report for RecordedOutput {
 
     fn text(&self, out: &mut dyn Write) -> Result<()> {
         let about = &self.about;
-        let program = about.program.as_deref().unwrap_or("results");
-        let version = about.version.as_ref().map_or(String::new(), |v| format!(" {v}"));
-        writeln!(out, "{program}{version} in {}, kind {}", about.folder, about.kind.name())?;
+        writeln!(out, "{} in {}, kind {}", self.program(), about.folder, about.kind.name())?;
         for remark in &about.remarks {
             writeln!(out, "{}", paragraph(remark, "  ", "  "))?;
         }
@@ -44,14 +42,7 @@ impl Report for RecordedOutput {
             }
         }
         not_asked(&self.verdict.not_asked, out)?;
-        let verdict = &self.verdict;
-        let other = verdict.of_another_kind;
-        let (passed, missed, failed) = (verdict.passed, verdict.missed, verdict.failed);
-        writeln!(
-            out,
-            "{passed} passed, {missed} missed, {failed} failed, {other} of another kind"
-        )?;
-        Ok(())
+        Ok(writeln!(out, "{}", self.counts())?)
     }
 }
 
