@@ -2,8 +2,11 @@
 //! against themselves. Sets whose ring or carrier drives, mirrored and clockwise ones and a gear pair are among them.
 
 use experiments::models::{FeContact, Lumped, Recorded};
-use experiments::sweep::Coordinate;
-use experiments::{ModalModel, SpeedRequest, StaticModel, SteadyStateModel};
+use experiments::sweep::{Coordinate, Line, Part, SteadyState};
+use experiments::{
+    MeshCycle, ModalModel, NaturalMode, RestState, SpeedRequest, StaticModel, SteadyStateModel,
+};
+use lumped::ModeType;
 use scene::{LoadCase, Scene};
 use validation::results::ResultsFolder;
 use validation::{PublishedScene, scene};
