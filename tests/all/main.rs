@@ -16,6 +16,7 @@ mod mutated_scenes;
 mod progress;
 mod readings;
 mod refusals;
+mod results_command;
 mod scene_check;
 mod scene_schema;
 mod snapshots;

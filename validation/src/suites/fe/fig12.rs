@@ -40,6 +40,11 @@ fn torques() -> Vec<f64> {
     (1..=TORQUES).map(|i| FIRST * f64::from(i)).collect()
 }
 
+/// Torques on the sun (N m) at which mesh cycles of a scene are asked.
+pub(crate) fn cycles(scene: &Scene) -> Vec<(Scene, f64)> {
+    torques().into_iter().map(|torque| (scene.clone(), torque)).collect()
+}
+
 /// The paper's statements on the figure, judged on the mesh cycles of any model.
 pub(crate) fn asked(model: &dyn StaticModel, scenes: &[Scene], reference: &Reference) -> Checks {
     let mut checks = Vec::new();
