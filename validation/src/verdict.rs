@@ -64,11 +64,11 @@ impl Verdict {
         for check in &mut checks {
             if !judges(&check.id) {
                 check.status = Status::OtherKind;
-            } else if let Some(miss) = misses.iter().find(|m| m.id == check.id) {
-                if check.status == Status::Fail && is_pinned(check, miss, check.tolerance.absolute)
-                {
-                    check.status = Status::Miss;
-                }
+            } else if let Some(miss) = misses.iter().find(|m| m.id == check.id)
+                && check.status == Status::Fail
+                && is_pinned(check, miss, check.tolerance.absolute)
+            {
+                check.status = Status::Miss;
             }
         }
         Self::counted(checks, not_asked)

@@ -7,10 +7,12 @@ use scene::Scene;
 use crate::nearest::did_you_mean;
 use crate::variants::{mirrored, renumbered};
 
-/// Of which scene suites ask variants too, and with what endings of its id.
+/// End of the id of a variant, and how it is made.
+type Variant = (&'static str, fn(&Scene) -> Scene);
+
+/// The scene of which suites ask variants too, and these.
 const VARIED: &str = "oh58_4p";
-const VARIANTS: [(&str, fn(&Scene) -> Scene); 2] =
-    [("mirrored", mirrored), ("renumbered", renumbered)];
+const VARIANTS: [Variant; 2] = [("mirrored", mirrored), ("renumbered", renumbered)];
 
 /// A scene with the names that tables may call it by.
 #[derive(Debug, Clone, PartialEq)]

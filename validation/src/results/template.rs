@@ -12,7 +12,7 @@ use crate::catalogue::{PublishedScene, scene};
 use crate::error::ValidationError;
 use crate::model_kind::ModelKind;
 use crate::registry::Registry;
-use crate::suites::{ASKABLE, Askable, Question};
+use crate::suites::{ASKABLE, Askable, AskedCycle, Question};
 
 /// Files of a folder whose tables have every row that suites ask for and no values.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,12 +95,21 @@ fn askable(kind: Option<ModelKind>) -> Result<Vec<(Askable, Vec<String>)>, Valid
 struct Tables {
     /// Ids of scenes.
     modes: Vec<String>,
-    /// Id, number of planets, torque on the sun in N m.
-    cycles: Vec<(String, usize, f64)>,
+    cycles: Vec<Cycle>,
     /// Ids of scenes.
     steady_states: Vec<String>,
     /// Variants of the scenes.
     variants: Vec<SceneFile>,
+}
+
+/// A mesh cycle of `planets` planets.
+#[derive(PartialEq)]
+struct Cycle {
+    /// Of the scene.
+    id: String,
+    planets: usize,
+    sun_torque_nm: f64,
+    positions: usize,
 }
 
 /// Adds an entry that is not there yet.
@@ -116,9 +125,9 @@ impl Tables {
             Question::Modes(..) => once(&mut self.modes, file.id.clone()),
             Question::SteadyStates(..) => once(&mut self.steady_states, file.id.clone()),
             Question::MeshCycle(_, _, cycles) => {
-                for (set, torque) in cycles(&file.scene) {
-                    let id = self.id(file, &set);
-                    once(&mut self.cycles, (id, set.planets.count(), torque));
+                for AskedCycle { set, sun_torque_nm, positions } in cycles(&file.scene) {
+                    let (id, planets) = (self.id(file, &set), set.planets.count());
+                    once(&mut self.cycles, Cycle { id, planets, sun_torque_nm, positions });
                 }
             }
         }
@@ -148,7 +157,7 @@ impl Tables {
         };
         file("modes.csv", "scene,frequency_hz,mode_type,multiplicity", rows(&self.modes, ",,,"));
         let titles = "scene,sun_torque_nm,position,body,coordinate,value";
-        file("mesh_cycle.csv", titles, self.cycles.iter().map(cycle).collect());
+        file("mesh_cycle.csv", titles, self.cycles.iter().map(Cycle::rows).collect());
         let titles = "scene,sun_torque_nm,speed_rpm,mesh_frequency_hz,body,coordinate,harmonic,amplitude,phase_rad,\
                       sun_turns";
         file("steady_states.csv", titles, rows(&self.steady_states, ",,,,,,,,,"));
@@ -164,22 +173,26 @@ fn quoted(text: &str) -> String {
     }
 }
 
-/// Rows of a mesh cycle without values.
-fn cycle((id, planets, torque): &(String, usize, f64)) -> String {
-    let axes = ["x", "y", "rotation"].map(|axis| (Part::SUN, axis));
-    let meshes = [Part::SunMesh as fn(usize) -> Part, Part::RingMesh];
-    let forces = meshes.into_iter().flat_map(|mesh| (0..*planets).map(move |n| (mesh(n), "force")));
-    let quantities: Vec<(Part, &str)> = axes.into_iter().chain(forces).collect();
-    let mut rows = String::new();
-    for k in 0..POSITIONS {
-        let position = k as f64 / POSITIONS as f64;
-        for (part, coordinate) in &quantities {
-            let (id, name) = (quoted(id), part.name());
-            // Writing to a text cannot fail.
-            let _ = writeln!(rows, "{id},{torque},{position},{name},{coordinate},");
+impl Cycle {
+    /// Rows without values.
+    fn rows(&self) -> String {
+        let Self { id, planets, sun_torque_nm, positions } = self;
+        let axes = ["x", "y", "rotation"].map(|axis| (Part::SUN, axis));
+        let meshes = [Part::SunMesh as fn(usize) -> Part, Part::RingMesh];
+        let forces = |mesh: fn(usize) -> Part| (0..*planets).map(move |n| (mesh(n), "force"));
+        let quantities: Vec<_> =
+            axes.into_iter().chain(meshes.into_iter().flat_map(forces)).collect();
+        let mut rows = String::new();
+        for k in 0..*positions {
+            let position = k as f64 / *positions as f64;
+            for (part, coordinate) in &quantities {
+                let (id, name) = (quoted(id), part.name());
+                // Writing to a text cannot fail.
+                let _ = writeln!(rows, "{id},{sun_torque_nm},{position},{name},{coordinate},");
+            }
         }
+        rows
     }
-    rows
 }
 
 /// `results.toml` with every key.

@@ -10,7 +10,7 @@ use crate::check::{Check, Status};
 use crate::error::ValidationError;
 use crate::reference::Reference;
 use crate::suites::lab::of_model;
-use crate::suites::{Checks, Lab};
+use crate::suites::{AskedCycle, Checks, Lab};
 use crate::variants::{RENUMBERED, mirrored, renumbered};
 use crate::worst::{paired, peak_to_peak, worst};
 
@@ -55,12 +55,13 @@ fn control(
     Ok(lab.reference.control(id, &judged)?)
 }
 
-/// Sets and torques on the sun (N m) whose mesh cycles are asked of a scene: of four planets also the mirrored and the
-/// renumbered set.
-pub(crate) fn cycles(scene: &Scene) -> Vec<(Scene, f64)> {
-    let mut cycles = vec![(scene.clone(), TORQUE)];
+/// Mesh cycles that are asked of a scene: of four planets also those of the mirrored and the renumbered set.
+pub(crate) fn cycles(scene: &Scene) -> Vec<AskedCycle> {
+    let cycle = |set, sun_torque_nm| AskedCycle { set, sun_torque_nm, positions: POSITIONS };
+    let mut cycles = vec![cycle(scene.clone(), TORQUE)];
     if scene.planets.count() == RENUMBERED.len() {
-        cycles.extend([(mirrored(scene), -TORQUE), (renumbered(scene), TORQUE)]);
+        cycles.push(cycle(mirrored(scene), -TORQUE));
+        cycles.push(cycle(renumbered(scene), TORQUE));
     }
     cycles
 }
@@ -69,7 +70,7 @@ pub(crate) fn cycles(scene: &Scene) -> Vec<(Scene, f64)> {
 pub(crate) fn asked(model: &dyn StaticModel, scenes: &[Scene], reference: &Reference) -> Checks {
     let mut checks = Vec::new();
     for scene in scenes {
-        let cycles = cycles(scene).into_iter().map(|(set, torque)| cycle(model, &set, torque));
+        let cycles = cycles(scene).into_iter().map(|c| cycle(model, &c.set, c.sun_torque_nm));
         match cycles.collect::<Result<Vec<_>, _>>()?.as_slice() {
             [found, image, other] => {
                 checks.push(sharing_of_four(found, reference)?);
