@@ -14,6 +14,7 @@ pub(crate) enum Results {
         /// Id of a shipped scene (`oh58_4p`), a scene file, or `all` scenes that suites ask about.
         scene: String,
         /// Folder to write; refused if it is there and not empty.
+        #[arg(value_name = "DIR")]
         folder: PathBuf,
         /// What kind of model the results will come from: tables that suites of this kind ask for are written.
         #[arg(long = "as", value_name = "KIND", default_value = "lumped",
@@ -23,6 +24,7 @@ pub(crate) enum Results {
     /// Say what a results folder holds, what contradicts itself, what it can be asked, and what further suites need.
     Check {
         /// Results folder (docs/results.md).
+        #[arg(value_name = "DIR")]
         folder: PathBuf,
         /// What kind of model the results come from, instead of what results.toml says.
         #[arg(long = "as", value_name = "KIND", value_parser = model_kinds())]
