@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::harness::{run, scene};
+use crate::harness::{keeps_to_schema, run, scene};
 
 /// A results folder in `parent` with the lowest mode of a set, whose table of the paper a suite asks for.
 pub(crate) fn results_folder(parent: &Path) -> String {
@@ -74,6 +74,7 @@ fn check_says_what_is_there_and_what_can_be_asked() {
     let (code, json, _) =
         run(&["results", "check", &folder, "--as", "measured", "--format", "json"]);
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    keeps_to_schema("results_check", &json);
     assert_eq!((code, &json["kind"]), (0, &"measured".into()));
     assert_eq!(json["tables"][0]["rows"], 1);
     assert!(json["asked"].as_array().unwrap().iter().all(|suite| suite["judged"] == false));

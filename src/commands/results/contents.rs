@@ -16,13 +16,10 @@ pub(super) struct Contents {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) modes: Option<usize>,
     /// Torques on the sun, ascending, N m.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) sun_torques_nm: Vec<f64>,
     /// Speeds, ascending, rpm.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) speeds_rpm: Vec<f64>,
     /// Positions in the mesh cycle, ascending.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(super) positions: Vec<f64>,
 }
 
