@@ -76,6 +76,14 @@ pub enum CommandError {
     /// A results folder cannot be read.
     #[error(transparent)]
     Folder(#[from] validation::results::FolderError),
+    /// Results that can be read and not judged.
+    #[error("{}: {reason}", path.display())]
+    Results {
+        /// The folder.
+        path: PathBuf,
+        /// Why not.
+        reason: String,
+    },
     /// Results cannot be judged.
     #[error(transparent)]
     Judge(#[from] validation::results::JudgeError),

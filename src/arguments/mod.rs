@@ -1,5 +1,6 @@
 //! The command line.
 
+mod results;
 mod steady;
 mod values;
 
@@ -11,6 +12,7 @@ use experiments::stability::Map;
 use scene::SceneKind;
 use validation::{ModelKind, Profile};
 
+pub(crate) use results::Results;
 pub(crate) use steady::{Branches, Model, Sweep};
 pub(crate) use values::DAMPING_FACTORS;
 use values::{map, number, numbers, one_of, whole};
@@ -48,6 +50,9 @@ pub(crate) enum Verb {
     /// Write or explain a scene file.
     #[command(subcommand)]
     Scene(SceneVerb),
+    /// Write or check a results folder: tables of any model that `validate --recorded` judges.
+    #[command(subcommand)]
+    Results(Results),
     /// Compare a list of natural frequencies with those of a scene's lumped model.
     Compare(Compare),
 }
@@ -61,7 +66,7 @@ pub(crate) enum Format {
     /// The table: one row per mode (`modes`, `impulse`, `compare`), harmonic (`rules`), position and tooth pair
     /// (`static`), speed, quantity and harmonic (`sweep`), point, quantity and harmonic (`branches`), border
     /// (`stability`; without a map, one row per map), quantity and setting (`study`), body (`mesh`), verb
-    /// (`scene check`), or check (`validate`).
+    /// (`scene check`), suite (`results check`), or check (`validate`).
     Csv,
 }
 

@@ -17,6 +17,7 @@ mod progress;
 mod readings;
 mod recorded_report;
 mod refusals;
+mod results_command;
 mod scene_check;
 mod scene_schema;
 mod snapshots;

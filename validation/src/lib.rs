@@ -23,6 +23,7 @@ mod registry;
 pub mod results;
 mod selection;
 mod suites;
+pub mod variants;
 mod verdict;
 mod worst;
 

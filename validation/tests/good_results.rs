@@ -9,6 +9,7 @@ use experiments::{
 use lumped::ModeType;
 use scene::{LoadCase, Scene};
 use validation::results::ResultsFolder;
+use validation::variants::mirrored;
 use validation::{PublishedScene, scene};
 
 /// Holds what a folder says against itself; `scene_file` is put beside the tables.
@@ -26,17 +27,6 @@ fn has_no_contradiction(record: &Recorded, kind: &str, own: Option<&Scene>) {
     let found: Vec<String> = read.contradictions().iter().map(ToString::to_string).collect();
     assert!(found.is_empty(), "{found:#?}");
     assert!(read.remarks.is_empty(), "{:?}", read.remarks);
-}
-
-/// The same set seen in a mirror.
-fn mirrored(set: &Scene) -> Scene {
-    let mut mirrored = set.clone();
-    mirrored.title = format!("{}, mirrored", set.title);
-    mirrored.planets.psi_rad.iter_mut().for_each(|psi| *psi = -*psi);
-    if let Some(steps) = &mut mirrored.planets.steps {
-        steps.iter_mut().for_each(|step| *step = -*step);
-    }
-    mirrored
 }
 
 fn turning(set: &Scene, case: &LoadCase, speeds_rpm: &[f64]) -> Recorded {

@@ -1,5 +1,5 @@
-//! Tables of results as a model: what is in them is what it answers. `validation::results` reads them from a folder, and
-//! [`Recorded::write`] writes one: `modes.csv`, `mesh_cycle.csv` and `steady_states.csv`.
+//! Tables of results as a model: what is in them is what it answers. `validation::results` reads them from a folder,
+//! and [`Recorded::write`] writes one: `modes.csv`, `mesh_cycle.csv` and `steady_states.csv`.
 
 use std::path::{Path, PathBuf};
 

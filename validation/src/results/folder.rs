@@ -48,6 +48,15 @@ pub enum FolderError {
         #[source]
         source: scene::SceneError,
     },
+    /// A scene file that is no text.
+    #[error("{}: cannot be read: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the reader said.
+        #[source]
+        source: std::io::Error,
+    },
     /// A name of a scene in `results.toml` that no scene has.
     #[error("{}: `scene` is `{name}`: allowed is {source}", path.display())]
     UnknownScene {

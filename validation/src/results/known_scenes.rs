@@ -5,6 +5,14 @@ use std::sync::{Arc, LazyLock};
 use scene::Scene;
 
 use crate::nearest::did_you_mean;
+use crate::variants::{mirrored, renumbered};
+
+/// End of the id of a variant, and how it is made.
+type Variant = (&'static str, fn(&Scene) -> Scene);
+
+/// The scene of which suites ask variants too, and these.
+const VARIED: &str = "oh58_4p";
+const VARIANTS: [Variant; 2] = [("mirrored", mirrored), ("renumbered", renumbered)];
 
 /// A scene with the names that tables may call it by.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,14 +36,22 @@ pub struct UnknownScene {
 }
 
 impl KnownScenes {
-    /// The scenes that the program holds; one that it cannot read is left out, which a test excludes.
+    /// The scenes that the program holds and the variants of them that suites ask about; one that it cannot read is
+    /// left out, which a test excludes.
     pub fn shipped() -> Self {
         static SHIPPED: LazyLock<Vec<Arc<KnownScene>>> = LazyLock::new(|| {
             let one = |(path, text): &(&str, &str)| {
                 let id = path.strip_prefix("scenes/")?.strip_suffix(".toml")?.to_owned();
                 Some(Arc::new(KnownScene { id, scene: Scene::from_toml(text).ok()? }))
             };
-            epicyclic_data::FILES.iter().filter_map(one).collect()
+            let mut all: Vec<_> = epicyclic_data::FILES.iter().filter_map(one).collect();
+            if let Some(set) = all.iter().find(|known| known.id == VARIED).cloned() {
+                all.extend(VARIANTS.map(|(name, variant)| {
+                    let (id, scene) = (format!("{VARIED}_{name}"), variant(&set.scene));
+                    Arc::new(KnownScene { id, scene })
+                }));
+            }
+            all
         });
         Self(SHIPPED.clone())
     }
@@ -43,6 +59,11 @@ impl KnownScenes {
     /// Adds a scene, which comes before a shipped one of the same name.
     pub fn add(&mut self, id: String, scene: Scene) {
         self.0.insert(0, Arc::new(KnownScene { id, scene }));
+    }
+
+    /// All of them, those added first.
+    pub fn iter(&self) -> impl Iterator<Item = &Arc<KnownScene>> {
+        self.0.iter()
     }
 
     /// The scene with that id, file name or title, in any case.
@@ -71,7 +92,7 @@ mod tests {
     fn every_shipped_scene_is_read_and_has_an_id_and_a_title_of_its_own() {
         let known = KnownScenes::shipped();
         let files = epicyclic_data::FILES.iter().filter(|(path, _)| path.starts_with("scenes/"));
-        assert_eq!(known.0.len(), files.count());
+        assert_eq!(known.0.len(), files.count() + VARIANTS.len());
         let ids: BTreeSet<&str> = known.0.iter().map(|k| k.id.as_str()).collect();
         let titles: BTreeSet<&str> = known.0.iter().map(|k| k.scene.title.as_str()).collect();
         assert_eq!((ids.len(), titles.len()), (known.0.len(), known.0.len()));

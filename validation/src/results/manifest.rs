@@ -34,15 +34,15 @@ use crate::nearest::did_you_mean;
 const MOST_BYTES: u64 = 1_000_000;
 
 /// Positions of a mesh cycle that the suites ask for.
-const POSITIONS: usize = 28;
+pub(super) const POSITIONS: usize = 28;
 
 /// Order of bodies in vectors and matrices where none is given.
-const ORDER: [&str; 4] = ["carrier", "ring", "sun", "planets"];
+pub(super) const ORDER: [&str; 4] = ["carrier", "ring", "sun", "planets"];
 
 /// What `results.toml` says.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Manifest {
-    /// ModelKind of model; `None` where the folder has no `results.toml`.
+    /// Kind of model; `None` where the folder has no `results.toml`.
     pub kind: Option<ModelKind>,
     /// The program that computed the results.
     pub program: Option<String>,

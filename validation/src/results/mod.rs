@@ -9,7 +9,7 @@
 //! | `steady_states.csv` | one harmonic of one quantity at one speed | [`StateRow`] |
 //!
 //! A [`ResultsFolder`] that is read tells what its reader took for granted as [`Remark`]s, and what in it cannot be
-//! true as [`Contradiction`]s.
+//! true as [`Contradiction`]s; [`Template`] is a folder that is ready to be filled.
 
 mod accepted;
 mod contradictions;
@@ -18,9 +18,12 @@ mod judge;
 mod known_scenes;
 mod manifest;
 mod manifest_error;
+mod questions;
 mod recorded;
 mod rows;
+mod scene_file;
 pub mod table;
+mod template;
 
 pub use accepted::accepted_misses;
 pub use contradictions::Contradiction;
@@ -29,5 +32,8 @@ pub use judge::{JudgeError, Judgement};
 pub use known_scenes::{KnownScene, KnownScenes, UnknownScene};
 pub use manifest::{Convention, Frame, Manifest, Radius, RotationCoordinate};
 pub use manifest_error::ManifestError;
+pub use questions::{AskedSuite, Questions};
 pub use rows::{CycleRow, ModeRow, StateRow};
+pub use scene_file::SceneFile;
 pub use table::{Remark, TableError};
+pub use template::Template;

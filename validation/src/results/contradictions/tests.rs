@@ -258,7 +258,7 @@ fn titles_that_are_a_file_stem_or_misspelt() {
     );
     assert_eq!(
         refusal("modes.csv", "frequency_hz\n770\n"),
-        "modes.csv:2: column `scene` is ``: allowed is an id, file or title of a scene, here or as `scene` in results.toml"
+        "modes.csv:2: column `scene` is empty: needed is an id, file or title of a scene, here or as `scene` in results.toml"
     );
 }
 

@@ -26,7 +26,7 @@ pub enum TableError {
         source: csv::Error,
     },
     /// A file without rows.
-    #[error("{}: no rows: a line of titles (`{titles}`) and at least one row are needed", path.display())]
+    #[error("{}: no rows: a line of titles (`{titles}`) and at least one row are needed, or leave the file out", path.display())]
     Empty {
         /// The file.
         path: PathBuf,
@@ -75,6 +75,18 @@ pub enum TableError {
         /// What to do.
         remedy: &'static str,
     },
+    /// A cell that must be filled and is empty.
+    #[error("{}:{line}: column `{column}` is empty: needed is {needed}", path.display())]
+    Missing {
+        /// The file.
+        path: PathBuf,
+        /// Line from 1.
+        line: u64,
+        /// Title of the column as written.
+        column: String,
+        /// What is to stand there.
+        needed: String,
+    },
     /// A cell that does not fit its column.
     #[error("{}:{line}: column `{column}` is `{value}`: allowed is {allowed}", path.display())]
     Value {
@@ -94,6 +106,10 @@ pub enum TableError {
 impl TableError {
     /// A cell refused.
     pub(super) fn value(path: &Path, line: u64, column: &str, value: &str, allowed: &str) -> Self {
+        if value.is_empty() {
+            let (path, column, needed) = (path.to_owned(), column.to_owned(), allowed.to_owned());
+            return Self::Missing { path, line, column, needed };
+        }
         let shown: String =
             value.chars().take(60).map(|c| if c.is_control() { '?' } else { c }).collect();
         Self::Value {

@@ -103,11 +103,11 @@ fn refusals_name_file_line_column_and_remedy() {
     for (text, message) in [
         (
             "",
-            "modes.csv: no rows: a line of titles (`frequency_hz`) and at least one row are needed",
+            "modes.csv: no rows: a line of titles (`frequency_hz`) and at least one row are needed, or leave the file out",
         ),
         (
             "frequency_hz\n",
-            "modes.csv: no rows: a line of titles (`frequency_hz`) and at least one row are needed",
+            "modes.csv: no rows: a line of titles (`frequency_hz`) and at least one row are needed, or leave the file out",
         ),
         (
             "# a\nfrequenzy_hz;scene\n1;a\n",
@@ -151,7 +151,7 @@ fn refusals_name_file_line_column_and_remedy() {
         ),
         (
             "scene;frequency_hz\na;\n",
-            "modes.csv:2: column `frequency_hz` is ``: allowed is a finite number",
+            "modes.csv:2: column `frequency_hz` is empty: needed is a finite number",
         ),
     ] {
         assert_eq!(refusal(text), message);
