@@ -182,10 +182,12 @@ impl StaticModel for Recorded {
         &self,
         scene: &Scene,
         case: &LoadCase,
-        _: usize,
+        positions: usize,
     ) -> Result<MeshCycle, ModelError> {
         let is_own = |(title, cycle): &&(String, MeshCycle)| {
-            *title == scene.title && same_torque(&cycle.case, case)
+            *title == scene.title
+                && same_torque(&cycle.case, case)
+                && cycle.states.len() >= positions
         };
         let found = self.mesh_cycles.iter().find(is_own);
         found.map(|(_, cycle)| cycle.clone()).ok_or_else(|| missing("mesh cycle", scene, case))

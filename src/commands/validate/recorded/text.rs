@@ -34,7 +34,7 @@ impl Report for RecordedOutput {
         } else {
             let headings = [
                 (Status::Fail, "failed"),
-                (Status::Miss, "missed, as the models of this project do"),
+                (Status::Miss, "missed: listed in checks/misses.toml, or accepted"),
                 (Status::OtherKind, "another kind of model: shown, not judged"),
             ];
             for (status, heading) in headings {
