@@ -73,6 +73,20 @@ pub enum CommandError {
     /// The models or the reference data could not be used.
     #[error(transparent)]
     Validation(#[from] validation::ValidationError),
+    /// A results folder cannot be read.
+    #[error(transparent)]
+    Folder(#[from] validation::results::FolderError),
+    /// Results that can be read and not judged.
+    #[error("{}: {reason}", path.display())]
+    Results {
+        /// The folder.
+        path: PathBuf,
+        /// Why not.
+        reason: String,
+    },
+    /// Results cannot be judged.
+    #[error(transparent)]
+    Judge(#[from] validation::results::JudgeError),
     /// A figure could not be saved.
     #[cfg(feature = "charts")]
     #[error(transparent)]

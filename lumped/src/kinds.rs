@@ -28,6 +28,9 @@ pub enum ModeType {
 }
 
 impl ModeType {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Rotational, Self::Translational, Self::Planet, Self::Mixed];
+
     /// Name as in JSON.
     pub fn name(self) -> &'static str {
         match self {

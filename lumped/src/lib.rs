@@ -20,6 +20,7 @@ mod sensitivity;
 mod spacing_tolerance;
 mod springs;
 mod time_varying;
+mod torsional;
 mod type_tolerance;
 
 /// The crate whose matrices and vectors stand in signatures.

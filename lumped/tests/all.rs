@@ -15,4 +15,5 @@ mod scheme_set;
 mod spacing;
 mod spread;
 mod time_varying;
+mod torsional;
 mod type_tolerance;

@@ -1,5 +1,6 @@
 //! The command line.
 
+mod results;
 mod steady;
 mod values;
 
@@ -9,8 +10,9 @@ use clap::builder::TypedValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use experiments::stability::Map;
 use scene::SceneKind;
-use validation::Profile;
+use validation::{ModelKind, Profile};
 
+pub(crate) use results::Results;
 pub(crate) use steady::{Branches, Model, Sweep};
 pub(crate) use values::DAMPING_FACTORS;
 use values::{map, number, numbers, one_of, whole};
@@ -48,6 +50,9 @@ pub(crate) enum Verb {
     /// Write or explain a scene file.
     #[command(subcommand)]
     Scene(SceneVerb),
+    /// Write or check a results folder: tables of any model that `validate --recorded` judges.
+    #[command(subcommand)]
+    Results(Results),
     /// Compare a list of natural frequencies with those of a scene's lumped model.
     Compare(Compare),
 }
@@ -61,13 +66,14 @@ pub(crate) enum Format {
     /// The table: one row per mode (`modes`, `impulse`, `compare`), harmonic (`rules`), position and tooth pair
     /// (`static`), speed, quantity and harmonic (`sweep`), point, quantity and harmonic (`branches`), border
     /// (`stability`; without a map, one row per map), quantity and setting (`study`), body (`mesh`), verb
-    /// (`scene check`), or check (`validate`).
+    /// (`scene check`), suite (`results check`), or check (`validate`).
     Csv,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct Validate {
-    /// Also write the verdict and the mode tables to this folder (Markdown, JSON) and draw figures.
+    /// Also write the verdict and the mode tables to this folder (Markdown, JSON) and draw figures; with --recorded
+    /// Markdown, JSON, JUnit XML and one HTML page about the judged results.
     #[arg(long, value_name = "DIR")]
     pub report: Option<PathBuf>,
     /// List every check instead of one line per suite.
@@ -76,18 +82,32 @@ pub(crate) struct Validate {
     /// List the suites with what they ask of a model and their negative controls; run nothing.
     #[arg(long, conflicts_with_all = ["report", "details", "profile", "recorded"])]
     pub controls: bool,
-    /// Judge tables of results instead of this project's models: a folder with any of modes.csv,
-    /// mesh_cycle.csv and steady_states.csv (columns in docs/suites.md).
+    /// Judge tables of results instead of this project's models: a results folder (docs/results.md).
     #[arg(long, value_name = "DIR", conflicts_with = "profile")]
     pub recorded: Option<PathBuf>,
+    /// What kind of model the results come from, instead of what results.toml says.
+    #[arg(long = "as", value_name = "KIND", requires = "recorded", value_parser = model_kinds())]
+    pub kind: Option<ModelKind>,
+    /// Rows that the results are known to miss: a TOML file with [[miss]] entries of id, value, tolerance and analysis.
+    #[arg(long, value_name = "FILE", requires = "recorded")]
+    pub accept: Option<PathBuf>,
     /// How much to run; checks left out are listed as not run.
     #[arg(long, default_value = "quick", value_parser = profiles())]
     pub profile: Profile,
-    /// Only checks whose id starts with this prefix, e.g. `table3.` or `fe.hertz`.
-    #[arg(long, value_name = "PREFIX", default_value = "", hide_default_value = true)]
-    pub only: String,
+    /// Only checks whose ids start so, e.g. `table3.` or `fe.hertz,fe.sets`; may be repeated.
+    #[arg(long, value_name = "PREFIX,…", value_delimiter = ',')]
+    pub only: Vec<String>,
     #[arg(long, value_enum, default_value_t = Format::Text)]
     pub format: Format,
+}
+
+fn model_kinds() -> impl TypedValueParser<Value = ModelKind> {
+    one_of([
+        ("lumped", "Rigid bodies on springs that move in the plane", ModelKind::Lumped),
+        ("fe_contact", "Elastic teeth in contact", ModelKind::FeContact),
+        ("torsional", "Rigid bodies on springs that only turn", ModelKind::Torsional),
+        ("measured", "A test rig: compared, never failed", ModelKind::Measured),
+    ])
 }
 
 fn profiles() -> impl TypedValueParser<Value = Profile> {

@@ -6,6 +6,7 @@ mod compare;
 mod impulse;
 mod mesh;
 mod modes;
+mod results;
 mod rules;
 mod scene;
 mod schema;
@@ -72,6 +73,7 @@ fn dispatch(
         Verb::Study(arguments) => study::run(&arguments, out, err).map(|()| true),
         Verb::Mesh(arguments) => mesh::run(&arguments, out, err).map(|()| true),
         Verb::Scene(verb) => scene::run(&verb, out).map(|()| true),
+        Verb::Results(verb) => results::run(&verb, out).map(|()| true),
         Verb::Compare(arguments) => compare::run(&arguments, out),
     }
 }

@@ -7,6 +7,7 @@ use super::branches::BranchesOutput;
 use super::impulse::ImpulseOutput;
 use super::mesh::MeshOutput;
 use super::modes::ModesOutput;
+use super::results::ResultsSummary;
 use super::rules::RulesOutput;
 use super::scene::SceneSummary;
 use super::stability::{GuardList, StabilityList, StabilityOutput};
@@ -41,6 +42,7 @@ pub fn schemas() -> Vec<(&'static str, Schema)> {
         ("stability_guards", of::<GuardList>()),
         ("study", of::<StudyOutput>()),
         ("mesh", of::<MeshOutput>()),
+        ("results_check", of::<ResultsSummary>()),
         ("compare", of::<Comparison>()),
     ]
 }

@@ -7,6 +7,7 @@ use std::process::Command;
 use serde_json::Value;
 
 use super::harness::{coarse, csv_of_own_modes, json, keeps_to_schema, run, scene};
+use crate::results_command::results_folder;
 
 #[test]
 fn modes_of_oh58_as_json() {
@@ -72,6 +73,7 @@ fn every_verb(folder: &Path) -> Vec<(&'static str, Vec<String>)> {
         ("scene_check", words(&format!("scene check {set}"))),
         ("scene_check", words(&format!("scene check {pair}"))),
         ("scene_check", words(&format!("scene check {}", scene("lin_parker_1999_4p.toml")))),
+        ("results_check", words(&format!("results check {}", results_folder(folder)))),
         ("compare", words(&format!("compare {own} --scene {set}"))),
     ]
 }

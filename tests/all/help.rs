@@ -6,6 +6,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use crate::harness::{coarse, run, scene};
+use crate::results_command::results_folder;
 use crate::study_command::small;
 
 /// A text without the escape sequences of its colours.
@@ -33,7 +34,7 @@ fn help(verb: &str) -> String {
     good(format!("{verb} --help").trim_start())
 }
 
-/// Every verb that the help of the command lists, those of `scene` with their own names.
+/// Every verb that the help of the command lists, those of `scene` and `results` with their own names.
 fn verbs() -> Vec<String> {
     let listed = |text: &str| -> Vec<String> {
         let (_, list) = text.split_once("Commands:\n").unwrap();
@@ -42,10 +43,11 @@ fn verbs() -> Vec<String> {
         let names = names.map(|l| l.split_whitespace().next().unwrap().to_owned());
         names.filter(|name| name != "help").collect()
     };
-    let nested = listed(&help("scene")).into_iter().map(|name| format!("scene {name}"));
     let mut all = listed(&help(""));
-    all.retain(|name| name != "scene");
-    all.extend(nested);
+    for verb in ["scene", "results"] {
+        all.retain(|name| name != verb);
+        all.extend(listed(&help(verb)).into_iter().map(|name| format!("{verb} {name}")));
+    }
     all
 }
 
@@ -76,7 +78,10 @@ fn short(verb: &str, plain: &str) -> Option<String> {
         "study" => {
             format!("study {} --rounds 3", small(Path::new(plain).parent().unwrap()).display())
         }
-        "scene new" | "scene schema" => return None,
+        "results check" => {
+            format!("results check {}", results_folder(Path::new(plain).parent().unwrap()))
+        }
+        "scene new" | "scene schema" | "results new" => return None,
         other => panic!("`{other}` is a new verb: give it a short run here"),
     })
 }

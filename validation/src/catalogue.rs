@@ -1,6 +1,5 @@
 //! The scenes that checks run on, built into the program.
 
-use crate::reference_file::embedded;
 use scene::{Scene, SceneError};
 
 /// A scene of the catalogue.
@@ -34,33 +33,33 @@ pub enum PublishedScene {
     LinParkerFourPlanets,
 }
 
+impl PublishedScene {
+    /// Stem of its file, by which results name it.
+    pub const fn id(self) -> &'static str {
+        match self {
+            Self::Oh58FourPlanets => "oh58_4p",
+            Self::Oh58BestThickness => "oh58_4p_best_thickness",
+            Self::Oh58ThreePlanets => "oh58_3p",
+            Self::Oh58ThreePlanetsPublishedStiffness => "oh58_3p_published_stiffness",
+            Self::Oh58FourPlanetsPublishedStiffness => "oh58_4p_published_stiffness",
+            Self::Oh58SecondSystem => "oh58_4p_second_system",
+            Self::FivePlanets => "five_planets",
+            Self::WindTurbineStage => "wind_turbine_stage",
+            Self::AutomaticTransmissionSet => "automatic_transmission_set",
+            Self::Oh58FourPlanetsAsPublished => "oh58_4p_as_published",
+            Self::Oh58ThreePlanetsAsPublished => "oh58_3p_as_published",
+            Self::LinParkerThreePlanets => "lin_parker_1999_3p",
+            Self::LinParkerFourPlanets => "lin_parker_1999_4p",
+        }
+    }
+}
+
 /// Reads one of them.
 ///
 /// # Errors
 /// If the file built in is not a valid scene.
 pub fn scene(which: PublishedScene) -> Result<Scene, SceneError> {
-    macro_rules! file {
-        ($name:literal) => {
-            embedded!(concat!("scenes/", $name))
-        };
-    }
-    Scene::from_toml(match which {
-        PublishedScene::Oh58FourPlanets => file!("oh58_4p.toml"),
-        PublishedScene::Oh58BestThickness => file!("oh58_4p_best_thickness.toml"),
-        PublishedScene::Oh58ThreePlanets => file!("oh58_3p.toml"),
-        PublishedScene::Oh58ThreePlanetsPublishedStiffness => {
-            file!("oh58_3p_published_stiffness.toml")
-        }
-        PublishedScene::Oh58FourPlanetsPublishedStiffness => {
-            file!("oh58_4p_published_stiffness.toml")
-        }
-        PublishedScene::Oh58SecondSystem => file!("oh58_4p_second_system.toml"),
-        PublishedScene::FivePlanets => file!("five_planets.toml"),
-        PublishedScene::WindTurbineStage => file!("wind_turbine_stage.toml"),
-        PublishedScene::AutomaticTransmissionSet => file!("automatic_transmission_set.toml"),
-        PublishedScene::Oh58FourPlanetsAsPublished => file!("oh58_4p_as_published.toml"),
-        PublishedScene::Oh58ThreePlanetsAsPublished => file!("oh58_3p_as_published.toml"),
-        PublishedScene::LinParkerThreePlanets => file!("lin_parker_1999_3p.toml"),
-        PublishedScene::LinParkerFourPlanets => file!("lin_parker_1999_4p.toml"),
-    })
+    let path = format!("scenes/{}.toml", which.id());
+    let file = epicyclic_data::FILES.iter().find(|(name, _)| *name == path);
+    Scene::from_toml(file.map_or("", |(_, text)| text))
 }

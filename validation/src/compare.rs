@@ -67,10 +67,13 @@ pub struct Comparison {
 /// frequency both sides count as zero.
 const ZERO_SHARE: f64 = 1e-4;
 
+/// Difference that an entry without a partner costs: frequencies further apart than two of it are not one mode.
+const GAP_PERCENT: f64 = 10.0;
+
 /// Matches a list to a model. With types, each type is matched within itself.
 ///
-/// Within a type both sides are sorted, and the cheapest order-preserving alignment is taken, an
-/// unmatched entry costing as much as a difference of five tolerances. A listed frequency may stand
+/// Within a type both sides are sorted, and the cheapest order-preserving alignment is taken, an unmatched entry costing
+/// as much as a difference of [`GAP_PERCENT`], whatever the tolerance is. A listed frequency may stand
 /// for a model frequency as often as that occurs, or once for all of them unless the list says how often it
 /// occurs. Modes of the model above the highest listed frequency are no disagreement, for published tables end
 /// somewhere, unless `is_whole` says that the list is to hold them all.
@@ -113,7 +116,7 @@ pub fn compare(
             .collect();
         entries.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
         let zero = ZERO_SHARE * highest;
-        let (taken, left) = align(&entries, &side, tolerance_percent, zero);
+        let (taken, left) = align(&entries, &side, zero);
         for (mode, own) in side.iter().zip(taken) {
             let mut found = judge(mode, &own, tolerance_percent, zero);
             if own.is_empty() && !is_whole && !listed.is_empty() && mode.frequency_hz > end {
@@ -160,7 +163,6 @@ fn difference(listed: f64, model: f64, zero: f64) -> f64 {
 fn align<'l>(
     listed: &[&'l ListedMode],
     model: &[&ModelMode],
-    tolerance_percent: f64,
     zero: f64,
 ) -> (Vec<Vec<&'l ListedMode>>, Vec<&'l ListedMode>) {
     // Each model mode offers as many places as it occurs; only the first must be filled.
@@ -169,7 +171,7 @@ fn align<'l>(
         .enumerate()
         .flat_map(|(i, m)| (0..m.multiplicity).map(move |copy| (i, copy)))
         .collect();
-    let gap = 5.0 * tolerance_percent;
+    let gap = GAP_PERCENT;
     let (rows, columns) = (listed.len(), places.len());
     let cell = |i: usize, j: usize| i * (columns + 1) + j;
     let mut cost = vec![0.0f64; (rows + 1) * (columns + 1)];

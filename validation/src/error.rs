@@ -18,6 +18,20 @@ pub enum ValidationError {
     /// The model under test failed; its own error.
     #[error("the model: {0}")]
     Model(#[source] experiments::ModelError),
+    /// A choice of checks that holds none.
+    #[error("`{front}`: no check's id starts so{hint}")]
+    NoSuchCheck {
+        /// What ids should start with.
+        front: String,
+        /// `; did you mean …`, if a suite has a name like it.
+        hint: String,
+    },
+    /// No model is given.
+    #[error("no model is given: one of natural modes, mesh cycles and steady states is needed")]
+    NoModel,
+    /// A model was given and no suite could be asked.
+    #[error("no suite could be asked: {}", lacking(.0))]
+    NothingAsked(Vec<crate::verdict::NotAsked>),
     /// A plan of a sweep.
     #[error(transparent)]
     Plan(#[from] experiments::sweep::PlanError),
@@ -48,6 +62,12 @@ pub enum ValidationError {
     /// A lumped model.
     #[error(transparent)]
     Lumped(#[from] lumped::LumpedError),
+}
+
+/// What each suite lacks.
+fn lacking(suites: &[crate::verdict::NotAsked]) -> String {
+    let one = |s: &crate::verdict::NotAsked| format!("{} needs {}", s.suite, s.lacks);
+    suites.iter().map(one).collect::<Vec<_>>().join("; ")
 }
 
 impl ValidationError {

@@ -11,6 +11,8 @@ mod judged;
 mod kept_charts;
 mod ledger;
 mod mode_type;
+mod model_kind;
+mod nearest;
 mod own_truth;
 pub mod parameter_bands;
 mod progress;
@@ -18,7 +20,10 @@ mod published_table;
 mod reference;
 mod reference_file;
 mod registry;
+pub mod results;
+mod selection;
 mod suites;
+pub mod variants;
 mod verdict;
 mod worst;
 
@@ -30,6 +35,7 @@ pub use error::ValidationError;
 pub use judged::Judged;
 pub use kept_charts::{KeptStudy, kept_maps, kept_studies};
 pub use ledger::{Assumption, Figure, Ledger};
+pub use model_kind::ModelKind;
 pub use own_truth::{
     ExactPeak, ExactPeaks, FullSweep, FullSweepPoint, Ladder, LadderFidelity, MapCell,
     RotationalPeak, TorqueMap, TorquePeak, TorquePeaks,
@@ -39,11 +45,12 @@ pub use published_table::Table;
 pub use reference::{Frequencies, Miss, ModeTable, Reference};
 pub use reference_file::ReferenceError;
 pub use registry::{Asks, CheckEntry, ControlEntry, Registry, SuiteEntry};
+pub use selection::Selection;
 pub use suites::Models;
 pub use suites::explained::{Step, steps};
 pub use suites::fe::iso6336::iso6336_mean_stiffness;
 pub use suites::statements::{Statement, judge};
-pub use verdict::Verdict;
+pub use verdict::{NotAsked, Verdict};
 pub use worst::{paired, peak_to_peak, worst};
 
 /// How much to run.
@@ -60,10 +67,10 @@ pub enum Profile {
 /// Runs the checks whose ids start with `only`, or all of them if it is empty.
 ///
 /// # Errors
-/// If the reference data, a scene of the catalogue or a model cannot be used: a defect of the
-/// program, not a failed check.
-pub fn validate(profile: Profile, only: &str) -> Result<Verdict, ValidationError> {
-    validate_with(profile, only, &|_| ())
+/// [`ValidationError::NoSuchCheck`] if no check's id starts so. Otherwise if the reference data, a scene of the
+/// catalogue or a model cannot be used: a defect of the program, not a failed check.
+pub fn validate(profile: Profile, only: impl Into<Selection>) -> Result<Verdict, ValidationError> {
+    validate_with(profile, &only.into(), &|_| ())
 }
 
 /// The same; `progress` hears of every suite that is begun and finished.
@@ -72,23 +79,54 @@ pub fn validate(profile: Profile, only: &str) -> Result<Verdict, ValidationError
 /// As [`validate`].
 pub fn validate_with(
     profile: Profile,
-    only: &str,
+    only: &Selection,
     progress: &(dyn Fn(Progress<'_>) + Sync),
 ) -> Result<Verdict, ValidationError> {
     let reference = Reference::load()?;
+    only.check(&reference.registry)?;
     let checks = suites::all(&reference, profile, only, progress)?;
     let concerned: Vec<Miss> =
-        reference.misses.iter().filter(|m| m.id.starts_with(only)).cloned().collect();
+        reference.misses.iter().filter(|m| only.holds(&m.id)).cloned().collect();
     Ok(Verdict::new(checks, &concerned))
 }
 
-/// Asks a foreign model every question of the suites that it can answer, and judges the answers as our own:
-/// by the same functions, the same reference data and the same tolerances. Misses of our own models are no
-/// excuse for others.
+/// Asks a foreign model every question of the suites that it can answer, and judges the answers as our own: by the
+/// same functions, reference data, tolerances and listed misses. Checks whose reference is of another kind of model
+/// are shown and not judged; suites that could not be asked are listed with what they need.
 ///
 /// # Errors
-/// [`ValidationError::Model`] with the model's own error if it fails at a question that it takes.
-pub fn judge_model(models: &Models<'_>, only: &str) -> Result<Verdict, ValidationError> {
+/// [`ValidationError::NoModel`] without a model, [`ValidationError::NoSuchCheck`] if no check's id starts as `only`
+/// has it, [`ValidationError::NothingAsked`] if no suite could be asked, and [`ValidationError::Model`] with the
+/// model's own error if it fails at a question that it takes.
+pub fn judge_model(
+    models: &Models<'_>,
+    only: impl Into<Selection>,
+) -> Result<Verdict, ValidationError> {
+    judge_with(models, &only.into(), &[], &|_| Ok(Vec::new()))
+}
+
+/// The same with `further` checks; `accepted` are rows that this model is known to miss, each with its pinned value and its analysis, beside
+/// those that are listed for the models of this project.
+///
+/// # Errors
+/// As [`judge_model`].
+pub(crate) fn judge_with(
+    models: &Models<'_>,
+    only: &Selection,
+    accepted: &[Miss],
+    further: &dyn Fn(&Reference) -> Result<Vec<Check>, ValidationError>,
+) -> Result<Verdict, ValidationError> {
+    if models.modal.is_none() && models.at_rest.is_none() && models.in_time.is_none() {
+        return Err(ValidationError::NoModel);
+    }
     let reference = Reference::load()?;
-    Ok(Verdict::new(suites::foreign(&reference, models, only)?, &[]))
+    only.check(&reference.registry)?;
+    let (mut checks, not_asked) = suites::foreign(&reference, models, only)?;
+    checks.extend(further(&reference)?.into_iter().filter(|check| only.holds(&check.id)));
+    if checks.is_empty() {
+        return Err(ValidationError::NothingAsked(not_asked));
+    }
+    let judges = |id: &str| models.kind.is_none_or(|kind| reference.registry.judges(id, kind));
+    let misses = [accepted, &reference.misses].concat();
+    Ok(Verdict::of_results(checks, &misses, judges, not_asked))
 }

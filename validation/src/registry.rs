@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::Profile;
 use crate::check::{ReferenceKind, Tolerance};
 use crate::glob::matches;
+use crate::model_kind::ModelKind;
 use crate::reference_file::{ReferenceError, embedded, parse};
 
 /// What a suite asks of a model.
@@ -41,6 +42,10 @@ pub struct SuiteEntry {
     pub about: String,
     /// What it asks of a model.
     pub asks: Asks,
+    /// Kinds of model that it judges; results of another kind are shown beside the reference. None where it asks
+    /// about this project's own models.
+    #[serde(default)]
+    pub models: Vec<ModelKind>,
     /// Its checks.
     pub check: Vec<CheckEntry>,
     /// Its negative controls.
@@ -117,6 +122,11 @@ impl Registry {
         own.max_by_key(|c| c.ids.len()).ok_or_else(|| ReferenceError::Undeclared(id.to_owned()))
     }
 
+    /// Whether a check judges models of a kind.
+    pub fn judges(&self, id: &str, kind: ModelKind) -> bool {
+        self.suite_of(id).is_some_and(|suite| suite.models.contains(&kind))
+    }
+
     /// Declaration of a negative control.
     ///
     /// # Errors
@@ -167,6 +177,13 @@ mod tests {
                 assert_eq!(broken, Some(suite.name.as_str()), "{}", control.id);
                 registry.check(&control.breaks).unwrap();
             }
+        }
+    }
+
+    #[test]
+    fn every_suite_that_asks_a_model_says_which_kinds_it_judges() {
+        for suite in Registry::load().unwrap().suite {
+            assert_eq!(suite.models.is_empty(), suite.asks == Asks::OwnNumerics, "{}", suite.name);
         }
     }
 

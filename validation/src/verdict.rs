@@ -6,6 +6,15 @@ use serde::{Deserialize, Serialize};
 use crate::check::{Check, ReferenceKind, Status, Value};
 use crate::reference::Miss;
 
+/// A suite that was not asked.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub struct NotAsked {
+    /// Its name in the registry.
+    pub suite: String,
+    /// What it needs that the results lack.
+    pub lacks: String,
+}
+
 /// All checks of a run and their counts.
 #[derive(Debug, Clone, Serialize, Deserialize, JsonSchema)]
 pub struct Verdict {
@@ -17,6 +26,16 @@ pub struct Verdict {
     pub missed: usize,
     /// How many failed.
     pub failed: usize,
+    /// How many are of another kind of model than the results, and hence not judged.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub of_another_kind: usize,
+    /// Suites that the results cannot answer.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub not_asked: Vec<NotAsked>,
+}
+
+fn is_zero(count: &usize) -> bool {
+    *count == 0
 }
 
 impl Verdict {
@@ -30,10 +49,37 @@ impl Verdict {
                 None => checks.push(unknown_miss(miss)),
             }
         }
+        Self::counted(checks, Vec::new())
+    }
+
+    /// Counts of results that somebody else's model gave. `judges` says whether a check's reference is of their kind;
+    /// where it is, a listed row that meets its reference passes, one within tolerance of the value that is pinned
+    /// for this project's model is a miss, and any other fails.
+    pub(crate) fn of_results(
+        mut checks: Vec<Check>,
+        misses: &[Miss],
+        judges: impl Fn(&str) -> bool,
+        not_asked: Vec<NotAsked>,
+    ) -> Self {
+        for check in &mut checks {
+            if !judges(&check.id) {
+                check.status = Status::OtherKind;
+            } else if let Some(miss) = misses.iter().find(|m| m.id == check.id)
+                && check.status == Status::Fail
+                && is_pinned(check, miss, check.tolerance.absolute)
+            {
+                check.status = Status::Miss;
+            }
+        }
+        Self::counted(checks, not_asked)
+    }
+
+    fn counted(checks: Vec<Check>, not_asked: Vec<NotAsked>) -> Self {
         let count = |status| checks.iter().filter(|c| c.status == status).count();
         let (passed, missed, failed) =
             (count(Status::Pass), count(Status::Miss), count(Status::Fail));
-        Self { checks, passed, missed, failed }
+        let of_another_kind = count(Status::OtherKind);
+        Self { checks, passed, missed, failed, of_another_kind, not_asked }
     }
 
     /// Whether nothing failed.
@@ -42,15 +88,21 @@ impl Verdict {
     }
 }
 
-fn judge_miss(check: &mut Check, miss: &Miss) {
-    let pinned = match check.actual {
-        Some(Value::Number(x)) => (x - miss.value).abs() <= miss.tolerance,
-        _ => false,
-    };
-    // A published value or a limit between own results may be missed, a theorem or hand calculation may not.
+/// Whether the value is the pinned one, and of a kind of which a reference may be missed: a published value or a limit
+/// between own results, but no theorem and no hand calculation.
+fn is_pinned(check: &Check, miss: &Miss, tolerance: f64) -> bool {
     let may_miss = !matches!(check.kind, ReferenceKind::Analytic | ReferenceKind::HandCalculation);
+    match check.actual {
+        Some(Value::Number(x)) => {
+            may_miss && (x - miss.value).abs() <= miss.tolerance.max(tolerance)
+        }
+        _ => false,
+    }
+}
+
+fn judge_miss(check: &mut Check, miss: &Miss) {
     check.status = match check.status {
-        Status::Fail if may_miss && pinned => Status::Miss,
+        Status::Fail if is_pinned(check, miss, 0.0) => Status::Miss,
         Status::NotRun => Status::NotRun,
         _ => Status::Fail,
     };
@@ -95,5 +147,21 @@ mod tests {
         assert_eq!(status(check(own, 112.0), &[miss(110.0)]), Status::Fail);
         assert_eq!(status(check(ReferenceKind::Analytic, 110.0), &[miss(110.0)]), Status::Fail);
         assert_eq!(Verdict::new(vec![], &[miss(1.0)]).failed, 1);
+    }
+
+    #[test]
+    fn results_of_others_have_the_same_misses_and_fail_by_references_of_their_kind_alone() {
+        let status = |kind, actual: f64, judges: bool| {
+            let checks = vec![check(kind, actual)];
+            let verdict = Verdict::of_results(checks, &[miss(110.0)], |_| judges, Vec::new());
+            verdict.checks[0].status
+        };
+        let published = ReferenceKind::Published;
+        assert_eq!(status(published, 100.5, true), Status::Pass, "a listed row that meets it");
+        assert_eq!(status(published, 110.9, true), Status::Miss, "within tolerance of the pin");
+        assert_eq!(status(published, 111.1, true), Status::Fail);
+        assert_eq!(status(published, f64::NAN, true), Status::Fail);
+        assert_eq!(status(ReferenceKind::Analytic, 110.0, true), Status::Fail, "a theorem");
+        assert_eq!(status(published, 300.0, false), Status::OtherKind);
     }
 }

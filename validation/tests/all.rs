@@ -3,6 +3,8 @@
 //! `cargo test --release -p epicyclic-validation --test all sweep` runs those whose name has the word.
 
 mod closed_forms;
+mod good_results;
+mod judged_results;
 mod lumped_from_fe;
 mod made_scenes;
 mod sweep;

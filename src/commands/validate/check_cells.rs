@@ -12,6 +12,7 @@ pub(super) fn cells(check: &Check) -> [String; 4] {
     };
     let is_tiny = check.tolerance.absolute > 0.0 && check.tolerance.absolute < 1e-4;
     let number = |x: f64| match is_tiny && x != 0.0 {
+        _ if x.is_nan() => "none".to_owned(),
         true => format!("{x:.1e}"),
         false => format!("{x:.digits$}"),
     };
@@ -52,6 +53,17 @@ fn summary(list: &[Value]) -> String {
     words.join("; ")
 }
 
+/// (actual − expected)/tolerance, `None` of what is no number, has no tolerance or has not run; NaN of NaN.
+pub(super) fn signed_part(check: &Check) -> Option<f64> {
+    let tolerance = check.tolerance.absolute;
+    match (&check.expected, check.actual.as_ref()?) {
+        (Value::Number(expected), Value::Number(actual)) if tolerance > 0.0 => {
+            Some((actual - expected) / tolerance)
+        }
+        _ => None,
+    }
+}
+
 /// Word shown for a status.
 pub(super) fn status_word(status: Status) -> &'static str {
     match status {
@@ -59,6 +71,7 @@ pub(super) fn status_word(status: Status) -> &'static str {
         Status::Fail => "FAIL",
         Status::Miss => "miss",
         Status::NotRun => "not run",
+        Status::OtherKind => "other kind",
     }
 }
 
@@ -68,7 +81,7 @@ pub(super) fn coloured(word: &str, status: Status) -> String {
         Status::Pass => AnsiColor::Green,
         Status::Miss => AnsiColor::Yellow,
         Status::Fail => AnsiColor::Red,
-        Status::NotRun => return word.to_owned(),
+        Status::NotRun | Status::OtherKind => return word.to_owned(),
     };
     if word.trim() == "–" {
         return word.to_owned();

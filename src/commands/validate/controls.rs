@@ -36,7 +36,9 @@ struct ControlOutput {
 /// Lists the suites whose names begin with `--only`, with their negative controls.
 pub(super) fn run(arguments: &Validate, out: &mut dyn Write) -> Result<()> {
     let registry = Registry::load().map_err(ValidationError::from)?;
-    let listed = registry.suite.into_iter().filter(|s| s.name.starts_with(&arguments.only));
+    let listed = registry.suite.into_iter().filter(|s| {
+        arguments.only.is_empty() || arguments.only.iter().any(|o| s.name.starts_with(o))
+    });
     let suites: Vec<SuiteControls> = listed
         .map(|suite| SuiteControls {
             suite: suite.name,

@@ -23,7 +23,7 @@ pub(super) struct VerdictOutput {
     pub(super) details: bool,
 }
 
-fn table<'r>() -> Table<'r, &'r Check> {
+pub(super) fn table<'r>() -> Table<'r, &'r Check> {
     let cell = |i: usize| move |check: &&Check| cells(check)[i].clone();
     // Lists have no place in a cell of a file.
     let value = |value: Option<&Value>| match value? {

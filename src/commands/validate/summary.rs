@@ -4,7 +4,7 @@ use std::io::Write;
 
 use validation::{Check, Miss, Status, Value, Verdict};
 
-use super::check_cells::{cells, coloured};
+use super::check_cells::{cells, coloured, signed_part};
 use crate::output::{WIDTH, paragraph};
 
 /// Longest name of a suite that is not cut.
@@ -46,13 +46,11 @@ impl Suite<'_> {
 /// |actual − expected| over the tolerance; infinite for a statement that does not hold and for a value that
 /// is not a number, `None` for a statement that holds and for a check that has not run.
 fn part_of_tolerance(check: &Check) -> Option<f64> {
-    let tolerance = check.tolerance.absolute;
-    match (&check.expected, check.actual.as_ref()?) {
-        (Value::Number(expected), Value::Number(actual)) if tolerance > 0.0 => {
-            let part = (actual - expected).abs() / tolerance;
-            Some(if part.is_nan() { f64::INFINITY } else { part })
-        }
-        _ => (check.status != Status::Pass).then_some(f64::INFINITY),
+    check.actual.as_ref()?;
+    match signed_part(check) {
+        Some(part) if part.is_nan() => Some(f64::INFINITY),
+        Some(part) => Some(part.abs()),
+        None => (check.status != Status::Pass).then_some(f64::INFINITY),
     }
 }
 
@@ -161,7 +159,7 @@ fn in_full(
 }
 
 /// A value written out in full.
-fn words(value: &Value) -> String {
+pub(super) fn words(value: &Value) -> String {
     match value {
         Value::Number(x) => x.to_string(),
         Value::Text(text) => format!("“{text}”"),

@@ -6,6 +6,7 @@ pub(crate) mod explained;
 pub(crate) mod fe;
 mod lab;
 mod lin_parker;
+pub(crate) mod lumped_model;
 pub(crate) mod mode_lists;
 mod rules;
 pub(crate) mod statements;
@@ -23,8 +24,11 @@ use crate::Profile;
 use crate::catalogue::{PublishedScene, scene};
 use crate::check::Check;
 use crate::error::ValidationError;
+use crate::model_kind::ModelKind;
 use crate::progress::{Listener, told};
 use crate::reference::Reference;
+use crate::selection::Selection;
+use crate::verdict::NotAsked;
 
 pub(crate) use lab::Lab;
 
@@ -37,6 +41,19 @@ pub(crate) type OfModes = fn(&dyn ModalModel, &[Scene], &Reference) -> Checks;
 /// Mesh cycles at rest held against reference data.
 pub(crate) type OfMeshCycle = fn(&dyn StaticModel, &[Scene], &Reference) -> Checks;
 
+/// A mesh cycle that is asked for.
+pub(crate) struct AskedCycle {
+    /// A scene or a variant of it.
+    pub(crate) set: Scene,
+    /// Torque on the sun, N m.
+    pub(crate) sun_torque_nm: f64,
+    /// Number of positions.
+    pub(crate) positions: usize,
+}
+
+/// Mesh cycles that are asked of a scene.
+pub(crate) type CyclesOf = fn(&Scene) -> Vec<AskedCycle>;
+
 /// Steady states, with natural modes where the model has them, held against reference data.
 pub(crate) type OfSteadyStates =
     fn(&dyn SteadyStateModel, Option<&dyn ModalModel>, &[Scene], &Reference) -> Checks;
@@ -46,8 +63,8 @@ pub(crate) type OfSteadyStates =
 pub(crate) enum Question {
     /// Natural modes.
     Modes(&'static [PublishedScene], OfModes),
-    /// Mesh cycles at rest.
-    MeshCycle(&'static [PublishedScene], OfMeshCycle),
+    /// Mesh cycles at rest, and which of them.
+    MeshCycle(&'static [PublishedScene], OfMeshCycle, CyclesOf),
     /// Steady states.
     SteadyStates(&'static [PublishedScene], OfSteadyStates),
 }
@@ -59,46 +76,112 @@ pub(crate) struct Askable {
     pub(crate) suite: &'static str,
     /// What is asked.
     pub(crate) question: Question,
+    /// What a table needs beside the scenes: torques, positions, variants of the scenes.
+    pub(crate) needs: &'static str,
 }
 
 use PublishedScene as P;
 use Question::{MeshCycle, Modes, SteadyStates};
 
-const fn ask(suite: &'static str, question: Question) -> Askable {
-    Askable { suite, question }
+const fn ask(suite: &'static str, question: Question, needs: &'static str) -> Askable {
+    Askable { suite, question, needs }
 }
 
+/// Frequencies with types.
+const TYPES: &str = "frequency and type of every mode";
+
+/// Speeds of a sweep that has peaks of four harmonics.
+const SPEEDS: &str = "steady states at 1130 N·m, 450 to 2500 rpm, 2 % apart";
+
 /// Suites that can be asked of anybody's model.
-pub(crate) const ASKABLE: [Askable; 16] = [
-    ask("table2.lumped", Modes(&[P::Oh58ThreePlanetsAsPublished], tables::lumped)),
-    ask("table3.lumped", Modes(&[P::Oh58FourPlanetsAsPublished], tables::lumped)),
-    ask("table2.geometry_consistent", Modes(&[P::Oh58ThreePlanets], tables::geometry_consistent)),
-    ask("table3.geometry_consistent", Modes(&[P::Oh58FourPlanets], tables::geometry_consistent)),
-    ask("table3.explained", Modes(&[P::Oh58FourPlanets], explained::checks)),
+pub(crate) const ASKABLE: [Askable; 18] = [
+    ask("table2.lumped", Modes(&[P::Oh58ThreePlanetsAsPublished], tables::lumped), TYPES),
+    ask("table3.lumped", Modes(&[P::Oh58FourPlanetsAsPublished], tables::lumped), TYPES),
+    ask(
+        "table2.geometry_consistent",
+        Modes(&[P::Oh58ThreePlanets], tables::geometry_consistent),
+        TYPES,
+    ),
+    ask(
+        "table3.geometry_consistent",
+        Modes(&[P::Oh58FourPlanets], tables::geometry_consistent),
+        TYPES,
+    ),
+    ask(
+        "table3.explained",
+        Modes(&[P::Oh58FourPlanets], explained::checks),
+        "modes of variants of the scene, which a model in code gives",
+    ),
     ask(
         "claims",
         Modes(&[P::Oh58ThreePlanetsAsPublished, P::Oh58FourPlanetsAsPublished], claims::checks),
+        TYPES,
+    ),
+    ask("lin_parker_1999", Modes(&[P::LinParkerThreePlanets], lin_parker::checks), TYPES),
+    ask("lin_parker_1999", Modes(&[P::LinParkerFourPlanets], lin_parker::checks), TYPES),
+    ask(
+        "structure",
+        Modes(&[P::LinParkerThreePlanets], structure::checks),
+        "modes of random sets, which a model in code gives",
     ),
     ask(
-        "lin_parker_1999",
-        Modes(&[P::LinParkerThreePlanets, P::LinParkerFourPlanets], lin_parker::checks),
+        "fe.sets",
+        MeshCycle(&[P::Oh58ThreePlanets], fe::sets::asked, fe::sets::cycles),
+        "the mesh cycle at 1413 N·m, 28 positions",
     ),
-    ask("structure", Modes(&[P::LinParkerThreePlanets], structure::checks)),
-    ask("fe.sets", MeshCycle(&[P::Oh58ThreePlanets, P::Oh58FourPlanets], fe::sets::asked)),
-    ask("fe.fig12", MeshCycle(&[P::Oh58FourPlanets], fe::fig12::asked)),
-    ask("table2.fe_contact", Modes(&[P::Oh58ThreePlanets], fe::modal::printed)),
-    ask("table3.fe_contact", Modes(&[P::Oh58FourPlanets], fe::modal::printed)),
-    ask("sweep", SteadyStates(&[P::Oh58FourPlanets], fe::sweeps::asked)),
-    ask("sweep", SteadyStates(&[P::Oh58ThreePlanets], fe::sweeps::asked)),
-    ask("sweep", SteadyStates(&[P::FivePlanets], fe::sweeps::asked)),
-    ask("torque", SteadyStates(&[P::Oh58FourPlanets], fe::torque::asked)),
+    ask(
+        "fe.sets",
+        MeshCycle(&[P::Oh58FourPlanets], fe::sets::asked, fe::sets::cycles),
+        "mesh cycles of 28 positions at 1413 N·m, of oh58_4p_mirrored at −1413 N·m and of oh58_4p_renumbered at 1413 N·m",
+    ),
+    ask(
+        "fe.fig12",
+        MeshCycle(&[P::Oh58FourPlanets], fe::fig12::asked, fe::fig12::cycles),
+        "mesh cycles of 140 positions at 113, 226, … 1356 N·m",
+    ),
+    ask("table2.fe_contact", Modes(&[P::Oh58ThreePlanets], fe::modal::printed), TYPES),
+    ask("table3.fe_contact", Modes(&[P::Oh58FourPlanets], fe::modal::printed), TYPES),
+    ask("sweep", SteadyStates(&[P::Oh58FourPlanets], fe::sweeps::asked), SPEEDS),
+    ask("sweep", SteadyStates(&[P::Oh58ThreePlanets], fe::sweeps::asked), SPEEDS),
+    ask(
+        "sweep",
+        SteadyStates(&[P::FivePlanets], fe::sweeps::asked),
+        "steady states at the torque of the scene, 450 to 2500 rpm, 8 % apart",
+    ),
+    ask(
+        "torque",
+        SteadyStates(&[P::Oh58FourPlanets], fe::torque::asked),
+        "natural modes, and steady states about the first peaks at 565, 1130, 1695 and 2260 N·m",
+    ),
 ];
+
+impl Question {
+    /// The scenes that it asks about.
+    pub(crate) fn scenes(&self) -> &'static [PublishedScene] {
+        match self {
+            Modes(scenes, _) | MeshCycle(scenes, ..) | SteadyStates(scenes, _) => scenes,
+        }
+    }
+}
+
+impl Askable {
+    /// The table that it needs, of which scenes, and what of them.
+    fn needs(&self) -> String {
+        let table = match self.question {
+            Modes(..) => "modes.csv",
+            MeshCycle(..) => "mesh_cycle.csv",
+            SteadyStates(..) => "steady_states.csv",
+        };
+        let ids: Vec<&str> = self.question.scenes().iter().map(|scene| scene.id()).collect();
+        format!("{table} of {}: {}", ids.join(" and "), self.needs)
+    }
+}
 
 /// A suite as it is run on our own models: names of the suites it makes the checks of, and how.
 type Own = (&'static [&'static str], fn(&Lab<'_>) -> Checks);
 
 /// All suites in the order of the report.
-const OWN: [Own; 32] = [
+const OWN: [Own; 33] = [
     (&["table2.lumped", "table3.lumped"], own_lumped_tables),
     (&["table2.geometry_consistent", "table3.geometry_consistent"], own_geometry),
     (&["table3.explained"], |lab| own_modes(lab, "table3.explained", explained::controls)),
@@ -107,6 +190,7 @@ const OWN: [Own; 32] = [
     (&["table1"], table1::checks),
     (&["rules"], rules::checks),
     (&["structure"], own_structure),
+    (&["lumped_model"], lumped_model::checks),
     (&["fe.hertz"], fe::hertz::checks),
     (&["fe.convergence"], fe::convergence::checks),
     (&["fe.resolved"], fe::resolved::checks),
@@ -133,14 +217,17 @@ const OWN: [Own; 32] = [
     (&["contact_loss"], fe::contact_loss::checks),
 ];
 
-/// Scenes and question of a suite that can be asked of anybody's model.
+/// All scenes and the question of a suite that can be asked of anybody's model.
 fn modes_question(suite: &str) -> Result<(Vec<Scene>, OfModes), ValidationError> {
+    let (mut all, mut question) = (Vec::new(), None);
     for askable in ASKABLE {
         if let (true, Modes(scenes, run)) = (askable.suite == suite, askable.question) {
-            return Ok((scenes_of(scenes)?, run));
+            all.extend(scenes_of(scenes)?);
+            question = Some(run);
         }
     }
-    Err(ValidationError::Incomplete("suite of that name that asks for natural modes"))
+    let missing = ValidationError::Incomplete("suite of that name that asks for natural modes");
+    Ok((all, question.ok_or(missing)?))
 }
 
 /// Scenes of the catalogue.
@@ -177,20 +264,16 @@ fn own_structure(lab: &Lab<'_>) -> Checks {
     Ok(checks)
 }
 
-/// Runs every suite that has ids starting with `only` on our own models, in the order of the report; `progress`
+/// Runs every suite of which checks are asked for on our own models, in the order of the report; `progress`
 /// is told when each starts and ends.
 pub(crate) fn all(
     reference: &Reference,
     profile: Profile,
-    only: &str,
+    only: &Selection,
     progress: Listener<'_>,
 ) -> Checks {
-    let concerned = |name: &str| {
-        let prefix = format!("{name}.");
-        prefix.starts_with(only) || only.starts_with(&prefix)
-    };
     let suites: Vec<Own> =
-        OWN.into_iter().filter(|(names, _)| names.iter().any(|n| concerned(n))).collect();
+        OWN.into_iter().filter(|(names, _)| names.iter().any(|n| only.concerns(n))).collect();
     if suites.is_empty() {
         return Ok(Vec::new());
     }
@@ -198,7 +281,7 @@ pub(crate) fn all(
     let run = |(names, suite): Own| {
         told(names, progress, || {
             let mut found = suite(&lab)?;
-            found.retain(|check| check.id.starts_with(only));
+            found.retain(|check| only.holds(&check.id));
             Ok(found)
         })
     };
@@ -230,38 +313,44 @@ fn side_by_side(suites: &[Own], run: impl Fn(Own) -> Checks + Sync) -> Vec<Check
     found.into_iter().map(|(_, checks)| checks).collect()
 }
 
-/// Every suite whose question a foreign model answers.
-pub(crate) fn foreign(reference: &Reference, models: &Models<'_>, only: &str) -> Checks {
-    let mut checks = Vec::new();
-    for Askable { suite, question } in ASKABLE {
-        if !format!("{suite}.").starts_with(only) && !only.starts_with(suite) {
-            continue;
-        }
-        let found = match (question, models) {
+/// Every suite whose question a foreign model answers, and what the others lack.
+pub(crate) fn foreign(
+    reference: &Reference,
+    models: &Models<'_>,
+    only: &Selection,
+) -> Result<(Vec<Check>, Vec<NotAsked>), ValidationError> {
+    let (mut checks, mut not_asked) = (Vec::new(), Vec::new());
+    for askable in ASKABLE.into_iter().filter(|askable| only.concerns(askable.suite)) {
+        let answer = match (askable.question, models) {
             (Modes(which, run), Models { modal: Some(model), .. }) => {
-                run(*model, &scenes_of(which)?, reference)
+                Some(run(*model, &scenes_of(which)?, reference))
             }
-            (MeshCycle(which, run), Models { at_rest: Some(model), .. }) => {
-                run(*model, &scenes_of(which)?, reference)
+            (MeshCycle(which, run, _), Models { at_rest: Some(model), .. }) => {
+                Some(run(*model, &scenes_of(which)?, reference))
             }
             (SteadyStates(which, run), Models { in_time: Some(model), modal, .. }) => {
-                run(*model, *modal, &scenes_of(which)?, reference)
+                Some(run(*model, *modal, &scenes_of(which)?, reference))
             }
-            _ => continue,
+            _ => None,
         };
-        match found {
-            // Suites whose scenes are not in recorded tables are left out.
-            Err(error) if error.is_not_recorded() => {}
-            found => checks.extend(found?),
+        match answer {
+            Some(Ok(found)) if !found.is_empty() => checks.extend(found),
+            Some(Err(error)) if !error.is_not_recorded() => return Err(error),
+            _ => {
+                let suite = askable.suite.to_owned();
+                not_asked.push(NotAsked { suite, lacks: askable.needs() });
+            }
         }
     }
-    checks.retain(|check: &Check| check.id.starts_with(only));
-    Ok(checks)
+    checks.retain(|check: &Check| only.holds(&check.id));
+    Ok((checks, not_asked))
 }
 
 /// A foreign model, by the questions that it answers.
 #[derive(Clone, Copy, Default)]
 pub struct Models<'m> {
+    /// What kind of model they are; if it is not given, the references of every kind judge it.
+    pub kind: Option<ModelKind>,
     /// Natural modes.
     pub modal: Option<&'m dyn ModalModel>,
     /// A mesh cycle at rest.

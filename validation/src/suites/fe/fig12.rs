@@ -7,7 +7,7 @@ use scene::{LoadCase, PlaneState, Scene};
 use crate::error::ValidationError;
 use crate::reference::Reference;
 use crate::suites::lab::of_model;
-use crate::suites::{Checks, Lab};
+use crate::suites::{AskedCycle, Checks, Lab};
 
 /// First torque, N·m (1000 lb-in), and number of its multiples.
 const FIRST: f64 = 113.0;
@@ -38,6 +38,13 @@ fn normalised_rms(
 
 fn torques() -> Vec<f64> {
     (1..=TORQUES).map(|i| FIRST * f64::from(i)).collect()
+}
+
+/// Mesh cycles that are asked of a scene.
+pub(crate) fn cycles(scene: &Scene) -> Vec<AskedCycle> {
+    let cycle =
+        |sun_torque_nm| AskedCycle { set: scene.clone(), sun_torque_nm, positions: POSITIONS };
+    torques().into_iter().map(cycle).collect()
 }
 
 /// The paper's statements on the figure, judged on the mesh cycles of any model.

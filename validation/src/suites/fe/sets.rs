@@ -10,35 +10,14 @@ use crate::check::{Check, Status};
 use crate::error::ValidationError;
 use crate::reference::Reference;
 use crate::suites::lab::of_model;
-use crate::suites::{Checks, Lab};
+use crate::suites::{AskedCycle, Checks, Lab};
+use crate::variants::{RENUMBERED, mirrored, renumbered};
 use crate::worst::{paired, peak_to_peak, worst};
 
 /// Even, and a multiple of 14, the denominator of the OH-58's phases.
 const POSITIONS: usize = 28;
 
-/// The scene seen in a mirror along planet 0's axis.
-fn mirrored(scene: &Scene) -> Scene {
-    let mut scene = scene.variant("seen in a mirror");
-    scene.planets.psi_rad.iter_mut().for_each(|psi| *psi = -*psi);
-    if let Some(steps) = &mut scene.planets.steps {
-        steps.iter_mut().for_each(|s| *s = -*s);
-    }
-    scene
-}
-
-/// The scene with its planets listed in another order, planet 0 first.
-fn renumbered(scene: &Scene, order: &[usize]) -> Scene {
-    let mut other = scene.variant("planets renumbered");
-    other.planets.psi_rad = order.iter().map(|n| scene.planets.psi_rad[*n]).collect();
-    other.planets.steps =
-        scene.planets.steps.as_ref().map(|s| order.iter().map(|n| s[*n]).collect());
-    other
-}
-
 const KINDS: [MeshKind; 2] = [MeshKind::SunPlanet, MeshKind::RingPlanet];
-
-/// Another order of four planets, planet 0 first.
-const ORDER: [usize; 4] = [0, 2, 3, 1];
 
 /// Torque on the sun of all these checks, N·m.
 const TORQUE: f64 = 1413.0;
@@ -76,20 +55,34 @@ fn control(
     Ok(lab.reference.control(id, &judged)?)
 }
 
+/// Mesh cycles that are asked of a scene: of four planets also those of the mirrored and the renumbered set.
+pub(crate) fn cycles(scene: &Scene) -> Vec<AskedCycle> {
+    let cycle = |set, sun_torque_nm| AskedCycle { set, sun_torque_nm, positions: POSITIONS };
+    let mut cycles = vec![cycle(scene.clone(), TORQUE)];
+    if scene.planets.count() == RENUMBERED.len() {
+        cycles.push(cycle(mirrored(scene), -TORQUE));
+        cycles.push(cycle(renumbered(scene), TORQUE));
+    }
+    cycles
+}
+
 /// Checks on the mesh cycles of any model. `scenes`: sets of three or four planets.
 pub(crate) fn asked(model: &dyn StaticModel, scenes: &[Scene], reference: &Reference) -> Checks {
     let mut checks = Vec::new();
     for scene in scenes {
-        let found = cycle(model, scene, TORQUE)?;
-        if scene.planets.count() == 3 {
-            checks.push(sharing_of_three(&found, reference)?);
-            checks.push(sun_stays(&found, reference)?);
-        } else {
-            checks.push(sharing_of_four(&found, reference)?);
-            let image = cycle(model, &mirrored(scene), -TORQUE)?;
-            checks.push(mirror(&found, &image, reference)?);
-            let other = cycle(model, &renumbered(scene, &ORDER), TORQUE)?;
-            checks.push(numbering(&found, &other, reference)?);
+        let cycles = cycles(scene).into_iter().map(|c| cycle(model, &c.set, c.sun_torque_nm));
+        match cycles.collect::<Result<Vec<_>, _>>()?.as_slice() {
+            [found, image, other] => {
+                checks.push(sharing_of_four(found, reference)?);
+                checks.push(mirror(found, image, reference)?);
+                checks.push(numbering(found, other, reference)?);
+            }
+            all => {
+                for found in all {
+                    checks.push(sharing_of_three(found, reference)?);
+                    checks.push(sun_stays(found, reference)?);
+                }
+            }
         }
     }
     Ok(checks)
@@ -166,7 +159,7 @@ fn numbering(
         for kind in KINDS {
             let of =
                 |(new, old)| force(other.forces(kind), new) / force(own.forces(kind), old) - 1.0;
-            off.extend(ORDER.into_iter().enumerate().map(of));
+            off.extend(RENUMBERED.into_iter().enumerate().map(of));
         }
     }
     let title = "mesh forces after renumbering the planets";

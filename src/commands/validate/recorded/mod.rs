@@ -1,0 +1,108 @@
+//! `validate --recorded DIR`: results of any program, judged by the references of their kind.
+
+mod escape;
+mod file_hash;
+mod html;
+mod junit;
+mod markdown;
+mod meaning;
+mod report;
+mod row;
+mod suite;
+mod text;
+
+use std::io::Write;
+use std::path::Path;
+
+use serde::Serialize;
+use validation::results::{Judgement, ResultsFolder, accepted_misses};
+use validation::{Miss, ModelKind, Selection, Verdict};
+
+use crate::arguments::{Format, Validate};
+use crate::error::{Result, refused};
+use crate::output;
+use file_hash::FileHash;
+
+/// `validate --recorded --format json`.
+#[derive(Debug, Serialize)]
+pub(super) struct RecordedOutput {
+    /// What was judged.
+    about: About,
+    #[serde(flatten)]
+    verdict: Verdict,
+    /// Rows that the author knows to miss.
+    #[serde(skip)]
+    accepted: Vec<Miss>,
+    /// Whether text lists every check.
+    #[serde(skip)]
+    details: bool,
+}
+
+/// Where results come from and how they were read.
+#[derive(Debug, Serialize)]
+struct About {
+    folder: String,
+    /// Kind of model whose references judge.
+    kind: ModelKind,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    program: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    version: Option<String>,
+    /// Version of epicyclic that judged.
+    epicyclic: &'static str,
+    /// Fronts of the ids of the checks that were asked for; every check without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    only: Vec<String>,
+    /// Files that were read.
+    files: Vec<FileHash>,
+    /// What was read in another way than it is written, a sentence each.
+    remarks: Vec<String>,
+}
+
+pub(super) fn run(arguments: &Validate, folder: &Path, out: &mut dyn Write) -> Result<bool> {
+    let read = ResultsFolder::read(folder)?;
+    let how = Judgement {
+        kind: arguments.kind,
+        only: Selection::from(arguments.only.as_slice()),
+        accepted: match &arguments.accept {
+            Some(path) => accepted_misses(path).map_err(|e| refused("--accept", e))?,
+            None => Vec::new(),
+        },
+    };
+    let verdict = read.judge(&how)?;
+    let files = read.files.iter().chain(&arguments.accept).map(|path| FileHash::read(path));
+    let files = files.collect::<Result<_, _>>()?;
+    let mut remarks: Vec<String> = read.remarks.iter().map(ToString::to_string).collect();
+    if arguments.kind.is_none() && read.manifest.kind.is_none() {
+        let kinds = ModelKind::ALL.map(ModelKind::name).join(", ");
+        remarks.push(format!(
+            "no results.toml says what kind of model it is: taken as lumped (--as: {kinds})"
+        ));
+    }
+    let about = About {
+        folder: folder.display().to_string(),
+        kind: read.kind(arguments.kind),
+        program: read.manifest.program,
+        version: read.manifest.version,
+        epicyclic: env!("CARGO_PKG_VERSION"),
+        only: arguments.only.iter().filter(|front| !front.is_empty()).cloned().collect(),
+        files,
+        remarks,
+    };
+    let result =
+        RecordedOutput { about, verdict, accepted: how.accepted, details: arguments.details };
+    // What was judged is shown also where its report cannot be saved.
+    let saved = arguments.report.as_ref().map_or(Ok(()), |folder| report::write(&result, folder));
+    let appended = report::append_to_step_summary(&result);
+    output::show(arguments.format, &result, out)?;
+    if arguments.format == Format::Text {
+        if let (Some(folder), Ok(())) = (&arguments.report, &saved) {
+            writeln!(out, "report in {}", folder.display())?;
+        }
+        if let Ok(Some(path)) = &appended {
+            writeln!(out, "step summary appended to {}", path.display())?;
+        }
+    }
+    saved.and(appended.map(drop))?;
+    Ok(result.verdict.is_sound())
+}

@@ -1,0 +1,92 @@
+//! The judgement as text: at most sixty lines of a hundred columns, unless all checks are asked for.
+
+use std::io::Write;
+
+use validation::{Check, NotAsked, Status};
+
+use super::RecordedOutput;
+use crate::commands::validate::check_cells::{cells, status_word};
+use crate::commands::validate::result;
+use crate::error::Result;
+use crate::output::{Notation, Report, Table, paragraph};
+
+/// Rows shown of each status.
+const MOST_ROWS: usize = 12;
+
+/// Suites listed that were not asked.
+const MOST_SUITES: usize = 10;
+
+impl Report for RecordedOutput {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
+        result::table().csv(&self.verdict.checks, out)
+    }
+
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
+        let about = &self.about;
+        writeln!(out, "{} in {}, kind {}", self.program(), about.folder, about.kind.name())?;
+        for remark in &about.remarks {
+            writeln!(out, "{}", paragraph(remark, "  ", "  "))?;
+        }
+        let checks = &self.verdict.checks;
+        if self.details {
+            let verdict = |check: &&Check| status_word(check.status);
+            table().words("verdict", Notation::Plain, verdict).text(checks, out)?;
+        } else {
+            let headings = [
+                (Status::Fail, "failed"),
+                (Status::Miss, "missed: listed in checks/misses.toml, or accepted"),
+                (Status::OtherKind, "another kind of model: shown, not judged"),
+            ];
+            for (status, heading) in headings {
+                some(checks, status, heading, out)?;
+            }
+        }
+        not_asked(&self.verdict.not_asked, out)?;
+        Ok(writeln!(out, "{}", self.counts())?)
+    }
+}
+
+/// Checks beside their references.
+fn table<'r>() -> Table<'r, &'r Check> {
+    let cell = |i: usize| move |check: &&Check| cells(check)[i].clone();
+    Table::new()
+        .words("check", Notation::Plain, |check: &&Check| check.id.clone())
+        .key()
+        .words("reference", Notation::Plain, cell(0))
+        .right()
+        .words("yours", Notation::Plain, cell(1))
+        .right()
+        .words("unit", Notation::Plain, |check| check.unit.clone())
+        .words("difference %", Notation::Plain, cell(2))
+        .right()
+        .words("tolerance", Notation::Plain, cell(3))
+        .right()
+}
+
+/// The first rows of a status under a heading, and how many more there are.
+fn some(checks: &[Check], status: Status, heading: &str, out: &mut dyn Write) -> Result<()> {
+    let rows: Vec<&Check> = checks.iter().filter(|check| check.status == status).collect();
+    if rows.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\n{heading}:")?;
+    table().text(rows.iter().copied().take(MOST_ROWS), out)?;
+    if rows.len() > MOST_ROWS {
+        writeln!(out, "and {} more (--details lists all)", rows.len() - MOST_ROWS)?;
+    }
+    Ok(())
+}
+
+fn not_asked(suites: &[NotAsked], out: &mut dyn Write) -> Result<()> {
+    if suites.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "\nnot asked:")?;
+    for NotAsked { suite, lacks } in suites.iter().take(MOST_SUITES) {
+        writeln!(out, "{}", paragraph(&format!("{suite}: needs {lacks}"), "  ", "    "))?;
+    }
+    if suites.len() > MOST_SUITES {
+        writeln!(out, "  and {} more (`epicyclic results check`)", suites.len() - MOST_SUITES)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,39 @@
+//! Results of any program as a folder of tables: read as spreadsheets and MATLAB write them, and held against
+//! themselves before any check judges them.
+//!
+//! | file | a row is | columns |
+//! |---|---|---|
+//! | `results.toml` | | [`Manifest`] |
+//! | `modes.csv` | a natural frequency | [`ModeRow`] |
+//! | `mesh_cycle.csv` | one quantity at one position of the mesh cycle | [`CycleRow`] |
+//! | `steady_states.csv` | one harmonic of one quantity at one speed | [`StateRow`] |
+//!
+//! A [`ResultsFolder`] that is read tells what its reader took for granted as [`Remark`]s, and what in it cannot be
+//! true as [`Contradiction`]s; [`Template`] is a folder that is ready to be filled.
+
+mod accepted;
+mod contradictions;
+mod folder;
+mod judge;
+mod known_scenes;
+mod manifest;
+mod manifest_error;
+mod questions;
+mod recorded;
+mod rows;
+mod scene_file;
+pub mod table;
+mod template;
+
+pub use accepted::accepted_misses;
+pub use contradictions::Contradiction;
+pub use folder::{FolderError, ResultsFolder};
+pub use judge::{JudgeError, Judgement};
+pub use known_scenes::{KnownScene, KnownScenes, UnknownScene};
+pub use manifest::{Convention, Frame, Manifest, Radius, RotationCoordinate};
+pub use manifest_error::ManifestError;
+pub use questions::{AskedSuite, Questions};
+pub use rows::{CycleRow, ModeRow, StateRow};
+pub use scene_file::SceneFile;
+pub use table::{Remark, TableError};
+pub use template::Template;

@@ -1,0 +1,14 @@
+//! Rows of the tables of a results folder.
+
+mod cycle_row;
+mod mode_row;
+mod named;
+mod state_row;
+
+pub use cycle_row::CycleRow;
+pub use mode_row::ModeRow;
+pub(super) use named::SceneNames;
+pub use state_row::StateRow;
+
+/// Planets are numbered below this, and a frequency occurs at most so often.
+const MOST: usize = 1000;

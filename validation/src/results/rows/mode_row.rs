@@ -1,0 +1,67 @@
+//! `modes.csv`.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::{MOST, SceneNames};
+use crate::results::known_scenes::KnownScene;
+use crate::results::table::{Column, Content, Quantity, Remark, Table, TableError};
+
+/// Longest table that is read, bytes.
+const MOST_BYTES: u64 = 10_000_000;
+
+const COLUMNS: [Column; 4] = [
+    Column::optional("scene", Content::Title),
+    Column::required("frequency_hz", Content::Number(Quantity::Frequency)).or_called(&[
+        "omega",
+        "natural_frequency",
+        "f",
+    ]),
+    Column::optional(
+        "mode_type",
+        Content::Choice(&["rotational", "translational", "planet", "mixed"]),
+    )
+    .or_called(&["type"]),
+    Column::optional("multiplicity", Content::Count(1, MOST)),
+];
+
+/// A natural frequency: columns `scene`, `frequency_hz`, `mode_type`, `multiplicity`; only the second is required.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModeRow {
+    /// Line of the file.
+    pub line: u64,
+    /// What the row is about.
+    pub scene: Arc<KnownScene>,
+    /// Natural frequency, Hz, 0 of rigid-body motion.
+    pub frequency_hz: f64,
+    /// `rotational`, `translational`, `planet` or `mixed`, if it is known.
+    pub mode_type: Option<String>,
+    /// How many modes have that frequency.
+    pub multiplicity: usize,
+}
+
+impl ModeRow {
+    /// Reads the table.
+    pub(in crate::results) fn read(
+        path: &Path,
+        mut names: SceneNames<'_>,
+    ) -> Result<(Vec<Self>, Vec<Remark>), TableError> {
+        let table = Table::read(path, &COLUMNS, MOST_BYTES)?;
+        let row = |row: &_| {
+            let frequency_hz = table.number(row, "frequency_hz").unwrap_or_default();
+            if frequency_hz < 0.0 {
+                let value = frequency_hz.to_string();
+                return Err(table.refusal(row, "frequency_hz", &value, "0 or above"));
+            }
+            Ok(Self {
+                line: row.line,
+                scene: names.scene(&table, row)?,
+                frequency_hz,
+                mode_type: table.text(row, "mode_type").map(str::to_owned),
+                multiplicity: table.count(row, "multiplicity").unwrap_or(1),
+            })
+        };
+        let rows = table.rows.iter().map(row).collect::<Result<_, _>>()?;
+        Ok((rows, table.remarks))
+    }
+}

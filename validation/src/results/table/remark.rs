@@ -1,0 +1,25 @@
+//! What a reader took for granted.
+
+use std::fmt;
+use std::path::PathBuf;
+
+/// One thing that was read in another way than it is written; said once for each column.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Remark {
+    /// The file.
+    pub path: PathBuf,
+    /// First line that it concerns, from 1.
+    pub line: u64,
+    /// Titles of the columns as written, at least one.
+    pub columns: Vec<String>,
+    /// What was done.
+    pub text: String,
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let columns = if self.columns.len() == 1 { "column" } else { "columns" };
+        let titles = self.columns.join("`, `");
+        write!(f, "{}:{}: {columns} `{titles}`: {}", self.path.display(), self.line, self.text)
+    }
+}

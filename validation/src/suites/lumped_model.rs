@@ -1,0 +1,107 @@
+//! Natural frequencies of any set beside this project's lumped model of the same parameters, or beside its limit of
+//! rotations alone.
+
+use lumped::{LumpedModel, NaturalModes};
+use scene::Scene;
+
+use super::Checks;
+use super::lab::Lab;
+use crate::check::Check;
+use crate::compare::{ListedMode, ModelMode, compare};
+use crate::error::ValidationError;
+use crate::reference::Reference;
+
+/// Modes of the model of a scene; of rotations alone if `is_torsional`.
+fn modes_of(scene: &Scene, is_torsional: bool) -> Result<Vec<ModelMode>, ValidationError> {
+    let mut model = LumpedModel::from_scene(scene)?;
+    if is_torsional {
+        model = model.torsional();
+    }
+    let mode = |group: &lumped::ModeGroup| ModelMode {
+        frequency_hz: group.frequency_hz,
+        mode_type: if is_torsional { "torsional" } else { group.mode_type.name() }.to_owned(),
+        multiplicity: group.multiplicity,
+    };
+    Ok(NaturalModes::of(&model)?.groups.iter().map(mode).collect())
+}
+
+/// Listed modes of the scene with that id. Modes above the highest of the list are not asked for.
+pub(crate) fn beside(
+    id: &str,
+    scene: &Scene,
+    listed: &[ListedMode],
+    is_torsional: bool,
+    reference: &Reference,
+) -> Checks {
+    let percent = reference.registry.check("lumped_model.*")?.percent.unwrap_or_default();
+    let found = compare(listed, &modes_of(scene, is_torsional)?, percent, false);
+    let mut numbers: Vec<(&str, usize)> = Vec::new();
+    let mut checks = Vec::new();
+    for pair in &found.matches {
+        let mode_type = pair.model_type.as_deref().unwrap_or("untyped");
+        let kind = if pair.model_hz.is_some() { mode_type } else { "without_partner" };
+        let number = match numbers.iter_mut().find(|(name, _)| *name == kind) {
+            Some((_, number)) => {
+                *number += 1;
+                *number
+            }
+            None => {
+                numbers.push((kind, 1));
+                1
+            }
+        };
+        let check = format!("lumped_model.{id}.{kind}.{number}");
+        let title = format!("{}: {mode_type} mode {number}", scene.title);
+        let about = reference.about(&check, &title)?;
+        checks.push(match (pair.model_hz, pair.difference_percent) {
+            (Some(hz), None) => about.number_if_run(hz, (!pair.is_beyond_list).then_some(f64::NAN)),
+            (Some(hz), Some(difference)) => match &pair.remark {
+                Some(remark) if difference.abs() <= percent => {
+                    about.equal(format!("{} times", pair.model_multiplicity), remark.as_str())
+                }
+                _ => about.number(hz, hz * (1.0 + 0.01 * difference)),
+            },
+            (None, _) => {
+                let hz = pair.listed_hz.first().copied().unwrap_or(f64::NAN);
+                about.equal("no such mode", format!("{hz} Hz"))
+            }
+        });
+    }
+    Ok(checks)
+}
+
+/// The limit of rigid bearings: the frequencies of rotations alone from the whole model.
+pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
+    let reference = lab.reference;
+    let [scene] = <[Scene; 1]>::try_from(super::scenes_of(&[super::P::LinParkerFourPlanets])?)
+        .map_err(|_| ValidationError::Incomplete("set of four planets"))?;
+    let mut judged = limit(&scene, &scene, reference)?;
+    let mut softer = scene.clone();
+    if let Some(lumped) = &mut softer.lumped {
+        lumped.mesh_n_per_m.ring_planet *= 0.99;
+    }
+    let spoilt = limit(&scene, &softer, reference)?;
+    judged.push(reference.control("lumped_model.control.ring_mesh_softer", &spoilt)?);
+    Ok(judged)
+}
+
+/// Frequencies of `scene` with rotations alone against those of `stiffened` with bearings of 1e15 N/m.
+fn limit(scene: &Scene, stiffened: &Scene, reference: &Reference) -> Checks {
+    let mut stiff = stiffened.clone();
+    let supports = &mut stiff.supports;
+    for support in [&mut supports.sun, &mut supports.ring, &mut supports.carrier] {
+        support.bearing_n_per_m = 1e15;
+    }
+    supports.planet_bearing_n_per_m = 1e15;
+    let each = |modes: Vec<ModelMode>| -> Vec<f64> {
+        let times = |m: &ModelMode| std::iter::repeat_n(m.frequency_hz, m.multiplicity);
+        modes.iter().flat_map(times).collect()
+    };
+    let (limit, whole) = (each(modes_of(scene, true)?), each(modes_of(&stiff, false)?));
+    let row = |(k, hz): (usize, &f64)| -> Result<Check, ValidationError> {
+        let id = format!("lumped_model.limit.{}", k + 1);
+        let title = format!("frequency {} of rotations alone, from rigid bearings", k + 1);
+        Ok(reference.about(&id, &title)?.number(*hz, whole.get(k).copied().unwrap_or(f64::NAN)))
+    };
+    limit.iter().enumerate().filter(|(_, hz)| **hz > 0.0).map(row).collect()
+}
