@@ -48,14 +48,6 @@ pub enum CommandError {
         /// What the operating system said.
         source: std::io::Error,
     },
-    /// A table of modes that cannot be used.
-    #[error("{}: {reason}", path.display())]
-    Table {
-        /// The file.
-        path: PathBuf,
-        /// Line, column, value, what is allowed.
-        reason: String,
-    },
     /// An argument that parses but whose value is not allowed.
     #[error("argument {argument}: {reason}")]
     Argument {
@@ -84,6 +76,9 @@ pub enum CommandError {
         /// Why not.
         reason: String,
     },
+    /// A list of frequencies cannot be read.
+    #[error(transparent)]
+    List(#[from] validation::results::TableError),
     /// Results cannot be judged.
     #[error(transparent)]
     Judge(#[from] validation::results::JudgeError),

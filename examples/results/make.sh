@@ -1,18 +1,21 @@
 #!/usr/bin/env bash
-# Computes the results of a right and of a wrong model, and judges them; needs Python with NumPy.
+# Computes the results of a right and of a wrong model, and judges them. PYTHON names a Python with NumPy.
 #
-#     examples/results/make.sh [PROGRAM]      # default: target/release/epicyclic
+#     PYTHON=venv/bin/python examples/results/make.sh [PROGRAM]      # default: target/release/epicyclic
 set -euo pipefail
 program=$(realpath "${1:-$(dirname "$0")/../../target/release/epicyclic}")
+python=$(command -v "${PYTHON:-python3}")
+[[ $python = /* ]] || python=$PWD/$python
 cd "$(dirname "$0")"
 unset GITHUB_STEP_SUMMARY
 
 judge() {
-    python3 lin_parker.py "$1"
-    local code=0
-    "$program" validate --recorded "$1" --report "$1/report" >"$1/verdict.txt" || code=$?
-    [ "$code" = "$2" ] || { echo "$1: exit code $code, expected $2" >&2; exit 1; }
+    local folder=$1 expected=$2 code=0
+    shift 2
+    "$python" lumped_model.py "$folder" "$@"
+    "$program" validate --recorded "$folder" --report "$folder/report" >"$folder/verdict.txt" || code=$?
+    [ "$code" = "$expected" ] || { echo "$folder: exit code $code, expected $expected" >&2; exit 1; }
 }
 
 judge right 0
-judge wrong 1
+judge wrong 1 --mistake ring_angle_sign

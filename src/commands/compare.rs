@@ -1,25 +1,19 @@
 //! `compare MODES.csv --scene SCENE`.
 
 use std::io::Write;
-use std::path::Path;
 
 use scene::Verb;
 use serde::Serialize;
-use validation::{Comparison, ListedMode, Match, ModelMode, compare};
+use validation::results::{JudgeError, ModeList};
+use validation::{Comparison, Match, ModelMode, compare};
 
 use super::modes::{self, PARAMETERS};
 use crate::arguments::Compare;
-use crate::error::{CommandError, Result, unfit, unread};
+use crate::error::{Result, unfit};
 use crate::inputs::{needs, read_scene};
-use crate::output::{self, Notation, Report, Table};
-
-/// Longest list that is read, bytes.
-const MOST_BYTES: u64 = 1_000_000;
-
-const TYPES: [&str; 4] = ["rotational", "translational", "planet", "mixed"];
+use crate::output::{self, Notation, Report, Table, paragraph};
 
 pub(crate) fn run(arguments: &Compare, out: &mut dyn Write) -> Result<bool> {
-    let listed = read_modes(&arguments.modes)?;
     let scene = read_scene(&arguments.scene)?;
     match scene.has_closed_forms() {
         true => needs::require(&arguments.scene, &scene, Verb::Compare, |_| false)?,
@@ -40,12 +34,17 @@ pub(crate) fn run(arguments: &Compare, out: &mut dyn Write) -> Result<bool> {
             multiplicity: g.multiplicity,
         })
         .collect();
-    let result = compare(&listed, &model, arguments.tolerance_percent, arguments.whole);
+    let list = ModeList::read(&arguments.modes, &scene)?;
+    if !list.contradictions.is_empty() {
+        return Err(JudgeError::Contradictions(list.contradictions).into());
+    }
+    let result = compare(&list.modes, &model, arguments.tolerance_percent, arguments.whole);
     let against = match scene.has_closed_forms() {
         true => format!("against the lumped model, {PARAMETERS}, of: {}", scene.title),
         false => format!("against the lumped model of: {}", scene.title),
     };
-    let result = CompareOutput { result, against };
+    let remarks = list.remarks.iter().map(ToString::to_string).collect();
+    let result = CompareOutput { result, against, remarks };
     output::show(arguments.format, &result, out)?;
     Ok(result.result.disagreed == 0)
 }
@@ -58,6 +57,9 @@ struct CompareOutput {
     /// What the list is held against.
     #[serde(skip)]
     against: String,
+    /// What was read in another way than it is written.
+    #[serde(skip)]
+    remarks: Vec<String>,
 }
 
 fn table<'r>() -> Table<'r, &'r Match> {
@@ -91,6 +93,9 @@ impl Report for CompareOutput {
 
     fn text(&self, out: &mut dyn Write) -> Result<()> {
         writeln!(out, "{}", self.against)?;
+        for remark in &self.remarks {
+            writeln!(out, "{}", paragraph(remark, "  ", "  "))?;
+        }
         let Comparison { matches, agreed, disagreed, beyond_list, .. } = &self.result;
         table().text(matches, out)?;
         writeln!(
@@ -106,66 +111,4 @@ impl Report for CompareOutput {
         }
         Ok(())
     }
-}
-
-/// Reads somebody's modes; the first fault of the table is reported with its line and column.
-fn read_modes(path: &Path) -> Result<Vec<ListedMode>> {
-    let bad = |reason: String| CommandError::Table { path: path.to_owned(), reason };
-    let text = scene::read_text(path, MOST_BYTES).map_err(unread(path))?;
-    let mut reader = csv::ReaderBuilder::new()
-        .trim(csv::Trim::All)
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes());
-    let header = reader.headers().map_err(|e| bad(e.to_string()))?.clone();
-    let column = |name: &str| header.iter().position(|h| h.eq_ignore_ascii_case(name));
-    let known = ["frequency_hz", "mode_type", "multiplicity"];
-    // pandas writes its index as a first column without a name.
-    let is_index = |(i, h): (usize, &str)| i == 0 && (h.is_empty() || h == "Unnamed: 0");
-    let named = header.iter().enumerate().filter(|column| !is_index(*column));
-    let is_known = |h: &str| known.iter().any(|name| name.eq_ignore_ascii_case(h));
-    if let Some(strange) = named.map(|(_, h)| h).find(|h| !is_known(h)) {
-        let allowed = known.join(", ");
-        return Err(bad(format!("column `{strange}` is not known: allowed: {allowed}")));
-    }
-    let frequency = column("frequency_hz")
-        .ok_or_else(|| bad("column `frequency_hz` is absent: it must be there".into()))?;
-    let (mode_type, multiplicity) = (column("mode_type"), column("multiplicity"));
-    let mut modes = Vec::new();
-    for record in reader.records() {
-        let record = record.map_err(|e| bad(e.to_string()))?;
-        let line = record.position().map_or(0, csv::Position::line);
-        let cell = |i: usize| record.get(i).unwrap_or("");
-        let refuse = |name: &str, i: usize, allowed: &str| {
-            bad(format!("line {line}, `{name}` is `{}`: allowed: {allowed}", cell(i)))
-        };
-        let frequency_hz = cell(frequency)
-            .parse::<f64>()
-            .ok()
-            .filter(|f| f.is_finite() && *f >= 0.0)
-            .ok_or_else(|| refuse("frequency_hz", frequency, "a finite number, 0 or above"))?;
-        let mode_type = match mode_type {
-            Some(i) => match TYPES.into_iter().find(|name| name.eq_ignore_ascii_case(cell(i))) {
-                Some(name) => Some(name.to_owned()),
-                None => return Err(refuse("mode_type", i, &TYPES.join(", "))),
-            },
-            None => None,
-        };
-        let multiplicity = match multiplicity {
-            Some(i) if cell(i).is_empty() => None,
-            Some(i) => {
-                let count = cell(i).parse().ok().filter(|m| (1..=1000).contains(m));
-                let allowed = "a whole number from 1 to 1000, or nothing";
-                Some(count.ok_or_else(|| refuse("multiplicity", i, allowed))?)
-            }
-            None => None,
-        };
-        modes.push(ListedMode { frequency_hz, mode_type, multiplicity });
-    }
-    if modes.is_empty() {
-        return Err(bad("no rows: at least one frequency is needed".into()));
-    }
-    if modes.len() > 10_000 {
-        return Err(bad("more than 10000 rows: that is no list of natural frequencies".into()));
-    }
-    Ok(modes)
 }

@@ -32,20 +32,26 @@ fn compare_takes_letter_case_an_index_column_and_a_table_that_ends() {
     assert!(out.contains("above the list's highest frequency"), "{out}");
     let (code, ..) = compared(table, &["--tolerance-percent", "1.5", "--whole"]);
     assert_eq!(code, 1);
+    // As a spreadsheet of another country writes it, in another unit and with a column more.
+    let table =
+        "\u{feff}frequency_khz;type;note\n0,77408;translational;a\n0,77408;translational;b\n";
+    let (code, out, err) = compared(table, &["--tolerance-percent", "1.5"]);
+    assert_eq!(code, 0, "{out}{err}");
+    assert!(out.contains("`note`") && out.contains("kHz"), "{out}");
 }
 
 #[test]
 fn bad_tables_of_modes_name_line_and_column() {
     let folder = tempfile::tempdir().unwrap();
     let cases = [
-        ("hz\n1\n", "`hz` is not known"),
-        ("frequency_hz\nabc\n", "line 2, `frequency_hz` is `abc`"),
-        ("frequency_hz\n-1\n", "line 2, `frequency_hz` is `-1`"),
-        ("frequency_hz,unknown\n1,2\n", "`unknown` is not known"),
-        ("frequency_hz,mode_type\n1,wobble\n", "line 2, `mode_type` is `wobble`"),
-        ("frequency_hz,multiplicity\n1,0\n", "line 2, `multiplicity` is `0`"),
+        ("hz\n1\n", "modes.csv:1: column `frequency_hz` is absent"),
+        ("frequency_hz\nabc\n", "modes.csv:2: column `frequency_hz` is `abc`"),
+        ("frequency_hz\n-1\n", "modes.csv:2: column `frequency_hz` is `-1`"),
+        ("frequency_hz,mode_type\n1,wobble\n", "modes.csv:2: column `mode_type` is `wobble`"),
+        ("frequency_hz,multiplicity\n1,0\n", "modes.csv:2: column `multiplicity` is `0`"),
         ("frequency_hz\n", "no rows"),
-        ("", "`frequency_hz` is absent"),
+        ("", "no rows"),
+        ("frequency_hz,mode_type\n1150,rotational\n1150,rotational\n", "modes.csv:2 and"),
     ];
     for (text, words) in cases {
         let path = folder.path().join("modes.csv");

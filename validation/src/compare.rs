@@ -72,10 +72,9 @@ const GAP_PERCENT: f64 = 10.0;
 
 /// Matches a list to a model. With types, each type is matched within itself.
 ///
-/// Within a type both sides are sorted, and the cheapest order-preserving alignment is taken, an unmatched entry costing
-/// as much as a difference of [`GAP_PERCENT`], whatever the tolerance is. A listed frequency may stand
-/// for a model frequency as often as that occurs, or once for all of them unless the list says how often it
-/// occurs. Modes of the model above the highest listed frequency are no disagreement, for published tables end
+/// Within a type both sides are sorted, and the cheapest order-preserving alignment is taken, an unmatched entry
+/// costing as much as a difference of 10 %, whatever the tolerance is. A listed frequency may stand for a model
+/// frequency as often as that occurs, or once for all of them unless the list says how often it occurs. Modes of the model above the highest listed frequency are no disagreement, for published tables end
 /// somewhere, unless `is_whole` says that the list is to hold them all.
 ///
 /// ```

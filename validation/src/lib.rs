@@ -105,8 +105,8 @@ pub fn judge_model(
     judge_with(models, &only.into(), &[], &|_| Ok(Vec::new()))
 }
 
-/// The same with `further` checks; `accepted` are rows that this model is known to miss, each with its pinned value and its analysis, beside
-/// those that are listed for the models of this project.
+/// The same with `further` checks; `accepted` are rows that this model is known to miss, each with its pinned value and
+/// its analysis, beside those that are listed for the models of this project.
 ///
 /// # Errors
 /// As [`judge_model`].

@@ -35,7 +35,7 @@ impl Contents {
         let mut all = Vec::new();
         for row in &folder.modes {
             let entry = entry(&mut all, "modes.csv", &row.scene.id);
-            entry.modes = Some(entry.modes.unwrap_or(0) + row.multiplicity);
+            entry.modes = Some(entry.modes.unwrap_or(0) + row.times());
         }
         for row in &folder.mesh_cycle {
             let entry = entry(&mut all, "mesh_cycle.csv", &row.scene.id);

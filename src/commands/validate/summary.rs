@@ -258,7 +258,7 @@ mod tests {
         assert!(text.lines().all(|line| line.chars().count() <= WIDTH));
         assert!(text.contains("FAILED table2.lumped.1\n"), "{text}");
         let own = text.lines().find(|line| line.starts_with("table2.lumped ")).unwrap();
-        assert!(own.ends_with("table2.lumped.1: NaN Hz"), "{own}");
+        assert!(own.ends_with("table2.lumped.1: none Hz"), "{own}");
     }
 
     #[test]

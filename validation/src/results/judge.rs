@@ -3,6 +3,7 @@
 use super::contradictions::Contradiction;
 use super::folder::ResultsFolder;
 use super::known_scenes::KnownScene;
+use super::rows::ModeRow;
 use crate::check::Check;
 use crate::compare::ListedMode;
 use crate::error::ValidationError;
@@ -86,13 +87,10 @@ impl ResultsFolder {
                 continue;
             }
             let rows = self.modes.iter().filter(|row| row.scene.id == *id);
-            let listed: Vec<ListedMode> = rows
-                .map(|row| ListedMode {
-                    frequency_hz: row.frequency_hz,
-                    mode_type: row.mode_type.clone().filter(|_| !is_torsional),
-                    multiplicity: Some(row.multiplicity).filter(|times| *times > 1),
-                })
-                .collect();
+            let mut listed: Vec<ListedMode> = rows.map(ModeRow::listed).collect();
+            if is_torsional {
+                listed.iter_mut().for_each(|mode| mode.mode_type = None);
+            }
             checks.extend(lumped_model::beside(id, scene, &listed, is_torsional, reference)?);
         }
         Ok(checks)

@@ -38,7 +38,7 @@ fn mode_type(row: &ModeRow) -> Option<ModeType> {
 fn take_mode(recorded: &mut Recorded, row: &ModeRow) {
     let Some(mode_type) = mode_type(row) else { return };
     let mode = NaturalMode { frequency_hz: row.frequency_hz, mode_type };
-    let modes = std::iter::repeat_n((row.scene.scene.title.clone(), mode), row.multiplicity);
+    let modes = std::iter::repeat_n((row.scene.scene.title.clone(), mode), row.times());
     recorded.modes.extend(modes);
 }
 

@@ -62,7 +62,7 @@ fn listed_twice(path: &Path, rows: &[&ModeRow], facts: &SceneFacts) -> Option<Co
         }
     }
     let is_beyond = |group: &&Vec<&ModeRow>| {
-        let count: usize = group.iter().map(|row| row.multiplicity).sum();
+        let count: usize = group.iter().map(|row| row.times()).sum();
         let mode_type = group[0].mode_type.as_deref().unwrap_or_default();
         group.len() > 1 && most(mode_type).is_some_and(|most| count > most)
     };
@@ -96,7 +96,7 @@ fn listed_twice(path: &Path, rows: &[&ModeRow], facts: &SceneFacts) -> Option<Co
 /// More modes than a model of rigid bodies has coordinates.
 fn too_many(path: &Path, rows: &[&ModeRow], facts: &SceneFacts) -> Option<Contradiction> {
     let most = COORDINATES * (facts.planets + COORDINATES);
-    let count: usize = rows.iter().map(|row| row.multiplicity).sum();
+    let count: usize = rows.iter().map(|row| row.times()).sum();
     let statement = format!(
         "{count} modes, and {} planets with carrier, ring and sun have {most} coordinates",
         facts.planets
@@ -111,7 +111,7 @@ fn off_by_a_factor(path: &Path, rows: &[&ModeRow], facts: &SceneFacts) -> Option
     let moving: Vec<&&ModeRow> = rows.iter().filter(|row| row.frequency_hz > 0.0).collect();
     let mut listed_hz = Vec::new();
     for row in &moving {
-        listed_hz.extend(std::iter::repeat_n(row.frequency_hz, row.multiplicity.min(2)));
+        listed_hz.extend(std::iter::repeat_n(row.frequency_hz, row.times().min(2)));
     }
     let (by, guess) = factor(&listed_hz, &facts.lumped_hz)?;
     let count = moving.len();

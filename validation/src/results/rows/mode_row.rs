@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{MOST, SceneNames};
+use crate::compare::ListedMode;
 use crate::results::known_scenes::KnownScene;
 use crate::results::table::{Column, Content, Quantity, Remark, Table, TableError};
 
@@ -36,11 +37,25 @@ pub struct ModeRow {
     pub frequency_hz: f64,
     /// `rotational`, `translational`, `planet` or `mixed`, if it is known.
     pub mode_type: Option<String>,
-    /// How many modes have that frequency.
-    pub multiplicity: usize,
+    /// How many modes have that frequency, if the table says so.
+    pub multiplicity: Option<usize>,
 }
 
 impl ModeRow {
+    /// How many modes the row stands for: one unless the table says otherwise.
+    pub fn times(&self) -> usize {
+        self.multiplicity.unwrap_or(1)
+    }
+
+    /// The row as a list of frequencies has it.
+    pub fn listed(&self) -> ListedMode {
+        ListedMode {
+            frequency_hz: self.frequency_hz,
+            mode_type: self.mode_type.clone(),
+            multiplicity: self.multiplicity,
+        }
+    }
+
     /// Reads the table.
     pub(in crate::results) fn read(
         path: &Path,
@@ -58,7 +73,7 @@ impl ModeRow {
                 scene: names.scene(&table, row)?,
                 frequency_hz,
                 mode_type: table.text(row, "mode_type").map(str::to_owned),
-                multiplicity: table.count(row, "multiplicity").unwrap_or(1),
+                multiplicity: table.count(row, "multiplicity"),
             })
         };
         let rows = table.rows.iter().map(row).collect::<Result<_, _>>()?;
