@@ -258,7 +258,7 @@ fn the_step_summary_of_a_ci_is_appended_to() {
         format!("step summary appended to {}", summary.display())
     );
     let text = std::fs::read_to_string(&summary).unwrap();
-    assert!(text.starts_with("# Earlier step\n# Verdict on lin\\_parker.py right 1\n"), "{text}");
+    assert!(text.starts_with("# Earlier step\n# Verdict on lumped\\_model.py 1.0\n"), "{text}");
     let (_, json) = judged(&summary, "json");
     serde_json::from_str::<Value>(&json).unwrap();
     let text = std::fs::read_to_string(&summary).unwrap();

@@ -9,7 +9,7 @@ use crate::results::known_scenes::KnownScene;
 use crate::results::table::{Column, Content, Quantity, Remark, Table, TableError};
 
 /// Longest table that is read, bytes.
-const MOST_BYTES: u64 = 10_000_000;
+const MOST_BYTES: u64 = 1_000_000;
 
 const COLUMNS: [Column; 4] = [
     Column::optional("scene", Content::Title),
