@@ -75,7 +75,8 @@ const GAP_PERCENT: f64 = 10.0;
 /// Within a type both sides are sorted, and the cheapest order-preserving alignment is taken, an unmatched entry
 /// costing as much as a difference of 10 %, whatever the tolerance is. A listed frequency may stand for a model
 /// frequency as often as that occurs, or once for all of them unless the list says how often it occurs. Modes of the
-/// model above the highest listed frequency are no disagreement, for published tables end somewhere, unless `is_whole` says that the list is to hold them all.
+/// model above the highest listed frequency are no disagreement, for published tables end somewhere, unless
+/// `is_whole` says that the list is to hold them all.
 ///
 /// ```
 /// use validation::{ListedMode, ModelMode, compare};
