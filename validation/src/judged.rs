@@ -54,7 +54,8 @@ impl<'a> Judged<'a> {
     /// ```
     pub fn number(self, expected: f64, actual: f64) -> Check {
         let mut tolerance = self.entry.tolerance(expected);
-        if let Some([lower, upper]) = self.band_percent {
+        // Of a value that is not there no band follows.
+        if let Some([lower, upper]) = self.band_percent.filter(|_| actual.is_finite()) {
             let half = tolerance.absolute;
             let range = [-0.01 * upper * actual - half, half - 0.01 * lower * actual];
             tolerance.absolute = range[0].abs().max(range[1].abs());
