@@ -20,6 +20,8 @@ pub enum Asks {
     MeshCycle,
     /// Steady states over speed: anybody's model can be asked.
     SteadyStates,
+    /// Kinds of modes that harmonics can excite: anybody's model can be asked.
+    ExcitationRules,
     /// About the numerics of this project's own models.
     OwnNumerics,
 }

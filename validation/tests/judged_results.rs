@@ -106,6 +106,33 @@ fn a_torsional_model_is_held_against_the_lumped_model_with_centres_held() {
 }
 
 #[test]
+fn rules_of_any_set_are_held_against_phasor_sums() {
+    let set = scene(PublishedScene::Oh58FourPlanets).unwrap();
+    let table = |shift: usize| {
+        let sums = scene::excitation_of_scene(&set, 10).unwrap();
+        let mut text = "scene,harmonic,excites\n".to_owned();
+        for l in 0..8 {
+            let kinds = sums[l + shift].allowed();
+            let mut words = Vec::new();
+            words.extend(kinds.rotational.then_some("Rotational"));
+            words.extend(kinds.translational.then_some("translational"));
+            words.extend(kinds.planet.then_some("planet"));
+            writeln!(text, "oh58_4p,{},{}", l + 1, words.join(" + ")).unwrap();
+        }
+        text
+    };
+    for (shift, passed) in [(0, 8), (1, 0)] {
+        let folder = folder("fe_contact", &[("rules.csv", &table(shift))]);
+        let verdict = judged(folder.path(), &Judgement::default()).unwrap();
+        assert_eq!((verdict.passed, verdict.failed), (passed, 8 - passed), "{:#?}", verdict.checks);
+    }
+    // Rotations alone have no translational modes: harmonics that excite these alone excite none.
+    let none = table(0).replace("translational", "none");
+    let folder = folder("torsional", &[("rules.csv", &none)]);
+    assert_eq!(judged(folder.path(), &Judgement::default()).unwrap().passed, 8);
+}
+
+#[test]
 fn what_contradicts_itself_is_refused_before_any_check() {
     let twice = format!("{HEADER}oh58_4p,1150.2,rotational,1\noh58_4p,1150.2,rotational,1\n");
     let folder = folder("lumped", &[("modes.csv", &twice)]);

@@ -71,6 +71,7 @@ impl Report for ControlsOutput {
                 Asks::NaturalModes => "natural modes of any model",
                 Asks::MeshCycle => "mesh cycles at rest of any model",
                 Asks::SteadyStates => "steady states of any model",
+                Asks::ExcitationRules => "excitation rules of any model",
                 Asks::OwnNumerics => "our own models",
             };
             writeln!(out, "{} ({asks}): {}", suite.suite, suite.about)?;

@@ -8,7 +8,7 @@ use super::contradictions::{self, Contradiction, Facts};
 use super::known_scenes::KnownScenes;
 use super::manifest::Manifest;
 use super::manifest_error::ManifestError;
-use super::rows::{CycleRow, ModeRow, SceneNames, StateRow};
+use super::rows::{CycleRow, ModeRow, RuleRow, SceneNames, StateRow};
 use super::table::{Remark, TableError};
 
 /// What a folder holds.
@@ -24,6 +24,8 @@ pub struct ResultsFolder {
     pub mesh_cycle: Vec<CycleRow>,
     /// `steady_states.csv`.
     pub steady_states: Vec<StateRow>,
+    /// `rules.csv`.
+    pub rules: Vec<RuleRow>,
     /// Every file that was read, in order.
     pub files: Vec<PathBuf>,
     /// What was read in another way than it is written.
@@ -69,7 +71,7 @@ pub enum FolderError {
         source: super::known_scenes::UnknownScene,
     },
     /// A folder without any table.
-    #[error("{}: none of modes.csv, mesh_cycle.csv and steady_states.csv is there", path.display())]
+    #[error("{}: none of modes.csv, mesh_cycle.csv, steady_states.csv and rules.csv is there", path.display())]
     Empty {
         /// The folder.
         path: PathBuf,
@@ -109,11 +111,14 @@ impl ResultsFolder {
         let steady_states = table(folder, "steady_states.csv", &mut files, &mut remarks, |p| {
             StateRow::read(p, names())
         })?;
-        if modes.is_empty() && mesh_cycle.is_empty() && steady_states.is_empty() {
-            return Err(FolderError::Empty { path: folder.to_owned() });
-        }
+        let rules =
+            table(folder, "rules.csv", &mut files, &mut remarks, |p| RuleRow::read(p, names()))?;
         let path = folder.to_owned();
-        Ok(Self { path, manifest, modes, mesh_cycle, steady_states, files, remarks })
+        let rows = modes.len() + mesh_cycle.len() + steady_states.len() + rules.len();
+        if rows == 0 {
+            return Err(FolderError::Empty { path });
+        }
+        Ok(Self { path, manifest, modes, mesh_cycle, steady_states, rules, files, remarks })
     }
 
     /// Everything in the tables that cannot be true, in the order of tables; empty for results that can be judged.
@@ -136,6 +141,7 @@ impl ResultsFolder {
             &self.steady_states,
             &mut facts,
         ));
+        found.extend(contradictions::rules(&self.path.join("rules.csv"), &self.rules));
         found
     }
 }

@@ -1,5 +1,9 @@
 //! The judgement of a results folder.
 
+use std::sync::Arc;
+
+use gearset::AllowedKinds;
+
 use super::contradictions::Contradiction;
 use super::folder::ResultsFolder;
 use super::known_scenes::KnownScene;
@@ -10,7 +14,7 @@ use crate::error::ValidationError;
 use crate::model_kind::ModelKind;
 use crate::reference::{Miss, Reference};
 use crate::selection::Selection;
-use crate::suites::{Models, lumped_model};
+use crate::suites::{Models, lumped_model, rules};
 use crate::verdict::Verdict;
 
 /// Why results cannot be judged.
@@ -64,35 +68,46 @@ impl ResultsFolder {
             at_rest: Some(&tables),
             in_time: Some(&tables),
         };
-        let beside = |reference: &Reference| self.beside_lumped_model(kind, reference);
+        let beside = |reference: &Reference| self.beside(kind, reference);
         Ok(crate::judge_with(&models, &how.only, &how.accepted, &beside)?)
     }
 
-    /// Frequencies of lumped and torsional models beside this project's, of every scene that has lumped parameters.
-    fn beside_lumped_model(
+    /// What is judged of any scene: frequencies beside this project's lumped model, excitation rules by phasor sums.
+    pub(super) fn beside(
         &self,
         kind: ModelKind,
         reference: &Reference,
     ) -> Result<Vec<Check>, ValidationError> {
-        let mut checks = Vec::new();
-        if !matches!(kind, ModelKind::Lumped | ModelKind::Torsional) {
-            return Ok(checks);
-        }
         let is_torsional = kind == ModelKind::Torsional;
-        let mut scenes: Vec<&KnownScene> = self.modes.iter().map(|row| &*row.scene).collect();
-        scenes.sort_by_key(|known| &known.id);
-        scenes.dedup_by_key(|known| &known.id);
-        for KnownScene { id, scene } in scenes {
-            if scene.lumped.is_none() {
-                continue;
+        let mut checks = Vec::new();
+        if matches!(kind, ModelKind::Lumped | ModelKind::Torsional) {
+            for known in scenes(self.modes.iter().map(|row| &row.scene)) {
+                let KnownScene { id, scene } = known;
+                if scene.lumped.is_none() {
+                    continue;
+                }
+                let rows = self.modes.iter().filter(|row| row.scene.id == *id);
+                let mut listed: Vec<ListedMode> = rows.map(ModeRow::listed).collect();
+                if is_torsional {
+                    listed.iter_mut().for_each(|mode| mode.mode_type = None);
+                }
+                checks.extend(lumped_model::beside(id, scene, &listed, is_torsional, reference)?);
             }
-            let rows = self.modes.iter().filter(|row| row.scene.id == *id);
-            let mut listed: Vec<ListedMode> = rows.map(ModeRow::listed).collect();
-            if is_torsional {
-                listed.iter_mut().for_each(|mode| mode.mode_type = None);
-            }
-            checks.extend(lumped_model::beside(id, scene, &listed, is_torsional, reference)?);
+        }
+        for KnownScene { id, scene } in scenes(self.rules.iter().map(|row| &row.scene)) {
+            let rows = self.rules.iter().filter(|row| row.scene.id == *id);
+            let listed: Vec<(usize, AllowedKinds)> =
+                rows.map(|row| (row.harmonic, row.excites)).collect();
+            checks.extend(rules::beside(id, scene, &listed, is_torsional, reference)?);
         }
         Ok(checks)
     }
+}
+
+/// The scenes of rows, each once, by id.
+fn scenes<'r>(rows: impl Iterator<Item = &'r Arc<KnownScene>>) -> Vec<&'r KnownScene> {
+    let mut scenes: Vec<&KnownScene> = rows.map(|known| &**known).collect();
+    scenes.sort_by_key(|known| &known.id);
+    scenes.dedup_by_key(|known| &known.id);
+    scenes
 }

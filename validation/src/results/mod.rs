@@ -7,6 +7,7 @@
 //! | `modes.csv` | a natural frequency | [`ModeRow`] |
 //! | `mesh_cycle.csv` | one quantity at one position of the mesh cycle | [`CycleRow`] |
 //! | `steady_states.csv` | one harmonic of one quantity at one speed | [`StateRow`] |
+//! | `rules.csv` | kinds of modes that a harmonic can excite | [`RuleRow`] |
 //!
 //! A [`ResultsFolder`] that is read tells what its reader took for granted as [`Remark`]s, and what in it cannot be
 //! true as [`Contradiction`]s; [`Template`] is a folder that is ready to be filled.
@@ -35,7 +36,7 @@ pub use manifest::{Convention, Frame, Manifest, Radius, RotationCoordinate};
 pub use manifest_error::ManifestError;
 pub use mode_list::ModeList;
 pub use questions::{AskedSuite, Questions};
-pub use rows::{CycleRow, ModeRow, StateRow};
+pub use rows::{CycleRow, ModeRow, RuleRow, StateRow};
 pub use scene_file::SceneFile;
 pub use table::{Remark, TableError};
 pub use template::Template;

@@ -45,7 +45,8 @@ impl ResultsFolder {
             at_rest: Some(&tables),
             in_time: Some(&tables),
         };
-        let (checks, not_asked) = suites::foreign(&reference, &models, &Selection::default())?;
+        let (mut checks, not_asked) = suites::foreign(&reference, &models, &Selection::default())?;
+        checks.extend(self.beside(kind, &reference)?);
         let mut asked: Vec<AskedSuite> = Vec::new();
         for check in &checks {
             let suite = reference.registry.suite_of(&check.id).map_or("", |s| s.name.as_str());

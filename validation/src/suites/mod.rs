@@ -8,7 +8,7 @@ mod lab;
 mod lin_parker;
 pub(crate) mod lumped_model;
 pub(crate) mod mode_lists;
-mod rules;
+pub(crate) mod rules;
 pub(crate) mod statements;
 mod structure;
 mod table1;

@@ -8,6 +8,7 @@ use gearset::{
 };
 use scene::{Scene, excitation_of_scene};
 
+use crate::check::Check;
 use crate::error::ValidationError;
 use crate::reference::Reference;
 use crate::worst::worst;
@@ -76,6 +77,34 @@ fn judged(reference: &Reference, three: &Scene, four: &Scene) -> Checks {
     ];
     checks.push(reference.about("rules.diametrical.only_forbids", title)?.equal(expected, found));
     Ok(checks)
+}
+
+/// Listed rules of the scene with that id: kinds of modes that each harmonic can excite. A model of rotations alone has
+/// no translational modes, which are then not asked for.
+pub(crate) fn beside(
+    id: &str,
+    scene: &Scene,
+    listed: &[(usize, AllowedKinds)],
+    is_torsional: bool,
+    reference: &Reference,
+) -> Checks {
+    let highest = listed.iter().map(|(harmonic, _)| *harmonic).max().unwrap_or(0);
+    // A set without teeth has no phases, and nothing to ask.
+    let Some(sums) = excitation_of_scene(scene, highest as u32) else { return Ok(Vec::new()) };
+    let words = |allowed: AllowedKinds| {
+        let translational = allowed.translational && !is_torsional;
+        match kinds(AllowedKinds { translational, ..allowed }) {
+            none if none.is_empty() => "none".to_owned(),
+            some => some,
+        }
+    };
+    let row = |(harmonic, found): &(usize, AllowedKinds)| -> Result<Check, ValidationError> {
+        let check = format!("rules.excites.{id}.{harmonic}");
+        let title = format!("{}: kinds of modes that harmonic {harmonic} can excite", scene.title);
+        let expected = words(sums[harmonic - 1].allowed());
+        Ok(reference.about(&check, &title)?.equal(expected, words(*found)))
+    };
+    listed.iter().map(row).collect()
 }
 
 fn strengths(scene: &Scene) -> Result<Vec<ExcitationStrengths>, ValidationError> {

@@ -25,6 +25,7 @@ mod merged;
 mod mesh_cycle;
 mod modes;
 mod repeated;
+mod rules;
 mod steady_states;
 #[cfg(test)]
 mod tests;
@@ -33,4 +34,5 @@ pub use contradiction::Contradiction;
 pub(super) use facts::Facts;
 pub(super) use mesh_cycle::mesh_cycle;
 pub(super) use modes::modes;
+pub(super) use rules::rules;
 pub(super) use steady_states::steady_states;

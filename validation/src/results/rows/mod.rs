@@ -3,11 +3,13 @@
 mod cycle_row;
 mod mode_row;
 mod named;
+mod rule_row;
 mod state_row;
 
 pub use cycle_row::CycleRow;
 pub use mode_row::ModeRow;
 pub(super) use named::SceneNames;
+pub use rule_row::RuleRow;
 pub use state_row::StateRow;
 
 /// Planets are numbered below this, and a frequency occurs at most so often.
