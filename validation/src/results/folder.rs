@@ -6,8 +6,7 @@ use scene::Scene;
 
 use super::contradictions::{self, Contradiction, Facts};
 use super::known_scenes::KnownScenes;
-use super::manifest::Manifest;
-use super::manifest_error::ManifestError;
+use super::manifest::{Manifest, ManifestError};
 use super::rows::{CycleRow, ModeRow, RuleRow, SceneNames, StateRow};
 use super::table::{Remark, TableError};
 

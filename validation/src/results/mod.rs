@@ -12,31 +12,27 @@
 //! A [`ResultsFolder`] that is read tells what its reader took for granted as [`Remark`]s, and what in it cannot be
 //! true as [`Contradiction`]s; [`Template`] is a folder that is ready to be filled.
 
-mod accepted;
 mod contradictions;
 mod folder;
 mod judge;
 mod known_scenes;
 mod manifest;
-mod manifest_error;
 mod mode_list;
 mod questions;
 mod recorded;
 mod rows;
-mod scene_file;
 pub mod table;
-mod template;
+mod writing;
 
-pub use accepted::accepted_misses;
 pub use contradictions::Contradiction;
 pub use folder::{FolderError, ResultsFolder};
 pub use judge::{JudgeError, Judgement};
 pub use known_scenes::{KnownScene, KnownScenes, UnknownScene};
-pub use manifest::{Convention, Frame, Manifest, Radius, RotationCoordinate};
-pub use manifest_error::ManifestError;
+pub use manifest::{
+    Convention, Frame, Manifest, ManifestError, Radius, RotationCoordinate, accepted_misses,
+};
 pub use mode_list::ModeList;
 pub use questions::{AskedSuite, Questions};
 pub use rows::{CycleRow, ModeRow, RuleRow, StateRow};
-pub use scene_file::SceneFile;
 pub use table::{Remark, TableError};
-pub use template::Template;
+pub use writing::{SceneFile, Template};

@@ -5,13 +5,13 @@ use std::fmt::Write;
 use experiments::sweep::Part;
 use scene::Scene;
 
-use super::known_scenes::KnownScenes;
-use super::manifest::{ORDER, POSITIONS};
 use super::scene_file::SceneFile;
 use crate::catalogue::{PublishedScene, scene};
 use crate::error::ValidationError;
 use crate::model_kind::ModelKind;
 use crate::registry::Registry;
+use crate::results::known_scenes::KnownScenes;
+use crate::results::manifest::{ORDER, POSITIONS};
 use crate::suites::{ASKABLE, Askable, AskedCycle, Question};
 
 /// Files of a folder whose tables have every row that suites ask for and no values.

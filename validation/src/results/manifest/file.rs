@@ -26,7 +26,7 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::manifest_error::ManifestError;
+use super::error::ManifestError;
 use crate::model_kind::ModelKind;
 use crate::nearest::did_you_mean;
 
@@ -34,10 +34,10 @@ use crate::nearest::did_you_mean;
 const MOST_BYTES: u64 = 1_000_000;
 
 /// Positions of a mesh cycle that the suites ask for.
-pub(super) const POSITIONS: usize = 28;
+pub(in crate::results) const POSITIONS: usize = 28;
 
 /// Order of bodies in vectors and matrices where none is given.
-pub(super) const ORDER: [&str; 4] = ["carrier", "ring", "sun", "planets"];
+pub(in crate::results) const ORDER: [&str; 4] = ["carrier", "ring", "sun", "planets"];
 
 /// What `results.toml` says.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -329,7 +329,7 @@ mod tests {
 
     #[test]
     fn the_example_of_the_page_says_the_defaults() {
-        let head = include_str!("manifest.rs").lines().take_while(|line| line.starts_with("//!"));
+        let head = include_str!("file.rs").lines().take_while(|line| line.starts_with("//!"));
         let example: Vec<&str> = head.map(|line| line.trim_start_matches("//!").trim()).collect();
         let example = example.join("\n");
         let example = example.split("```").nth(1).unwrap().trim_start_matches("toml");

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use super::manifest::line_of;
-use super::manifest_error::ManifestError;
+use super::error::ManifestError;
+use super::file::line_of;
 use crate::reference::Miss;
 
 /// Longest file that is read, bytes.

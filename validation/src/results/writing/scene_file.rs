@@ -4,8 +4,8 @@ use std::path::Path;
 
 use scene::{Scene, read_text};
 
-use super::folder::FolderError;
-use super::known_scenes::{KnownScene, KnownScenes, UnknownScene};
+use crate::results::folder::FolderError;
+use crate::results::known_scenes::{KnownScene, KnownScenes, UnknownScene};
 
 /// Longest file that is read, bytes.
 const MOST_BYTES: u64 = 10_000_000;
