@@ -88,7 +88,7 @@ pub(crate) struct Validate {
     /// What kind of model the results come from, instead of what results.toml says.
     #[arg(long = "as", value_name = "KIND", requires = "recorded", value_parser = model_kinds())]
     pub kind: Option<ModelKind>,
-    /// Rows that the results are known to miss: a TOML file with [[miss]] entries of id, value, tolerance and analysis.
+    /// What the results are known to miss, and thresholds: a TOML file of [[miss]] and [[threshold]] (docs/results.md).
     #[arg(long, value_name = "FILE", requires = "recorded")]
     pub accept: Option<PathBuf>,
     /// How much to run; checks left out are listed as not run.

@@ -89,7 +89,7 @@ fn check_ends_with_2_where_nothing_can_be_judged() {
     assert_eq!(code, 2);
     assert!(out.contains("modes.csv:2 and") && !out.contains("can be asked"), "{out}");
     assert!(err.contains("one contradiction: no suite judges"), "{err}");
-    let untyped = "scene,frequency_hz\nfive_planets,770\n";
+    let untyped = "scene,frequency_hz\noh58_sun_planet_pair,770\n";
     let (code, out, err) = run(&["results", "check", &with_modes(parent.path(), untyped)]);
     assert_eq!(code, 2, "{out}");
     assert!(out.contains("not asked:") && err.contains("no suite can be asked"), "{err}");

@@ -70,7 +70,7 @@ const ZERO_SHARE: f64 = 1e-4;
 /// Difference that an entry without a partner costs: frequencies further apart than two of it are not one mode.
 const GAP_PERCENT: f64 = 10.0;
 
-/// Matches a list to a model. With types, each type is matched within itself.
+/// Matches a list to a model. Where every mode has a type, each type is matched within itself.
 ///
 /// Within a type both sides are sorted, and the cheapest order-preserving alignment is taken, an unmatched entry
 /// costing as much as a difference of 10 %, whatever the tolerance is. A listed frequency may stand for a model
@@ -93,7 +93,8 @@ pub fn compare(
     is_whole: bool,
 ) -> Comparison {
     let end = listed.iter().fold(0.0f64, |a, l| a.max(l.frequency_hz));
-    let typed = listed.iter().any(|l| l.mode_type.is_some());
+    // A list with types of some modes only says too little to be matched by them.
+    let typed = !listed.is_empty() && listed.iter().all(|l| l.mode_type.is_some());
     let mut kinds: Vec<Option<String>> = vec![None];
     if typed {
         let all = model.iter().map(|m| m.mode_type.clone());

@@ -30,7 +30,7 @@ pub enum ValidationError {
     #[error("no model is given: one of natural modes, mesh cycles and steady states is needed")]
     NoModel,
     /// A model was given and no suite could be asked.
-    #[error("no suite could be asked: {}", lacking(.0))]
+    #[error("{}", nothing_asked(.0))]
     NothingAsked(Vec<crate::verdict::NotAsked>),
     /// A plan of a sweep.
     #[error(transparent)]
@@ -64,10 +64,16 @@ pub enum ValidationError {
     Lumped(#[from] lumped::LumpedError),
 }
 
-/// What each suite lacks.
-fn lacking(suites: &[crate::verdict::NotAsked]) -> String {
+/// What each suite lacks; without one the fronts of ids chose no check.
+fn nothing_asked(suites: &[crate::verdict::NotAsked]) -> String {
     let one = |s: &crate::verdict::NotAsked| format!("{} needs {}", s.suite, s.lacks);
-    suites.iter().map(one).collect::<Vec<_>>().join("; ")
+    match suites {
+        [] => "no check of these results has an id that starts so".to_owned(),
+        some => format!(
+            "no suite could be asked: {}",
+            some.iter().map(one).collect::<Vec<_>>().join("; ")
+        ),
+    }
 }
 
 impl ValidationError {

@@ -27,6 +27,8 @@ pub mod variants;
 mod verdict;
 mod worst;
 
+use results::Accepted;
+
 pub use catalogue::{PublishedScene, scene};
 pub use check::{Check, ReferenceKind, Status, Subject, Tolerance, Value};
 pub use compare::{Comparison, ListedMode, Match, ModelMode, compare};
@@ -102,18 +104,18 @@ pub fn judge_model(
     models: &Models<'_>,
     only: impl Into<Selection>,
 ) -> Result<Verdict, ValidationError> {
-    judge_with(models, &only.into(), &[], &|_| Ok(Vec::new()))
+    judge_with(models, &only.into(), &Accepted::default(), &|_| Ok(Vec::new()))
 }
 
-/// The same with `further` checks; `accepted` are rows that this model is known to miss, each with its pinned value and
-/// its analysis, beside those that are listed for the models of this project.
+/// The same with `further` checks; `accepted` are rows that this model is known to miss, beside those that are listed for
+/// the models of this project, and thresholds.
 ///
 /// # Errors
 /// As [`judge_model`].
 pub(crate) fn judge_with(
     models: &Models<'_>,
     only: &Selection,
-    accepted: &[Miss],
+    accepted: &Accepted,
     further: &dyn Fn(&Reference) -> Result<Vec<Check>, ValidationError>,
 ) -> Result<Verdict, ValidationError> {
     if models.modal.is_none() && models.at_rest.is_none() && models.in_time.is_none() {
@@ -127,6 +129,7 @@ pub(crate) fn judge_with(
         return Err(ValidationError::NothingAsked(not_asked));
     }
     let judges = |id: &str| models.kind.is_none_or(|kind| reference.registry.judges(id, kind));
-    let misses = [accepted, &reference.misses].concat();
+    checks.iter_mut().for_each(|check| accepted.judge(check));
+    let misses = [&accepted.misses[..], &reference.misses].concat();
     Ok(Verdict::of_results(checks, &misses, judges, not_asked))
 }

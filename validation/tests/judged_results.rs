@@ -7,7 +7,7 @@ use experiments::ModalModel;
 use experiments::models::Lumped;
 use scene::LoadCase;
 use tempfile::TempDir;
-use validation::results::{JudgeError, Judgement, ResultsFolder, accepted_misses};
+use validation::results::{Accepted, JudgeError, Judgement, ResultsFolder};
 use validation::{
     Models, PublishedScene, Selection, Status, ValidationError, Verdict, judge_model, scene,
 };
@@ -35,6 +35,10 @@ fn folder(kind: &str, files: &[(&str, &str)]) -> TempDir {
     write("results.toml", &format!("format = 1\nkind = \"{kind}\"\nprogram = \"a test\"\n"));
     files.iter().for_each(|(name, text)| write(name, text));
     folder
+}
+
+fn folder_of_modes(kind: &str, table: &str) -> TempDir {
+    folder(kind, &[("modes.csv", table)])
 }
 
 fn judged(folder: &Path, how: &Judgement) -> Result<Verdict, JudgeError> {
@@ -78,6 +82,13 @@ fn a_wrong_lumped_model_fails_and_a_rig_with_the_same_numbers_does_not() {
     let verdict = judged(folder.path(), &Judgement::default()).unwrap();
     assert!(verdict.failed >= 10 && !verdict.is_sound());
     assert!(count(&verdict, "lumped_model.oh58_4p.rotational.1", Status::Fail) == 1);
+    // A list with the type of one mode missing is matched by frequency, and a rig's list needs no types.
+    let table = "scene,frequency_hz,mode_type\noh58_4p,1150.19,rotational\noh58_4p,1788.53,\n";
+    let partly = folder_of_modes("lumped", table);
+    let verdict = judged(partly.path(), &Judgement::default()).unwrap();
+    assert_eq!(count(&verdict, "lumped_model.oh58_4p.rotational", Status::Pass), 2);
+    let rig = folder_of_modes("measured", table);
+    assert!(judged(rig.path(), &Judgement::default()).unwrap().of_another_kind >= 2);
     let measured = modes("measured", &LUMPED, soft);
     let verdict = judged(measured.path(), &Judgement::default()).unwrap();
     assert_eq!((verdict.passed, verdict.failed), (0, 0));
@@ -101,6 +112,24 @@ fn a_torsional_model_is_held_against_the_lumped_model_with_centres_held() {
     let verdict = judged(right.path(), &Judgement::default()).unwrap();
     assert_eq!(verdict.failed, 0, "{:#?}", verdict.checks);
     assert!(verdict.passed >= 4 && count(&verdict, "lin_parker", Status::Fail) == 0);
+    // The planets' frequency in one row, N − 1 = 3 times; in three typed rows it is no contradiction.
+    let once = "scene,frequency_hz,mode_type,multiplicity\nlin_parker_1999_4p,2120.62,rotational,1\n\
+                lin_parker_1999_4p,6443.995,planet,3\n";
+    let thrice =
+        once.replace("planet,3", "planet,1") + &"lin_parker_1999_4p,6443.995,planet,1\n".repeat(2);
+    for text in [once, &thrice] {
+        let right = folder("torsional", &[("modes.csv", text)]);
+        let verdict = judged(right.path(), &Judgement::default()).unwrap();
+        // The rigid-body mode is not listed.
+        let failed: Vec<&str> = verdict
+            .checks
+            .iter()
+            .filter(|c| c.status == Status::Fail)
+            .map(|c| c.id.as_str())
+            .collect();
+        assert_eq!(failed, ["lumped_model.lin_parker_1999_4p.torsional.1"], "{text}");
+        assert_eq!(verdict.passed, 2, "{:#?}", verdict.checks);
+    }
     let wrong = folder("torsional", &[("modes.csv", &table(1.01))]);
     assert!(judged(wrong.path(), &Judgement::default()).unwrap().failed >= 3);
 }
@@ -126,10 +155,12 @@ fn rules_of_any_set_are_held_against_phasor_sums() {
         let verdict = judged(folder.path(), &Judgement::default()).unwrap();
         assert_eq!((verdict.passed, verdict.failed), (passed, 8 - passed), "{:#?}", verdict.checks);
     }
-    // Rotations alone have no translational modes: harmonics that excite these alone excite none.
-    let none = table(0).replace("translational", "none");
-    let folder = folder("torsional", &[("rules.csv", &none)]);
+    // Rotations alone have no translational modes; planets move against one another wherever meshes are out of step.
+    let folder =
+        folder("torsional", &[("rules.csv", &table(0).replace("translational", "planet"))]);
     assert_eq!(judged(folder.path(), &Judgement::default()).unwrap().passed, 8);
+    std::fs::write(folder.path().join("rules.csv"), table(0)).unwrap();
+    assert_eq!(judged(folder.path(), &Judgement::default()).unwrap().failed, 4);
 }
 
 #[test]
@@ -158,15 +189,27 @@ fn misses_that_an_author_accepts_are_misses_at_their_pinned_value_alone() {
              tolerance = 0.01\nanalysis = \"bearings as measured\"\n"
         );
         std::fs::write(&file, text).unwrap();
-        let accepted = accepted_misses(&file).unwrap();
+        let accepted = Accepted::read(&file).unwrap();
         let how = Judgement { only: only(), accepted, ..Judgement::default() };
         judged(folder.path(), &how).unwrap()
     };
     let verdict = entry(1810.0);
     assert_eq!((verdict.missed, verdict.failed), (1, 0), "{:?}", verdict.checks);
     assert_eq!(entry(1820.0).failed, 1);
+    // A threshold of half a per cent for all planet modes; a tighter one fails.
+    for (percent, failed) in [(0.5, 0), (0.05, 1)] {
+        let text = format!(
+            "[[threshold]]\nids = \"lin_parker_1999.*.planet.*\"\npercent = {percent}\nreason = \"bearings\"\n"
+        );
+        std::fs::write(&file, text).unwrap();
+        let accepted = Accepted::read(&file).unwrap();
+        let how = Judgement { only: only(), accepted, ..Judgement::default() };
+        let verdict = judged(folder.path(), &how).unwrap();
+        assert_eq!(verdict.failed, failed, "{:?}", verdict.checks);
+        assert!(verdict.checks[0].tolerance.reason.ends_with("bearings"));
+    }
     std::fs::write(&file, "[[mis]]\n").unwrap();
-    let refusal = accepted_misses(&file).unwrap_err().to_string();
+    let refusal = Accepted::read(&file).unwrap_err().to_string();
     assert!(refusal.contains("accepted.list:1") && refusal.contains("[[miss]]"), "{refusal}");
 }
 
@@ -181,4 +224,16 @@ fn a_test_that_asks_nothing_is_an_error() {
         judge_model(&models, "fe.sets"),
         Err(ValidationError::NothingAsked(lacks)) if lacks.len() == 2
     ));
+}
+
+#[test]
+fn a_scene_file_with_the_title_of_a_shipped_scene_must_be_that_scene() {
+    let mut set = scene(PublishedScene::Oh58FourPlanets).unwrap();
+    let rows = "scene,frequency_hz\nmine,770\n";
+    let folder = folder("lumped", &[("modes.csv", rows), ("mine.toml", &set.to_toml())]);
+    ResultsFolder::read(folder.path()).unwrap();
+    set.supports.planet_bearing_n_per_m *= 1.1;
+    std::fs::write(folder.path().join("mine.toml"), set.to_toml()).unwrap();
+    let refusal = ResultsFolder::read(folder.path()).unwrap_err().to_string();
+    assert!(refusal.contains("mine.toml: `title` is") && refusal.contains("another"), "{refusal}");
 }

@@ -26,7 +26,10 @@ pub(super) fn run(
     let names: Vec<&str> = template.files.iter().map(|(name, _)| name.as_str()).collect();
     writeln!(out, "wrote into {}: {}", folder.display(), names.join(", "))?;
     match template.suites.as_slice() {
-        [] => writeln!(out, "no suite asks about this scene: see `epicyclic compare`")?,
+        [] => writeln!(
+            out,
+            "no published value is of this scene: lumped_model and rules ask about any"
+        )?,
         suites => writeln!(out, "suites that ask: {}", suites.join(", "))?,
     }
     writeln!(out, "fill in the tables; then: epicyclic results check {}", folder.display())?;

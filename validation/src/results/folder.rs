@@ -49,6 +49,14 @@ pub enum FolderError {
         #[source]
         source: scene::SceneError,
     },
+    /// A scene file with the title of a shipped scene that differs from it: suites would take one for the other.
+    #[error("{}: `title` is `{title}`, and the shipped scene of that title is another: give it a title of its own", path.display())]
+    SharedTitle {
+        /// The file.
+        path: PathBuf,
+        /// The title.
+        title: String,
+    },
     /// A scene file that is no text.
     #[error("{}: cannot be read: {source}", path.display())]
     Unreadable {
@@ -165,7 +173,8 @@ fn table<T>(
 
 /// Shipped scenes and those in the folder.
 fn scenes(folder: &Path, read: &mut Vec<PathBuf>) -> Result<KnownScenes, FolderError> {
-    let mut known = KnownScenes::shipped();
+    let shipped = KnownScenes::shipped();
+    let mut known = shipped.clone();
     let files = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let is_scene = |path: &PathBuf| {
         path.extension().is_some_and(|end| end == "toml") && !path.ends_with("results.toml")
@@ -177,8 +186,14 @@ fn scenes(folder: &Path, read: &mut Vec<PathBuf>) -> Result<KnownScenes, FolderE
             continue;
         };
         read.push(path.clone());
-        let scene =
-            Scene::from_file(&path).map_err(|source| FolderError::Scene { path, source })?;
+        let scene = Scene::from_file(&path)
+            .map_err(|source| FolderError::Scene { path: path.clone(), source })?;
+        if let Ok(shipped) = shipped.find(&scene.title)
+            && shipped.scene.title == scene.title
+            && shipped.scene != scene
+        {
+            return Err(FolderError::SharedTitle { path, title: scene.title });
+        }
         known.add(id, scene);
     }
     Ok(known)

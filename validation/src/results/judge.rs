@@ -7,12 +7,13 @@ use gearset::AllowedKinds;
 use super::contradictions::Contradiction;
 use super::folder::ResultsFolder;
 use super::known_scenes::KnownScene;
+use super::manifest::Accepted;
 use super::rows::ModeRow;
 use crate::check::Check;
 use crate::compare::ListedMode;
 use crate::error::ValidationError;
 use crate::model_kind::ModelKind;
-use crate::reference::{Miss, Reference};
+use crate::reference::Reference;
 use crate::selection::Selection;
 use crate::suites::{Models, lumped_model, rules};
 use crate::verdict::Verdict;
@@ -39,8 +40,8 @@ pub struct Judgement {
     pub kind: Option<ModelKind>,
     /// Checks that are asked.
     pub only: Selection,
-    /// Rows that the author knows to miss, each pinned and analysed.
-    pub accepted: Vec<Miss>,
+    /// What the author of the results accepts.
+    pub accepted: Accepted,
 }
 
 impl ResultsFolder {
@@ -80,19 +81,15 @@ impl ResultsFolder {
     ) -> Result<Vec<Check>, ValidationError> {
         let is_torsional = kind == ModelKind::Torsional;
         let mut checks = Vec::new();
-        if matches!(kind, ModelKind::Lumped | ModelKind::Torsional) {
-            for known in scenes(self.modes.iter().map(|row| &row.scene)) {
-                let KnownScene { id, scene } = known;
-                if scene.lumped.is_none() {
-                    continue;
-                }
-                let rows = self.modes.iter().filter(|row| row.scene.id == *id);
-                let mut listed: Vec<ListedMode> = rows.map(ModeRow::listed).collect();
-                if is_torsional {
-                    listed.iter_mut().for_each(|mode| mode.mode_type = None);
-                }
-                checks.extend(lumped_model::beside(id, scene, &listed, is_torsional, reference)?);
+        let with_modes = scenes(self.modes.iter().map(|row| &row.scene));
+        for KnownScene { id, scene } in with_modes.into_iter().filter(|k| k.scene.lumped.is_some())
+        {
+            let rows = self.modes.iter().filter(|row| row.scene.id == *id);
+            let mut listed: Vec<ListedMode> = rows.map(ModeRow::listed).collect();
+            if is_torsional {
+                listed.iter_mut().for_each(|mode| mode.mode_type = None);
             }
+            checks.extend(lumped_model::beside(id, scene, &listed, is_torsional, reference)?);
         }
         for KnownScene { id, scene } in scenes(self.rules.iter().map(|row| &row.scene)) {
             let rows = self.rules.iter().filter(|row| row.scene.id == *id);

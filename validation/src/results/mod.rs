@@ -29,7 +29,7 @@ pub use folder::{FolderError, ResultsFolder};
 pub use judge::{JudgeError, Judgement};
 pub use known_scenes::{KnownScene, KnownScenes, UnknownScene};
 pub use manifest::{
-    Convention, Frame, Manifest, ManifestError, Radius, RotationCoordinate, accepted_misses,
+    Accepted, Convention, Frame, Manifest, ManifestError, Radius, RotationCoordinate, Threshold,
 };
 pub use mode_list::ModeList;
 pub use questions::{AskedSuite, Questions};

@@ -11,6 +11,9 @@ use crate::compare::{ListedMode, ModelMode, compare};
 use crate::error::ValidationError;
 use crate::reference::Reference;
 
+/// Frequencies that differ by less than this part are one.
+const EQUAL: f64 = 1e-9;
+
 /// Modes of the model of a scene; of rotations alone if `is_torsional`.
 fn modes_of(scene: &Scene, is_torsional: bool) -> Result<Vec<ModelMode>, ValidationError> {
     let mut model = LumpedModel::from_scene(scene)?;
@@ -22,7 +25,19 @@ fn modes_of(scene: &Scene, is_torsional: bool) -> Result<Vec<ModelMode>, Validat
         mode_type: if is_torsional { "torsional" } else { group.mode_type.name() }.to_owned(),
         multiplicity: group.multiplicity,
     };
-    Ok(NaturalModes::of(&model)?.groups.iter().map(mode).collect())
+    let mut modes: Vec<ModelMode> = Vec::new();
+    for next in NaturalModes::of(&model)?.groups.iter().map(mode) {
+        // The N − 1 modes of the planets against one another are one frequency of a model of rotations.
+        let is_same = |last: &&mut ModelMode| {
+            is_torsional
+                && (next.frequency_hz - last.frequency_hz).abs() <= EQUAL * next.frequency_hz
+        };
+        match modes.last_mut().filter(is_same) {
+            Some(last) => last.multiplicity += next.multiplicity,
+            None => modes.push(next),
+        }
+    }
+    Ok(modes)
 }
 
 /// Listed modes of the scene with that id. Modes above the highest of the list are not asked for.

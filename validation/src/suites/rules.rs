@@ -80,7 +80,8 @@ fn judged(reference: &Reference, three: &Scene, four: &Scene) -> Checks {
 }
 
 /// Listed rules of the scene with that id: kinds of modes that each harmonic can excite. A model of rotations alone has
-/// no translational modes, which are then not asked for.
+/// no translational modes; the N − 1 modes of its planets against one another follow from every harmonic whose mesh
+/// forces are not all in step.
 pub(crate) fn beside(
     id: &str,
     scene: &Scene,
@@ -91,21 +92,29 @@ pub(crate) fn beside(
     let highest = listed.iter().map(|(harmonic, _)| *harmonic).max().unwrap_or(0);
     // A set without teeth has no phases, and nothing to ask.
     let Some(sums) = excitation_of_scene(scene, highest as u32) else { return Ok(Vec::new()) };
-    let words = |allowed: AllowedKinds| {
-        let translational = allowed.translational && !is_torsional;
-        match kinds(AllowedKinds { translational, ..allowed }) {
-            none if none.is_empty() => "none".to_owned(),
-            some => some,
-        }
+    let expected = |sums: &ExcitationStrengths| match is_torsional {
+        true => AllowedKinds {
+            translational: false,
+            planet: sums.net_torque < 1.0 - IN_STEP,
+            ..sums.allowed()
+        },
+        false => sums.allowed(),
+    };
+    let words = |allowed: AllowedKinds| match kinds(allowed) {
+        none if none.is_empty() => "none".to_owned(),
+        some => some,
     };
     let row = |(harmonic, found): &(usize, AllowedKinds)| -> Result<Check, ValidationError> {
         let check = format!("rules.excites.{id}.{harmonic}");
         let title = format!("{}: kinds of modes that harmonic {harmonic} can excite", scene.title);
-        let expected = words(sums[harmonic - 1].allowed());
+        let expected = words(expected(&sums[harmonic - 1]));
         Ok(reference.about(&check, &title)?.equal(expected, words(*found)))
     };
     listed.iter().map(row).collect()
 }
+
+/// Mesh forces whose net torque falls short of that in step by less than this part are in step.
+const IN_STEP: f64 = 1e-9;
 
 fn strengths(scene: &Scene) -> Result<Vec<ExcitationStrengths>, ValidationError> {
     excitation_of_scene(scene, HARMONICS).ok_or(ValidationError::Incomplete("teeth"))

@@ -15,7 +15,7 @@ use std::io::Write;
 use std::path::Path;
 
 use serde::Serialize;
-use validation::results::{Judgement, ResultsFolder, accepted_misses};
+use validation::results::{Accepted, Judgement, ResultsFolder};
 use validation::{Miss, ModelKind, Selection, Verdict};
 
 use crate::arguments::{Format, Validate};
@@ -65,8 +65,8 @@ pub(super) fn run(arguments: &Validate, folder: &Path, out: &mut dyn Write) -> R
         kind: arguments.kind,
         only: Selection::from(arguments.only.as_slice()),
         accepted: match &arguments.accept {
-            Some(path) => accepted_misses(path).map_err(|e| refused("--accept", e))?,
-            None => Vec::new(),
+            Some(path) => Accepted::read(path).map_err(|e| refused("--accept", e))?,
+            None => Accepted::default(),
         },
     };
     let verdict = read.judge(&how)?;
@@ -79,6 +79,11 @@ pub(super) fn run(arguments: &Validate, folder: &Path, out: &mut dyn Write) -> R
             "no results.toml says what kind of model it is: taken as lumped (--as: {kinds})"
         ));
     }
+    remarks.extend(how.accepted.without_effect(&verdict.checks));
+    let is_typed = read.modes.iter().any(|row| row.mode_type.is_some());
+    if is_typed && read.kind(arguments.kind) == ModelKind::Torsional {
+        remarks.push("types of modes are not asked of a model of rotations alone".to_owned());
+    }
     let about = About {
         folder: folder.display().to_string(),
         kind: read.kind(arguments.kind),
@@ -89,8 +94,12 @@ pub(super) fn run(arguments: &Validate, folder: &Path, out: &mut dyn Write) -> R
         files,
         remarks,
     };
-    let result =
-        RecordedOutput { about, verdict, accepted: how.accepted, details: arguments.details };
+    let result = RecordedOutput {
+        about,
+        verdict,
+        accepted: how.accepted.misses,
+        details: arguments.details,
+    };
     // What was judged is shown also where its report cannot be saved.
     let saved = arguments.report.as_ref().map_or(Ok(()), |folder| report::write(&result, folder));
     let appended = report::append_to_step_summary(&result);

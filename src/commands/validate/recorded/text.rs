@@ -7,11 +7,12 @@ use validation::{Check, NotAsked, Status};
 use super::RecordedOutput;
 use crate::commands::validate::check_cells::{cells, status_word};
 use crate::commands::validate::result;
+use crate::commands::validate::summary::suite_of;
 use crate::error::Result;
 use crate::output::{Notation, Report, Table, paragraph};
 
 /// Rows shown of each status.
-const MOST_ROWS: usize = 12;
+const MOST_ROWS: usize = 10;
 
 /// Suites listed that were not asked.
 const MOST_SUITES: usize = 10;
@@ -42,6 +43,7 @@ impl Report for RecordedOutput {
             }
         }
         not_asked(&self.verdict.not_asked, out)?;
+        passed(checks, out)?;
         Ok(writeln!(out, "{}", self.counts())?)
     }
 }
@@ -73,6 +75,23 @@ fn some(checks: &[Check], status: Status, heading: &str, out: &mut dyn Write) ->
     table().text(rows.iter().copied().take(MOST_ROWS), out)?;
     if rows.len() > MOST_ROWS {
         writeln!(out, "and {} more (--details lists all)", rows.len() - MOST_ROWS)?;
+    }
+    Ok(())
+}
+
+/// Suites with checks that passed, and how many.
+fn passed(checks: &[Check], out: &mut dyn Write) -> Result<()> {
+    let mut suites: Vec<(&str, usize)> = Vec::new();
+    for check in checks.iter().filter(|check| check.status == Status::Pass) {
+        let name = suite_of(&check.id);
+        match suites.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, count)) => *count += 1,
+            None => suites.push((name, 1)),
+        }
+    }
+    if !suites.is_empty() {
+        let each: Vec<String> = suites.iter().map(|(name, n)| format!("{name} {n}")).collect();
+        writeln!(out, "{}", paragraph(&format!("\npassed: {}", each.join(", ")), "", "  "))?;
     }
     Ok(())
 }

@@ -21,7 +21,7 @@ pub(in crate::results) fn modes(
     let mut found = Vec::new();
     for rows in by_scene(rows) {
         let facts = facts.about(&rows[0].scene);
-        let twice = listed_twice(path, &rows, &facts);
+        let twice = listed_twice(path, &rows, kind, &facts);
         if twice.is_none() && matches!(kind, Some(ModelKind::Lumped | ModelKind::Torsional)) {
             found.extend(too_many(path, &rows, &facts));
         }
@@ -44,8 +44,15 @@ fn by_scene(rows: &[ModeRow]) -> Vec<Vec<&ModeRow>> {
 }
 
 /// Modes more often than their type allows.
-fn listed_twice(path: &Path, rows: &[&ModeRow], facts: &SceneFacts) -> Option<Contradiction> {
+fn listed_twice(
+    path: &Path,
+    rows: &[&ModeRow],
+    kind: Option<ModelKind>,
+    facts: &SceneFacts,
+) -> Option<Contradiction> {
     let most = |mode_type: &str| match mode_type {
+        // Planets against one another: N − 1 modes of rotations alone.
+        _ if kind == Some(ModelKind::Torsional) => Some(facts.planets.saturating_sub(1).max(1)),
         "rotational" => Some(1),
         "translational" => Some(2),
         "planet" => Some(facts.planets.saturating_sub(3).max(1)),

@@ -1,10 +1,10 @@
-//! `results.toml`, and the file of misses that an author accepts.
+//! `results.toml`, and what the author of results accepts.
 
 mod accepted;
 mod error;
 mod file;
 
-pub use accepted::accepted_misses;
+pub use accepted::{Accepted, Threshold};
 pub use error::ManifestError;
 pub use file::{Convention, Frame, Manifest, Radius, RotationCoordinate};
 pub(super) use file::{ORDER, POSITIONS};
