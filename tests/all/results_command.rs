@@ -49,7 +49,7 @@ fn scenes_of_new_folders_are_ids_files_or_all() {
     assert!(!folder.exists());
     let (code, out, _, folder) = new(&scene("coinciding_modes.toml"), "file");
     assert_eq!(code, 0);
-    assert!(out.contains("no suite asks"), "{out}");
+    assert!(out.contains("lumped_model and rules ask about any"), "{out}");
     let copied = std::fs::read_to_string(folder.join("coinciding_modes.toml")).unwrap();
     assert_eq!(copied, std::fs::read_to_string(scene("coinciding_modes.toml")).unwrap());
     let (code, out, _, folder) = new("all", "all");

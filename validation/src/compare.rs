@@ -117,7 +117,9 @@ pub fn compare(
             .collect();
         entries.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
         let zero = ZERO_SHARE * highest;
-        let (taken, left) = align(&entries, &side, zero);
+        // Above the end of a list that may end somewhere nothing is looked for.
+        let end_hz = if is_whole || listed.is_empty() { f64::INFINITY } else { end };
+        let (taken, left) = align(&entries, &side, zero, end_hz);
         for (mode, own) in side.iter().zip(taken) {
             let mut found = judge(mode, &own, tolerance_percent, zero);
             if own.is_empty() && !is_whole && !listed.is_empty() && mode.frequency_hz > end {
@@ -165,6 +167,7 @@ fn align<'l>(
     listed: &[&'l ListedMode],
     model: &[&ModelMode],
     zero: f64,
+    end_hz: f64,
 ) -> (Vec<Vec<&'l ListedMode>>, Vec<&'l ListedMode>) {
     // Each model mode offers as many places as it occurs; only the first must be filled.
     let places: Vec<(usize, usize)> = model
@@ -176,7 +179,10 @@ fn align<'l>(
     let (rows, columns) = (listed.len(), places.len());
     let cell = |i: usize, j: usize| i * (columns + 1) + j;
     let mut cost = vec![0.0f64; (rows + 1) * (columns + 1)];
-    let free = |j: usize| if places[j].1 == 0 { gap } else { 0.0 };
+    let free = |j: usize| match places[j] {
+        (mode, 0) if model[mode].frequency_hz <= end_hz => gap,
+        _ => 0.0,
+    };
     let pair = |i: usize, j: usize| {
         difference(listed[i].frequency_hz, model[places[j].0].frequency_hz, zero).abs()
     };

@@ -107,8 +107,8 @@ pub fn judge_model(
     judge_with(models, &only.into(), &Accepted::default(), &|_| Ok(Vec::new()))
 }
 
-/// The same with `further` checks; `accepted` are rows that this model is known to miss, beside those that are listed for
-/// the models of this project, and thresholds.
+/// The same with `further` checks; `accepted` are rows that this model is known to miss, beside those that are listed
+/// for the models of this project, and thresholds.
 ///
 /// # Errors
 /// As [`judge_model`].

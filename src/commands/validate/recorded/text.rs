@@ -12,10 +12,10 @@ use crate::error::Result;
 use crate::output::{Notation, Report, Table, paragraph};
 
 /// Rows shown of each status.
-const MOST_ROWS: usize = 10;
+const MOST_ROWS: usize = 8;
 
 /// Suites listed that were not asked.
-const MOST_SUITES: usize = 10;
+const MOST_SUITES: usize = 8;
 
 impl Report for RecordedOutput {
     fn csv(&self, out: &mut dyn Write) -> Result<()> {

@@ -38,8 +38,8 @@ pub struct Threshold {
 }
 
 impl Accepted {
-    /// Reads a TOML file: `[[miss]]` entries with `id` of the check, `value` that the model gives, `tolerance` of it and
-    /// `analysis`, why the model is right all the same; `[[threshold]]` entries with `ids`, `percent` and `reason`.
+    /// Reads a TOML file: `[[miss]]` entries with `id` of the check, `value` that the model gives, `tolerance` of it
+    /// and `analysis`, why the model is right all the same; `[[threshold]]` entries with `ids`, `percent`, `reason`.
     ///
     /// # Errors
     /// [`ManifestError`] with file and line of the first fault.
