@@ -24,7 +24,7 @@ fn has_no_contradiction(record: &Recorded, kind: &str, own: Option<&Scene>) {
     let read = ResultsFolder::read(folder.path()).unwrap();
     let rows = read.modes.len() + read.mesh_cycle.len() + read.steady_states.len();
     assert!(rows > 0);
-    let found: Vec<String> = read.contradictions().iter().map(ToString::to_string).collect();
+    let found: Vec<String> = read.contradictions(None).iter().map(ToString::to_string).collect();
     assert!(found.is_empty(), "{found:#?}");
     assert!(read.remarks.is_empty(), "{:?}", read.remarks);
 }

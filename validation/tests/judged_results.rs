@@ -117,9 +117,12 @@ fn a_torsional_model_is_held_against_the_lumped_model_with_centres_held() {
                 lin_parker_1999_4p,6443.995,planet,3\n";
     let thrice =
         once.replace("planet,3", "planet,1") + &"lin_parker_1999_4p,6443.995,planet,1\n".repeat(2);
-    for text in [once, &thrice] {
-        let right = folder("torsional", &[("modes.csv", text)]);
-        let verdict = judged(right.path(), &Judgement::default()).unwrap();
+    // The kind that is asked for stands before that of the folder.
+    let kind = Some(validation::ModelKind::Torsional);
+    for (written, text) in [("torsional", once), ("torsional", &thrice), ("lumped", &thrice)] {
+        let right = folder(written, &[("modes.csv", text)]);
+        let how = Judgement { kind, ..Judgement::default() };
+        let verdict = judged(right.path(), &how).unwrap();
         // The rigid-body mode is not listed.
         let failed: Vec<&str> = verdict
             .checks

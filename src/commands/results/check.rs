@@ -42,7 +42,7 @@ pub(super) fn run(
     out: &mut dyn Write,
 ) -> Result<(), CommandError> {
     let read = ResultsFolder::read(folder)?;
-    let contradictions = read.contradictions();
+    let contradictions = read.contradictions(kind);
     let Questions { asked, not_asked } = match contradictions.is_empty() {
         true => read.questions(kind)?,
         false => Questions::default(),

@@ -9,6 +9,7 @@ use super::known_scenes::KnownScenes;
 use super::manifest::{Manifest, ManifestError};
 use super::rows::{CycleRow, ModeRow, RuleRow, SceneNames, StateRow};
 use super::table::{Remark, TableError};
+use crate::model_kind::ModelKind;
 
 /// What a folder holds.
 #[derive(Debug, Clone)]
@@ -129,12 +130,13 @@ impl ResultsFolder {
     }
 
     /// Everything in the tables that cannot be true, in the order of tables; empty for results that can be judged.
-    pub fn contradictions(&self) -> Vec<Contradiction> {
+    /// `kind` stands before that of `results.toml`.
+    pub fn contradictions(&self, kind: Option<ModelKind>) -> Vec<Contradiction> {
         let mut facts = Facts::default();
         let mut found = contradictions::modes(
             &self.path.join("modes.csv"),
             &self.modes,
-            self.manifest.kind,
+            kind.or(self.manifest.kind),
             &mut facts,
         );
         found.extend(contradictions::mesh_cycle(

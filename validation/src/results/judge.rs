@@ -56,7 +56,7 @@ impl ResultsFolder {
     /// [`JudgeError::Contradictions`] before any check is asked if tables contradict themselves; otherwise as
     /// [`crate::judge_model`].
     pub fn judge(&self, how: &Judgement) -> Result<Verdict, JudgeError> {
-        let contradictions = self.contradictions();
+        let contradictions = self.contradictions(how.kind);
         if !contradictions.is_empty() {
             return Err(JudgeError::Contradictions(contradictions));
         }

@@ -1,5 +1,7 @@
 //! Tables as a model that answers what they hold.
 
+use std::collections::HashSet;
+
 use experiments::models::Recorded;
 use experiments::sweep::{Line, Part, SteadyState};
 use experiments::{MeshCycle, NaturalMode, RestState};
@@ -13,13 +15,10 @@ impl ResultsFolder {
     /// The tables as a model. Of a scene whose modes have no types no modes are there, for suites ask by type.
     pub fn recorded(&self) -> Recorded {
         let mut recorded = Recorded::default();
-        for row in &self.modes {
-            let title = &row.scene.scene.title;
-            let of_scene = self.modes.iter().filter(|other| other.scene.scene.title == *title);
-            if of_scene.map(mode_type).all(|found| found.is_some()) {
-                take_mode(&mut recorded, row);
-            }
-        }
+        let untyped = self.modes.iter().filter(|row| mode_type(row).is_none());
+        let untyped: HashSet<&str> = untyped.map(|row| row.scene.scene.title.as_str()).collect();
+        let is_typed = |row: &&ModeRow| !untyped.contains(row.scene.scene.title.as_str());
+        self.modes.iter().filter(is_typed).for_each(|row| take_mode(&mut recorded, row));
         let mut rows: Vec<&CycleRow> = self.mesh_cycle.iter().collect();
         rows.sort_by(|a, b| a.position.total_cmp(&b.position));
         rows.into_iter().for_each(|row| take_rest(&mut recorded, row));

@@ -19,7 +19,7 @@ fn found(name: &str, table: &str) -> Vec<String> {
     let manifest = "format = 1\nkind = \"lumped\"\n";
     std::fs::write(folder.path().join("results.toml"), manifest).unwrap();
     let read = ResultsFolder::read(folder.path()).unwrap();
-    read.contradictions().iter().map(|found| bare(&found.to_string(), folder.path())).collect()
+    read.contradictions(None).iter().map(|found| bare(&found.to_string(), folder.path())).collect()
 }
 
 /// Why a folder with one table is refused.
@@ -361,7 +361,7 @@ fn mutated_tables_are_read_or_refused_with_their_place() {
         match ResultsFolder::read(folder.path()) {
             Ok(results) => {
                 read += 1;
-                results.contradictions();
+                results.contradictions(None);
             }
             Err(error) => {
                 refused += 1;
