@@ -42,6 +42,8 @@ pub struct Match {
     pub agrees: bool,
     /// Whether it lies above the highest listed frequency, where a list that ends there says nothing.
     pub is_beyond_list: bool,
+    /// Type that the list has instead of the model's, where all else agrees.
+    pub listed_type: Option<String>,
     /// What is wrong, if anything.
     pub remark: Option<String>,
 }
@@ -136,9 +138,11 @@ pub fn compare(
             difference_percent: None,
             agrees: false,
             is_beyond_list: false,
+            listed_type: None,
             remark: Some("the model has no such mode".into()),
         }));
     }
+    of_another_type(&mut matches, &mut strays, tolerance_percent);
     matches.sort_by(|a, b| a.model_hz.unwrap_or(0.0).total_cmp(&b.model_hz.unwrap_or(0.0)));
     matches.extend(strays);
     let agreed = matches.iter().filter(|m| m.agrees).count();
@@ -243,7 +247,31 @@ fn judge(mode: &ModelMode, own: &[&ListedMode], tolerance_percent: f64, zero: f6
         difference_percent: worst,
         agrees: remark.is_none(),
         is_beyond_list: false,
+        listed_type: None,
         remark,
+    }
+}
+
+/// Listed modes without a partner of their type that are, within tolerance, a mode of the model of another type that
+/// the list lacks: one mode with a wrong type instead of two faults.
+fn of_another_type(matches: &mut [Match], strays: &mut Vec<Match>, tolerance_percent: f64) {
+    for lacking in matches.iter_mut().filter(|m| m.listed_hz.is_empty()) {
+        let (Some(hz), Some(model_type)) = (lacking.model_hz, &lacking.model_type) else {
+            continue;
+        };
+        let percent = |stray: &Match| 100.0 * (stray.listed_hz[0] - hz) / hz;
+        let is_near = |stray: &Match| {
+            stray.model_type.is_some() && hz > 0.0 && percent(stray).abs() <= tolerance_percent
+        };
+        let Some(first) = strays.iter().find(|stray| is_near(stray)).cloned() else { continue };
+        let is_same = |stray: &Match| is_near(stray) && stray.model_type == first.model_type;
+        lacking.listed_hz = strays.iter().filter(|s| is_same(s)).map(|s| s.listed_hz[0]).collect();
+        lacking.difference_percent = Some(percent(&first));
+        lacking.is_beyond_list = false;
+        let listed = first.model_type.clone().unwrap_or_default();
+        lacking.remark = Some(format!("listed as {listed}, is {model_type}"));
+        lacking.listed_type = Some(listed);
+        strays.retain(|stray| !is_same(stray));
     }
 }
 
@@ -333,6 +361,9 @@ mod tests {
             listed(1715.8, Some("translational")),
             listed(1788.5, Some("rotational")),
         ];
-        assert!(compare(&list, &model(), 1.0, true).disagreed >= 1);
+        let found = compare(&list, &model(), 1.0, true);
+        assert_eq!((found.agreed, found.disagreed), (2, 1), "{found:?}");
+        assert_eq!(found.matches[0].listed_hz, [1710.4]);
+        assert_eq!(found.matches[0].remark.as_deref(), Some("listed as rotational, is planet"));
     }
 }

@@ -104,10 +104,10 @@ pub fn judge_model(
     models: &Models<'_>,
     only: impl Into<Selection>,
 ) -> Result<Verdict, ValidationError> {
-    judge_with(models, &only.into(), &Accepted::default(), &|_| Ok(Vec::new()))
+    judge_with(models, &only.into(), &Accepted::default(), &|_, _| Ok(Vec::new()))
 }
 
-/// The same with `further` checks; `accepted` are rows that this model is known to miss, beside those that are listed
+/// The same with `further` checks, which may say more of what suites lack; `accepted` are rows that this model is known to miss, beside those that are listed
 /// for the models of this project, and thresholds.
 ///
 /// # Errors
@@ -116,15 +116,17 @@ pub(crate) fn judge_with(
     models: &Models<'_>,
     only: &Selection,
     accepted: &Accepted,
-    further: &dyn Fn(&Reference) -> Result<Vec<Check>, ValidationError>,
+    further: &dyn Fn(&Reference, &mut [NotAsked]) -> suites::Checks,
 ) -> Result<Verdict, ValidationError> {
     if models.modal.is_none() && models.at_rest.is_none() && models.in_time.is_none() {
         return Err(ValidationError::NoModel);
     }
     let reference = Reference::load()?;
     only.check(&reference.registry)?;
-    let (mut checks, not_asked) = suites::foreign(&reference, models, only)?;
-    checks.extend(further(&reference)?.into_iter().filter(|check| only.holds(&check.id)));
+    let (mut checks, mut not_asked) = suites::foreign(&reference, models, only)?;
+    checks.extend(
+        further(&reference, &mut not_asked)?.into_iter().filter(|check| only.holds(&check.id)),
+    );
     if checks.is_empty() {
         return Err(ValidationError::NothingAsked(not_asked));
     }

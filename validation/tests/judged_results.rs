@@ -87,6 +87,18 @@ fn a_wrong_lumped_model_fails_and_a_rig_with_the_same_numbers_does_not() {
     let partly = folder_of_modes("lumped", table);
     let verdict = judged(partly.path(), &Judgement::default()).unwrap();
     assert_eq!(count(&verdict, "lumped_model.oh58_4p.rotational", Status::Pass), 2);
+    let lack = verdict.not_asked.iter().find(|lack| lack.suite == "table3.fe_contact").unwrap();
+    assert!(lack.lacks.ends_with("; modes.csv:3 has no `mode_type` of oh58_4p"), "{lack:?}");
+    // A mode under the wrong type is one fault.
+    let typed = folder_of_modes("lumped", &table.replace("1788.53,", "1788.53,translational"));
+    let verdict = judged(typed.path(), &Judgement::default()).unwrap();
+    let named = |c: &&validation::Check| {
+        c.status == Status::Fail && c.id.starts_with("lumped_model.oh58_4p.rot")
+    };
+    let failed: Vec<_> = verdict.checks.iter().filter(named).collect();
+    let [one] = failed.as_slice() else { panic!("{failed:#?}") };
+    assert_eq!(one.id, "lumped_model.oh58_4p.rotational.2");
+    assert_eq!(one.actual, Some(validation::Value::Text("translational".into())));
     let rig = folder_of_modes("measured", table);
     assert!(judged(rig.path(), &Judgement::default()).unwrap().of_another_kind >= 2);
     let measured = modes("measured", &LUMPED, soft);

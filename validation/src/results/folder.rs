@@ -10,6 +10,10 @@ use super::manifest::{Manifest, ManifestError};
 use super::rows::{CycleRow, ModeRow, RuleRow, SceneNames, StateRow};
 use super::table::{Remark, TableError};
 use crate::model_kind::ModelKind;
+use crate::nearest::did_you_mean;
+
+/// Longest scene file that is read, bytes.
+const MOST_BYTES: u64 = 1_000_000;
 
 /// What a folder holds.
 #[derive(Debug, Clone)]
@@ -84,6 +88,14 @@ pub enum FolderError {
         /// The folder.
         path: PathBuf,
     },
+    /// A path that is no folder.
+    #[error("{}: is no folder: allowed is a folder with tables, as `epicyclic results new` makes one{hint}", path.display())]
+    NoFolder {
+        /// The path.
+        path: PathBuf,
+        /// `; did you mean …`, if a folder with a name like it is beside it.
+        hint: String,
+    },
 }
 
 /// The rows of a table and its remarks.
@@ -95,20 +107,24 @@ impl ResultsFolder {
     /// # Errors
     /// [`FolderError`] with the first fault.
     pub fn read(folder: &Path) -> Result<Self, FolderError> {
+        if !folder.is_dir() {
+            let (path, hint) = (folder.to_owned(), similar_folder(folder));
+            return Err(FolderError::NoFolder { path, hint });
+        }
         let path = folder.join("results.toml");
         let mut files = Vec::new();
+        let mut remarks = Vec::new();
         let manifest = if path.exists() {
             files.push(path.clone());
             Manifest::read(&path)?
         } else {
             Manifest::default()
         };
-        let known = scenes(folder, &mut files)?;
+        let known = scenes(folder, &mut files, &mut remarks)?;
         if let Some(name) = &manifest.scene {
             let unknown = |source| FolderError::UnknownScene { path, name: name.clone(), source };
             known.find(name).map_err(unknown)?;
         }
-        let mut remarks = Vec::new();
         let standard = manifest.scene.as_deref();
         let names = || SceneNames::new(&known, standard);
         let modes =
@@ -132,7 +148,7 @@ impl ResultsFolder {
     /// Everything in the tables that cannot be true, in the order of tables; empty for results that can be judged.
     /// `kind` stands before that of `results.toml`.
     pub fn contradictions(&self, kind: Option<ModelKind>) -> Vec<Contradiction> {
-        let mut facts = Facts::default();
+        let mut facts = Facts::new(kind.or(self.manifest.kind));
         let mut found = contradictions::modes(
             &self.path.join("modes.csv"),
             &self.modes,
@@ -173,20 +189,49 @@ fn table<T>(
     Ok(rows)
 }
 
+/// `; did you mean …` of a folder whose name is like the last part of `path`; nothing if there is none.
+fn similar_folder(path: &Path) -> String {
+    let parent = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let entries = std::fs::read_dir(parent).into_iter().flatten().flatten();
+    let folders = entries.filter(|entry| entry.path().is_dir());
+    let mut names: Vec<String> =
+        folders.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    did_you_mean(&name, names.iter().map(String::as_str))
+}
+
+/// Whether a TOML file is meant to be a scene; what is no TOML is, so that its fault is named.
+fn is_scene(path: &Path) -> bool {
+    let text = scene::read_text(path, MOST_BYTES).unwrap_or_default();
+    let is_key = |key: &&str| ["title", "kind", "teeth"].contains(key);
+    let table = text.parse::<toml::Table>();
+    table.map_or(true, |table| table.keys().map(String::as_str).any(|key| is_key(&key)))
+}
+
 /// Shipped scenes and those in the folder.
-fn scenes(folder: &Path, read: &mut Vec<PathBuf>) -> Result<KnownScenes, FolderError> {
+fn scenes(
+    folder: &Path,
+    read: &mut Vec<PathBuf>,
+    remarks: &mut Vec<Remark>,
+) -> Result<KnownScenes, FolderError> {
     let shipped = KnownScenes::shipped();
     let mut known = shipped.clone();
     let files = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
-    let is_scene = |path: &PathBuf| {
+    let is_toml = |path: &PathBuf| {
         path.extension().is_some_and(|end| end == "toml") && !path.ends_with("results.toml")
     };
-    let mut files: Vec<PathBuf> = files.filter(is_scene).collect();
+    let mut files: Vec<PathBuf> = files.filter(is_toml).collect();
     files.sort();
     for path in files {
         let Some(id) = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()) else {
             continue;
         };
+        if !is_scene(&path) {
+            let text = "kept aside: a scene has `title`, `kind` or `teeth`".to_owned();
+            remarks.push(Remark { path, line: 1, columns: Vec::new(), text });
+            continue;
+        }
         read.push(path.clone());
         let scene = Scene::from_file(&path)
             .map_err(|source| FolderError::Scene { path: path.clone(), source })?;

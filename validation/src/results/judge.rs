@@ -15,8 +15,8 @@ use crate::error::ValidationError;
 use crate::model_kind::ModelKind;
 use crate::reference::Reference;
 use crate::selection::Selection;
-use crate::suites::{Models, lumped_model, rules};
-use crate::verdict::Verdict;
+use crate::suites::{Models, explain_untyped, lumped_model, rules};
+use crate::verdict::{NotAsked, Verdict};
 
 /// Why results cannot be judged.
 #[derive(Debug, thiserror::Error)]
@@ -69,7 +69,10 @@ impl ResultsFolder {
             at_rest: Some(&tables),
             in_time: Some(&tables),
         };
-        let beside = |reference: &Reference| self.beside(kind, reference);
+        let beside = |reference: &Reference, not_asked: &mut [NotAsked]| {
+            explain_untyped(not_asked, &self.untyped());
+            self.beside(kind, reference)
+        };
         Ok(crate::judge_with(&models, &how.only, &how.accepted, &beside)?)
     }
 

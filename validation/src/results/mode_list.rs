@@ -35,7 +35,7 @@ impl ModeList {
         known.add(ID.to_owned(), scene.clone());
         let (rows, remarks) = ModeRow::read(path, SceneNames::new(&known, Some(ID)))?;
         let kind = Some(ModelKind::Lumped);
-        let contradictions = contradictions::modes(path, &rows, kind, &mut Facts::default());
+        let contradictions = contradictions::modes(path, &rows, kind, &mut Facts::new(kind));
         Ok(Self { modes: rows.iter().map(ModeRow::listed).collect(), remarks, contradictions })
     }
 }

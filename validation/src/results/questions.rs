@@ -45,7 +45,9 @@ impl ResultsFolder {
             at_rest: Some(&tables),
             in_time: Some(&tables),
         };
-        let (mut checks, not_asked) = suites::foreign(&reference, &models, &Selection::default())?;
+        let (mut checks, mut not_asked) =
+            suites::foreign(&reference, &models, &Selection::default())?;
+        suites::explain_untyped(&mut not_asked, &self.untyped());
         checks.extend(self.beside(kind, &reference)?);
         let mut asked: Vec<AskedSuite> = Vec::new();
         for check in &checks {

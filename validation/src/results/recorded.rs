@@ -1,7 +1,5 @@
 //! Tables as a model that answers what they hold.
 
-use std::collections::HashSet;
-
 use experiments::models::Recorded;
 use experiments::sweep::{Line, Part, SteadyState};
 use experiments::{MeshCycle, NaturalMode, RestState};
@@ -15,9 +13,8 @@ impl ResultsFolder {
     /// The tables as a model. Of a scene whose modes have no types no modes are there, for suites ask by type.
     pub fn recorded(&self) -> Recorded {
         let mut recorded = Recorded::default();
-        let untyped = self.modes.iter().filter(|row| mode_type(row).is_none());
-        let untyped: HashSet<&str> = untyped.map(|row| row.scene.scene.title.as_str()).collect();
-        let is_typed = |row: &&ModeRow| !untyped.contains(row.scene.scene.title.as_str());
+        let untyped = self.untyped();
+        let is_typed = |row: &&ModeRow| !untyped.iter().any(|(id, _)| *id == row.scene.id);
         self.modes.iter().filter(is_typed).for_each(|row| take_mode(&mut recorded, row));
         let mut rows: Vec<&CycleRow> = self.mesh_cycle.iter().collect();
         rows.sort_by(|a, b| a.position.total_cmp(&b.position));
@@ -26,6 +23,19 @@ impl ResultsFolder {
         rows.sort_by(|a, b| a.speed_rpm.total_cmp(&b.speed_rpm));
         rows.into_iter().for_each(|row| take_line(&mut recorded, row));
         recorded
+    }
+}
+
+impl ResultsFolder {
+    /// Ids of scenes with modes of which some have no type, and the line of the first of these.
+    pub(super) fn untyped(&self) -> Vec<(&str, u64)> {
+        let mut scenes: Vec<(&str, u64)> = Vec::new();
+        for row in self.modes.iter().filter(|row| mode_type(row).is_none()) {
+            if !scenes.iter().any(|(id, _)| *id == row.scene.id) {
+                scenes.push((row.scene.id.as_str(), row.line));
+            }
+        }
+        scenes
     }
 }
 

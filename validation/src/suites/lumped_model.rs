@@ -70,6 +70,9 @@ pub(crate) fn beside(
         let about = reference.about(&check, &title)?;
         checks.push(match (pair.model_hz, pair.difference_percent) {
             (Some(hz), None) => about.number_if_run(hz, (!pair.is_beyond_list).then_some(f64::NAN)),
+            (Some(_), Some(_)) if let Some(listed) = &pair.listed_type => {
+                about.equal(mode_type, listed.as_str())
+            }
             (Some(hz), Some(difference)) => match &pair.remark {
                 Some(remark) if difference.abs() <= percent => {
                     about.equal(format!("{} times", pair.model_multiplicity), remark.as_str())

@@ -346,6 +346,18 @@ pub(crate) fn foreign(
     Ok((checks, not_asked))
 }
 
+/// Says of suites that need types of modes which row has none; `untyped` are ids of scenes with the line of that row.
+pub(crate) fn explain_untyped(not_asked: &mut [NotAsked], untyped: &[(&str, u64)]) {
+    for askable in ASKABLE {
+        let Modes(scenes, _) = askable.question else { continue };
+        let row = untyped.iter().find(|(id, _)| scenes.iter().any(|scene| scene.id() == *id));
+        let Some((id, line)) = row else { continue };
+        for entry in not_asked.iter_mut().filter(|entry| entry.lacks == askable.needs()) {
+            entry.lacks += &format!("; modes.csv:{line} has no `mode_type` of {id}");
+        }
+    }
+}
+
 /// A foreign model, by the questions that it answers.
 #[derive(Clone, Copy, Default)]
 pub struct Models<'m> {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use experiments::sweep::{Coordinate, Part};
 
-use super::contradiction::{Contradiction, counted};
+use super::contradiction::{Columns, Contradiction, counted};
 use super::facts::SceneFacts;
 
 /// Largest rotation about the mean motion, rad.
@@ -23,7 +23,12 @@ pub(super) struct Sized {
 }
 
 /// Numbers beyond every bound, as one contradiction.
-pub(super) fn absurd(path: &Path, facts: &SceneFacts, rows: &[Sized]) -> Option<Contradiction> {
+pub(super) fn absurd(
+    path: &Path,
+    column: Columns,
+    facts: &SceneFacts,
+    rows: &[Sized],
+) -> Option<Contradiction> {
     let radius = facts.sun_base_radius?;
     let bound = |row: &Sized| match row.coordinate {
         Coordinate::Radial | Coordinate::Tangential | Coordinate::Translation => {
@@ -52,7 +57,7 @@ pub(super) fn absurd(path: &Path, facts: &SceneFacts, rows: &[Sized]) -> Option<
         counted(found.len(), "row"),
     );
     let remedy = "give displacements in m, rotations in rad, forces in N, or the unit in the title of the column";
-    Some(Contradiction::new(path, [first.line, last.line], statement, remedy))
+    Some(Contradiction::new(path, [first.line, last.line], column, statement, remedy))
 }
 
 /// Rows of planets that the set does not have.
@@ -66,5 +71,5 @@ pub(super) fn unknown_planets(
     let (first, last) = (found.first()?, found.last()?);
     let statement = format!("`{}` in a set of {}", first.1.name(), counted(planets, "planet"));
     let remedy = format!("number planets from 0 to {}", planets.saturating_sub(1));
-    Some(Contradiction::new(path, [first.0, last.0], statement, remedy))
+    Some(Contradiction::new(path, [first.0, last.0], &["body"], statement, remedy))
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use experiments::sweep::Part;
 use gearset::MeshKind;
 
-use super::contradiction::Contradiction;
+use super::contradiction::{Columns, Contradiction};
 use super::facts::SceneFacts;
 
 /// Largest part of the torque that the forces may miss.
@@ -61,7 +61,12 @@ impl Imbalance {
         (self.carried_nm - self.torque_nm).abs()
     }
 
-    pub(super) fn contradiction(&self, path: &Path, state: &str) -> Contradiction {
+    pub(super) fn contradiction(
+        &self,
+        path: &Path,
+        columns: Columns,
+        state: &str,
+    ) -> Contradiction {
         let meshes = match self.kind {
             MeshKind::SunPlanet => "sun",
             MeshKind::RingPlanet => "ring",
@@ -72,6 +77,6 @@ impl Imbalance {
         );
         let remedy =
             "give forces along the line of action in N, positive where pressed, of every planet";
-        Contradiction::new(path, self.lines, statement, remedy)
+        Contradiction::new(path, self.lines, columns, statement, remedy)
     }
 }

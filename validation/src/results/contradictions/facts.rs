@@ -8,14 +8,18 @@ use gearset::{Facing, MeshKind, Phasing};
 use lumped::{LumpedModel, NaturalModes};
 use scene::{LoadCase, Scene, SceneKind, Torsional};
 
+use crate::model_kind::ModelKind;
 use crate::results::known_scenes::KnownScene;
 
 /// Phases closer than this, in cycles, are one.
 const SAME_PHASE: f64 = 1e-6;
 
 /// Facts about the scenes of a folder, each found when it is first asked for.
-#[derive(Default)]
-pub(in crate::results) struct Facts(HashMap<String, Rc<SceneFacts>>);
+pub(in crate::results) struct Facts {
+    /// Whether frequencies are those of rotations alone.
+    is_torsional: bool,
+    found: HashMap<String, Rc<SceneFacts>>,
+}
 
 /// Facts about one scene.
 pub(super) struct SceneFacts {
@@ -27,21 +31,26 @@ pub(super) struct SceneFacts {
     pub(super) mesh_frequency_per_rpm_hz: Option<f64>,
     /// Whether meshes of that kind carry the whole torque.
     pub(super) carries_all: [bool; 2],
-    /// Natural frequencies of the lumped model, Hz, ascending, each as often as it occurs; empty without parameters.
+    /// Natural frequencies of the lumped model, or of its limit of rotations alone, Hz, ascending, each as often as it occurs; empty without parameters.
     pub(super) lumped_hz: Vec<f64>,
     /// Phases of the sun meshes, cycles; empty without geometry.
     phases: Vec<f64>,
 }
 
 impl Facts {
+    /// For results of a model of that kind.
+    pub(in crate::results) fn new(kind: Option<ModelKind>) -> Self {
+        Self { is_torsional: kind == Some(ModelKind::Torsional), found: HashMap::new() }
+    }
+
     pub(super) fn about(&mut self, known: &Arc<KnownScene>) -> Rc<SceneFacts> {
-        let make = || Rc::new(SceneFacts::new(&known.scene));
-        self.0.entry(known.id.clone()).or_insert_with(make).clone()
+        let make = || Rc::new(SceneFacts::new(&known.scene, self.is_torsional));
+        self.found.entry(known.id.clone()).or_insert_with(make).clone()
     }
 }
 
 impl SceneFacts {
-    fn new(scene: &Scene) -> Self {
+    fn new(scene: &Scene, is_torsional: bool) -> Self {
         let geometry = scene.tooth_geometry().ok();
         let sun = geometry.as_ref().and_then(|geometry| geometry.sun.as_ref());
         let radius = scene.lumped.as_ref().and_then(|lumped| lumped.radius_m.sun);
@@ -49,7 +58,9 @@ impl SceneFacts {
         let phases = phasing.map(|p| p.phases(0.0, Facing::CounterClockwise).sun_planet);
         let case = LoadCase::of_scene(scene).ok();
         let per_rpm = case.map(|case| case.mesh_frequency_per_rpm_hz());
-        let modes = LumpedModel::from_scene(scene).and_then(|model| NaturalModes::of(&model));
+        let limit = |model: LumpedModel| if is_torsional { model.torsional() } else { model };
+        let model = LumpedModel::from_scene(scene).map(limit);
+        let modes = model.and_then(|model| NaturalModes::of(&model));
         let mut lumped_hz = Vec::new();
         for group in modes.iter().flat_map(|modes| &modes.groups) {
             lumped_hz.extend(std::iter::repeat_n(group.frequency_hz, group.multiplicity));

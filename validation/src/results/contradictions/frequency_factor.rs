@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 /// Largest difference after the factor, and of the agreement that makes a factor needless.
 const TOLERANCE: f64 = 0.02;
 
-/// Fewest frequencies that a factor can be read from.
+/// Fewest frequencies that a factor can be read from, if the model has as many different ones.
 const FEWEST: usize = 5;
 
 /// Factors, and what was probably written.
@@ -21,7 +21,9 @@ const FACTORS: [(f64, &str, &str); 6] = [
 /// The factor after which every listed frequency above 0 is one of the model, in words; `None` if there is none, or
 /// none is needed.
 pub(super) fn factor(listed_hz: &[f64], model_hz: &[f64]) -> Option<(&'static str, &'static str)> {
-    if listed_hz.len() < FEWEST {
+    let mut different: Vec<f64> = model_hz.iter().copied().filter(|hz| *hz > 0.0).collect();
+    different.dedup_by(|a, b| (*a - *b).abs() <= TOLERANCE * *b);
+    if listed_hz.len() < FEWEST.min(different.len()).max(2) {
         return None;
     }
     let agree = |factor: f64| {

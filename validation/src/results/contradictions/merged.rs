@@ -5,7 +5,7 @@ use std::path::Path;
 
 use experiments::sweep::Part;
 
-use super::contradiction::Contradiction;
+use super::contradiction::{Columns, Contradiction};
 use super::facts::SceneFacts;
 
 /// Fewest different numbers that say something about a planet.
@@ -22,7 +22,12 @@ pub(super) struct PlanetRow {
 }
 
 /// Two planets whose every row agrees to the last bit.
-pub(super) fn merged(path: &Path, facts: &SceneFacts, rows: &[PlanetRow]) -> Option<Contradiction> {
+pub(super) fn merged(
+    path: &Path,
+    columns: Columns,
+    facts: &SceneFacts,
+    rows: &[PlanetRow],
+) -> Option<Contradiction> {
     let of_planet = |n: usize| {
         let own = rows.iter().filter(|row| row.part.planet() == Some(n));
         own.map(|row| ((kind(row.part), row.about), row)).collect::<HashMap<_, _>>()
@@ -47,7 +52,13 @@ pub(super) fn merged(path: &Path, facts: &SceneFacts, rows: &[PlanetRow]) -> Opt
             let statement =
                 format!("planets {a} and {b} have the same numbers in all {} rows", of_a.len());
             let remedy = "give every planet the numbers of its own place and phase";
-            return Some(Contradiction::new(path, [first.line, second], statement, remedy));
+            return Some(Contradiction::new(
+                path,
+                [first.line, second],
+                columns,
+                statement,
+                remedy,
+            ));
         }
     }
     None

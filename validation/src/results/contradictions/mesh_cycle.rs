@@ -51,17 +51,22 @@ fn one_cycle(
         (row.line, key, [row.value.to_bits(), 0])
     };
     let repeated = Repeated::of(rows.iter().map(key));
-    found.extend(repeated.contradictions(path, "position, body and coordinate"));
+    found.extend(repeated.contradictions(
+        path,
+        &["value"],
+        "position, body and coordinate",
+        "keep the right row",
+    ));
     found.extend(positions(path, rows, asked));
     let sized: Vec<Sized> = rows.iter().map(|row| row.sized()).collect();
-    let absurd = absurd(path, facts, &sized);
+    let absurd = absurd(path, &["value"], facts, &sized);
     if absurd.is_none() && !repeated.differs() {
         found.extend(unbalanced(path, &without_repeats(rows), facts));
     }
     found.extend(absurd);
     let of_planets = rows.iter().filter(|row| row.part.planet().is_some());
     let of_planets: Vec<PlanetRow> = of_planets.map(|row| row.of_planet()).collect();
-    found.extend(merged(path, facts, &of_planets));
+    found.extend(merged(path, &["value"], facts, &of_planets));
     found
 }
 
@@ -86,7 +91,13 @@ fn positions<'r>(path: &Path, rows: &[&'r CycleRow], asked: usize) -> Option<Con
         );
         let remedy =
             "give even positions over one cycle, or their number as `positions` in results.toml";
-        return Some(Contradiction::new(path, [first.line, last.line], statement, remedy));
+        return Some(Contradiction::new(
+            path,
+            [first.line, last.line],
+            &["position"],
+            statement,
+            remedy,
+        ));
     }
     let is_there = |state: &[&CycleRow], row: &CycleRow| {
         state.iter().any(|r| r.part == row.part && r.coordinate == row.coordinate)
@@ -106,7 +117,7 @@ fn positions<'r>(path: &Path, rows: &[&'r CycleRow], asked: usize) -> Option<Con
         other.position
     );
     let remedy = "give every quantity at every position";
-    Some(Contradiction::new(path, [row.line, other.line], statement, remedy))
+    Some(Contradiction::new(path, [row.line, other.line], &["position"], statement, remedy))
 }
 
 /// The worst imbalance over the cycle.
@@ -124,7 +135,7 @@ fn unbalanced(path: &Path, rows: &[&CycleRow], facts: &SceneFacts) -> Option<Con
     // The first of equal ones: the last from the end.
     let (position, worst) =
         states.rev().max_by(|(_, a), (_, b)| a.missed_nm().total_cmp(&b.missed_nm()))?;
-    Some(worst.contradiction(path, &format!("at position {position}")))
+    Some(worst.contradiction(path, &["value"], &format!("at position {position}")))
 }
 
 impl CycleRow {

@@ -97,7 +97,7 @@ fn listed_twice(
         "{listed}, rotational modes are single, translational ones pairs, planet modes N − 3 of a frequency"
     );
     let remedy = "list each mode once; where two are as near as this, give more digits";
-    Some(Contradiction::new(path, lines, statement, remedy))
+    Some(Contradiction::new(path, lines, &["frequency_hz"], statement, remedy))
 }
 
 /// More modes than a model of rigid bodies has coordinates.
@@ -110,7 +110,7 @@ fn too_many(path: &Path, rows: &[&ModeRow], facts: &SceneFacts) -> Option<Contra
     );
     let remedy = "leave out what is no mode, or say `kind = \"fe_contact\"` in results.toml";
     let lines = [rows.first()?.line, rows.last()?.line];
-    (count > most).then(|| Contradiction::new(path, lines, statement, remedy))
+    (count > most).then(|| Contradiction::new(path, lines, &["multiplicity"], statement, remedy))
 }
 
 /// Frequencies in another unit than the title of the column says.
@@ -118,7 +118,8 @@ fn off_by_a_factor(path: &Path, rows: &[&ModeRow], facts: &SceneFacts) -> Option
     let moving: Vec<&&ModeRow> = rows.iter().filter(|row| row.frequency_hz > 0.0).collect();
     let mut listed_hz = Vec::new();
     for row in &moving {
-        listed_hz.extend(std::iter::repeat_n(row.frequency_hz, row.times().min(2)));
+        listed_hz
+            .extend(std::iter::repeat_n(row.frequency_hz, row.times().min(facts.lumped_hz.len())));
     }
     let (by, guess) = factor(&listed_hz, &facts.lumped_hz)?;
     let count = moving.len();
@@ -127,5 +128,11 @@ fn off_by_a_factor(path: &Path, rows: &[&ModeRow], facts: &SceneFacts) -> Option
         rows[0].scene.scene.title
     );
     let remedy = "give them in Hz, or call the column `frequency_khz` or `omega_rad_per_s`";
-    Some(Contradiction::new(path, [moving[0].line, moving[count - 1].line], statement, remedy))
+    Some(Contradiction::new(
+        path,
+        [moving[0].line, moving[count - 1].line],
+        &["frequency_hz"],
+        statement,
+        remedy,
+    ))
 }

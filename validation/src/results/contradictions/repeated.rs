@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::hash::Hash;
 use std::path::Path;
 
-use super::contradiction::{Contradiction, counted};
+use super::contradiction::{Columns, Contradiction, counted};
 
 /// Repeated rows of a table.
 pub(super) struct Repeated {
@@ -37,18 +37,23 @@ impl Repeated {
         self.different.is_some()
     }
 
-    /// As contradictions; `key` says which columns make two rows the same.
-    pub(super) fn contradictions(&self, path: &Path, key: &str) -> Vec<Contradiction> {
+    /// As contradictions in `columns`; `key` says what makes two rows the same, `remedy` what to do where they differ.
+    pub(super) fn contradictions(
+        &self,
+        path: &Path,
+        columns: Columns,
+        key: &str,
+        remedy: &str,
+    ) -> Vec<Contradiction> {
         let mut list = Vec::new();
         if let Some((lines, count)) = self.different {
             let statement =
                 format!("different numbers for one {key} ({})", counted(count, "such pair"));
-            let remedy = "keep the right row, or tell sweeps apart by a column `chain`";
-            list.push(Contradiction::new(path, lines, statement, remedy));
+            list.push(Contradiction::new(path, lines, columns, statement, remedy));
         }
         if let Some((lines, count)) = self.equal {
             let statement = format!("one row twice ({count} of {} rows)", self.rows);
-            list.push(Contradiction::new(path, lines, statement, "write every row once"));
+            list.push(Contradiction::new(path, lines, columns, statement, "write every row once"));
         }
         list
     }

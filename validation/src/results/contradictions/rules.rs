@@ -16,5 +16,10 @@ pub(in crate::results) fn rules(path: &Path, rows: &[RuleRow]) -> Vec<Contradict
         ];
         (row.line, (row.scene.id.as_str(), row.harmonic), numbers)
     });
-    Repeated::of(keyed).contradictions(path, "harmonic of a scene")
+    Repeated::of(keyed).contradictions(
+        path,
+        &["excites"],
+        "harmonic of a scene",
+        "keep the right row",
+    )
 }

@@ -9,7 +9,7 @@ use experiments::sweep::{Coordinate, Part};
 
 use super::absurd::{Sized, absurd, unknown_planets};
 use super::balance::{Force, PARTING_TOLERANCE, TOLERANCE, imbalance};
-use super::contradiction::{Contradiction, counted};
+use super::contradiction::{Columns, Contradiction, counted};
 use super::facts::{Facts, SceneFacts};
 use super::merged::{PlanetRow, merged};
 use super::repeated::Repeated;
@@ -20,6 +20,9 @@ const FREQUENCY_TOLERANCE: f64 = 0.005;
 
 /// Phases of this size are within ±2π as printed with two digits.
 const LARGEST_PHASE: f64 = TAU + 0.01;
+
+/// Columns of a harmonic.
+const NUMBERS: Columns = &["amplitude", "phase_rad"];
 
 /// What cannot be true in `steady_states.csv`.
 pub(in crate::results) fn steady_states(
@@ -52,7 +55,12 @@ fn one_sweep(path: &Path, rows: &[&StateRow], facts: &SceneFacts) -> Vec<Contrad
     let one_speed = at_one_speed(path, rows, &repeated);
     let negative = not_positive(path, rows);
     if one_speed.is_none() {
-        found.extend(repeated.contradictions(path, "speed, body, coordinate and harmonic"));
+        found.extend(repeated.contradictions(
+            path,
+            NUMBERS,
+            "speed, body, coordinate and harmonic",
+            "keep the right row, or tell sweeps apart by a column `chain`",
+        ));
     }
     if one_speed.is_none() && negative.is_none() {
         found.extend(speed_against_frequency(path, rows, facts));
@@ -62,14 +70,14 @@ fn one_sweep(path: &Path, rows: &[&StateRow], facts: &SceneFacts) -> Vec<Contrad
     found.extend(negative);
     found.extend(in_degrees(path, rows));
     let sized: Vec<Sized> = rows.iter().map(|row| row.sized()).collect();
-    let absurd = absurd(path, facts, &sized);
+    let absurd = absurd(path, &["amplitude"], facts, &sized);
     if absurd.is_none() && !has_one_speed && !repeated.differs() {
         found.extend(unbalanced(path, rows, facts));
     }
     found.extend(absurd);
     let of_planets = rows.iter().filter(|row| row.part.planet().is_some());
     let of_planets: Vec<PlanetRow> = of_planets.map(|row| row.of_planet()).collect();
-    found.extend(merged(path, facts, &of_planets));
+    found.extend(merged(path, NUMBERS, facts, &of_planets));
     found
 }
 
@@ -93,6 +101,7 @@ fn at_one_speed(path: &Path, rows: &[&StateRow], repeated: &Repeated) -> Option<
     Some(Contradiction::new(
         path,
         lines,
+        &["speed_rpm"],
         statement,
         "give every row the speed that it was found at",
     ))
@@ -102,13 +111,13 @@ fn not_positive(path: &Path, rows: &[&StateRow]) -> Option<Contradiction> {
     let is_wrong = |row: &&&StateRow| row.mesh_frequency_hz <= 0.0 || row.speed_rpm <= 0.0;
     let wrong: Vec<_> = rows.iter().filter(is_wrong).collect();
     let (first, last) = (wrong.first()?, wrong.last()?);
-    let (what, value, unit) = match first.mesh_frequency_hz <= 0.0 {
-        true => ("mesh frequency", first.mesh_frequency_hz, "Hz"),
-        false => ("speed", first.speed_rpm, "rpm"),
+    let (column, what, value, unit): (Columns, _, _, _) = match first.mesh_frequency_hz <= 0.0 {
+        true => (&["mesh_frequency_hz"], "mesh frequency", first.mesh_frequency_hz, "Hz"),
+        false => (&["speed_rpm"], "speed", first.speed_rpm, "rpm"),
     };
     let statement = format!("the {what} is {value} {unit} ({} so)", counted(wrong.len(), "row"));
     let remedy = "give magnitudes above 0, and the sense of rotation as `sun_turns`";
-    Some(Contradiction::new(path, [first.line, last.line], statement, remedy))
+    Some(Contradiction::new(path, [first.line, last.line], column, statement, remedy))
 }
 
 /// f_m against the speed of the driven member.
@@ -132,7 +141,8 @@ fn speed_against_frequency(
         counted(wrong.len(), "row"),
     );
     let remedy = "give the speed of the driven member of the scene, and Z_s |n_s − n_c|/60 as mesh frequency";
-    Some(Contradiction::new(path, [first.line, last.line], statement, remedy))
+    let columns = &["mesh_frequency_hz", "speed_rpm"];
+    Some(Contradiction::new(path, [first.line, last.line], columns, statement, remedy))
 }
 
 fn in_degrees(path: &Path, rows: &[&StateRow]) -> Option<Contradiction> {
@@ -143,7 +153,8 @@ fn in_degrees(path: &Path, rows: &[&StateRow]) -> Option<Contradiction> {
     let statement =
         format!("phases beyond ±2π ({}, up to {largest}){guess}", counted(wrong.len(), "row"));
     let remedy = "give them in rad within ±2π, or call the column `phase_deg`";
-    Some(Contradiction::new(path, [first.line, last.line], statement, remedy))
+    let column = &["phase_rad"];
+    Some(Contradiction::new(path, [first.line, last.line], column, statement, remedy))
 }
 
 /// The worst imbalance of mean forces over the speeds.
@@ -177,7 +188,7 @@ fn unbalanced(path: &Path, rows: &[&StateRow], facts: &SceneFacts) -> Option<Con
     // The first of equal ones: the last from the end.
     let states = means.chunk_by(same_state).filter_map(state).rev();
     let (speed, worst) = states.max_by(|(_, a), (_, b)| a.missed_nm().total_cmp(&b.missed_nm()))?;
-    Some(worst.contradiction(path, &format!("on average at {speed} rpm")))
+    Some(worst.contradiction(path, NUMBERS, &format!("on average at {speed} rpm")))
 }
 
 /// Sweep, speed, body or mesh, quantity and harmonic of a row.

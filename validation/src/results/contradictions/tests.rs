@@ -120,7 +120,7 @@ fn every_force_1_n_under_1413_nm() {
     assert_eq!(
         found("mesh_cycle.csv", &cycle(POSITIONS, |_, _, _| 1.0)),
         [
-            "mesh_cycle.csv:6 and mesh_cycle.csv:9: forces of the ring meshes times the base radius of the sun are 0.1408 \
+            "mesh_cycle.csv:6 and mesh_cycle.csv:9: column `value`: forces of the ring meshes times the base radius of the sun are 0.1408 \
           N·m at position 0, the torque is 1413.0000 N·m: give forces along the line of action in N, positive where \
           pressed, of every planet"
         ]
@@ -132,7 +132,7 @@ fn amplitudes_times_1e300() {
     assert_eq!(
         found("steady_states.csv", &states(|line| line.amplitude *= 1e300)),
         [
-            "steady_states.csv:2 and steady_states.csv:41: force of sun_mesh_0 is 8.025503039748056e303 N, more than a \
+            "steady_states.csv:2 and steady_states.csv:41: column `amplitude`: force of sun_mesh_0 is 8.025503039748056e303 N, more than a \
           thousand times the torque over the base radius of the sun (40 rows of this size): give displacements in m, \
           rotations in rad, forces in N, or the unit in the title of the column"
         ]
@@ -144,7 +144,7 @@ fn every_mode_twice() {
     assert_eq!(
         found("modes.csv", &modes("hz", 1.0, 2)),
         [
-            "modes.csv:2 and modes.csv:3: every mode is listed more than once, rotational modes are single, translational \
+            "modes.csv:2 and modes.csv:3: column `frequency_hz`: every mode is listed more than once, rotational modes are single, translational \
           ones pairs, planet modes N − 3 of a frequency: list each mode once; where two are as near as this, give more \
           digits"
         ]
@@ -158,7 +158,7 @@ fn one_position_for_28() {
     assert_eq!(
         found("mesh_cycle.csv", &cycle(1, |_, _, force| force)),
         [
-            "mesh_cycle.csv:2 and mesh_cycle.csv:9: 1 position in the mesh cycle of `Army OH-58 main rotor reduction, four \
+            "mesh_cycle.csv:2 and mesh_cycle.csv:9: column `position`: 1 position in the mesh cycle of `Army OH-58 main rotor reduction, four \
           planets` at 1413 N·m, 28 are asked for: give even positions over one cycle, or their number as `positions` in \
           results.toml"
         ]
@@ -175,7 +175,7 @@ fn phases_in_degrees() {
     assert_eq!(
         found("steady_states.csv", &degrees),
         [
-            "steady_states.csv:3 and steady_states.csv:41: phases beyond ±2π (32 rows, up to 145): degrees?: give them in \
+            "steady_states.csv:3 and steady_states.csv:41: column `phase_rad`: phases beyond ±2π (32 rows, up to 145): degrees?: give them in \
           rad within ±2π, or call the column `phase_deg`"
         ]
     );
@@ -187,7 +187,7 @@ fn mesh_frequency_minus_1() {
     assert_eq!(
         found("steady_states.csv", &states(|line| line.mesh_frequency_hz = -1.0)),
         [
-            "steady_states.csv:2 and steady_states.csv:41: the mesh frequency is -1 Hz (40 rows so): give magnitudes above \
+            "steady_states.csv:2 and steady_states.csv:41: column `mesh_frequency_hz`: the mesh frequency is -1 Hz (40 rows so): give magnitudes above \
           0, and the sense of rotation as `sun_turns`"
         ]
     );
@@ -198,7 +198,7 @@ fn all_rows_at_one_speed() {
     assert_eq!(
         found("steady_states.csv", &states(|line| line.speed_rpm = 500.0)),
         [
-            "steady_states.csv:2 and steady_states.csv:22: all 40 rows are at 500 rpm, with several mesh frequencies: give \
+            "steady_states.csv:2 and steady_states.csv:22: column `speed_rpm`: all 40 rows are at 500 rpm, with several mesh frequencies: give \
           every row the speed that it was found at"
         ]
     );
@@ -207,7 +207,7 @@ fn all_rows_at_one_speed() {
     assert_eq!(
         found("steady_states.csv", &states(one)),
         [
-            "steady_states.csv:2 and steady_states.csv:41: all 40 rows are at 500 rpm, with several numbers for one body, \
+            "steady_states.csv:2 and steady_states.csv:41: column `speed_rpm`: all 40 rows are at 500 rpm, with several numbers for one body, \
           coordinate and harmonic: give every row the speed that it was found at"
         ]
     );
@@ -223,7 +223,7 @@ fn two_planets_merged() {
     assert_eq!(
         found("steady_states.csv", &states(merge)),
         [
-            "steady_states.csv:7 and steady_states.csv:17: planets 1 and 3 have the same numbers in all 10 rows: give every \
+            "steady_states.csv:7 and steady_states.csv:17: columns `amplitude`, `phase_rad`: planets 1 and 3 have the same numbers in all 10 rows: give every \
           planet the numbers of its own place and phase"
         ]
     );
@@ -235,12 +235,73 @@ fn khz_in_a_hz_column() {
         assert_eq!(
             found("modes.csv", &modes("hz", factor, 1)),
             [format!(
-                "modes.csv:2 and modes.csv:6: frequencies of `Lin & Parker 1999 model set, four planets` as they stand are \
+                "modes.csv:2 and modes.csv:6: column `frequency_hz`: frequencies of `Lin & Parker 1999 model set, four planets` as they stand are \
                  not those of the lumped model, all 5 agree after × {by}: give them in Hz, or call the column \
                  `frequency_khz` or `omega_rad_per_s`"
             )]
         );
     }
+}
+
+#[test]
+fn rad_per_s_of_a_torsional_model() {
+    // Lin & Parker's model set of four planets with every centre held.
+    let manifest = "format = 1\nkind = \"torsional\"\nscene = \"lin_parker_1999_4p\"\n";
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("results.toml"), manifest).unwrap();
+    for (factor, said) in [(1.0, false), (std::f64::consts::TAU, true)] {
+        let list = [2120.62, 6444.0, 6635.21, 12554.33].map(|hz: f64| format!("{}\n", factor * hz));
+        let table = format!("frequency_hz\n{}", list.concat());
+        std::fs::write(folder.path().join("modes.csv"), table).unwrap();
+        let found = ResultsFolder::read(folder.path()).unwrap().contradictions(None);
+        assert_eq!(found.len(), usize::from(said));
+        assert!(found.iter().all(|f| f.to_string().contains("all 4 agree after × 1/2π: rad/s?")));
+    }
+}
+
+#[test]
+fn a_harmonic_of_a_scene_with_two_rules() {
+    let table = "scene,harmonic,excites\noh58_4p,1,rotational\noh58_4p,1,none\n";
+    assert_eq!(
+        found("rules.csv", table),
+        [
+            "rules.csv:2 and rules.csv:3: column `excites`: different numbers for one harmonic of a scene (1 such pair): \
+             keep the right row"
+        ]
+    );
+}
+
+#[test]
+fn what_is_misspelt_is_recognised() {
+    assert_eq!(
+        refusal("modes.csv", "scene,frequency_hz,mode_type\noh58_4p,770,rotatonal\n"),
+        "modes.csv:2: column `mode_type` is `rotatonal`: allowed is rotational, translational, planet, mixed; did you \
+         mean `rotational`?"
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let table = "scene,frequency_hz,mode_tpye\noh58_4p,770,rotational\n";
+    std::fs::write(folder.path().join("modes.csv"), table).unwrap();
+    // A file of another program is kept aside, one that is meant to be a scene is refused.
+    std::fs::write(folder.path().join("pyproject.toml"), "[project]\nname = \"x\"\n").unwrap();
+    let read = ResultsFolder::read(folder.path()).unwrap();
+    let remarks: Vec<String> =
+        read.remarks.iter().map(|r| bare(&r.to_string(), folder.path())).collect();
+    assert_eq!(
+        remarks,
+        [
+            "pyproject.toml:1: kept aside: a scene has `title`, `kind` or `teeth`",
+            "modes.csv:1: column `mode_tpye`: kept aside, asked for by no check; did you mean `mode_type`?",
+        ]
+    );
+    std::fs::write(folder.path().join("mine.toml"), "title = \"x\"\n").unwrap();
+    assert!(ResultsFolder::read(folder.path()).is_err());
+    std::fs::create_dir(folder.path().join("results")).unwrap();
+    let error = ResultsFolder::read(&folder.path().join("resluts")).unwrap_err().to_string();
+    assert_eq!(
+        bare(&error, folder.path()),
+        "resluts: is no folder: allowed is a folder with tables, as `epicyclic results new` makes one; did you mean \
+         `results`?"
+    );
 }
 
 #[test]
@@ -269,15 +330,15 @@ fn rows_twice_and_rows_that_contradict_each_other() {
     assert_eq!(
         found("mesh_cycle.csv", &format!("{head}\n{row}\n{}", right.split_once('\n').unwrap().1)),
         [
-            "mesh_cycle.csv:2 and mesh_cycle.csv:3: one row twice (1 of 225 rows): write every row once"
+            "mesh_cycle.csv:2 and mesh_cycle.csv:3: column `value`: one row twice (1 of 225 rows): write every row once"
         ]
     );
     let other = format!("{right}{}\n", row.replace("force,", "force,1"));
     assert_eq!(
         found("mesh_cycle.csv", &other),
         [
-            "mesh_cycle.csv:2 and mesh_cycle.csv:226: different numbers for one position, body and coordinate (1 such \
-          pair): keep the right row, or tell sweeps apart by a column `chain`"
+            "mesh_cycle.csv:2 and mesh_cycle.csv:226: column `value`: different numbers for one position, body and coordinate (1 such \
+          pair): keep the right row"
         ]
     );
 }
@@ -287,7 +348,7 @@ fn speeds_planets_and_quantities_that_do_not_fit() {
     assert_eq!(
         found("steady_states.csv", &states(|line| line.mesh_frequency_hz *= 1.1)),
         [
-            "steady_states.csv:2 and steady_states.csv:41: the mesh frequency is 194.46428571428575 Hz at 500 rpm, the teeth \
+            "steady_states.csv:2 and steady_states.csv:41: columns `mesh_frequency_hz`, `speed_rpm`: the mesh frequency is 194.46428571428575 Hz at 500 rpm, the teeth \
           of the scene make it 176.79 Hz (40 rows so): give the speed of the driven member of the scene, and Z_s |n_s − \
           n_c|/60 as mesh frequency"
         ]
@@ -295,7 +356,7 @@ fn speeds_planets_and_quantities_that_do_not_fit() {
     assert_eq!(
         found("steady_states.csv", &states(|line| line.planet += 1)),
         [
-            "steady_states.csv:17 and steady_states.csv:41: `sun_mesh_4` in a set of 4 planets: number planets from 0 to 3"
+            "steady_states.csv:17 and steady_states.csv:41: column `body`: `sun_mesh_4` in a set of 4 planets: number planets from 0 to 3"
         ]
     );
     let right = cycle(POSITIONS, |_, _, force| force);
@@ -304,7 +365,7 @@ fn speeds_planets_and_quantities_that_do_not_fit() {
     assert_eq!(
         found("mesh_cycle.csv", &lacking.join("\n")),
         [
-            "mesh_cycle.csv:2 and mesh_cycle.csv:10: force of sun_mesh_0 is given at position 0 and not at \
+            "mesh_cycle.csv:2 and mesh_cycle.csv:10: column `position`: force of sun_mesh_0 is given at position 0 and not at \
              0.03571428571428571: give every quantity at every position"
         ]
     );

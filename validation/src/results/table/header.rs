@@ -129,7 +129,14 @@ impl Header {
             .map(|index| self.titles[index].clone())
             .collect();
         if !extra.is_empty() {
-            remarks.push(remark(extra, "kept aside, asked for by no check".to_owned()));
+            let absent = columns.iter().zip(&self.places).filter(|(_, place)| place.is_none());
+            let names: Vec<&str> = absent.map(|(column, _)| column.name).collect();
+            let near = extra.iter().find_map(|title| {
+                let hint = did_you_mean(&plain(title), names.iter().copied());
+                (!hint.is_empty()).then_some(hint)
+            });
+            let text = "kept aside, asked for by no check".to_owned() + &near.unwrap_or_default();
+            remarks.push(remark(extra, text));
         }
         remarks
     }

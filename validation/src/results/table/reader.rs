@@ -12,6 +12,7 @@ use super::header::{Header, Place, separator};
 use super::number::{count, number};
 use super::remark::Remark;
 use super::unit::Dimension;
+use crate::nearest::did_you_mean;
 
 /// Rows of a file, their cells in the order of the columns asked for.
 #[derive(Debug, Clone, PartialEq)]
@@ -248,7 +249,10 @@ impl Reading<'_> {
             Content::Text | Content::Title => Ok(Cell::Text(text.to_owned())),
             Content::Choice(words) => {
                 let word = words.iter().find(|word| word.eq_ignore_ascii_case(text));
-                let word = word.ok_or_else(|| refuse(&words.join(", ")))?;
+                let word = word.ok_or_else(|| {
+                    let hint = did_you_mean(text, words.iter().copied());
+                    refuse(&format!("{}{hint}", words.join(", ")))
+                })?;
                 Ok(Cell::Text((*word).to_owned()))
             }
             Content::Count(least, most) => {

@@ -10,7 +10,7 @@ pub struct Remark {
     pub path: PathBuf,
     /// First line that it concerns, from 1.
     pub line: u64,
-    /// Titles of the columns as written, at least one.
+    /// Titles of the columns as written; none of a file that is no table.
     pub columns: Vec<String>,
     /// What was done.
     pub text: String,
@@ -18,6 +18,9 @@ pub struct Remark {
 
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.columns.is_empty() {
+            return write!(f, "{}:{}: {}", self.path.display(), self.line, self.text);
+        }
         let columns = if self.columns.len() == 1 { "column" } else { "columns" };
         let titles = self.columns.join("`, `");
         write!(f, "{}:{}: {columns} `{titles}`: {}", self.path.display(), self.line, self.text)
