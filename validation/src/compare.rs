@@ -142,7 +142,11 @@ pub fn compare(
             remark: Some("the model has no such mode".into()),
         }));
     }
-    of_another_type(&mut matches, &mut strays, tolerance_percent);
+    let end_hz = if is_whole || listed.is_empty() { f64::INFINITY } else { end };
+    if typed {
+        release(&mut matches, &mut strays, tolerance_percent, end_hz);
+        of_another_type(&mut matches, &mut strays, tolerance_percent);
+    }
     matches.sort_by(|a, b| a.model_hz.unwrap_or(0.0).total_cmp(&b.model_hz.unwrap_or(0.0)));
     matches.extend(strays);
     let agreed = matches.iter().filter(|m| m.agrees).count();
@@ -249,6 +253,38 @@ fn judge(mode: &ModelMode, own: &[&ListedMode], tolerance_percent: f64, zero: f6
         is_beyond_list: false,
         listed_type: None,
         remark,
+    }
+}
+
+/// Frees listed modes that are paired beyond the tolerance within their type, where a mode of another type that the
+/// list lacks is within it.
+fn release(matches: &mut [Match], strays: &mut Vec<Match>, tolerance_percent: f64, end_hz: f64) {
+    let lacking: Vec<f64> =
+        matches.iter().filter(|m| m.listed_hz.is_empty()).filter_map(|m| m.model_hz).collect();
+    let is_near = |listed: &f64| {
+        let near = |hz: &f64| 100.0 * (listed - hz).abs() <= tolerance_percent * hz;
+        lacking.iter().any(|hz| *hz > 0.0 && near(hz))
+    };
+    for found in matches.iter_mut().filter(|m| !m.listed_hz.is_empty()) {
+        let differs = found.difference_percent.is_some_and(|d| d.abs() > tolerance_percent);
+        if !differs || !found.listed_hz.iter().all(is_near) {
+            continue;
+        }
+        let stray = |hz| Match {
+            model_hz: None,
+            model_multiplicity: 0,
+            listed_hz: vec![hz],
+            difference_percent: None,
+            remark: Some("the model has no such mode".into()),
+            ..found.clone()
+        };
+        strays.extend(found.listed_hz.iter().map(|hz| stray(*hz)));
+        found.listed_hz.clear();
+        found.difference_percent = None;
+        found.is_beyond_list = found.model_hz.is_some_and(|hz| hz > end_hz);
+        let remark =
+            if found.is_beyond_list { "above the list's highest" } else { "not in the list" };
+        found.remark = Some(remark.to_owned());
     }
 }
 
