@@ -5,8 +5,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::{env, fs};
 
-const FOLDERS: [&str; 6] =
-    ["scenes", "reference", "checks", "kept", "kept/studies", "kept/stability"];
+const FOLDERS: [&str; 7] =
+    ["scenes", "reference", "checks", "dataset", "kept", "kept/studies", "kept/stability"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let root = env::var("CARGO_MANIFEST_DIR")?;
@@ -16,7 +16,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         println!("cargo::rerun-if-changed={}", path.display());
         let mut files =
             fs::read_dir(path)?.map(|e| e.map(|e| e.path())).collect::<Result<Vec<_>, _>>()?;
-        files.retain(|file| file.extension().is_some_and(|e| e == "toml" || e == "json"));
+        files.retain(|file| match file.extension().and_then(|end| end.to_str()) {
+            Some("toml" | "json") => true,
+            Some("csv") => folder == "dataset",
+            _ => false,
+        });
         files.sort();
         for file in files {
             let name = file.file_name().unwrap_or_default().to_string_lossy();

@@ -4,6 +4,7 @@
 mod assumptions;
 mod attraction;
 mod auto;
+mod dataset;
 mod effects;
 mod equations;
 mod exact_peaks;
@@ -26,7 +27,7 @@ type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
 type Remake = fn() -> Outcome;
 
 /// Name, what it makes, how.
-const ALL: [(&str, &str, Remake); 15] = [
+const ALL: [(&str, &str, Remake); 16] = [
     (
         "assumptions",
         "docs/assumptions.md from the ledger and the kept verdict",
@@ -38,6 +39,7 @@ const ALL: [(&str, &str, Remake); 15] = [
         attraction::remake,
     ),
     ("auto", "kept/auto.csv: choices of auto on drawn sets and their errors", auto::remake),
+    ("dataset", "data/dataset/: tables of certified values", dataset::remake),
     (
         "effects",
         "tables of docs/fe_dynamics_effects.md: what changes the tabled frequencies",

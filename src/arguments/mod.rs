@@ -1,5 +1,6 @@
 //! The command line.
 
+mod dataset;
 mod results;
 mod steady;
 mod values;
@@ -12,6 +13,7 @@ use experiments::stability::Map;
 use scene::SceneKind;
 use validation::{ModelKind, Profile};
 
+pub(crate) use dataset::{DataSet, DataSetVerb, Snapshot};
 pub(crate) use results::Results;
 pub(crate) use steady::{Branches, Model, Sweep};
 pub(crate) use values::DAMPING_FACTORS;
@@ -53,6 +55,10 @@ pub(crate) enum Verb {
     /// Write or check a results folder: tables of any model that `validate --recorded` judges.
     #[command(subcommand)]
     Results(Results),
+    /// Write the data set of certified values, or say whether a copy was altered.
+    Dataset(DataSet),
+    /// Store somebody's results as a baseline, or say what moved since, towards or away from the data set.
+    Snapshot(Snapshot),
     /// Compare a list of natural frequencies with those of a scene's lumped model.
     Compare(Compare),
 }

@@ -3,6 +3,7 @@
 mod auto_choice;
 mod branches;
 mod compare;
+mod dataset;
 mod impulse;
 mod mesh;
 mod modes;
@@ -10,6 +11,7 @@ mod results;
 mod rules;
 mod scene;
 mod schema;
+mod snapshot;
 mod stability;
 mod statics;
 mod study;
@@ -74,6 +76,8 @@ fn dispatch(
         Verb::Mesh(arguments) => mesh::run(&arguments, out, err).map(|()| true),
         Verb::Scene(verb) => scene::run(&verb, out).map(|()| true),
         Verb::Results(verb) => results::run(&verb, out).map(|()| true),
+        Verb::Dataset(arguments) => dataset::run(&arguments, out),
+        Verb::Snapshot(arguments) => snapshot::run(&arguments, out),
         Verb::Compare(arguments) => compare::run(&arguments, out),
     }
 }

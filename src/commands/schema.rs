@@ -10,6 +10,7 @@ use super::modes::ModesOutput;
 use super::results::ResultsSummary;
 use super::rules::RulesOutput;
 use super::scene::SceneSummary;
+use super::snapshot::DriftOutput;
 use super::stability::{GuardList, StabilityList, StabilityOutput};
 use super::statics::{ApproachOutput, PairOutput, SetOutput};
 use super::study::StudyOutput;
@@ -43,6 +44,7 @@ pub fn schemas() -> Vec<(&'static str, Schema)> {
         ("study", of::<StudyOutput>()),
         ("mesh", of::<MeshOutput>()),
         ("results_check", of::<ResultsSummary>()),
+        ("snapshot_check", of::<DriftOutput>()),
         ("compare", of::<Comparison>()),
     ]
 }

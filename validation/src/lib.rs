@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod catalogue;
+pub mod certified;
 mod check;
 mod compare;
 mod drawn_set;

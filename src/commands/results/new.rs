@@ -1,12 +1,13 @@
 //! `results new`: a results folder ready to be filled.
 
-use std::io::{ErrorKind, Write};
+use std::io::Write;
 use std::path::Path;
 
 use validation::ModelKind;
 use validation::results::{SceneFile, Template};
 
-use crate::error::{CommandError, refused, unread, unwritten};
+use crate::error::{CommandError, refused, unwritten};
+use crate::folder::must_be_empty;
 
 pub(super) fn run(
     name: &str,
@@ -60,19 +61,4 @@ fn scenes(name: &str, kind: ModelKind) -> Result<Vec<SceneFile>, CommandError> {
         return Err(refused("SCENE", reason));
     }
     Ok(vec![file])
-}
-
-/// Results that are there are never mixed with new ones.
-fn must_be_empty(folder: &Path) -> Result<(), CommandError> {
-    match std::fs::read_dir(folder) {
-        Ok(mut entries) => match entries.next() {
-            None => Ok(()),
-            Some(_) => {
-                let reason = format!("{} is not empty: take another folder", folder.display());
-                Err(refused("DIR", reason))
-            }
-        },
-        Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
-        Err(error) => Err(unread(folder)(error)),
-    }
 }

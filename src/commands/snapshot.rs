@@ -1,0 +1,106 @@
+//! `snapshot RESULTS` and `snapshot RESULTS --check`.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use validation::certified::{Drift, Moved, given_rows, read_rows, write_rows};
+use validation::results::{JudgeError, ResultsFolder};
+
+use crate::arguments::Snapshot;
+use crate::error::{CommandError, Result, unread, unwritten};
+use crate::output::{self, Notation, Report, Table};
+
+/// Longest baseline that is read, bytes.
+const MOST_BYTES: u64 = 500_000_000;
+
+/// Ids listed of values that are on one side alone.
+const MOST_IDS: usize = 5;
+
+/// `snapshot --check --format json`.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct DriftOutput {
+    /// File of the baseline.
+    baseline: String,
+    #[serde(flatten)]
+    drift: Drift,
+}
+
+pub(crate) fn run(arguments: &Snapshot, out: &mut dyn Write) -> Result<bool> {
+    let folder = ResultsFolder::read(&arguments.results)?;
+    let contradictions = folder.contradictions(None);
+    if !contradictions.is_empty() {
+        return Err(JudgeError::Contradictions(contradictions).into());
+    }
+    let now = given_rows(&folder);
+    let path = arguments.baseline.clone().unwrap_or_else(|| beside(&arguments.results));
+    if !arguments.check {
+        let text = write_rows(&now).map_err(std::io::Error::from).map_err(unwritten(&path))?;
+        std::fs::write(&path, text).map_err(unwritten(&path))?;
+        writeln!(out, "stored {} values in {}", now.len(), path.display())?;
+        return Ok(true);
+    }
+    let text = ::scene::read_text(&path, MOST_BYTES).map_err(unread(&path))?;
+    let unusable = |error: validation::certified::RowError| CommandError::Results {
+        path: path.clone(),
+        reason: format!("is no baseline: {error}; store one with `epicyclic snapshot RESULTS`"),
+    };
+    let baseline = read_rows(&path, &text).map_err(unusable)?;
+    let drift = Drift::between(&baseline, &now);
+    let same = drift.is_none();
+    let result = DriftOutput { baseline: path.display().to_string(), drift };
+    output::show(arguments.format, &result, out)?;
+    Ok(same)
+}
+
+/// `my_results.baseline.csv` beside the folder `my_results`.
+fn beside(folder: &Path) -> PathBuf {
+    let name = folder.components().next_back().map(|part| part.as_os_str().to_owned());
+    let mut name = name.unwrap_or_default();
+    name.push(".baseline.csv");
+    folder.with_file_name(name)
+}
+
+fn table<'r>() -> Table<'r, &'r Moved> {
+    let digits = |digits: Option<f64>| digits.map_or("–".to_owned(), |d| format!("{d:.1}"));
+    Table::<&Moved>::new()
+        .column("id", "", |m| m.id.clone())
+        .shown("value", Notation::Plain)
+        .column("baseline", "", |m| m.baseline)
+        .shown("baseline", Notation::Plain)
+        .column("now", "", |m| m.now)
+        .shown("now", Notation::Plain)
+        .column("unit", "", |m| m.unit.clone())
+        .shown("unit", Notation::Plain)
+        .column("common_digits", "", |m| m.common_digits)
+        .shown("common digits", Notation::Fixed(1))
+        .column("digits_before", "", |m| m.digits_before)
+        .shown_as("correct before", move |m| digits(m.digits_before))
+        .column("digits_now", "", |m| m.digits_now)
+        .shown_as("now", move |m| digits(m.digits_now))
+        .column("direction", "", |m| m.direction())
+        .shown("", Notation::Plain)
+}
+
+impl Report for DriftOutput {
+    fn csv(&self, out: &mut dyn Write) -> Result<()> {
+        table().csv(&self.drift.moved, out)
+    }
+
+    fn text(&self, out: &mut dyn Write) -> Result<()> {
+        let Drift { compared, moved, missing, added } = &self.drift;
+        if !moved.is_empty() {
+            table().text(moved, out)?;
+        }
+        for (ids, what) in [(missing, "only the baseline has"), (added, "only the results have")] {
+            if !ids.is_empty() {
+                let first = ids.iter().take(MOST_IDS).cloned().collect::<Vec<_>>().join(", ");
+                let more = if ids.len() > MOST_IDS { ", …" } else { "" };
+                writeln!(out, "{} values {what}: {first}{more}", ids.len())?;
+            }
+        }
+        let moved = moved.len();
+        Ok(writeln!(out, "{compared} values compared with {}: {moved} moved", self.baseline)?)
+    }
+}

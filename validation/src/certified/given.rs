@@ -1,0 +1,131 @@
+//! Somebody's results as rows, and their scores.
+
+use std::collections::HashMap;
+
+use crate::results::{CycleRow, ModeRow, ResultsFolder, StateRow};
+
+use super::row::Row;
+use super::score::correct_digits;
+use super::table::CertifiedValues;
+
+/// Values of a results folder as rows of class C: ids are those of the data set where it has the same value.
+pub fn given_rows(folder: &ResultsFolder) -> Vec<Row> {
+    let kind = folder.kind(None).name();
+    let mut rows = modes(&folder.modes, kind);
+    rows.extend(folder.mesh_cycle.iter().map(|row| at_rest(row, kind)));
+    rows.extend(folder.steady_states.iter().map(|row| turning(row, kind)));
+    for rule in &folder.rules {
+        let kinds = rule.excites;
+        for (name, is_excited) in [
+            ("rotational", kinds.rotational),
+            ("translational", kinds.translational),
+            ("planet", kinds.planet),
+        ] {
+            let value = f64::from(u8::from(is_excited));
+            let row = Row::new(&rule.scene.id, "geometry", "excites", name, value);
+            rows.push(Row { harmonic: Some(rule.harmonic as u32), ..row });
+        }
+    }
+    let program = folder.manifest.program.as_deref().unwrap_or("results");
+    for row in &mut rows {
+        row.id = row.name();
+        row.routes = program.to_owned();
+        row.version = folder.manifest.version.clone().unwrap_or_default();
+    }
+    rows
+}
+
+/// Modes count upwards within their scene and type.
+fn modes(listed: &[ModeRow], kind: &str) -> Vec<Row> {
+    let mut listed: Vec<&ModeRow> = listed.iter().collect();
+    listed.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
+    let mut numbers: HashMap<(&str, Option<&str>), (u32, f64)> = HashMap::new();
+    let mut rows = Vec::new();
+    for mode in listed {
+        let key = (mode.scene.id.as_str(), mode.mode_type.as_deref());
+        let (number, last_hz) = numbers.entry(key).or_insert((0, f64::NAN));
+        // A frequency that is listed again is the same mode.
+        if *last_hz == mode.frequency_hz {
+            continue;
+        }
+        (*number, *last_hz) = (*number + 1, mode.frequency_hz);
+        let subject = mode.mode_type.as_deref().unwrap_or_default();
+        let row = Row::new(&mode.scene.id, kind, "frequency", subject, mode.frequency_hz);
+        rows.push(Row { number: Some(*number), ..row });
+    }
+    rows
+}
+
+fn at_rest(row: &CycleRow, kind: &str) -> Row {
+    let quantity = match row.coordinate {
+        "force" => "mesh_force",
+        "rotation" => "rotation",
+        _ => "displacement",
+    };
+    Row {
+        coordinate: row.coordinate.to_owned(),
+        sun_torque_nm: Some(row.sun_torque_nm),
+        position: Some(row.position),
+        ..Row::new(&row.scene.id, kind, quantity, &row.part.name(), row.value)
+    }
+}
+
+fn turning(row: &StateRow, kind: &str) -> Row {
+    Row {
+        coordinate: row.coordinate.name().to_owned(),
+        harmonic: Some(row.harmonic as u32),
+        sun_torque_nm: Some(row.sun_torque_nm),
+        speed_rpm: Some(row.speed_rpm),
+        unit: row.coordinate.unit().to_owned(),
+        ..Row::new(&row.scene.id, kind, "amplitude", &row.part.name(), row.amplitude)
+    }
+}
+
+/// How the values of one quantity of a scene agree with the data set.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Score {
+    /// Id of the scene.
+    pub scene: String,
+    /// Name of the quantity.
+    pub quantity: String,
+    /// The least sure class among the rows.
+    pub class: super::Class,
+    /// Number of values that the data set has too.
+    pub values: usize,
+    /// Correct digits of the worst of them.
+    pub fewest_digits: f64,
+    /// Digits of the middle one.
+    pub median_digits: f64,
+    /// Id of the worst.
+    pub worst: String,
+}
+
+/// Scores of rows that the data set has too, by scene and quantity.
+pub fn scores(given: &[Row]) -> Vec<Score> {
+    let values = CertifiedValues::shipped();
+    let mut groups: Vec<(&Row, Vec<(f64, &Row)>)> = Vec::new();
+    for row in given {
+        let Some(kept) = values.row(&row.id) else { continue };
+        let digits = correct_digits(row.value, kept.value, kept.uncertainty, values.largest(kept));
+        let is_same = |(first, _): &&mut (&Row, _)| {
+            first.scene == kept.scene && first.quantity == kept.quantity
+        };
+        match groups.iter_mut().find(is_same) {
+            Some((_, list)) => list.push((digits, kept)),
+            None => groups.push((kept, vec![(digits, kept)])),
+        }
+    }
+    let score = |(first, mut list): (&Row, Vec<(f64, &Row)>)| {
+        list.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Score {
+            scene: first.scene.clone(),
+            quantity: first.quantity.clone(),
+            class: list.iter().map(|(_, row)| row.class).max().unwrap_or(first.class),
+            values: list.len(),
+            fewest_digits: list[0].0,
+            median_digits: list[list.len() / 2].0,
+            worst: list[0].1.id.clone(),
+        }
+    };
+    groups.into_iter().map(score).collect()
+}
