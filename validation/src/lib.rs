@@ -104,8 +104,11 @@ pub fn judge_model(
     models: &Models<'_>,
     only: impl Into<Selection>,
 ) -> Result<Verdict, ValidationError> {
-    judge_with(models, &only.into(), &Accepted::default(), &|_| Ok(Vec::new()))
+    judge_with(models, &only.into(), &Accepted::default(), &|_| Ok(Default::default()))
 }
+
+/// Checks that were asked, and what suites lack that were not.
+pub(crate) type Asked = (Vec<Check>, Vec<NotAsked>);
 
 /// The same with `further` checks; `accepted` are rows that this model is known to miss, beside those that are listed
 /// for the models of this project, and thresholds.
@@ -116,15 +119,17 @@ pub(crate) fn judge_with(
     models: &Models<'_>,
     only: &Selection,
     accepted: &Accepted,
-    further: &dyn Fn(&Reference) -> Result<Vec<Check>, ValidationError>,
+    further: &dyn Fn(&Reference) -> Result<Asked, ValidationError>,
 ) -> Result<Verdict, ValidationError> {
-    if models.modal.is_none() && models.at_rest.is_none() && models.in_time.is_none() {
+    if models.is_empty() {
         return Err(ValidationError::NoModel);
     }
     let reference = Reference::load()?;
     only.check(&reference.registry)?;
-    let (mut checks, not_asked) = suites::foreign(&reference, models, only)?;
-    checks.extend(further(&reference)?.into_iter().filter(|check| only.holds(&check.id)));
+    let (mut checks, mut not_asked) = suites::foreign(&reference, models, only)?;
+    let (more, lacking) = further(&reference)?;
+    checks.extend(more.into_iter().filter(|check| only.holds(&check.id)));
+    not_asked.extend(lacking.into_iter().filter(|suite| only.concerns(&suite.suite)));
     if checks.is_empty() {
         return Err(ValidationError::NothingAsked(not_asked));
     }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use experiments::BodiesCache;
 use gearset::AllowedKinds;
 
 use super::contradictions::Contradiction;
@@ -9,14 +10,14 @@ use super::folder::ResultsFolder;
 use super::known_scenes::KnownScene;
 use super::manifest::Accepted;
 use super::rows::ModeRow;
-use crate::check::Check;
+use crate::Asked;
 use crate::compare::ListedMode;
 use crate::error::ValidationError;
 use crate::model_kind::ModelKind;
 use crate::reference::Reference;
 use crate::selection::Selection;
-use crate::suites::{Models, lumped_model, rules};
-use crate::verdict::Verdict;
+use crate::suites::{Models, lumped_model, pair_stiffness, rules};
+use crate::verdict::{NotAsked, Verdict};
 
 /// Why results cannot be judged.
 #[derive(Debug, thiserror::Error)]
@@ -68,22 +69,34 @@ impl ResultsFolder {
             modal: Some(&tables),
             at_rest: Some(&tables),
             in_time: Some(&tables),
+            stiffness: Some(&tables),
+            peaks: Some(&tables),
         };
         let beside = |reference: &Reference| self.beside(kind, reference);
         Ok(crate::judge_with(&models, &how.only, &how.accepted, &beside)?)
     }
 
-    /// What is judged of any scene: frequencies beside this project's lumped model, excitation rules by phasor sums.
+    /// What is judged of any scene: frequencies beside this project's lumped model, excitation rules by phasor sums,
+    /// mesh stiffness beside its finite-element/contact pair.
     pub(super) fn beside(
         &self,
         kind: ModelKind,
         reference: &Reference,
-    ) -> Result<Vec<Check>, ValidationError> {
+    ) -> Result<Asked, ValidationError> {
         let is_torsional = kind == ModelKind::Torsional;
-        let mut checks = Vec::new();
+        let (mut checks, mut not_asked) = (Vec::new(), Vec::new());
+        let mut lacks = |suite: &str, lacks: String| {
+            not_asked.push(NotAsked { suite: suite.to_owned(), lacks });
+        };
         let with_modes = scenes(self.modes.iter().map(|row| &row.scene));
-        for KnownScene { id, scene } in with_modes.into_iter().filter(|k| k.scene.lumped.is_some())
-        {
+        if with_modes.is_empty() {
+            lacks("lumped_model", "modes.csv of any scene with numbers in [lumped]".to_owned());
+        }
+        for KnownScene { id, scene } in with_modes {
+            if scene.lumped.is_none() {
+                lacks("lumped_model", format!("numbers in [lumped] of the scene {id}"));
+                continue;
+            }
             let rows = self.modes.iter().filter(|row| row.scene.id == *id);
             let mut listed: Vec<ListedMode> = rows.map(ModeRow::listed).collect();
             if is_torsional {
@@ -91,13 +104,44 @@ impl ResultsFolder {
             }
             checks.extend(lumped_model::beside(id, scene, &listed, is_torsional, reference)?);
         }
-        for KnownScene { id, scene } in scenes(self.rules.iter().map(|row| &row.scene)) {
+        let with_rules = scenes(self.rules.iter().map(|row| &row.scene));
+        if with_rules.is_empty() {
+            lacks("rules", "rules.csv of any scene with numbers of teeth".to_owned());
+        }
+        for KnownScene { id, scene } in with_rules {
             let rows = self.rules.iter().filter(|row| row.scene.id == *id);
             let listed: Vec<(usize, AllowedKinds)> =
                 rows.map(|row| (row.harmonic, row.excites)).collect();
-            checks.extend(rules::beside(id, scene, &listed, is_torsional, reference)?);
+            let found = rules::beside(id, scene, &listed, is_torsional, reference)?;
+            if found.is_empty() {
+                lacks("rules", format!("numbers of teeth in the scene {id}"));
+            }
+            checks.extend(found);
         }
-        Ok(checks)
+        let with_stiffness = scenes(self.mesh_stiffness.iter().map(|row| &row.scene));
+        if with_stiffness.is_empty() {
+            let needs = "mesh_stiffness.csv of any scene with tooth geometry";
+            lacks("pair_stiffness", needs.to_owned());
+        }
+        let (tables, gears) = (self.recorded(), BodiesCache::default());
+        for KnownScene { id, scene } in with_stiffness {
+            let cycles = tables.mesh_stiffness.iter().filter(|(title, _)| *title == scene.title);
+            let cycles: Vec<_> = cycles.map(|(_, cycle)| cycle).collect();
+            match pair_stiffness::beside(id, scene, &cycles, &gears, reference) {
+                Ok(found) if !found.is_empty() => checks.extend(found),
+                Ok(_) if cycles.is_empty() => {
+                    lacks("pair_stiffness", format!("sun_mesh_0 or ring_mesh_0 of the scene {id}"));
+                }
+                Ok(_) => lacks("pair_stiffness", format!("tooth geometry of the scene {id}")),
+                // A load that the teeth cannot carry is no fault of the program.
+                Err(ValidationError::Fe(error)) => {
+                    let needs = "a load at which the pair of this project has contact";
+                    lacks("pair_stiffness", format!("{needs} in the scene {id}: {error}"));
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        Ok((checks, not_asked))
     }
 }
 

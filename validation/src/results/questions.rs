@@ -44,9 +44,14 @@ impl ResultsFolder {
             modal: Some(&tables),
             at_rest: Some(&tables),
             in_time: Some(&tables),
+            stiffness: Some(&tables),
+            peaks: Some(&tables),
         };
-        let (mut checks, not_asked) = suites::foreign(&reference, &models, &Selection::default())?;
-        checks.extend(self.beside(kind, &reference)?);
+        let (mut checks, mut not_asked) =
+            suites::foreign(&reference, &models, &Selection::default())?;
+        let (more, lacking) = self.beside(kind, &reference)?;
+        checks.extend(more);
+        not_asked.extend(lacking);
         let mut asked: Vec<AskedSuite> = Vec::new();
         for check in &checks {
             let suite = reference.registry.suite_of(&check.id).map_or("", |s| s.name.as_str());

@@ -43,7 +43,10 @@ impl Repeated {
         if let Some((lines, count)) = self.different {
             let statement =
                 format!("different numbers for one {key} ({})", counted(count, "such pair"));
-            let remedy = "keep the right row, or tell sweeps apart by a column `chain`";
+            let remedy = match key.starts_with("speed") {
+                true => "keep the right row, or tell sweeps apart by a column `chain`",
+                false => "keep the right row",
+            };
             list.push(Contradiction::new(path, lines, statement, remedy));
         }
         if let Some((lines, count)) = self.equal {
