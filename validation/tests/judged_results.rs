@@ -86,7 +86,21 @@ fn a_wrong_lumped_model_fails_and_a_rig_with_the_same_numbers_does_not() {
     let table = "scene,frequency_hz,mode_type\noh58_4p,1150.19,rotational\noh58_4p,1788.53,\n";
     let partly = folder_of_modes("lumped", table);
     let verdict = judged(partly.path(), &Judgement::default()).unwrap();
-    assert_eq!(count(&verdict, "lumped_model.oh58_4p.rotational", Status::Pass), 2);
+    assert_eq!(count(&verdict, "lumped_model.oh58_4p.untyped", Status::Pass), 2);
+    // No row names a type that the list does not, and rigid-body motion is shown as it was given.
+    assert!(!verdict.checks.iter().any(|c| c.title.contains("rotational mode")));
+    let rigid = folder_of_modes(
+        "lumped",
+        "scene,frequency_hz\nlin_parker_1999_3p,0.0123\nlin_parker_1999_3p,743.164\n",
+    );
+    let verdict = judged(rigid.path(), &Judgement::default()).unwrap();
+    let first = verdict.checks.iter().find(|c| c.id == "lumped_model.lin_parker_1999_3p.untyped.1");
+    let first = first.unwrap();
+    assert_eq!(
+        (first.actual.clone(), first.status),
+        (Some(validation::Value::Number(0.0123)), Status::Pass)
+    );
+    assert!(first.title.ends_with(": frequency 1"), "{}", first.title);
     let rig = folder_of_modes("measured", table);
     assert!(judged(rig.path(), &Judgement::default()).unwrap().of_another_kind >= 2);
     let measured = modes("measured", &LUMPED, soft);
@@ -358,6 +372,32 @@ fn misses_that_an_author_accepts_are_misses_at_their_pinned_value_alone() {
         assert_eq!(verdict.failed, failed, "{:?}", verdict.checks);
         assert!(verdict.checks[0].tolerance.reason.ends_with("bearings"));
     }
+    // What accepts anything, or says nothing, is refused where it stands.
+    let miss = "[[miss]]\nid = \"a\"\nvalue = 100.0\ntolerance = 0.1\nanalysis = \"bearings\"\n";
+    let threshold = "[[threshold]]\nids = \"a\"\npercent = 5.0\nreason = \"bearings\"\n";
+    let whole = format!("{miss}\n{threshold}");
+    for (from, to, message) in [
+        (
+            "analysis = \"bearings\"",
+            "analysis = \" \"",
+            ":5: `miss.analysis` is empty: allowed is a sentence on why",
+        ),
+        ("0.1", "20.1", ":4: `miss.tolerance` is 20.1: allowed is 0 to 20, 20 % of `value`"),
+        ("0.1", "-1.0", ":4: `miss.tolerance` is -1: allowed is 0 to 20"),
+        ("0.1", "nan", ":4: `miss.tolerance` is NaN: allowed is 0 to 20"),
+        ("reason = \"bearings\"", "reason = \"\"", ":10: `threshold.reason` is empty"),
+        (
+            "5.0",
+            "1e9",
+            ":9: `threshold.percent` is 1000000000: allowed is 0 to 20 % of the reference",
+        ),
+    ] {
+        std::fs::write(&file, whole.replacen(from, to, 1)).unwrap();
+        let refusal = Accepted::read(&file).unwrap_err().to_string();
+        assert!(refusal.contains(&format!("accepted.list{message}")), "{refusal}");
+    }
+    std::fs::write(&file, whole).unwrap();
+    assert_eq!(Accepted::read(&file).unwrap().misses.len(), 1);
     std::fs::write(&file, "[[mis]]\n").unwrap();
     let refusal = Accepted::read(&file).unwrap_err().to_string();
     assert!(refusal.contains("accepted.list:1") && refusal.contains("[[miss]]"), "{refusal}");
