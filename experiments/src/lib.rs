@@ -4,6 +4,7 @@ pub mod auto;
 mod bodies_cache;
 pub mod branches;
 mod mesh_cycle;
+mod mesh_stiffness;
 pub mod modal;
 mod model;
 pub mod models;
@@ -17,6 +18,10 @@ pub mod torque;
 
 pub use bodies_cache::BodiesCache;
 pub use mesh_cycle::{MeshCycle, RestState, SunRms};
-pub use model::{ModalModel, ModelError, NextSpeeds, SpeedRequest, StaticModel, SteadyStateModel};
+pub use mesh_stiffness::MeshStiffness;
+pub use model::{
+    MeshStiffnessModel, ModalModel, ModelError, NextSpeeds, SpeedRequest, StaticModel,
+    SteadyStateModel, TorquePeakModel,
+};
 pub use natural_mode::{DistinctMode, NaturalMode, distinct, frequencies_of};
 pub use table_growth::{Outgrown, SIZES, large_enough};

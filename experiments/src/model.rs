@@ -3,11 +3,14 @@
 //! A model that answers one of these questions can be judged by every suite of checks that asks it, beside the
 //! two models of this project: implement the trait in a crate of your own. Errors travel as they are.
 
+use gearset::MeshKind;
 use scene::{LoadCase, Scene};
 
 use crate::mesh_cycle::MeshCycle;
+use crate::mesh_stiffness::MeshStiffness;
 use crate::natural_mode::NaturalMode;
 use crate::sweep::SteadyState;
+use crate::torque::TorquePeak;
 
 /// Why a model could not answer: any error, kept as it is.
 pub type ModelError = Box<dyn std::error::Error + Send + Sync>;
@@ -37,6 +40,31 @@ pub trait StaticModel {
         case: &LoadCase,
         positions: usize,
     ) -> Result<MeshCycle, ModelError>;
+}
+
+/// A model that has a mesh stiffness.
+pub trait MeshStiffnessModel {
+    /// Secant stiffness of that mesh of planet 0 at `positions` even positions of one mesh cycle or more, under the
+    /// load that the torque of the load case puts on one planet.
+    ///
+    /// # Errors
+    /// Whatever keeps the model from an answer.
+    fn mesh_stiffness(
+        &self,
+        scene: &Scene,
+        case: &LoadCase,
+        kind: MeshKind,
+        positions: usize,
+    ) -> Result<MeshStiffness, ModelError>;
+}
+
+/// A model whose resonant peaks at several torques are known.
+pub trait TorquePeakModel {
+    /// Resonant peaks of a set at all torques at which they are known, in any order.
+    ///
+    /// # Errors
+    /// Whatever keeps the model from an answer.
+    fn torque_peaks(&self, scene: &Scene) -> Result<Vec<TorquePeak>, ModelError>;
 }
 
 /// Speeds at which steady states are asked for.

@@ -15,7 +15,7 @@ use super::stability::{GuardList, StabilityList, StabilityOutput};
 use super::statics::{ApproachOutput, PairOutput, SetOutput};
 use super::study::StudyOutput;
 use super::sweep::SweepOutput;
-use super::validate::ControlsOutput;
+use super::validate::{ControlsOutput, RecordedOutput};
 
 /// `(file name, schema)` of each verb's output, and of a scene file; the files in `schemas/` are regenerated with the
 /// snapshots.
@@ -28,6 +28,7 @@ pub fn schemas() -> Vec<(&'static str, Schema)> {
     vec![
         ("scene", scene),
         ("validate", of::<Verdict>()),
+        ("validate_recorded", of::<RecordedOutput>()),
         ("validate_controls", of::<ControlsOutput>()),
         ("modes", of::<ModesOutput>()),
         ("rules", of::<RulesOutput>()),

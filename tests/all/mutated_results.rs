@@ -35,7 +35,8 @@ const TITLES: [&str; 8] =
 /// Base radius of the sun of the OH-58, m.
 const SUN: f64 = 0.5 * 0.09126 * 27.0 / 35.0;
 
-/// Modes of the kept right model, a mesh cycle of three planets and steady states of four.
+/// Modes of the kept right model, a mesh cycle of three planets, and of four planets mesh stiffness, resonant peaks and
+/// steady states.
 fn files() -> Vec<(&'static str, String)> {
     let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/results/right");
     let read = |name: &str| std::fs::read_to_string(kept.join(name)).unwrap();
@@ -60,8 +61,29 @@ fn files() -> Vec<(&'static str, String)> {
             writeln!(states, "oh58_4p,1130,{rpm},{hz},sun,rotation,{l},{amplitude},0.5").unwrap();
         }
     }
+    // A set without teeth: the pair beside which others stand takes a while.
+    let mut stiffness = "scene,sun_torque_nm,body,position,stiffness_n_per_um\n".to_owned();
+    for k in 0..28 {
+        let at = f64::from(k) / 28.0;
+        writeln!(stiffness, "lin_parker_1999_4p,1130,ring_mesh_0,{at},{}", 800 + k).unwrap();
+    }
+    let mut peaks =
+        "scene,sun_torque_nm,body,coordinate,harmonic,frequency_hz,amplitude\n".to_owned();
+    for (k, torque) in [565, 1130, 1695, 2260].iter().enumerate() {
+        for (coordinate, harmonic, hz) in [("translation", 1, 779), ("rotation", 2, 1150)] {
+            let amplitude = 1e-6 * (k as f64 + 1.5);
+            writeln!(peaks, "oh58_4p,{torque},sun,{coordinate},{harmonic},{hz},{amplitude}")
+                .unwrap();
+        }
+    }
     let names = [("modes.csv", read("modes.csv")), ("results.toml", read("results.toml"))];
-    names.into_iter().chain([("mesh_cycle.csv", cycle), ("steady_states.csv", states)]).collect()
+    let tables = [
+        ("mesh_cycle.csv", cycle),
+        ("mesh_stiffness.csv", stiffness),
+        ("torque_peaks.csv", peaks),
+        ("steady_states.csv", states),
+    ];
+    names.into_iter().chain(tables).collect()
 }
 
 /// One change of a text: of a line, a cell, a title, a separator or a byte.
@@ -148,7 +170,7 @@ fn says_where(err: &str) -> bool {
                 .is_some_and(|line| line.starts_with(|c: char| c.is_ascii_digit()))
         })
     };
-    ["modes.csv", "mesh_cycle.csv", "steady_states.csv", "results.toml"].into_iter().any(has_line)
+    files().iter().any(|(name, _)| has_line(name))
         || [": no rows: ", ": cannot be read: "].iter().any(|words| err.contains(words))
 }
 

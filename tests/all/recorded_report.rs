@@ -6,7 +6,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use super::harness::run;
+use super::harness::{keeps_to_schema, run};
 
 const STATUSES: [(&str, &str); 4] =
     [("passed", "pass"), ("missed", "miss"), ("failed", "fail"), ("of_another_kind", "other_kind")];
@@ -85,6 +85,7 @@ fn four_files_agree_with_the_verdict_and_nothing_else_is_written() {
         assert_eq!(names, ["junit.xml", "verdict.html", "verdict.json", "verdict.md"]);
 
         let verdict: Value = serde_json::from_str(&files["verdict.json"]).unwrap();
+        keeps_to_schema("validate_recorded", &verdict);
         let checks = verdict["checks"].as_array().unwrap();
         let count = |status| checks.iter().filter(|c| c["status"] == status).count();
         // None is left out where there is none.
@@ -220,9 +221,13 @@ fn files_are_named_with_their_hashes_and_an_accepted_miss_with_its_reason() {
     let (_, _, files) = report(&example("wrong"), &["--accept", accepted.to_str().unwrap()]);
     let judged: Value = serde_json::from_str(&files["verdict.json"]).unwrap();
     assert_eq!(judged["failed"].as_u64().unwrap() + 1, verdict["failed"].as_u64().unwrap());
-    for name in ["verdict.md", "verdict.html"] {
-        assert!(files[name].contains("a &lt;soft&gt; ring"), "{name}");
+    let accepted = format!("accepted by the author at {} ± 0.1", failed["actual"]);
+    for name in ["verdict.md", "verdict.html", "junit.xml"] {
+        for words in ["a &lt;soft&gt; ring", &accepted] {
+            assert!(files[name].contains(words), "{words}: {name}");
+        }
     }
+    assert!(files["junit.xml"].contains("<skipped message=\"accepted miss: "));
     let read: Vec<&str> = judged["about"]["files"]
         .as_array()
         .unwrap()
@@ -236,6 +241,45 @@ fn files_are_named_with_their_hashes_and_an_accepted_miss_with_its_reason() {
         for name in ["verdict.md", "verdict.html"] {
             assert!(files[name].contains(hash), "{name}");
         }
+    }
+}
+
+#[test]
+fn scenes_stand_in_the_report_with_their_parameters() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows = "scene,frequency_hz,mode_type,multiplicity\nlin_parker_1999_4p,727.27,,2\noh58_4p,770.611,translational,1\n";
+    std::fs::write(folder.path().join("modes.csv"), rows).unwrap();
+    std::fs::write(folder.path().join("rules.csv"), "scene,harmonic,excites\noh58_4p,1,none\n")
+        .unwrap();
+    let (_, _, files) = report(folder.path(), &[]);
+    let verdict: Value = serde_json::from_str(&files["verdict.json"]).unwrap();
+    let scenes = verdict["about"]["scenes"].as_array().unwrap();
+    let ids: Vec<&Value> = scenes.iter().map(|scene| &scene["id"]).collect();
+    assert_eq!(ids, ["lin_parker_1999_4p", "oh58_4p"]);
+    assert_eq!(
+        (&scenes[0]["types_given"], &scenes[1]["types_given"]),
+        (&false.into(), &true.into())
+    );
+    let mass =
+        scenes[0]["parameters"].as_array().unwrap().iter().find(|p| p["name"] == "mass").unwrap();
+    assert_eq!(mass["values"], serde_json::json!([5.43, 2.35, 0.4, 0.66]));
+    let html = &files["verdict.html"];
+    for words in [
+        "<td>mass, kg</td><td class=\"number\">5.43</td><td class=\"number\">2.35</td>",
+        "<td>teeth</td><td class=\"number\">–</td><td class=\"number\">99</td><td class=\"number\">27</td>",
+        "types are not given for every row, multiplicities given",
+        "Held: rotation of the carrier, ring",
+        scenes[0]["sha256"].as_str().unwrap(),
+    ] {
+        assert!(html.contains(words), "{words}: {html}");
+    }
+    for (only, words) in [
+        ("rules,lumped_model.oh58_4p", "1 of 2 judged checks disagrees with a reference"),
+        ("rules", "1 of 1 judged check disagrees with a reference"),
+        ("lumped_model.oh58_4p", "The one judged check agrees with its reference"),
+    ] {
+        let markdown = &report(folder.path(), &["--only", only]).2["verdict.md"];
+        assert!(markdown.contains(words), "{words}: {markdown}");
     }
 }
 

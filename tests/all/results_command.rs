@@ -49,12 +49,18 @@ fn scenes_of_new_folders_are_ids_files_or_all() {
     assert!(!folder.exists());
     let (code, out, _, folder) = new(&scene("coinciding_modes.toml"), "file");
     assert_eq!(code, 0);
-    assert!(out.contains("lumped_model and rules ask about any"), "{out}");
+    assert!(out.contains("suites that ask: lumped_model, rules\n"), "{out}");
     let copied = std::fs::read_to_string(folder.join("coinciding_modes.toml")).unwrap();
     assert_eq!(copied, std::fs::read_to_string(scene("coinciding_modes.toml")).unwrap());
     let (code, out, _, folder) = new("all", "all");
     assert_eq!(code, 0);
     assert!(out.contains("lin_parker_1999") && folder.join("five_planets.toml").exists(), "{out}");
+    let path = parent.path().join("bare");
+    let words =
+        ["results", "new", "lin_parker_1999_3p", path.to_str().unwrap(), "--as", "fe_contact"];
+    let (code, _, err) = run(&words);
+    assert!(code == 2 && err.contains("no suite judges results of kind fe_contact"), "{err}");
+    assert!(!path.exists());
     let (code, _, err, _) = new(&scene("none.toml"), "absent");
     assert_eq!(code, 2);
     assert!(err.contains("none.toml"), "{err}");
@@ -93,4 +99,29 @@ fn check_ends_with_2_where_nothing_can_be_judged() {
     let (code, out, err) = run(&["results", "check", &with_modes(parent.path(), untyped)]);
     assert_eq!(code, 2, "{out}");
     assert!(out.contains("not asked:") && err.contains("no suite can be asked"), "{err}");
+}
+
+#[test]
+fn check_lists_every_table_and_names_the_teeth_that_rules_need() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().to_str().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    write("rules.csv", "scene,harmonic,excites\noh58_4p,1,translational\n");
+    let (code, out, err) = run(&["results", "check", path]);
+    assert_eq!(code, 0, "{err}");
+    let line = out.lines().find(|line| line.starts_with("rules.csv")).unwrap();
+    assert!(line.contains("oh58_4p") && line.contains('1'), "{line}");
+    write("rules.csv", "scene,harmonic,excites\nlin_parker_1999_4p,1,translational\n");
+    write(
+        "torque_peaks.csv",
+        "scene,sun_torque_nm,body,coordinate,harmonic,frequency_hz,amplitude\noh58_4p,565,sun,rotation,2,1150,1e-5\n",
+    );
+    let (code, out, err) = run(&["results", "check", path]);
+    assert_eq!(code, 2, "{err}");
+    for words in [
+        "rules: needs numbers of teeth in the scene lin_parker_1999_4p",
+        "torque_peaks.csv  oh58_4p",
+    ] {
+        assert!(out.contains(words), "{words}: {out}");
+    }
 }

@@ -69,6 +69,11 @@ pub struct Comparison {
 /// frequency both sides count as zero.
 const ZERO_SHARE: f64 = 1e-4;
 
+/// Frequency up to which a mode of a model, and one listed beside it, is rigid-body motion, Hz.
+pub(crate) fn rigid_body_hz(model: &[ModelMode]) -> f64 {
+    ZERO_SHARE * model.iter().map(|m| m.frequency_hz).fold(0.0, f64::max)
+}
+
 /// Difference that an entry without a partner costs: frequencies further apart than two of it are not one mode.
 const GAP_PERCENT: f64 = 10.0;
 
@@ -106,7 +111,6 @@ pub fn compare(
         names.dedup();
         kinds = names.into_iter().map(Some).collect();
     }
-    let highest = model.iter().map(|m| m.frequency_hz).fold(0.0, f64::max);
     let mut matches = Vec::new();
     let mut strays = Vec::new();
     for kind in kinds {
@@ -118,7 +122,7 @@ pub fn compare(
             .filter(|l| l.mode_type.as_deref().is_none_or(of_kind) || kind.is_none())
             .collect();
         entries.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
-        let zero = ZERO_SHARE * highest;
+        let zero = rigid_body_hz(model);
         // Above the end of a list that may end somewhere nothing is looked for.
         let end_hz = if is_whole || listed.is_empty() { f64::INFINITY } else { end };
         let (taken, left) = align(&entries, &side, zero, end_hz);

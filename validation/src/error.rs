@@ -27,7 +27,7 @@ pub enum ValidationError {
         hint: String,
     },
     /// No model is given.
-    #[error("no model is given: one of natural modes, mesh cycles and steady states is needed")]
+    #[error("no model is given: it must answer one question, such as that for natural modes")]
     NoModel,
     /// A model was given and no suite could be asked.
     #[error("{}", nothing_asked(.0))]

@@ -1,6 +1,6 @@
 //! A declared check before its values are compared.
 
-use crate::check::{Check, Subject, Value};
+use crate::check::{Check, Subject, Tolerance, Value};
 use crate::registry::CheckEntry;
 
 /// A check with its declaration, source and note.
@@ -78,6 +78,12 @@ impl<'a> Judged<'a> {
     /// A number that must not exceed the tolerance.
     pub fn at_most(self, actual: f64) -> Check {
         self.number(0.0, actual)
+    }
+
+    /// A number that must not exceed a limit other than the declared one.
+    pub(crate) fn at_most_within(self, actual: f64, limit: f64, reason: &str) -> Check {
+        let tolerance = Tolerance { absolute: limit, band: None, reason: reason.to_owned() };
+        self.noted(Check::number(self.subject(), 0.0, actual, tolerance))
     }
 
     /// The same, or not run.

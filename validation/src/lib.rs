@@ -108,7 +108,8 @@ pub fn judge_model(
     judge_with(models, &only.into(), &Accepted::default(), &|_, _| Ok(Vec::new()))
 }
 
-/// The same with `further` checks, which may say more of what suites lack; `accepted` are rows that this model is known to miss, beside those that are listed
+/// The same with `further` checks, which may say more of what suites lack; `accepted` are rows that this model is known
+/// to miss, beside those that are listed
 /// for the models of this project, and thresholds.
 ///
 /// # Errors
@@ -117,17 +118,17 @@ pub(crate) fn judge_with(
     models: &Models<'_>,
     only: &Selection,
     accepted: &Accepted,
-    further: &dyn Fn(&Reference, &mut [NotAsked]) -> suites::Checks,
+    further: &dyn Fn(&Reference, &mut Vec<NotAsked>) -> suites::Checks,
 ) -> Result<Verdict, ValidationError> {
-    if models.modal.is_none() && models.at_rest.is_none() && models.in_time.is_none() {
+    if models.is_empty() {
         return Err(ValidationError::NoModel);
     }
     let reference = Reference::load()?;
     only.check(&reference.registry)?;
     let (mut checks, mut not_asked) = suites::foreign(&reference, models, only)?;
-    checks.extend(
-        further(&reference, &mut not_asked)?.into_iter().filter(|check| only.holds(&check.id)),
-    );
+    let more = further(&reference, &mut not_asked)?;
+    checks.extend(more.into_iter().filter(|check| only.holds(&check.id)));
+    not_asked.retain(|lack| only.concerns(&lack.suite));
     if checks.is_empty() {
         return Err(ValidationError::NothingAsked(not_asked));
     }

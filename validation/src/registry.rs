@@ -18,6 +18,8 @@ pub enum Asks {
     NaturalModes,
     /// A mesh cycle at rest: anybody's model can be asked.
     MeshCycle,
+    /// Mesh stiffness over a mesh cycle: anybody's model can be asked.
+    MeshStiffness,
     /// Steady states over speed: anybody's model can be asked.
     SteadyStates,
     /// Kinds of modes that harmonics can excite: anybody's model can be asked.

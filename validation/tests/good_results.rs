@@ -3,9 +3,12 @@
 
 use experiments::models::{FeContact, Lumped, Recorded};
 use experiments::sweep::{Coordinate, Line, Part, SteadyState};
+use experiments::torque::TorquePeak;
 use experiments::{
-    MeshCycle, ModalModel, NaturalMode, RestState, SpeedRequest, StaticModel, SteadyStateModel,
+    MeshCycle, MeshStiffness, ModalModel, NaturalMode, RestState, SpeedRequest, StaticModel,
+    SteadyStateModel,
 };
+use gearset::{Facing, MeshKind};
 use lumped::ModeType;
 use scene::{LoadCase, Scene};
 use validation::results::ResultsFolder;
@@ -138,10 +141,27 @@ fn what_is_written_is_read_back() {
     };
     let case = LoadCase::standing(1130.0);
     let cycle = MeshCycle { case, states: [0.0, 0.25, 0.5, 0.75].map(rest).to_vec() };
+    let stiffness = MeshStiffness {
+        case,
+        kind: MeshKind::RingPlanet,
+        positions: vec![0.0, 0.5],
+        secant_n_per_m: vec![8e8, 7e8],
+    };
+    let peak = TorquePeak {
+        sun_torque_nm: 565.0,
+        sun_turns: Some(Facing::Clockwise),
+        part: Part::SUN,
+        coordinate: Coordinate::Rotation,
+        harmonic: 2,
+        frequency_hz: 1150.25,
+        amplitude: 1e-5,
+    };
     let record = Recorded {
         modes: vec![mode(770.0, ModeType::Translational), mode(1156.5, ModeType::Rotational)],
         mesh_cycles: vec![(title(), cycle)],
         steady_states: [500.0, 510.0].map(|rpm| (title(), state(rpm))).to_vec(),
+        mesh_stiffness: vec![(title(), stiffness)],
+        torque_peaks: vec![(title(), peak)],
     };
     let folder = tempfile::tempdir().unwrap();
     record.write(folder.path()).unwrap();

@@ -86,9 +86,23 @@ fn a_wrong_lumped_model_fails_and_a_rig_with_the_same_numbers_does_not() {
     let table = "scene,frequency_hz,mode_type\noh58_4p,1150.19,rotational\noh58_4p,1788.53,\n";
     let partly = folder_of_modes("lumped", table);
     let verdict = judged(partly.path(), &Judgement::default()).unwrap();
-    assert_eq!(count(&verdict, "lumped_model.oh58_4p.rotational", Status::Pass), 2);
+    assert_eq!(count(&verdict, "lumped_model.oh58_4p.untyped", Status::Pass), 2);
     let lack = verdict.not_asked.iter().find(|lack| lack.suite == "table3.fe_contact").unwrap();
     assert!(lack.lacks.ends_with("; modes.csv:3 has no `mode_type` of oh58_4p"), "{lack:?}");
+    // No row names a type that the list does not, and rigid-body motion is shown as it was given.
+    assert!(!verdict.checks.iter().any(|c| c.title.contains("rotational mode")));
+    let rigid = folder_of_modes(
+        "lumped",
+        "scene,frequency_hz\nlin_parker_1999_3p,0.0123\nlin_parker_1999_3p,743.164\n",
+    );
+    let verdict = judged(rigid.path(), &Judgement::default()).unwrap();
+    let first = verdict.checks.iter().find(|c| c.id == "lumped_model.lin_parker_1999_3p.untyped.1");
+    let first = first.unwrap();
+    assert_eq!(
+        (first.actual.clone(), first.status),
+        (Some(validation::Value::Number(0.0123)), Status::Pass)
+    );
+    assert!(first.title.ends_with(": frequency 1"), "{}", first.title);
     // A mode under the wrong type is one fault.
     let typed = folder_of_modes("lumped", &table.replace("1788.53,", "1788.53,translational"));
     let verdict = judged(typed.path(), &Judgement::default()).unwrap();
@@ -178,6 +192,153 @@ fn rules_of_any_set_are_held_against_phasor_sums() {
     assert_eq!(judged(folder.path(), &Judgement::default()).unwrap().failed, 4);
 }
 
+/// Secant stiffness (N/µm) of this project's pair with the gears of three planets at 1130 N·m, by mesh and position.
+fn stiffness_of_the_pair() -> Vec<(&'static str, f64, f64)> {
+    use fe_contact::complementarity::ActiveSet;
+    use fe_contact::statics::{Bodies, pair_cycle};
+    use gearset::{MeshKind, Phasing};
+    let set = scene(PublishedScene::Oh58ThreePlanets).unwrap();
+    let bodies = Bodies::new(&set).unwrap();
+    let force = 1130.0 / 3.0 / bodies.geometry.sun.as_ref().unwrap().base_radius;
+    let gamma = Phasing::new(&bodies.geometry, &set.planets).unwrap().gamma();
+    let mut rows = Vec::new();
+    for (kind, mesh, shift) in
+        [(MeshKind::SunPlanet, "sun", 0.0), (MeshKind::RingPlanet, "ring", gamma)]
+    {
+        let cycle = pair_cycle(&bodies, kind, force, 28, &ActiveSet).unwrap();
+        rows.extend(cycle.positions.iter().map(|at| {
+            let position = (at.phase - shift).rem_euclid(1.0);
+            (mesh, position, 1e-6 * cycle.secant_stiffness(at))
+        }));
+    }
+    rows
+}
+
+#[test]
+fn mesh_stiffness_is_held_against_print_the_standard_and_the_pair_of_this_project() {
+    let cycle = stiffness_of_the_pair();
+    let verdict = |kind: &str, change: fn(f64, f64) -> (f64, f64)| {
+        let mut table = "scene,sun_torque_nm,body,position,stiffness_n_per_um\n".to_owned();
+        for (mesh, position, k) in &cycle {
+            let (position, k) = change(*position, *k);
+            writeln!(table, "oh58_3p,1130,{mesh}_mesh_0,{position},{k}").unwrap();
+        }
+        let folder = folder(kind, &[("mesh_stiffness.csv", &table)]);
+        let verdict = judged(folder.path(), &Judgement::default()).unwrap();
+        let status = |status| {
+            let checks = verdict.checks.iter().filter(|check| check.status == status);
+            checks.map(|check| check.id.clone()).collect::<Vec<_>>()
+        };
+        (status(Status::Pass), status(Status::Miss), status(Status::Fail), verdict)
+    };
+    let (passed, missed, failed, _) = verdict("fe_contact", |p, k| (p, k));
+    let beside =
+        ["sun_planet.1.mean", "sun_planet.1.shape", "ring_planet.1.mean", "ring_planet.1.shape"]
+            .map(|row| format!("pair_stiffness.oh58_3p.{row}"));
+    assert_eq!(passed[..2], ["fe.stiffness.series", "fe.iso_6336.sun_planet"]);
+    assert_eq!(passed[2..], beside);
+    let listed = ["fe.stiffness.sun_planet", "fe.stiffness.ring_planet", "fe.iso_6336.ring_planet"];
+    assert_eq!((missed, failed), (listed.map(str::to_owned).to_vec(), Vec::new()));
+    // The cycle of a mesh begun half a cycle late has the right mean; soft teeth the right shape.
+    let (.., failed, _) = verdict("fe_contact", |p, k| ((p + 0.5).rem_euclid(1.0), k));
+    assert_eq!(failed, [beside[1].clone(), beside[3].clone()]);
+    let (.., failed, _) = verdict("fe_contact", |p, k| (p, 0.8 * k));
+    assert!(failed.contains(&beside[0]) && !failed.contains(&beside[1]), "{failed:?}");
+    assert!(failed.contains(&"fe.stiffness.series".to_owned()));
+    // A constant stiffness of the right mean fails by its shape.
+    let (.., failed, constant) = verdict("fe_contact", |p, _| (p, 611.0));
+    assert!(failed.contains(&beside[1]) && failed.contains(&beside[3]), "{failed:?}");
+    for shape in constant.checks.iter().filter(|check| check.id.ends_with(".shape")) {
+        let Some(validation::Value::Number(percent)) = shape.actual else { panic!("{shape:?}") };
+        assert!((percent - 100.0).abs() < 1e-6, "{shape:?}");
+    }
+    let (.., other) = verdict("lumped", |p, k| (p, k));
+    assert_eq!((other.passed, other.failed, other.of_another_kind), (0, 0, 9));
+}
+
+/// Peaks of a system as they are kept, of which `chosen` are listed.
+fn kept_peaks(
+    system: &str,
+    id: &str,
+    height: impl Fn(&[f64], usize) -> f64,
+    chosen: impl Fn(&str, &validation::TorquePeak) -> bool,
+) -> String {
+    let kept = validation::Reference::load().unwrap().torque_peaks;
+    let mut text =
+        "scene,sun_torque_nm,body,coordinate,harmonic,frequency_hz,amplitude\n".to_owned();
+    for (n, peak) in kept.peak.iter().filter(|peak| peak.system == system).enumerate() {
+        let coordinate = if peak.mode.ends_with("rotational") { "rotation" } else { "translation" };
+        for (body, heights) in [("sun", &peak.sun), ("planet_0", &peak.planet)] {
+            for (k, torque) in kept.torques_nm.iter().enumerate().filter(|_| chosen(body, peak)) {
+                let hz = 27.0 * 99.0 / 126.0 / 60.0 * peak.speeds_rpm[k] * f64::from(peak.harmonic);
+                let amplitude = 1e-6 * (n + 1) as f64 * height(heights, k);
+                let harmonic = peak.harmonic;
+                writeln!(
+                    text,
+                    "{id},{torque},{body},{coordinate},{harmonic},{hz:.1},{amplitude:e}"
+                )
+                .unwrap();
+            }
+        }
+    }
+    text
+}
+
+#[test]
+fn resonant_peaks_alone_are_judged_by_the_statements_that_they_answer() {
+    let judged = |kind: &str, table: String| {
+        let folder = folder(kind, &[("torque_peaks.csv", &table)]);
+        judged(folder.path(), &Judgement::default()).unwrap()
+    };
+    let rising = |heights: &[f64], k: usize| heights[k];
+    for (system, id, name) in [
+        ("default scene", "oh58_4p", "default"),
+        ("meshes as soft as published", "oh58_4p_published_stiffness", "published_stiffness"),
+        ("second system", "oh58_4p_second_system", "second_system"),
+    ] {
+        let verdict = judged("fe_contact", kept_peaks(system, id, rising, |_, _| true));
+        assert_eq!(verdict.failed, 0, "{:#?}", verdict.checks);
+        let ids = verdict.checks.iter().map(|check| check.id.as_str());
+        assert_eq!(ids.clone().filter(|id| id.contains(name)).count(), 10, "{:#?}", verdict.checks);
+        assert_eq!(ids.filter(|id| id.starts_with("torque.all.")).count(), 6);
+        let lacks: Vec<&str> = verdict
+            .not_asked
+            .iter()
+            .filter(|lack| lack.suite == "torque")
+            .map(|lack| lack.lacks.as_str())
+            .collect();
+        assert_eq!(lacks.len(), 2, "{lacks:?}");
+    }
+    let falling = |heights: &[f64], k: usize| heights[3 - k];
+    let verdict =
+        judged("fe_contact", kept_peaks("default scene", "oh58_4p", falling, |_, _| true));
+    assert!(verdict.failed >= 4, "{:#?}", verdict.checks);
+    let verdict = judged("lumped", kept_peaks("default scene", "oh58_4p", falling, |_, _| true));
+    assert_eq!((verdict.failed, verdict.of_another_kind), (0, 10));
+    // The first peaks of the sun alone: the other statements are listed with the peaks that they need.
+    let first = |body: &str, peak: &validation::TorquePeak| {
+        body == "sun" && peak.harmonic < 3 && peak.mode.starts_with("lowest")
+    };
+    let verdict = judged("fe_contact", kept_peaks("default scene", "oh58_4p", rising, first));
+    let ids: Vec<&str> = verdict.checks.iter().map(|check| check.id.as_str()).collect();
+    assert_eq!(
+        ids,
+        ["torque.monotonic.default.sun", "torque.rotation_above_translation.default.sun"]
+    );
+    let lacks =
+        verdict.not_asked.iter().filter(|lack| lack.lacks.contains(" of oh58_4p: statements"));
+    assert_eq!(
+        lacks.map(|lack| lack.lacks.as_str()).collect::<Vec<_>>()[..2],
+        [
+            "torque_peaks.csv of oh58_4p: statements on all peaks of the sun need translation in harmonics 1 and 3 near \
+             the lowest translational mode and in 3 and 5 near the third, rotation in 2 and 4 near the lowest rotational \
+             mode, at 565, 1130, 1695 and 2260 N·m",
+            "torque_peaks.csv of oh58_4p: statements on the first peaks of the planet need translation in harmonic 1 near \
+             the lowest translational mode, rotation in 2 near the lowest rotational one, at 565, 1130, 1695 and 2260 N·m",
+        ]
+    );
+}
+
 #[test]
 fn what_contradicts_itself_is_refused_before_any_check() {
     let twice = format!("{HEADER}oh58_4p,1150.2,rotational,1\noh58_4p,1150.2,rotational,1\n");
@@ -223,6 +384,32 @@ fn misses_that_an_author_accepts_are_misses_at_their_pinned_value_alone() {
         assert_eq!(verdict.failed, failed, "{:?}", verdict.checks);
         assert!(verdict.checks[0].tolerance.reason.ends_with("bearings"));
     }
+    // What accepts anything, or says nothing, is refused where it stands.
+    let miss = "[[miss]]\nid = \"a\"\nvalue = 100.0\ntolerance = 0.1\nanalysis = \"bearings\"\n";
+    let threshold = "[[threshold]]\nids = \"a\"\npercent = 5.0\nreason = \"bearings\"\n";
+    let whole = format!("{miss}\n{threshold}");
+    for (from, to, message) in [
+        (
+            "analysis = \"bearings\"",
+            "analysis = \" \"",
+            ":5: `miss.analysis` is empty: allowed is a sentence on why",
+        ),
+        ("0.1", "20.1", ":4: `miss.tolerance` is 20.1: allowed is 0 to 20, 20 % of `value`"),
+        ("0.1", "-1.0", ":4: `miss.tolerance` is -1: allowed is 0 to 20"),
+        ("0.1", "nan", ":4: `miss.tolerance` is NaN: allowed is 0 to 20"),
+        ("reason = \"bearings\"", "reason = \"\"", ":10: `threshold.reason` is empty"),
+        (
+            "5.0",
+            "1e9",
+            ":9: `threshold.percent` is 1000000000: allowed is 0 to 20 % of the reference",
+        ),
+    ] {
+        std::fs::write(&file, whole.replacen(from, to, 1)).unwrap();
+        let refusal = Accepted::read(&file).unwrap_err().to_string();
+        assert!(refusal.contains(&format!("accepted.list{message}")), "{refusal}");
+    }
+    std::fs::write(&file, whole).unwrap();
+    assert_eq!(Accepted::read(&file).unwrap().misses.len(), 1);
     std::fs::write(&file, "[[mis]]\n").unwrap();
     let refusal = Accepted::read(&file).unwrap_err().to_string();
     assert!(refusal.contains("accepted.list:1") && refusal.contains("[[miss]]"), "{refusal}");

@@ -1,16 +1,21 @@
 //! Tables of results as a model: what is in them is what it answers. `validation::results` reads them from a folder,
-//! and [`Recorded::write`] writes one: `modes.csv`, `mesh_cycle.csv` and `steady_states.csv`.
+//! and [`Recorded::write`] writes one, with a table for each field.
 
 use std::path::{Path, PathBuf};
 
-use gearset::Facing;
+use gearset::{Facing, MeshKind};
 use scene::{LoadCase, Scene};
 use serde::Serialize;
 
 use crate::mesh_cycle::MeshCycle;
-use crate::model::{ModalModel, ModelError, SpeedRequest, StaticModel, SteadyStateModel};
+use crate::mesh_stiffness::MeshStiffness;
+use crate::model::{
+    MeshStiffnessModel, ModalModel, ModelError, SpeedRequest, StaticModel, SteadyStateModel,
+    TorquePeakModel,
+};
 use crate::natural_mode::NaturalMode;
 use crate::sweep::{Part, SteadyState};
+use crate::torque::TorquePeak;
 
 /// Torques are the same if they differ by less than this part.
 const SAME_TORQUE: f64 = 1e-6;
@@ -24,6 +29,10 @@ pub struct Recorded {
     pub mesh_cycles: Vec<(String, MeshCycle)>,
     /// Scene title and steady state.
     pub steady_states: Vec<(String, SteadyState)>,
+    /// Scene title and stiffness of a mesh of planet 0.
+    pub mesh_stiffness: Vec<(String, MeshStiffness)>,
+    /// Scene title and resonant peak.
+    pub torque_peaks: Vec<(String, TorquePeak)>,
 }
 
 /// A table that could not be written.
@@ -41,7 +50,7 @@ pub struct RecordedError {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("no {what} of the scene `{scene}` at {torque_nm} N·m on the sun is recorded")]
 pub struct NotRecorded {
-    /// Natural modes, a mesh cycle, steady states.
+    /// Natural modes, a mesh cycle, steady states, mesh stiffness, resonant peaks.
     pub what: &'static str,
     /// Title of the scene.
     pub scene: String,
@@ -79,6 +88,27 @@ struct StateRow {
     amplitude: f64,
     phase_rad: f64,
     sun_turns: Option<Facing>,
+}
+
+#[derive(Serialize)]
+struct StiffnessRow {
+    scene: String,
+    sun_torque_nm: f64,
+    body: String,
+    position: f64,
+    stiffness_n_per_m: f64,
+}
+
+#[derive(Serialize)]
+struct PeakRow {
+    scene: String,
+    sun_torque_nm: f64,
+    sun_turns: Option<Facing>,
+    body: String,
+    coordinate: String,
+    harmonic: usize,
+    frequency_hz: f64,
+    amplitude: f64,
 }
 
 /// Writes one table of a folder, if it has rows.
@@ -152,7 +182,34 @@ impl Recorded {
                 sun_turns: Some(state.case.sun_turns),
             })
         });
-        save(folder, "steady_states.csv", states)
+        save(folder, "steady_states.csv", states)?;
+        let stiffness = self.mesh_stiffness.iter().flat_map(|(scene, found)| {
+            found.positions.iter().zip(&found.secant_n_per_m).map(move |(position, k)| {
+                let mesh = match found.kind {
+                    MeshKind::SunPlanet => Part::SunMesh(0),
+                    MeshKind::RingPlanet => Part::RingMesh(0),
+                };
+                StiffnessRow {
+                    scene: scene.clone(),
+                    sun_torque_nm: found.case.sun_torque_nm,
+                    body: mesh.name(),
+                    position: *position,
+                    stiffness_n_per_m: *k,
+                }
+            })
+        });
+        save(folder, "mesh_stiffness.csv", stiffness)?;
+        let peaks = self.torque_peaks.iter().map(|(scene, peak)| PeakRow {
+            scene: scene.clone(),
+            sun_torque_nm: peak.sun_torque_nm,
+            sun_turns: peak.sun_turns,
+            body: peak.part.name(),
+            coordinate: peak.coordinate.name().to_owned(),
+            harmonic: peak.harmonic,
+            frequency_hz: peak.frequency_hz,
+            amplitude: peak.amplitude,
+        });
+        save(folder, "torque_peaks.csv", peaks)
     }
 }
 
@@ -211,5 +268,31 @@ impl SteadyStateModel for Recorded {
         let own = self.steady_states.iter().filter(is_own);
         let list: Vec<SteadyState> = own.map(|(_, state)| state.clone()).collect();
         if list.is_empty() { Err(missing("steady states", scene, case)) } else { Ok(list) }
+    }
+}
+
+impl MeshStiffnessModel for Recorded {
+    fn mesh_stiffness(
+        &self,
+        scene: &Scene,
+        case: &LoadCase,
+        kind: MeshKind,
+        positions: usize,
+    ) -> Result<MeshStiffness, ModelError> {
+        let is_asked = |(title, found): &&(String, MeshStiffness)| {
+            *title == scene.title
+                && same_torque(&found.case, case)
+                && found.kind == kind
+                && found.positions.len() >= positions
+        };
+        let found = self.mesh_stiffness.iter().find(is_asked);
+        found.map(|(_, found)| found.clone()).ok_or_else(|| missing("mesh stiffness", scene, case))
+    }
+}
+
+impl TorquePeakModel for Recorded {
+    fn torque_peaks(&self, scene: &Scene) -> Result<Vec<TorquePeak>, ModelError> {
+        let of_scene = self.torque_peaks.iter().filter(|(title, _)| *title == scene.title);
+        Ok(of_scene.map(|(_, peak)| *peak).collect())
     }
 }

@@ -42,10 +42,22 @@ impl Contents {
             insert(&mut entry.sun_torques_nm, row.sun_torque_nm);
             insert(&mut entry.positions, row.position);
         }
+        for row in &folder.mesh_stiffness {
+            let entry = entry(&mut all, "mesh_stiffness.csv", &row.scene.id);
+            insert(&mut entry.sun_torques_nm, row.sun_torque_nm);
+            insert(&mut entry.positions, row.position);
+        }
         for row in &folder.steady_states {
             let entry = entry(&mut all, "steady_states.csv", &row.scene.id);
             insert(&mut entry.sun_torques_nm, row.sun_torque_nm);
             insert(&mut entry.speeds_rpm, row.speed_rpm);
+        }
+        for row in &folder.torque_peaks {
+            let entry = entry(&mut all, "torque_peaks.csv", &row.scene.id);
+            insert(&mut entry.sun_torques_nm, row.peak.sun_torque_nm);
+        }
+        for row in &folder.rules {
+            entry(&mut all, "rules.csv", &row.scene.id);
         }
         all
     }

@@ -17,6 +17,14 @@ pub(super) fn run(
 ) -> Result<(), CommandError> {
     let scenes = scenes(name, kind)?;
     let template = Template::new(&scenes, kind)?;
+    if template.suites.is_empty() {
+        let reason = format!(
+            "no suite judges results of kind {} on `{name}`: allowed is a scene with numbers in [lumped], numbers of \
+             teeth or tooth geometry, as the kind needs (docs/results.md)",
+            kind.name()
+        );
+        return Err(refused("SCENE", reason));
+    }
     must_be_empty(folder)?;
     std::fs::create_dir_all(folder).map_err(unwritten(folder))?;
     for (name, text) in &template.files {
@@ -26,13 +34,7 @@ pub(super) fn run(
     }
     let names: Vec<&str> = template.files.iter().map(|(name, _)| name.as_str()).collect();
     writeln!(out, "wrote into {}: {}", folder.display(), names.join(", "))?;
-    match template.suites.as_slice() {
-        [] => writeln!(
-            out,
-            "no published value is of this scene: lumped_model and rules ask about any"
-        )?,
-        suites => writeln!(out, "suites that ask: {}", suites.join(", "))?,
-    }
+    writeln!(out, "suites that ask: {}", template.suites.join(", "))?;
     writeln!(out, "fill in the tables; then: epicyclic results check {}", folder.display())?;
     Ok(())
 }

@@ -70,6 +70,7 @@ impl Report for ControlsOutput {
             let asks = match suite.asks {
                 Asks::NaturalModes => "natural modes of any model",
                 Asks::MeshCycle => "mesh cycles at rest of any model",
+                Asks::MeshStiffness => "mesh stiffness of any model",
                 Asks::SteadyStates => "steady states of any model",
                 Asks::ExcitationRules => "excitation rules of any model",
                 Asks::OwnNumerics => "our own models",

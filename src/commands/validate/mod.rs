@@ -10,6 +10,7 @@ mod result;
 mod summary;
 
 pub(crate) use controls::ControlsOutput;
+pub(crate) use recorded::RecordedOutput;
 
 use std::io::Write;
 

@@ -7,7 +7,7 @@ use scene::Scene;
 use super::contradictions::{self, Contradiction, Facts};
 use super::known_scenes::KnownScenes;
 use super::manifest::{Manifest, ManifestError};
-use super::rows::{CycleRow, ModeRow, RuleRow, SceneNames, StateRow};
+use super::rows::{CycleRow, ModeRow, PeakRow, RuleRow, SceneNames, StateRow, StiffnessRow};
 use super::table::{Remark, TableError};
 use crate::model_kind::ModelKind;
 use crate::nearest::did_you_mean;
@@ -28,6 +28,10 @@ pub struct ResultsFolder {
     pub mesh_cycle: Vec<CycleRow>,
     /// `steady_states.csv`.
     pub steady_states: Vec<StateRow>,
+    /// `mesh_stiffness.csv`.
+    pub mesh_stiffness: Vec<StiffnessRow>,
+    /// `torque_peaks.csv`.
+    pub torque_peaks: Vec<PeakRow>,
     /// `rules.csv`.
     pub rules: Vec<RuleRow>,
     /// Every file that was read, in order.
@@ -35,6 +39,16 @@ pub struct ResultsFolder {
     /// What was read in another way than it is written.
     pub remarks: Vec<Remark>,
 }
+
+/// Tables of a folder, of which it must have one.
+const TABLES: [&str; 6] = [
+    "modes.csv",
+    "mesh_cycle.csv",
+    "mesh_stiffness.csv",
+    "steady_states.csv",
+    "torque_peaks.csv",
+    "rules.csv",
+];
 
 /// Why a folder cannot be read.
 #[derive(Debug, thiserror::Error)]
@@ -83,7 +97,7 @@ pub enum FolderError {
         source: super::known_scenes::UnknownScene,
     },
     /// A folder without any table.
-    #[error("{}: none of modes.csv, mesh_cycle.csv, steady_states.csv and rules.csv is there", path.display())]
+    #[error("{}: none of {} is there", path.display(), TABLES.join(", "))]
     Empty {
         /// The folder.
         path: PathBuf,
@@ -127,22 +141,33 @@ impl ResultsFolder {
         }
         let standard = manifest.scene.as_deref();
         let names = || SceneNames::new(&known, standard);
-        let modes =
-            table(folder, "modes.csv", &mut files, &mut remarks, |p| ModeRow::read(p, names()))?;
-        let mesh_cycle = table(folder, "mesh_cycle.csv", &mut files, &mut remarks, |p| {
-            CycleRow::read(p, names())
-        })?;
-        let steady_states = table(folder, "steady_states.csv", &mut files, &mut remarks, |p| {
-            StateRow::read(p, names())
-        })?;
-        let rules =
-            table(folder, "rules.csv", &mut files, &mut remarks, |p| RuleRow::read(p, names()))?;
+        let mut read = Tables { folder, files: &mut files, remarks: &mut remarks };
+        let modes = read.table("modes.csv", |path| ModeRow::read(path, names()))?;
+        let mesh_cycle = read.table("mesh_cycle.csv", |path| CycleRow::read(path, names()))?;
+        let mesh_stiffness =
+            read.table("mesh_stiffness.csv", |path| StiffnessRow::read(path, names()))?;
+        let steady_states =
+            read.table("steady_states.csv", |path| StateRow::read(path, names()))?;
+        let torque_peaks = read.table("torque_peaks.csv", |path| PeakRow::read(path, names()))?;
+        let rules = read.table("rules.csv", |path| RuleRow::read(path, names()))?;
         let path = folder.to_owned();
-        let rows = modes.len() + mesh_cycle.len() + steady_states.len() + rules.len();
-        if rows == 0 {
+        let is_table = |path: &PathBuf| TABLES.iter().any(|name| path.ends_with(name));
+        // A table that was read has rows.
+        if !files.iter().any(is_table) {
             return Err(FolderError::Empty { path });
         }
-        Ok(Self { path, manifest, modes, mesh_cycle, steady_states, rules, files, remarks })
+        Ok(Self {
+            path,
+            manifest,
+            modes,
+            mesh_cycle,
+            steady_states,
+            mesh_stiffness,
+            torque_peaks,
+            rules,
+            files,
+            remarks,
+        })
     }
 
     /// Everything in the tables that cannot be true, in the order of tables; empty for results that can be judged.
@@ -161,9 +186,20 @@ impl ResultsFolder {
             self.manifest.positions,
             &mut facts,
         ));
+        found.extend(contradictions::mesh_stiffness(
+            &self.path.join("mesh_stiffness.csv"),
+            &self.mesh_stiffness,
+            self.manifest.positions,
+            &mut facts,
+        ));
         found.extend(contradictions::steady_states(
             &self.path.join("steady_states.csv"),
             &self.steady_states,
+            &mut facts,
+        ));
+        found.extend(contradictions::torque_peaks(
+            &self.path.join("torque_peaks.csv"),
+            &self.torque_peaks,
             &mut facts,
         ));
         found.extend(contradictions::rules(&self.path.join("rules.csv"), &self.rules));
@@ -171,22 +207,29 @@ impl ResultsFolder {
     }
 }
 
-/// One table of the folder; no rows if there is no such file.
-fn table<T>(
-    folder: &Path,
-    name: &str,
-    files: &mut Vec<PathBuf>,
-    remarks: &mut Vec<Remark>,
-    read: impl Fn(&Path) -> Rows<T>,
-) -> Result<Vec<T>, TableError> {
-    let path = folder.join(name);
-    if !path.exists() {
-        return Ok(Vec::new());
+/// Tables that are being read.
+struct Tables<'f> {
+    folder: &'f Path,
+    files: &'f mut Vec<PathBuf>,
+    remarks: &'f mut Vec<Remark>,
+}
+
+impl Tables<'_> {
+    /// One table of the folder; no rows if there is no such file.
+    fn table<T>(
+        &mut self,
+        name: &str,
+        read: impl Fn(&Path) -> Rows<T>,
+    ) -> Result<Vec<T>, TableError> {
+        let path = self.folder.join(name);
+        if !path.exists() {
+            return Ok(Vec::new());
+        }
+        let (rows, found) = read(&path)?;
+        self.files.push(path);
+        self.remarks.extend(found);
+        Ok(rows)
     }
-    let (rows, found) = read(&path)?;
-    files.push(path);
-    remarks.extend(found);
-    Ok(rows)
 }
 
 /// `; did you mean …` of a folder whose name is like the last part of `path`; nothing if there is none.

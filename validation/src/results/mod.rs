@@ -6,7 +6,9 @@
 //! | `results.toml` | | [`Manifest`] |
 //! | `modes.csv` | a natural frequency | [`ModeRow`] |
 //! | `mesh_cycle.csv` | one quantity at one position of the mesh cycle | [`CycleRow`] |
+//! | `mesh_stiffness.csv` | stiffness of one mesh at one position of the mesh cycle | [`StiffnessRow`] |
 //! | `steady_states.csv` | one harmonic of one quantity at one speed | [`StateRow`] |
+//! | `torque_peaks.csv` | a resonant peak under one torque | [`PeakRow`] |
 //! | `rules.csv` | kinds of modes that a harmonic can excite | [`RuleRow`] |
 //!
 //! A [`ResultsFolder`] that is read tells what its reader took for granted as [`Remark`]s, and what in it cannot be
@@ -33,6 +35,6 @@ pub use manifest::{
 };
 pub use mode_list::ModeList;
 pub use questions::{AskedSuite, Questions};
-pub use rows::{CycleRow, ModeRow, RuleRow, StateRow};
+pub use rows::{CycleRow, ModeRow, PeakRow, RuleRow, StateRow, StiffnessRow};
 pub use table::{Remark, TableError};
 pub use writing::{SceneFile, Template};

@@ -44,11 +44,12 @@ impl ResultsFolder {
             modal: Some(&tables),
             at_rest: Some(&tables),
             in_time: Some(&tables),
+            stiffness: Some(&tables),
+            peaks: Some(&tables),
         };
         let (mut checks, mut not_asked) =
             suites::foreign(&reference, &models, &Selection::default())?;
-        suites::explain_untyped(&mut not_asked, &self.untyped());
-        checks.extend(self.beside(kind, &reference)?);
+        checks.extend(self.beside(kind, &reference, &mut not_asked)?);
         let mut asked: Vec<AskedSuite> = Vec::new();
         for check in &checks {
             let suite = reference.registry.suite_of(&check.id).map_or("", |s| s.name.as_str());

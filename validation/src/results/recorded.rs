@@ -2,12 +2,13 @@
 
 use experiments::models::Recorded;
 use experiments::sweep::{Line, Part, SteadyState};
-use experiments::{MeshCycle, NaturalMode, RestState};
+use experiments::{MeshCycle, MeshStiffness, NaturalMode, RestState};
+use gearset::MeshKind;
 use lumped::ModeType;
 use scene::LoadCase;
 
 use super::folder::ResultsFolder;
-use super::rows::{CycleRow, ModeRow, StateRow};
+use super::rows::{CycleRow, ModeRow, StateRow, StiffnessRow};
 
 impl ResultsFolder {
     /// The tables as a model. Of a scene whose modes have no types no modes are there, for suites ask by type.
@@ -22,6 +23,12 @@ impl ResultsFolder {
         let mut rows: Vec<&StateRow> = self.steady_states.iter().collect();
         rows.sort_by(|a, b| a.speed_rpm.total_cmp(&b.speed_rpm));
         rows.into_iter().for_each(|row| take_line(&mut recorded, row));
+        let mut rows: Vec<&StiffnessRow> = self.mesh_stiffness.iter().collect();
+        rows.sort_by(|a, b| a.position.total_cmp(&b.position));
+        rows.into_iter().for_each(|row| take_stiffness(&mut recorded, row));
+        let peaks = self.torque_peaks.iter();
+        recorded.torque_peaks =
+            peaks.map(|row| (row.scene.scene.title.clone(), row.peak)).collect();
         recorded
     }
 }
@@ -77,6 +84,28 @@ fn take_rest(recorded: &mut Recorded, row: &CycleRow) {
         // More than is asked for.
         _ => {}
     }
+}
+
+/// Meshes of planet 0 alone are asked for.
+fn take_stiffness(recorded: &mut Recorded, row: &StiffnessRow) {
+    let kind = match row.part {
+        Part::SunMesh(0) => MeshKind::SunPlanet,
+        Part::RingMesh(0) => MeshKind::RingPlanet,
+        _ => return,
+    };
+    let title = &row.scene.scene.title;
+    let is_same = |(scene, found): &(String, MeshStiffness)| {
+        scene == title && found.case.sun_torque_nm == row.sun_torque_nm && found.kind == kind
+    };
+    let list = &mut recorded.mesh_stiffness;
+    let at = list.iter().position(is_same).unwrap_or_else(|| {
+        let case = LoadCase::standing(row.sun_torque_nm);
+        let (positions, secant_n_per_m) = (Vec::new(), Vec::new());
+        list.push((title.clone(), MeshStiffness { case, kind, positions, secant_n_per_m }));
+        list.len() - 1
+    });
+    list[at].1.positions.push(row.position);
+    list[at].1.secant_n_per_m.push(row.stiffness_n_per_m);
 }
 
 fn take_line(recorded: &mut Recorded, row: &StateRow) {

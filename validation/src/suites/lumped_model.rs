@@ -7,7 +7,7 @@ use scene::Scene;
 use super::Checks;
 use super::lab::Lab;
 use crate::check::Check;
-use crate::compare::{ListedMode, ModelMode, compare};
+use crate::compare::{ListedMode, ModelMode, compare, rigid_body_hz};
 use crate::error::ValidationError;
 use crate::reference::Reference;
 
@@ -49,11 +49,15 @@ pub(crate) fn beside(
     reference: &Reference,
 ) -> Checks {
     let percent = reference.registry.check("lumped_model.*")?.percent.unwrap_or_default();
-    let found = compare(listed, &modes_of(scene, is_torsional)?, percent, false);
+    let modes = modes_of(scene, is_torsional)?;
+    let found = compare(listed, &modes, percent, false);
+    let rigid_hz = rigid_body_hz(&modes);
+    // A list without the type of every mode is matched by frequency, and its rows name no type.
+    let is_typed = is_torsional || listed.iter().all(|mode| mode.mode_type.is_some());
     let mut numbers: Vec<(&str, usize)> = Vec::new();
     let mut checks = Vec::new();
     for pair in &found.matches {
-        let mode_type = pair.model_type.as_deref().unwrap_or("untyped");
+        let mode_type = pair.model_type.as_deref().filter(|_| is_typed).unwrap_or("untyped");
         let kind = if pair.model_hz.is_some() { mode_type } else { "without_partner" };
         let number = match numbers.iter_mut().find(|(name, _)| *name == kind) {
             Some((_, number)) => {
@@ -66,7 +70,11 @@ pub(crate) fn beside(
             }
         };
         let check = format!("lumped_model.{id}.{kind}.{number}");
-        let title = format!("{}: {mode_type} mode {number}", scene.title);
+        let title = match (pair.model_hz, is_typed) {
+            (Some(_), true) => format!("{}: {mode_type} mode {number}", scene.title),
+            (Some(_), false) => format!("{}: frequency {number}", scene.title),
+            (None, _) => format!("{}: frequency {number} without a mode of the model", scene.title),
+        };
         let about = reference.about(&check, &title)?;
         checks.push(match (pair.model_hz, pair.difference_percent) {
             (Some(hz), None) => about.number_if_run(hz, (!pair.is_beyond_list).then_some(f64::NAN)),
@@ -77,7 +85,13 @@ pub(crate) fn beside(
                 Some(remark) if difference.abs() <= percent => {
                     about.equal(format!("{} times", pair.model_multiplicity), remark.as_str())
                 }
-                _ => about.number(hz, hz * (1.0 + 0.01 * difference)),
+                _ => match pair.listed_hz.iter().copied().max_by(f64::total_cmp) {
+                    Some(highest) if hz <= rigid_hz && highest <= rigid_hz => {
+                        let reason = "rigid-body motion: below a ten-thousandth of the highest frequency of the model";
+                        about.at_most_within(highest, rigid_hz, reason)
+                    }
+                    _ => about.number(hz, hz * (1.0 + 0.01 * difference)),
+                },
             },
             (None, _) => {
                 let hz = pair.listed_hz.first().copied().unwrap_or(f64::NAN);

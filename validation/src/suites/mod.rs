@@ -8,6 +8,7 @@ mod lab;
 mod lin_parker;
 pub(crate) mod lumped_model;
 pub(crate) mod mode_lists;
+pub(crate) mod pair_stiffness;
 pub(crate) mod rules;
 pub(crate) mod statements;
 mod structure;
@@ -17,7 +18,7 @@ pub(crate) mod tables;
 use std::panic::resume_unwind;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use experiments::{ModalModel, StaticModel, SteadyStateModel};
+use experiments::{MeshStiffnessModel, ModalModel, StaticModel, SteadyStateModel, TorquePeakModel};
 use scene::Scene;
 
 use crate::Profile;
@@ -58,6 +59,14 @@ pub(crate) type CyclesOf = fn(&Scene) -> Vec<AskedCycle>;
 pub(crate) type OfSteadyStates =
     fn(&dyn SteadyStateModel, Option<&dyn ModalModel>, &[Scene], &Reference) -> Checks;
 
+/// Mesh stiffness over the mesh cycle held against reference data.
+pub(crate) type OfMeshStiffness = fn(&dyn MeshStiffnessModel, &Scene, &Reference) -> Checks;
+
+/// Resonant peaks over torque, or the modes and steady states of which they are peaks, held against reference data;
+/// what of a scene is lacking is added to the list.
+pub(crate) type OfTorquePeaks =
+    fn(&Models<'_>, PublishedScene, &Reference, &mut Vec<NotAsked>) -> Checks;
+
 /// What a suite asks, with the scenes it asks about.
 #[derive(Clone, Copy)]
 pub(crate) enum Question {
@@ -67,6 +76,10 @@ pub(crate) enum Question {
     MeshCycle(&'static [PublishedScene], OfMeshCycle, CyclesOf),
     /// Steady states.
     SteadyStates(&'static [PublishedScene], OfSteadyStates),
+    /// Mesh stiffness at a torque on the sun, N m, and at so many positions.
+    MeshStiffness(&'static [PublishedScene; 1], OfMeshStiffness, (f64, usize)),
+    /// Resonant peaks over torque, or steady states.
+    TorquePeaks(&'static [PublishedScene; 1], OfTorquePeaks),
 }
 
 /// A suite that can be asked of anybody's model.
@@ -81,7 +94,7 @@ pub(crate) struct Askable {
 }
 
 use PublishedScene as P;
-use Question::{MeshCycle, Modes, SteadyStates};
+use Question::{MeshCycle, MeshStiffness, Modes, SteadyStates, TorquePeaks};
 
 const fn ask(suite: &'static str, question: Question, needs: &'static str) -> Askable {
     Askable { suite, question, needs }
@@ -93,8 +106,14 @@ const TYPES: &str = "frequency and type of every mode";
 /// Speeds of a sweep that has peaks of four harmonics.
 const SPEEDS: &str = "steady states at 1130 N·m, 450 to 2500 rpm, 2 % apart";
 
+/// Stiffness of both meshes.
+const STIFFNESS: &str = "sun_mesh_0 and ring_mesh_0 at 1130 N·m, 28 positions";
+
+/// Peaks over torque.
+const PEAKS: &str = "resonant peaks of sun and planet_0 at 565, 1130, 1695 and 2260 N·m";
+
 /// Suites that can be asked of anybody's model.
-pub(crate) const ASKABLE: [Askable; 18] = [
+pub(crate) const ASKABLE: [Askable; 22] = [
     ask("table2.lumped", Modes(&[P::Oh58ThreePlanetsAsPublished], tables::lumped), TYPES),
     ask("table3.lumped", Modes(&[P::Oh58FourPlanetsAsPublished], tables::lumped), TYPES),
     ask(
@@ -125,6 +144,16 @@ pub(crate) const ASKABLE: [Askable; 18] = [
         "modes of random sets, which a model in code gives",
     ),
     ask(
+        "fe.stiffness",
+        MeshStiffness(&[P::Oh58ThreePlanets], fe::stiffness::asked, fe::stiffness::LOAD),
+        STIFFNESS,
+    ),
+    ask(
+        "fe.iso_6336",
+        MeshStiffness(&[P::Oh58ThreePlanets], fe::iso6336::asked, fe::stiffness::LOAD),
+        STIFFNESS,
+    ),
+    ask(
         "fe.sets",
         MeshCycle(&[P::Oh58ThreePlanets], fe::sets::asked, fe::sets::cycles),
         "the mesh cycle at 1413 N·m, 28 positions",
@@ -150,9 +179,16 @@ pub(crate) const ASKABLE: [Askable; 18] = [
     ),
     ask(
         "torque",
-        SteadyStates(&[P::Oh58FourPlanets], fe::torque::asked),
-        "natural modes, and steady states about the first peaks at 565, 1130, 1695 and 2260 N·m",
+        TorquePeaks(&[P::Oh58FourPlanets], fe::torque_peaks::asked),
+        "resonant peaks of sun and planet_0 at 565, 1130, 1695 and 2260 N·m; or modes.csv and steady_states.csv about \
+         the first peaks at these torques",
     ),
+    ask(
+        "torque",
+        TorquePeaks(&[P::Oh58FourPlanetsPublishedStiffness], fe::torque_peaks::asked),
+        PEAKS,
+    ),
+    ask("torque", TorquePeaks(&[P::Oh58SecondSystem], fe::torque_peaks::asked), PEAKS),
 ];
 
 impl Question {
@@ -160,6 +196,7 @@ impl Question {
     pub(crate) fn scenes(&self) -> &'static [PublishedScene] {
         match self {
             Modes(scenes, _) | MeshCycle(scenes, ..) | SteadyStates(scenes, _) => scenes,
+            MeshStiffness(scenes, ..) | TorquePeaks(scenes, _) => *scenes,
         }
     }
 }
@@ -171,6 +208,8 @@ impl Askable {
             Modes(..) => "modes.csv",
             MeshCycle(..) => "mesh_cycle.csv",
             SteadyStates(..) => "steady_states.csv",
+            MeshStiffness(..) => "mesh_stiffness.csv",
+            TorquePeaks(..) => "torque_peaks.csv",
         };
         let ids: Vec<&str> = self.question.scenes().iter().map(|scene| scene.id()).collect();
         format!("{table} of {}: {}", ids.join(" and "), self.needs)
@@ -181,7 +220,7 @@ impl Askable {
 type Own = (&'static [&'static str], fn(&Lab<'_>) -> Checks);
 
 /// All suites in the order of the report.
-const OWN: [Own; 33] = [
+const OWN: [Own; 34] = [
     (&["table2.lumped", "table3.lumped"], own_lumped_tables),
     (&["table2.geometry_consistent", "table3.geometry_consistent"], own_geometry),
     (&["table3.explained"], |lab| own_modes(lab, "table3.explained", explained::controls)),
@@ -198,6 +237,7 @@ const OWN: [Own; 33] = [
     (&["fe.bodies"], fe::bodies::checks),
     (&["fe.stiffness"], fe::stiffness::checks),
     (&["fe.iso_6336"], fe::iso6336::checks),
+    (&["pair_stiffness"], pair_stiffness::checks),
     (&["fe.sets"], fe::sets::checks),
     (&["fe.kinematics.turned"], fe::kinematics::turned::checks),
     (&["fe.kinematics.work"], fe::kinematics::work::checks),
@@ -331,6 +371,10 @@ pub(crate) fn foreign(
             (SteadyStates(which, run), Models { in_time: Some(model), modal, .. }) => {
                 Some(run(*model, *modal, &scenes_of(which)?, reference))
             }
+            (MeshStiffness([which], run, _), Models { stiffness: Some(model), .. }) => {
+                Some(run(*model, &scene(*which)?, reference))
+            }
+            (TorquePeaks([which], run), _) => Some(run(models, *which, reference, &mut not_asked)),
             _ => None,
         };
         match answer {
@@ -369,4 +413,19 @@ pub struct Models<'m> {
     pub at_rest: Option<&'m dyn StaticModel>,
     /// Steady states.
     pub in_time: Option<&'m dyn SteadyStateModel>,
+    /// Mesh stiffness over a mesh cycle.
+    pub stiffness: Option<&'m dyn MeshStiffnessModel>,
+    /// Resonant peaks over torque.
+    pub peaks: Option<&'m dyn TorquePeakModel>,
+}
+
+impl Models<'_> {
+    /// Whether no question is answered.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.modal.is_none()
+            && self.at_rest.is_none()
+            && self.in_time.is_none()
+            && self.stiffness.is_none()
+            && self.peaks.is_none()
+    }
 }

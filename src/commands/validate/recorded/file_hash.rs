@@ -3,13 +3,14 @@
 use std::fs;
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::error::{Result, unread};
 
 /// A file that was read.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct FileHash {
     /// Its name without the folder.
     pub(super) name: String,
@@ -20,10 +21,14 @@ pub(super) struct FileHash {
 impl FileHash {
     pub(super) fn read(path: &Path) -> Result<Self> {
         let bytes = fs::read(path).map_err(unread(path))?;
-        let digits = Sha256::digest(&bytes).iter().map(|byte| format!("{byte:02x}")).collect();
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
-        Ok(Self { name, sha256: digits })
+        Ok(Self { name, sha256: sha256(&bytes) })
     }
+}
+
+/// SHA-256, hexadecimal.
+pub(super) fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use validation::Status;
 
 use super::RecordedOutput;
 use super::escape::xml;
+use super::judged_scene::Parameter;
 use super::row::JudgedRow;
 use super::suite::JudgedSuite;
 
@@ -26,6 +27,7 @@ pub(super) fn html(result: &RecordedOutput, suites: &[JudgedSuite<'_>]) -> Strin
     );
     verdict(result, &mut page);
     files(result, &mut page);
+    scenes(result, &mut page);
     asked(suites, &mut page);
     values(suites, &mut page);
     not_asked(result, &mut page);
@@ -121,6 +123,46 @@ fn files(result: &RecordedOutput, page: &mut String) {
     }
 }
 
+/// Scenes with their parameters.
+fn scenes(result: &RecordedOutput, page: &mut String) {
+    page.push_str(
+        "<h2>Scenes</h2>\n<p class=\"soft\">Parameters with which the references were computed or published. That of \
+         a mesh stands at the sun or the ring.</p>\n<div class=\"scroll\"><table>\n<thead><tr><th>quantity</th>\
+         <th class=\"number\">carrier</th><th class=\"number\">ring</th><th class=\"number\">sun</th>\
+         <th class=\"number\">planet</th></tr></thead>\n",
+    );
+    for scene in &result.about.scenes {
+        let [id, title] = [&scene.id, &scene.title].map(|text| xml(text));
+        let _ = writeln!(
+            page,
+            "<tbody><tr class=\"why\"><th colspan=\"5\"><code>{id}</code> {title}. {} \
+             <span class=\"hash\">SHA-256 <code>{}</code></span></th></tr>",
+            xml(&scene.words()),
+            scene.sha256
+        );
+        for Parameter { name, unit, values } in &scene.parameters {
+            let unit = if unit.is_empty() { String::new() } else { format!(", {unit}") };
+            let _ = write!(page, "<tr><td>{name}{unit}</td>");
+            for value in values {
+                let value = value.map_or_else(|| "–".to_owned(), number);
+                let _ = write!(page, "<td class=\"number\">{value}</td>");
+            }
+            page.push_str("</tr>\n");
+        }
+        page.push_str("</tbody>\n");
+    }
+    page.push_str("</table></div>\n");
+}
+
+/// A parameter with at most five digits.
+fn number(value: f64) -> String {
+    let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
+    match rounded.abs() {
+        size if size != 0.0 && !(1e-3..1e5).contains(&size) => format!("{rounded:e}"),
+        _ => rounded.to_string(),
+    }
+}
+
 /// Suites with their counts.
 fn asked(suites: &[JudgedSuite<'_>], page: &mut String) {
     page.push_str(
@@ -189,10 +231,9 @@ fn values(suites: &[JudgedSuite<'_>], page: &mut String) {
 
 fn value(row: &JudgedRow<'_>, page: &mut String) {
     let [id, title, unit] = [row.id, row.title, row.unit].map(xml);
-    let accepted = match row.accepted {
-        Some(analysis) => format!("<small>accepted by the author: {}</small>", xml(analysis)),
-        None => String::new(),
-    };
+    let accepted = row.acceptance();
+    let accepted =
+        accepted.map_or_else(String::new, |text| format!("<small>{}</small>", xml(&text)));
     let JudgedRow { difference, tolerance, word, .. } = row;
     let ([reference, yours], mark) = match row.is_list {
         true => ([String::new(), String::new()], " class=\"long\""),

@@ -88,7 +88,13 @@ fn test_case(suite: &str, row: &JudgedRow<'_>, text: &mut String) {
             xml(row.source)
         ),
         Status::Miss | Status::NotRun | Status::OtherKind => {
-            writeln!(text, r#"><skipped message="{}: {comparison}"/></testcase>"#, row.word)
+            let acceptance =
+                row.acceptance().map_or_else(String::new, |text| format!(" {}", xml(&text)));
+            writeln!(
+                text,
+                r#"><skipped message="{}: {comparison}{acceptance}"/></testcase>"#,
+                row.word
+            )
         }
     };
 }

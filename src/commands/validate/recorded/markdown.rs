@@ -34,6 +34,11 @@ pub(super) fn markdown(result: &RecordedOutput, suites: &[JudgedSuite<'_>]) -> S
     for file in &about.files {
         let _ = writeln!(text, "| {} | `{}` |", escaped(&file.name), file.sha256);
     }
+    text.push_str("\n| scene | title | about it | SHA-256 |\n|---|---|---|---|\n");
+    for scene in &about.scenes {
+        let [title, words] = [&scene.title, &scene.words()].map(|text| escaped(text));
+        let _ = writeln!(text, "| `{}` | {title} | {words} | `{}` |", scene.id, scene.sha256);
+    }
     if !about.remarks.is_empty() {
         text.push_str("\nRemarks on how it was read:\n\n");
     }
@@ -73,9 +78,8 @@ fn table(heading: &str, is_folded: bool, rows: &[&JudgedRow<'_>], text: &mut Str
     }
     text.push('\n');
     for row in rows {
-        if let Some(analysis) = row.accepted {
-            let _ =
-                writeln!(text, "`{}` is accepted by its author: {}\n", row.id, escaped(analysis));
+        if let Some(acceptance) = row.acceptance() {
+            let _ = writeln!(text, "`{}` is {}\n", row.id, escaped(&acceptance));
         }
     }
     if is_folded {

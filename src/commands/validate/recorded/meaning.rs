@@ -32,17 +32,24 @@ impl RecordedOutput {
                 "Nothing was judged: no reference that could be asked is of kind {kind}. The results stand beside \
                  references of other kinds, which neither confirm nor refute them."
             ),
+            (0, 0) if judged == 1 => {
+                "The one judged check agrees with its reference within the stated tolerance."
+                    .to_owned()
+            }
             (0, 0) => format!(
                 "All {judged} judged checks agree with their references within the stated tolerances."
             ),
             (0, missed) => format!(
-                "{} of {judged} judged checks agree with their references within the stated tolerances; {missed} \
-                 are listed misses.",
-                verdict.passed
+                "{} of {} with {} within the stated tolerances; {missed} {}.",
+                verdict.passed,
+                agree(verdict.passed, "agree", judged),
+                if verdict.passed == 1 { "its reference" } else { "their references" },
+                if missed == 1 { "is a listed miss" } else { "are listed misses" }
             ),
             (failed, _) => format!(
-                "{failed} of {judged} judged checks disagree with a reference of kind {kind} by more than the stated \
-                 tolerance: these results are not those of the scenes that they are named after."
+                "{failed} of {} with a reference of kind {kind} by more than the stated tolerance: these results are not \
+                 those of the scenes that they are named after.",
+                agree(failed, "disagree", judged)
             ),
         }];
         if verdict.missed > 0 {
@@ -74,4 +81,11 @@ impl RecordedOutput {
     pub(super) fn ids(&self, status: Status) -> impl Iterator<Item = &str> {
         self.verdict.checks.iter().filter(move |c| c.status == status).map(|c| c.id.as_str())
     }
+}
+
+/// `19 judged checks disagree`, of one of them `19 judged checks disagrees`.
+fn agree(count: usize, verb: &str, judged: usize) -> String {
+    let checks = if judged == 1 { "check" } else { "checks" };
+    let end = if count == 1 { "s" } else { "" };
+    format!("{judged} judged {checks} {verb}{end}")
 }

@@ -3,6 +3,7 @@
 mod escape;
 mod file_hash;
 mod html;
+mod judged_scene;
 mod junit;
 mod markdown;
 mod meaning;
@@ -14,6 +15,7 @@ mod text;
 use std::io::Write;
 use std::path::Path;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 use validation::results::{Accepted, Judgement, ResultsFolder};
 use validation::{Miss, ModelKind, Selection, Verdict};
@@ -22,10 +24,11 @@ use crate::arguments::{Format, Validate};
 use crate::error::{Result, refused};
 use crate::output;
 use file_hash::FileHash;
+use judged_scene::JudgedScene;
 
 /// `validate --recorded --format json`.
-#[derive(Debug, Serialize)]
-pub(super) struct RecordedOutput {
+#[derive(Debug, Serialize, JsonSchema)]
+pub(crate) struct RecordedOutput {
     /// What was judged.
     about: About,
     #[serde(flatten)]
@@ -39,7 +42,7 @@ pub(super) struct RecordedOutput {
 }
 
 /// Where results come from and how they were read.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Serialize, JsonSchema)]
 struct About {
     folder: String,
     /// Kind of model whose references judge.
@@ -51,12 +54,13 @@ struct About {
     /// Version of epicyclic that judged.
     epicyclic: &'static str,
     /// Fronts of the ids of the checks that were asked for; every check without any.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     only: Vec<String>,
     /// Files that were read.
     files: Vec<FileHash>,
     /// What was read in another way than it is written, a sentence each.
     remarks: Vec<String>,
+    /// Scenes that tables are about, by id.
+    scenes: Vec<JudgedScene>,
 }
 
 pub(super) fn run(arguments: &Validate, folder: &Path, out: &mut dyn Write) -> Result<bool> {
@@ -84,6 +88,7 @@ pub(super) fn run(arguments: &Validate, folder: &Path, out: &mut dyn Write) -> R
     if is_typed && read.kind(arguments.kind) == ModelKind::Torsional {
         remarks.push("types of modes are not asked of a model of rotations alone".to_owned());
     }
+    let scenes = JudgedScene::of_folder(&read);
     let about = About {
         folder: folder.display().to_string(),
         kind: read.kind(arguments.kind),
@@ -93,6 +98,7 @@ pub(super) fn run(arguments: &Validate, folder: &Path, out: &mut dyn Write) -> R
         only: arguments.only.iter().filter(|front| !front.is_empty()).cloned().collect(),
         files,
         remarks,
+        scenes,
     };
     let result = RecordedOutput {
         about,

@@ -24,8 +24,8 @@ pub(super) struct JudgedRow<'v> {
     pub(super) source: &'v str,
     pub(super) status: Status,
     pub(super) word: &'static str,
-    /// Why the author accepts that this row misses.
-    pub(super) accepted: Option<&'v str>,
+    /// What the author accepts, where this row misses.
+    pub(super) accepted: Option<&'v Miss>,
     /// (yours − reference)/tolerance; none of words, lists and exact counts.
     pub(super) part: Option<f64>,
     /// Range of `part` that is allowed.
@@ -40,7 +40,8 @@ impl<'v> JudgedRow<'v> {
             None | Some(Value::Number(_)) => short,
             Some(value) => words(value),
         };
-        let analysis = accepted.iter().find(|miss| miss.id == check.id);
+        let entry = accepted.iter().find(|miss| miss.id == check.id);
+        let accepted = entry.filter(|_| check.status == Status::Miss);
         let absolute = check.tolerance.absolute;
         Self {
             id: &check.id,
@@ -57,13 +58,24 @@ impl<'v> JudgedRow<'v> {
             reason: &check.tolerance.reason,
             source: &check.source,
             status: check.status,
-            word: status_word(check.status),
-            accepted: analysis
-                .filter(|_| check.status == Status::Miss)
-                .map(|miss| miss.analysis.trim()),
+            word: match accepted {
+                Some(_) => "accepted miss",
+                None => status_word(check.status),
+            },
+            accepted,
             part: signed_part(check),
             allowed: check.tolerance.band.map_or([-1.0, 1.0], |band| band.map(|x| x / absolute)),
         }
+    }
+
+    /// What the author accepts of this row, as a sentence.
+    pub(super) fn acceptance(&self) -> Option<String> {
+        let Miss { value, tolerance, analysis, .. } = self.accepted?;
+        let unit = self.unit;
+        Some(
+            format!("accepted by the author at {value} ± {tolerance} {unit}: {}", analysis.trim())
+                .replace(" :", ":"),
+        )
     }
 
     /// Reference, value, difference, tolerance and its reason as one sentence.

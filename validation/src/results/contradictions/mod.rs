@@ -9,6 +9,7 @@
 //!                loads, so that both senses of T_s have one sign
 //! turning        the same of the means, Σ_n A_0n cos φ_0n r_bs = |T_s|; f_m = Z_s |n_s − n_c|/60, by the scene's
 //!                driven and held member of one speed n_in; |φ| ≤ 2π
+//! stiffness      0 < k ≤ 10¹² N/m, and F/k ≤ r_bs with the load F = |T_s|/(N r_bs) of one planet; positions are even
 //! anywhere       |x| ≤ r_bs of a displacement, |θ| ≤ 1 rad of a rotation, |F| r_bs ≤ 1000 |T_s| of a force
 //! ```
 //!
@@ -22,17 +23,11 @@ mod contradiction;
 mod facts;
 mod frequency_factor;
 mod merged;
-mod mesh_cycle;
-mod modes;
 mod repeated;
-mod rules;
-mod steady_states;
+mod tables;
 #[cfg(test)]
 mod tests;
 
 pub use contradiction::Contradiction;
 pub(super) use facts::Facts;
-pub(super) use mesh_cycle::mesh_cycle;
-pub(super) use modes::modes;
-pub(super) use rules::rules;
-pub(super) use steady_states::steady_states;
+pub(super) use tables::{mesh_cycle, mesh_stiffness, modes, rules, steady_states, torque_peaks};

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use serde::Deserialize;
+use toml::Spanned;
 
 use super::error::ManifestError;
 use super::file::line_of;
@@ -13,21 +14,21 @@ use crate::reference::Miss;
 /// Longest file that is read, bytes.
 const MOST_BYTES: u64 = 1_000_000;
 
+/// Largest tolerance of the author's, percent of the accepted value or of the reference: with more, results of another
+/// set would be accepted too.
+const MOST_PERCENT: f64 = 20.0;
+
 /// What the author of results accepts.
-#[derive(Debug, Clone, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, Default)]
 pub struct Accepted {
     /// Rows that the results are known to miss, each pinned and analysed.
-    #[serde(default, rename = "miss")]
     pub misses: Vec<Miss>,
     /// Tolerances instead of those of the registry.
-    #[serde(default, rename = "threshold")]
     pub thresholds: Vec<Threshold>,
 }
 
 /// A tolerance of the author's for some rows.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone)]
 pub struct Threshold {
     /// Id of a check, or a pattern in which `*` stands for any characters.
     pub ids: String,
@@ -37,16 +38,64 @@ pub struct Threshold {
     pub reason: String,
 }
 
+/// The file, with the places of what may be refused.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(default, rename = "miss")]
+    misses: Vec<MissEntry>,
+    #[serde(default, rename = "threshold")]
+    thresholds: Vec<ThresholdEntry>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MissEntry {
+    id: String,
+    value: f64,
+    tolerance: Spanned<f64>,
+    analysis: Spanned<String>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ThresholdEntry {
+    ids: String,
+    percent: Spanned<f64>,
+    reason: Spanned<String>,
+}
+
+impl From<File> for Accepted {
+    fn from(file: File) -> Self {
+        let miss = |entry: MissEntry| Miss {
+            id: entry.id,
+            value: entry.value,
+            tolerance: entry.tolerance.into_inner(),
+            analysis: entry.analysis.into_inner(),
+        };
+        let threshold = |entry: ThresholdEntry| Threshold {
+            ids: entry.ids,
+            percent: entry.percent.into_inner(),
+            reason: entry.reason.into_inner(),
+        };
+        Self {
+            misses: file.misses.into_iter().map(miss).collect(),
+            thresholds: file.thresholds.into_iter().map(threshold).collect(),
+        }
+    }
+}
+
 impl Accepted {
     /// Reads a TOML file: `[[miss]]` entries with `id` of the check, `value` that the model gives, `tolerance` of it
     /// and `analysis`, why the model is right all the same; `[[threshold]]` entries with `ids`, `percent`, `reason`.
+    /// No tolerance may be above 20 % of the value, no threshold above 20 % of the reference.
     ///
     /// # Errors
     /// [`ManifestError`] with file and line of the first fault.
     pub fn read(path: &Path) -> Result<Self, ManifestError> {
         let text = scene::read_text(path, MOST_BYTES)
             .map_err(|source| ManifestError::Unreadable { path: path.to_owned(), source })?;
-        toml::from_str(&text).map_err(|error| ManifestError::Syntax {
+        let file: File = toml::from_str(&text).map_err(|error| ManifestError::Syntax {
             path: path.to_owned(),
             line: line_of(&text, error.span().map_or(0, |span| span.start)),
             reason: format!(
@@ -54,7 +103,48 @@ impl Accepted {
                  and reason",
                 error.message().replace('\n', "; ")
             ),
-        })
+        })?;
+        let fault = |at: usize, key: &str, fault: String| ManifestError::Key {
+            path: path.to_owned(),
+            line: line_of(&text, at),
+            key: key.to_owned(),
+            fault,
+        };
+        let is_empty = |reason: &Spanned<String>| reason.get_ref().trim().is_empty();
+        for miss in &file.misses {
+            let (start, most) =
+                (miss.tolerance.span().start, 0.01 * MOST_PERCENT * miss.value.abs());
+            if is_empty(&miss.analysis) {
+                let allowed =
+                    "is empty: allowed is a sentence on why the model is right all the same";
+                return Err(fault(miss.analysis.span().start, "miss.analysis", allowed.to_owned()));
+            }
+            if !(0.0..=most).contains(miss.tolerance.get_ref()) {
+                let allowed = format!(
+                    "is {}: allowed is 0 to {most}, {MOST_PERCENT} % of `value`",
+                    miss.tolerance.get_ref()
+                );
+                return Err(fault(start, "miss.tolerance", allowed));
+            }
+        }
+        for threshold in &file.thresholds {
+            if is_empty(&threshold.reason) {
+                let allowed = "is empty: allowed is a sentence on why so much";
+                return Err(fault(
+                    threshold.reason.span().start,
+                    "threshold.reason",
+                    allowed.to_owned(),
+                ));
+            }
+            if !(0.0..=MOST_PERCENT).contains(threshold.percent.get_ref()) {
+                let allowed = format!(
+                    "is {}: allowed is 0 to {MOST_PERCENT} % of the reference",
+                    threshold.percent.get_ref()
+                );
+                return Err(fault(threshold.percent.span().start, "threshold.percent", allowed));
+            }
+        }
+        Ok(file.into())
     }
 
     /// Entries without effect, a sentence each: of no check that was asked, or of one that passes.
@@ -85,7 +175,8 @@ impl Accepted {
         let absolute = 0.01 * threshold.percent * expected.abs();
         let is_exact =
             matches!(check.kind, ReferenceKind::Analytic | ReferenceKind::HandCalculation);
-        if is_exact && absolute > check.tolerance.absolute {
+        // Of a reference of 0 no percentage is a tolerance.
+        if *expected == 0.0 || (is_exact && absolute > check.tolerance.absolute) {
             return;
         }
         let reason = format!("threshold of the results: {}", threshold.reason);

@@ -1,8 +1,8 @@
-//! Why `results.toml` cannot be used.
+//! Why `results.toml`, or the file of what the author accepts, cannot be used.
 
 use std::path::PathBuf;
 
-/// The first fault of `results.toml`.
+/// The first fault of the file.
 #[derive(Debug, thiserror::Error)]
 pub enum ManifestError {
     /// A file that is too long or is no UTF-8 text.

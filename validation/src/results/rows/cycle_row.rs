@@ -6,7 +6,7 @@ use std::sync::Arc;
 use experiments::sweep::Part;
 
 use super::SceneNames;
-use super::named::{fitting_unit, part};
+use super::named::{cycle_position, fitting_unit, part};
 use crate::results::known_scenes::KnownScene;
 use crate::results::table::{Column, Content, Quantity, Remark, Table, TableError};
 
@@ -55,16 +55,11 @@ impl CycleRow {
             let number = |column| table.number(row, column).unwrap_or_default();
             let word = table.text(row, "coordinate").unwrap_or_default();
             fitting_unit(&table, row, "value", word)?;
-            let position = number("position");
-            if !(0.0..=1.0).contains(&position) {
-                let allowed = "a part of the mesh cycle, 0 to 1";
-                return Err(table.refusal(row, "position", &position.to_string(), allowed));
-            }
             Ok(Self {
                 line: row.line,
                 scene: names.scene(&table, row)?,
                 sun_torque_nm: number("sun_torque_nm"),
-                position,
+                position: cycle_position(&table, row)?,
                 part: part(&table, row)?,
                 coordinate: COORDINATES.iter().find(|known| **known == word).unwrap_or(&""),
                 value: number("value"),

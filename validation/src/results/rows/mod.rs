@@ -3,14 +3,18 @@
 mod cycle_row;
 mod mode_row;
 mod named;
+mod peak_row;
 mod rule_row;
 mod state_row;
+mod stiffness_row;
 
 pub use cycle_row::CycleRow;
 pub use mode_row::ModeRow;
 pub(super) use named::SceneNames;
+pub use peak_row::PeakRow;
 pub use rule_row::RuleRow;
 pub use state_row::StateRow;
+pub use stiffness_row::StiffnessRow;
 
 /// Planets are numbered below this, and a frequency occurs at most so often.
 const MOST: usize = 1000;

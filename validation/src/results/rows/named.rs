@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use experiments::sweep::{Coordinate, Part};
+use gearset::Facing;
 
 use super::MOST;
 use crate::results::known_scenes::{KnownScene, KnownScenes};
@@ -50,6 +51,26 @@ pub(super) fn part(table: &Table, row: &Row) -> Result<Part, TableError> {
     part.filter(|part| part.planet().is_none_or(|n| n < MOST)).ok_or_else(|| {
         let allowed = "carrier, ring, sun, planet_0, sun_mesh_0, ring_mesh_0 and so on, up to 999";
         table.refusal(row, "body", name, allowed)
+    })
+}
+
+/// The position of a row in the mesh cycle, 0 to 1.
+pub(super) fn cycle_position(table: &Table, row: &Row) -> Result<f64, TableError> {
+    let position = table.number(row, "position").unwrap_or_default();
+    match (0.0..=1.0).contains(&position) {
+        true => Ok(position),
+        false => {
+            let allowed = "a part of the mesh cycle, 0 to 1";
+            Err(table.refusal(row, "position", &position.to_string(), allowed))
+        }
+    }
+}
+
+/// The sense in which the sun turns, where the row says so.
+pub(super) fn sun_turns(table: &Table, row: &Row) -> Option<Facing> {
+    table.text(row, "sun_turns").map(|word| match word {
+        "clockwise" => Facing::Clockwise,
+        _ => Facing::CounterClockwise,
     })
 }
 

@@ -7,7 +7,7 @@ use experiments::sweep::{Coordinate, Part};
 use gearset::Facing;
 
 use super::SceneNames;
-use super::named::{fitting_unit, part};
+use super::named::{fitting_unit, part, sun_turns};
 use crate::results::known_scenes::KnownScene;
 use crate::results::table::{Column, Content, Quantity, Remark, Table, TableError};
 
@@ -96,10 +96,6 @@ impl StateRow {
                     chain
                 })
             });
-            let turns = |word: &str| match word {
-                "clockwise" => Facing::Clockwise,
-                _ => Facing::CounterClockwise,
-            };
             Ok(Self {
                 line: row.line,
                 scene: names.scene(&table, row)?,
@@ -111,7 +107,7 @@ impl StateRow {
                 harmonic: table.count(row, "harmonic").unwrap_or_default(),
                 amplitude: number("amplitude"),
                 phase_rad: number("phase_rad"),
-                sun_turns: table.text(row, "sun_turns").map(turns),
+                sun_turns: sun_turns(&table, row),
                 chain,
             })
         };

@@ -17,6 +17,8 @@ pub enum Quantity {
     Length,
     /// N.
     Force,
+    /// N/m.
+    Stiffness,
     /// Part of a mesh cycle, 0 to 1.
     CyclePart,
     /// A displacement (m), a rotation (rad) or a force (N), as another column of the row says.
@@ -51,6 +53,16 @@ const TORQUE: &[Unit] =
 const ANGLE: &[Unit] = &[("rad", 1.0), ("mrad", 1e-3), ("urad", 1e-6), ("deg", PI / 180.0)];
 const LENGTH: &[Unit] = &[("m", 1.0), ("mm", 1e-3), ("um", 1e-6), ("nm", 1e-9)];
 const FORCE: &[Unit] = &[("n", 1.0), ("kn", 1e3)];
+const STIFFNESS: &[Unit] = &[
+    ("n_per_m", 1.0),
+    ("n_m", 1.0),
+    ("n_per_mm", 1e3),
+    ("n_mm", 1e3),
+    ("n_per_um", 1e6),
+    ("n_um", 1e6),
+    ("kn_per_mm", 1e6),
+    ("kn_mm", 1e6),
+];
 const CYCLE_PART: &[Unit] = &[("", 1.0), ("percent", 1e-2), ("deg", 1.0 / 360.0)];
 
 impl Quantity {
@@ -63,6 +75,7 @@ impl Quantity {
             Self::Angle => ANGLE.to_vec(),
             Self::Length => LENGTH.to_vec(),
             Self::Force => FORCE.to_vec(),
+            Self::Stiffness => STIFFNESS.to_vec(),
             Self::CyclePart => CYCLE_PART.to_vec(),
             Self::ByRow => [&[("", 1.0)], LENGTH, ANGLE, FORCE].concat(),
         }

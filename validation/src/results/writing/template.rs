@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use experiments::sweep::Part;
-use scene::Scene;
+use scene::{LoadCase, Scene, excitation_of_scene};
 
 use super::scene_file::SceneFile;
 use crate::catalogue::{PublishedScene, scene};
@@ -12,6 +12,8 @@ use crate::model_kind::ModelKind;
 use crate::registry::Registry;
 use crate::results::known_scenes::KnownScenes;
 use crate::results::manifest::{ORDER, POSITIONS};
+use crate::suites::fe::torque::TORQUES;
+use crate::suites::pair_stiffness::has_geometry;
 use crate::suites::{ASKABLE, Askable, AskedCycle, Question};
 
 /// Files of a folder whose tables have every row that suites ask for and no values.
@@ -24,23 +26,36 @@ pub struct Template {
 }
 
 impl Template {
-    /// For results about some scenes from a kind of model: the tables for which the suites of that kind ask, or, if
-    /// there are none, those of every kind. Where no suite asks, the table of natural frequencies alone.
+    /// For results about some scenes from a kind of model: the tables for which suites of that kind ask; of a test rig,
+    /// which no suite judges, those of every kind. Scenes of which nothing is asked are left out: where that is all of
+    /// them, there is no suite and no table.
     ///
     /// # Errors
     /// If the registry or a scene of the catalogue cannot be used: a defect of the program.
     pub fn new(scenes: &[SceneFile], kind: ModelKind) -> Result<Self, ValidationError> {
-        let of_kind = askable(Some(kind))?;
-        let all = if of_kind.is_empty() { askable(None)? } else { of_kind };
+        let judging = (kind != ModelKind::Measured).then_some(kind);
+        let all = askable(judging)?;
+        let registry = Registry::load()?;
+        let judges = |suite: &str| {
+            let mut named = registry.suite.iter().filter(|entry| entry.name == suite);
+            judging.is_none_or(|kind| named.any(|entry| entry.models.contains(&kind)))
+        };
         let mut tables = Tables::default();
         let mut suites: Vec<&'static str> = Vec::new();
+        let mut asked = Vec::new();
         for file in scenes {
+            let before = suites.len();
             let of_scene = all.iter().filter(|(_, asked)| asked.contains(&file.scene.title));
             for (askable, _) in of_scene {
                 tables.ask(file, &askable.question);
                 suites.push(askable.suite);
             }
+            for suite in ANY_SCENE.into_iter().filter(|suite| judges(suite)) {
+                suites.extend(tables.ask_of_any_scene(file, suite).then_some(suite));
+            }
+            asked.extend((suites.len() > before).then(|| file.clone()));
         }
+        let scenes = asked;
         let mut seen = Vec::new();
         suites.retain(|suite| {
             !seen.contains(suite) && {
@@ -48,11 +63,8 @@ impl Template {
                 true
             }
         });
-        if suites.is_empty() {
-            tables.modes.extend(scenes.iter().map(|file| file.id.clone()));
-        }
-        let mut files = vec![("results.toml".to_owned(), manifest(scenes, kind))];
-        let mut beside = scenes.to_vec();
+        let mut files = vec![("results.toml".to_owned(), manifest(&scenes, kind))];
+        let mut beside = scenes;
         beside.extend(tables.variants.iter().cloned());
         files.extend(beside.iter().map(|file| (format!("{}.toml", file.id), file.text.clone())));
         files.extend(tables.files());
@@ -68,6 +80,7 @@ impl SceneFile {
     /// As [`Template::new`].
     pub fn asked_about(kind: ModelKind) -> Result<Vec<Self>, ValidationError> {
         let of_kind = askable(Some(kind))?;
+        // Of rotations alone and of rigs no suite asks by the name of a scene.
         let all = if of_kind.is_empty() { askable(None)? } else { of_kind };
         let is_asked = |title: &String| all.iter().any(|(_, titles)| titles.contains(title));
         let known = KnownScenes::shipped();
@@ -90,12 +103,23 @@ fn askable(kind: Option<ModelKind>) -> Result<Vec<(Askable, Vec<String>)>, Valid
     ASKABLE.into_iter().filter(judges).map(titles).collect()
 }
 
+/// Suites that ask about every scene that has what they need.
+const ANY_SCENE: [&str; 3] = ["lumped_model", "rules", "pair_stiffness"];
+
+/// Harmonics of the mesh frequency for which rules are asked.
+const HARMONICS: usize = 10;
+
 /// What is asked for, table by table.
 #[derive(Default)]
 struct Tables {
     /// Ids of scenes.
     modes: Vec<String>,
     cycles: Vec<Cycle>,
+    stiffness: Vec<Cycle>,
+    /// Ids of scenes.
+    peaks: Vec<String>,
+    /// Ids of scenes with numbers of teeth.
+    rules: Vec<String>,
     /// Ids of scenes.
     steady_states: Vec<String>,
     /// Variants of the scenes.
@@ -124,6 +148,12 @@ impl Tables {
         match question {
             Question::Modes(..) => once(&mut self.modes, file.id.clone()),
             Question::SteadyStates(..) => once(&mut self.steady_states, file.id.clone()),
+            Question::MeshStiffness(.., (sun_torque_nm, positions)) => {
+                let (id, planets) = (file.id.clone(), file.scene.planets.count());
+                let (sun_torque_nm, positions) = (*sun_torque_nm, *positions);
+                once(&mut self.stiffness, Cycle { id, planets, sun_torque_nm, positions });
+            }
+            Question::TorquePeaks(..) => once(&mut self.peaks, file.id.clone()),
             Question::MeshCycle(_, _, cycles) => {
                 for AskedCycle { set, sun_torque_nm, positions } in cycles(&file.scene) {
                     let (id, planets) = (self.id(file, &set), set.planets.count());
@@ -131,6 +161,23 @@ impl Tables {
                 }
             }
         }
+    }
+
+    /// Asks for the table of a suite about every scene, if the scene has what it needs.
+    fn ask_of_any_scene(&mut self, file: &SceneFile, suite: &str) -> bool {
+        let (id, scene) = (file.id.clone(), &file.scene);
+        match suite {
+            "lumped_model" if scene.lumped.is_some() => once(&mut self.modes, id),
+            "rules" if excitation_of_scene(scene, 1).is_some() => once(&mut self.rules, id),
+            "pair_stiffness" if has_geometry(scene) => {
+                let case = LoadCase::of_scene(scene).ok().filter(|case| case.sun_torque_nm != 0.0);
+                let Some(LoadCase { sun_torque_nm, .. }) = case else { return false };
+                let (planets, positions) = (scene.planets.count(), POSITIONS);
+                once(&mut self.stiffness, Cycle { id, planets, sun_torque_nm, positions });
+            }
+            _ => return false,
+        }
+        true
     }
 
     /// Id of a scene or of its variant, whose file is kept.
@@ -158,6 +205,19 @@ impl Tables {
         file("modes.csv", "scene,frequency_hz,mode_type,multiplicity", rows(&self.modes, ",,,"));
         let titles = "scene,sun_torque_nm,position,body,coordinate,value";
         file("mesh_cycle.csv", titles, self.cycles.iter().map(Cycle::rows).collect());
+        let titles = "scene,sun_torque_nm,body,position,stiffness_n_per_m";
+        file(
+            "mesh_stiffness.csv",
+            titles,
+            self.stiffness.iter().map(Cycle::stiffness_rows).collect(),
+        );
+        let titles = "scene,sun_torque_nm,body,coordinate,harmonic,frequency_hz,amplitude";
+        file("torque_peaks.csv", titles, self.peaks.iter().map(|id| peak_rows(id)).collect());
+        let rules = self
+            .rules
+            .iter()
+            .flat_map(|id| (1..=HARMONICS).map(|harmonic| format!("{},{harmonic},\n", quoted(id))));
+        file("rules.csv", "scene,harmonic,excites", rules.collect());
         let titles = "scene,sun_torque_nm,speed_rpm,mesh_frequency_hz,body,coordinate,harmonic,amplitude,phase_rad,\
                       sun_turns";
         file("steady_states.csv", titles, rows(&self.steady_states, ",,,,,,,,,"));
@@ -193,6 +253,38 @@ impl Cycle {
         }
         rows
     }
+
+    /// Rows of mesh stiffness without values.
+    fn stiffness_rows(&self) -> String {
+        let Self { id, sun_torque_nm, positions, .. } = self;
+        let mut rows = String::new();
+        for mesh in ["sun_mesh_0", "ring_mesh_0"] {
+            for position in (0..*positions).map(|k| k as f64 / *positions as f64) {
+                let _ = writeln!(rows, "{},{sun_torque_nm},{mesh},{position},", quoted(id));
+            }
+        }
+        rows
+    }
+}
+
+/// Rows of the resonant peaks of the sun and planet 0 that suites ask for, without values.
+fn peak_rows(id: &str) -> String {
+    let mut rows = String::new();
+    for (sun_torque_nm, body) in TORQUES.iter().flat_map(|t| [(t, "sun"), (t, "planet_0")]) {
+        for (coordinate, harmonic) in [
+            ("translation", 1),
+            ("translation", 3),
+            ("rotation", 2),
+            ("rotation", 4),
+            ("translation", 3),
+            ("translation", 5),
+        ] {
+            // Writing to a text cannot fail.
+            let _ =
+                writeln!(rows, "{},{sun_torque_nm},{body},{coordinate},{harmonic},,", quoted(id));
+        }
+    }
+    rows
 }
 
 /// `results.toml` with every key.
@@ -233,8 +325,8 @@ Results of a model of planetary gears, to be filled in and judged.
 
 1. Say in results.toml which program computed them, and with which kind of model.
 2. Compute the scenes (*.toml) and fill in the tables (*.csv). Rows of modes.csv and steady_states.csv are examples:
-   write a row for each natural frequency, and one for each speed, quantity and harmonic. mesh_cycle.csv has every row
-   that is asked for. Delete rows and tables that your model cannot give. An empty cell of a number is refused.
+   write a row for each natural frequency, and one for each speed, quantity and harmonic. The other tables have every
+   row that is asked for. Delete rows and tables that your model cannot give. An empty cell of a number is refused.
 3. epicyclic results check .        what is there, what can be asked, what is lacking
    epicyclic validate --recorded .  the verdict
 
@@ -281,7 +373,7 @@ mod tests {
         let template = Template::new(&[file], ModelKind::Lumped).unwrap();
         assert!(template.suites.contains(&"fe.sets") && !template.suites.contains(&"fe.fig12"));
         let folder = written(&template);
-        for name in ["modes.csv", "steady_states.csv"] {
+        for name in ["modes.csv", "steady_states.csv", "rules.csv"] {
             std::fs::remove_file(folder.path().join(name)).unwrap();
         }
         assert!(refusal(folder.path()).starts_with("mesh_cycle.csv:2: column `value` is empty"));
@@ -320,11 +412,45 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_that_no_suite_asks_about_has_the_table_of_frequencies() {
-        let file = SceneFile::shipped("coinciding_modes").unwrap();
-        let template = Template::new(&[file], ModelKind::Lumped).unwrap();
-        assert!(template.suites.is_empty());
-        let names: Vec<&str> = template.files.iter().map(|(name, _)| name.as_str()).collect();
-        assert_eq!(names, ["results.toml", "coinciding_modes.toml", "modes.csv", "README.txt"]);
+    fn only_tables_that_a_suite_of_the_kind_judges_are_written() {
+        use ModelKind::{FeContact, Lumped, Torsional};
+        let tables = |id: &str, kind| {
+            let file = SceneFile::shipped(id).unwrap();
+            let Template { files, suites } = Template::new(&[file], kind).unwrap();
+            let names = files.into_iter().map(|(name, _)| name);
+            (names.filter(|name| name.ends_with(".csv")).collect::<Vec<_>>(), suites)
+        };
+        for (id, kind, names, suites) in [
+            (
+                "coinciding_modes",
+                Lumped,
+                &["modes.csv", "rules.csv"][..],
+                &["lumped_model", "rules"][..],
+            ),
+            ("oh58_4p", Torsional, &["modes.csv", "rules.csv"], &["lumped_model", "rules"]),
+            (
+                "wind_turbine_stage",
+                FeContact,
+                &["mesh_stiffness.csv", "rules.csv"],
+                &["rules", "pair_stiffness"],
+            ),
+            (
+                "oh58_4p_second_system",
+                FeContact,
+                &["mesh_stiffness.csv", "torque_peaks.csv", "rules.csv"],
+                &["torque", "rules", "pair_stiffness"],
+            ),
+            ("lin_parker_1999_3p", FeContact, &[], &[]),
+            ("lin_parker_1999_3p", Torsional, &["modes.csv"], &["lumped_model"]),
+        ] {
+            let (found, asking) = tables(id, kind);
+            assert_eq!(
+                (found.iter().map(String::as_str).collect::<Vec<_>>(), asking.as_slice()),
+                (names.to_vec(), suites),
+                "{id}"
+            );
+        }
+        let (measured, _) = tables("oh58_3p", ModelKind::Measured);
+        assert!(measured.len() >= 5, "{measured:?}");
     }
 }

@@ -18,4 +18,5 @@ pub(crate) mod stepping;
 pub(crate) mod stiffness;
 pub(crate) mod sweeps;
 pub(crate) mod torque;
+pub(crate) mod torque_peaks;
 pub(crate) mod truth;

@@ -17,7 +17,7 @@ use crate::suites::statements::judge;
 use crate::suites::{Checks, Lab};
 
 /// N·m: 5000 to 20000 lb-in.
-const TORQUES: [f64; 4] = [565.0, 1130.0, 1695.0, 2260.0];
+pub(crate) const TORQUES: [f64; 4] = [565.0, 1130.0, 1695.0, 2260.0];
 
 /// Statements about the first peaks: name, comparisons, what is compared.
 const FIRST: [(&str, usize, &str); 2] = [
@@ -55,32 +55,33 @@ const ALL: [(&str, usize, &str); 3] = [
 /// The comparison of growth at rest with that of the peaks.
 const STATIC: &str = "torques at which the static harmonics (rotation l = 2, translation l = 1) stand in the same order of growth as the resonant peaks";
 
-const PARTS: [(&str, bool); 2] = [("sun", true), ("planet", false)];
+/// Parts by name in ids, and whether they are the sun.
+pub(super) const PARTS: [(&str, bool); 2] = [("sun", true), ("planet", false)];
 
 /// A set with the resonances that are followed.
-struct System<'s> {
-    name: &'s str,
+pub(super) struct System<'s> {
+    pub(super) name: &'s str,
     /// For people.
-    words: &'s str,
-    scene: &'s Scene,
-    series: &'s [Series],
+    pub(super) words: &'s str,
+    pub(super) scene: &'s Scene,
+    pub(super) series: &'s [Series],
 }
 
-fn systems() -> Result<[(&'static str, &'static str, Scene); 3], ValidationError> {
-    Ok([
-        ("default", "default scene", scene(PublishedScene::Oh58FourPlanets)?),
-        (
-            "published_stiffness",
-            "meshes as soft as published",
-            scene(PublishedScene::Oh58FourPlanetsPublishedStiffness)?,
-        ),
-        ("second_system", "second system", scene(PublishedScene::Oh58SecondSystem)?),
-    ])
-}
+/// Systems by their names in ids and for people.
+pub(super) const SYSTEMS: [(&str, &str, PublishedScene); 3] = [
+    ("default", "default scene", PublishedScene::Oh58FourPlanets),
+    (
+        "published_stiffness",
+        "meshes as soft as published",
+        PublishedScene::Oh58FourPlanetsPublishedStiffness,
+    ),
+    ("second_system", "second system", PublishedScene::Oh58SecondSystem),
+];
 
 pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     let mut checks = Vec::new();
-    for (name, words, scene) in systems()? {
+    for (name, words, which) in SYSTEMS {
+        let scene = scene(which)?;
         if !lab.runs(&format!("torque.monotonic.{name}.sun"))? {
             checks.extend(not_run(lab, name, words)?);
             continue;
@@ -90,36 +91,15 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
         let series = lowest_series(&modes).ok_or(missing)?;
         let system = System { name, words, scene: &scene, series: &series };
         let found = first_peaks(&lab.fe, &system)?;
-        checks.extend(first_judged(lab.reference, &system, &found)?);
+        checks.extend(first_judged(lab.reference, &system, &found, &PARTS)?);
         if name == "default" {
             let falling: Vec<Followed> = found.iter().map(reversed).collect();
-            let spoilt = first_judged(lab.reference, &system, &falling)?;
+            let spoilt = first_judged(lab.reference, &system, &falling, &PARTS)?;
             checks.push(lab.reference.control("torque.control.reversed", &spoilt)?);
         }
         checks.push(static_judged(lab, &system, &found)?);
         checks.extend(all_peaks(lab, &system)?);
         lab.gears.drop_unused();
-    }
-    Ok(checks)
-}
-
-/// The statements about the first peaks, judged on any model's steady states of the default scene.
-pub(crate) fn asked(
-    model: &dyn SteadyStateModel,
-    modal: Option<&dyn ModalModel>,
-    scenes: &[Scene],
-    reference: &Reference,
-) -> Checks {
-    let Some(modal) = modal else { return Ok(Vec::new()) };
-    let mut checks = Vec::new();
-    for scene in scenes {
-        let modes = modal.natural_modes(scene, &under(scene, 1130.0)?).map_err(of_model)?;
-        // A list without modes of the kinds followed leaves nothing to ask.
-        let Some(series) = lowest_series(&modes) else { return Ok(Vec::new()) };
-        let (name, words) = ("default", "default scene");
-        let system = System { name, words, scene, series: &series };
-        let found = first_peaks(model, &system)?;
-        checks.extend(first_judged(reference, &system, &found)?);
     }
     Ok(checks)
 }
@@ -136,19 +116,30 @@ fn reversed(followed: &Followed) -> Followed {
 }
 
 /// The lowest translational mode in l = 1 and the lowest rotational one in l = 2.
-fn first_peaks(
+pub(super) fn first_peaks(
     model: &dyn SteadyStateModel,
     system: &System<'_>,
 ) -> Result<Vec<Followed>, ValidationError> {
-    let first = [system.series[0], system.series[2]];
+    let first = first_series(system.series);
     Ok(follow(model, system.scene, &TORQUES, &first, &[Part::SUN], 1e-5)?)
 }
 
-fn first_judged(reference: &Reference, system: &System<'_>, found: &[Followed]) -> Checks {
+/// The resonances of the first peaks.
+pub(super) fn first_series(series: &[Series]) -> Vec<Series> {
+    series.iter().filter(|s| s.is_lowest && s.harmonic < 3).copied().collect()
+}
+
+/// Statements about the first peaks of some parts.
+pub(super) fn first_judged(
+    reference: &Reference,
+    system: &System<'_>,
+    found: &[Followed],
+    parts: &[(&str, bool)],
+) -> Checks {
     let System { name, words, .. } = *system;
     let mut checks = Vec::new();
-    for (part, is_sun) in PARTS {
-        for statement in judge(found, is_sun).iter().filter(|s| s.asked > 0) {
+    for (part, is_sun) in parts {
+        for statement in judge(found, *is_sun).iter().filter(|s| s.asked > 0) {
             let id = format!("torque.{}.{name}.{part}", statement.name);
             let known = FIRST.iter().find(|f| f.0 == statement.name);
             let about = known.map_or(statement.words, |f| f.2);
@@ -179,21 +170,32 @@ fn static_judged(
 
 /// Every followed resonance, in the full profile.
 fn all_peaks(lab: &Lab<'_>, system: &System<'_>) -> Checks {
-    let System { name, words, scene, series } = *system;
+    let System { name, scene, series, .. } = *system;
     let both = [Part::SUN, Part::Body(Body::Planet(0))];
     let is_run = lab.runs(&format!("torque.all.monotonic.{name}.sun"))?;
     let found =
         if is_run { Some(follow(&lab.fe, scene, &TORQUES, series, &both, 1e-6)?) } else { None };
+    all_judged(lab.reference, system, found.as_deref(), &PARTS)
+}
+
+/// Statements about every followed peak of some parts; not run without peaks.
+pub(super) fn all_judged(
+    reference: &Reference,
+    system: &System<'_>,
+    found: Option<&[Followed]>,
+    parts: &[(&str, bool)],
+) -> Checks {
+    let System { name, words, .. } = *system;
     let mut checks = Vec::new();
-    for (part, is_sun) in PARTS {
-        let judged = found.as_ref().map(|f| judge(f, is_sun));
+    for (part, is_sun) in parts {
+        let judged = found.map(|f| judge(f, *is_sun));
         for (statement, asked, about) in ALL {
             let id = format!("torque.all.{statement}.{name}.{part}");
             let title = format!("{words}, {part}: comparisons in which {about}");
             let own = judged.as_ref().map(|list| list.iter().find(|s| s.name == statement));
             // A statement that was not judged counts as holding in no comparison.
             let holding = own.map(|s| s.map_or(0, |s| s.holding));
-            checks.push(counted(lab.reference, &id, &title, asked, holding)?);
+            checks.push(counted(reference, &id, &title, asked, holding)?);
         }
     }
     Ok(checks)

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::contradiction::Contradiction;
-use super::facts::{Facts, SceneFacts};
-use super::frequency_factor::factor;
+use super::super::contradiction::Contradiction;
+use super::super::facts::{Facts, SceneFacts};
+use super::super::frequency_factor::factor;
 use crate::model_kind::ModelKind;
 use crate::results::rows::ModeRow;
 

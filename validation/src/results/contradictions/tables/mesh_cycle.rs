@@ -5,12 +5,12 @@ use std::path::Path;
 
 use experiments::sweep::Coordinate;
 
-use super::absurd::{Sized, absurd, unknown_planets};
-use super::balance::{Force, TOLERANCE, imbalance};
-use super::contradiction::{Contradiction, counted};
-use super::facts::{Facts, SceneFacts};
-use super::merged::{PlanetRow, merged};
-use super::repeated::Repeated;
+use super::super::absurd::{Sized, absurd, unknown_planets};
+use super::super::balance::{Force, TOLERANCE, imbalance};
+use super::super::contradiction::{Contradiction, counted};
+use super::super::facts::{Facts, SceneFacts};
+use super::super::merged::{PlanetRow, merged};
+use super::super::repeated::Repeated;
 use crate::results::rows::CycleRow;
 
 /// What cannot be true in `mesh_cycle.csv`; `asked` is the least number of positions.

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::contradiction::Contradiction;
-use super::repeated::Repeated;
+use super::super::contradiction::Contradiction;
+use super::super::repeated::Repeated;
 use crate::results::rows::RuleRow;
 
 /// What cannot be true in `rules.csv`.

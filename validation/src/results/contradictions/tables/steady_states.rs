@@ -7,12 +7,12 @@ use std::path::Path;
 
 use experiments::sweep::{Coordinate, Part};
 
-use super::absurd::{Sized, absurd, unknown_planets};
-use super::balance::{Force, PARTING_TOLERANCE, TOLERANCE, imbalance};
-use super::contradiction::{Columns, Contradiction, counted};
-use super::facts::{Facts, SceneFacts};
-use super::merged::{PlanetRow, merged};
-use super::repeated::Repeated;
+use super::super::absurd::{Sized, absurd, unknown_planets};
+use super::super::balance::{Force, PARTING_TOLERANCE, TOLERANCE, imbalance};
+use super::super::contradiction::{Columns, Contradiction, counted};
+use super::super::facts::{Facts, SceneFacts};
+use super::super::merged::{PlanetRow, merged};
+use super::super::repeated::Repeated;
 use crate::results::rows::StateRow;
 
 /// Largest part by which mesh frequency and speed may disagree: a number printed with three digits.
