@@ -7,6 +7,7 @@ use scene::Scene;
 use super::contradictions::{self, Contradiction, Facts};
 use super::known_scenes::KnownScenes;
 use super::manifest::{Manifest, ManifestError};
+use super::matrices::{self, MatrixError, SceneMatrices};
 use super::rows::{CycleRow, ModeRow, RuleRow, SceneNames, StateRow};
 use super::table::{Remark, TableError};
 use crate::model_kind::ModelKind;
@@ -26,6 +27,8 @@ pub struct ResultsFolder {
     pub steady_states: Vec<StateRow>,
     /// `rules.csv`.
     pub rules: Vec<RuleRow>,
+    /// `matrices/`, scene by scene.
+    pub matrices: Vec<SceneMatrices>,
     /// Every file that was read, in order.
     pub files: Vec<PathBuf>,
     /// What was read in another way than it is written.
@@ -38,6 +41,9 @@ pub enum FolderError {
     /// A table.
     #[error(transparent)]
     Table(#[from] TableError),
+    /// A matrix.
+    #[error(transparent)]
+    Matrix(#[from] MatrixError),
     /// `results.toml`.
     #[error(transparent)]
     Manifest(#[from] ManifestError),
@@ -78,8 +84,8 @@ pub enum FolderError {
         #[source]
         source: super::known_scenes::UnknownScene,
     },
-    /// A folder without any table.
-    #[error("{}: none of modes.csv, mesh_cycle.csv, steady_states.csv and rules.csv is there", path.display())]
+    /// A folder without any table or matrix.
+    #[error("{}: none of modes.csv, mesh_cycle.csv, steady_states.csv, rules.csv and matrices/ is there", path.display())]
     Empty {
         /// The folder.
         path: PathBuf,
@@ -121,12 +127,39 @@ impl ResultsFolder {
         })?;
         let rules =
             table(folder, "rules.csv", &mut files, &mut remarks, |p| RuleRow::read(p, names()))?;
+        let matrices = matrices::matrices(folder, &known, standard)?;
+        for set in &matrices {
+            files.extend(set.each().map(|(_, matrix)| matrix.path.clone()));
+            let is_listed = modes.iter().any(|row| row.scene.id == set.scene.id);
+            if let (Some((_, k)), false) = (set.both(), is_listed) {
+                let text = format!(
+                    "frequencies and types of `{}` are those of M and K, for modes.csv has none of it",
+                    set.scene.id
+                );
+                remarks.push(Remark {
+                    path: k.path.clone(),
+                    line: k.size_line(),
+                    columns: vec![],
+                    text,
+                });
+            }
+        }
         let path = folder.to_owned();
         let rows = modes.len() + mesh_cycle.len() + steady_states.len() + rules.len();
-        if rows == 0 {
+        if rows + matrices.len() == 0 {
             return Err(FolderError::Empty { path });
         }
-        Ok(Self { path, manifest, modes, mesh_cycle, steady_states, rules, files, remarks })
+        Ok(Self {
+            path,
+            manifest,
+            modes,
+            mesh_cycle,
+            steady_states,
+            rules,
+            matrices,
+            files,
+            remarks,
+        })
     }
 
     /// Everything in the tables that cannot be true, in the order of tables; empty for results that can be judged.
@@ -139,6 +172,10 @@ impl ResultsFolder {
             kind.or(self.manifest.kind),
             &mut facts,
         );
+        let (path, kind) = (self.path.join("modes.csv"), self.kind(kind));
+        found.extend(contradictions::vectors(&path, &self.modes, &self.manifest, kind));
+        let (sets, manifest) = (&self.matrices, &self.manifest);
+        found.extend(contradictions::matrices(sets, &path, &self.modes, manifest, kind));
         found.extend(contradictions::mesh_cycle(
             &self.path.join("mesh_cycle.csv"),
             &self.mesh_cycle,

@@ -8,17 +8,22 @@ use experiments::{MeshCycle, NaturalMode, RestState};
 use lumped::ModeType;
 use scene::LoadCase;
 
-use super::folder::ResultsFolder;
-use super::rows::{CycleRow, ModeRow, StateRow};
+use crate::results::folder::ResultsFolder;
+use crate::results::rows::{CycleRow, ModeRow, StateRow};
 
 impl ResultsFolder {
     /// The tables as a model. Of a scene whose modes have no types no modes are there, for suites ask by type.
     pub fn recorded(&self) -> Recorded {
+        self.recorded_with(&self.modes)
+    }
+
+    /// The same with other modes.
+    pub(in crate::results) fn recorded_with(&self, modes: &[ModeRow]) -> Recorded {
         let mut recorded = Recorded::default();
-        let untyped = self.modes.iter().filter(|row| mode_type(row).is_none());
+        let untyped = modes.iter().filter(|row| mode_type(row).is_none());
         let untyped: HashSet<&str> = untyped.map(|row| row.scene.scene.title.as_str()).collect();
         let is_typed = |row: &&ModeRow| !untyped.contains(row.scene.scene.title.as_str());
-        self.modes.iter().filter(is_typed).for_each(|row| take_mode(&mut recorded, row));
+        modes.iter().filter(is_typed).for_each(|row| take_mode(&mut recorded, row));
         let mut rows: Vec<&CycleRow> = self.mesh_cycle.iter().collect();
         rows.sort_by(|a, b| a.position.total_cmp(&b.position));
         rows.into_iter().for_each(|row| take_rest(&mut recorded, row));

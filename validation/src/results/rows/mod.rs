@@ -5,12 +5,14 @@ mod mode_row;
 mod named;
 mod rule_row;
 mod state_row;
+mod vector_entry;
 
 pub use cycle_row::CycleRow;
 pub use mode_row::ModeRow;
 pub(super) use named::SceneNames;
 pub use rule_row::RuleRow;
 pub use state_row::StateRow;
+pub use vector_entry::{VectorAxis, VectorEntry};
 
 /// Planets are numbered below this, and a frequency occurs at most so often.
 const MOST: usize = 1000;
