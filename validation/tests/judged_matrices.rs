@@ -9,7 +9,7 @@ use lumped::{LumpedModel, SpringId};
 use scene::Scene;
 use tempfile::TempDir;
 use validation::results::{Judgement, ResultsFolder};
-use validation::{Check, PublishedScene, Selection, Status, Value, Verdict, scene};
+use validation::{Check, PublishedScene, Status, Value, Verdict, scene};
 
 pub(crate) fn model(set: PublishedScene) -> (Scene, LumpedModel) {
     let set = scene(set).unwrap();
@@ -29,7 +29,7 @@ pub(crate) fn folder(manifest: &str, files: &[(&str, &str)]) -> TempDir {
 
 pub(crate) fn judged(folder: &Path) -> Result<Verdict, String> {
     let read = ResultsFolder::read(folder).unwrap();
-    let judged = read.judge(&Judgement { only: Selection::default(), ..Judgement::default() });
+    let judged = read.judge(&Judgement::default());
     judged.map_err(|error| error.to_string().replace(&format!("{}/", folder.display()), ""))
 }
 

@@ -86,6 +86,9 @@ impl ResultsFolder {
     ) -> Result<Vec<Check>, ValidationError> {
         let is_torsional = kind == ModelKind::Torsional;
         let mut checks = Vec::new();
+        for set in &self.matrices {
+            checks.extend(self.matrices_beside(set, kind, reference)?);
+        }
         let with_modes = scenes(modes.iter().map(|row| &row.scene));
         for KnownScene { id, scene } in with_modes.into_iter().filter(|k| k.scene.lumped.is_some())
         {
@@ -109,9 +112,6 @@ impl ResultsFolder {
                     lumped_model::beside(id, title, model, &listed, is_torsional, reference)?
                 }
             });
-        }
-        for set in &self.matrices {
-            checks.extend(self.matrices_beside(set, kind, reference)?);
         }
         for KnownScene { id, scene } in scenes(self.rules.iter().map(|row| &row.scene)) {
             let rows = self.rules.iter().filter(|row| row.scene.id == *id);

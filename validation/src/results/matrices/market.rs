@@ -1,7 +1,7 @@
 //! Matrix Market files: a line of words, `%` comments, a line of sizes, then a line for each entry.
 //!
-//! The entries of `coordinate` are a row, a column and a number, counted from 1; those of `array` are numbers, column by
-//! column. Of a `symmetric` matrix one triangle is there, of `array` the lower one.
+//! The entries of `coordinate` are a row, a column and a number, counted from 1; those of `array` are numbers, column
+//! by column. Of a `symmetric` matrix one triangle is there, of `array` the lower one.
 
 use std::path::Path;
 
