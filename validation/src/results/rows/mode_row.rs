@@ -9,8 +9,8 @@ use crate::compare::ListedMode;
 use crate::results::known_scenes::KnownScene;
 use crate::results::table::{Column, Content, Quantity, Remark, Row, Table, TableError};
 
-/// Longest table that is read, bytes: vectors of a hundred coordinates for a hundred modes of each of some scenes.
-const MOST_BYTES: u64 = 10_000_000;
+/// Longest table that is read, bytes: also all vectors of 64 planets in 17 digits.
+const MOST_BYTES: u64 = 1_000_000;
 
 const COLUMNS: [Column; 4] = [
     Column::optional("scene", Content::Title),
