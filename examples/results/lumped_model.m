@@ -1,6 +1,6 @@
 function lumped_model(folder, mistake)
 % The lumped model of planetary gear sets (Lin & Parker 1999), written from docs/results.md alone: builds M and K of
-% five sets, computes frequencies, types and multiplicities of their modes, and writes them as a results folder.
+% five sets, computes frequencies, types and multiplicities of their modes, and writes all as a results folder.
 % For MATLAB and for Octave:
 %
 %   octave-cli --path examples/results --eval "lumped_model('FOLDER')"
@@ -12,16 +12,20 @@ function lumped_model(folder, mistake)
   if ~any(strcmp(mistake, {'none', 'ring_angle_sign', 'inertia_not_over_r2', 'equal_spacing'}))
     error('mistake: none, ring_angle_sign, inertia_not_over_r2 or equal_spacing');
   end
-  if ~exist(folder, 'dir')
-    mkdir(folder);
+  for path = {folder, fullfile(folder, 'matrices')}
+    if ~exist(path{1}, 'dir')
+      mkdir(path{1});
+    end
   end
   write(fullfile(folder, 'results.toml'), { ...
     'format = 1', 'kind = "lumped"', 'program = "lumped_model.m"', 'version = "1.0"', '', ...
-    '[convention]', 'order = ["carrier", "ring", "sun", "planets"]', 'frame = "carrier"', ...
+    '[convention]', 'order = ["carrier", "ring", "sun", "planets"]', 'planets = "radial_tangential"', ...
     'rotation = "arc"', 'radius = "base"', 'sense = "counter_clockwise"'});
   lines = {'scene,frequency_hz,mode_type,multiplicity'};
   for set = sets(mistake)
     [M, K, free] = matrices(set, mistake);
+    dlmwrite(fullfile(folder, 'matrices', [set.scene, '.M.csv']), M, 'precision', '%.10g');
+    dlmwrite(fullfile(folder, 'matrices', [set.scene, '.K.csv']), K, 'precision', '%.10g');
     lines = [lines, modes(M, K, free, set)];
   end
   write(fullfile(folder, 'modes.csv'), lines);

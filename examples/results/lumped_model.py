@@ -1,5 +1,5 @@
 """The lumped model of planetary gear sets (Lin & Parker 1999), written from docs/results.md alone: builds M and K of
-five sets, computes frequencies, types and multiplicities of their modes, and writes them as a results folder.
+five sets, computes frequencies, types and multiplicities of their modes, and writes all as a results folder.
 
     python3 lumped_model.py FOLDER                             # needs NumPy
     epicyclic validate --recorded FOLDER                       # exit code 0
@@ -166,7 +166,7 @@ version = "1.0"
 
 [convention]
 order = ["carrier", "ring", "sun", "planets"]
-frame = "carrier"
+planets = "radial_tangential"
 rotation = "arc"
 radius = "base"
 sense = "counter_clockwise"
@@ -179,7 +179,7 @@ def main():
     mistakes = ["ring_angle_sign", "inertia_not_over_r2", "equal_spacing"]
     parser.add_argument("--mistake", choices=mistakes)
     given = parser.parse_args()
-    os.makedirs(given.folder, exist_ok=True)
+    os.makedirs(os.path.join(given.folder, "matrices"), exist_ok=True)
     with open(os.path.join(given.folder, "results.toml"), "w", encoding="utf-8") as file:
         file.write(RESULTS)
     with open(os.path.join(given.folder, "modes.csv"), "w", newline="", encoding="utf-8") as file:
@@ -187,6 +187,9 @@ def main():
         table.writerow(["scene", "frequency_hz", "mode_type", "multiplicity"])
         for scene, parameters in sets(given.mistake).items():
             mass, stiffness, free = matrices(parameters, given.mistake)
+            for letter, matrix in (("M", mass), ("K", stiffness)):
+                path = os.path.join(given.folder, "matrices", f"{scene}.{letter}.csv")
+                np.savetxt(path, matrix, fmt="%.10g", delimiter=",")
             for frequency, kind, count in modes(mass, stiffness, free, parameters["psi"]):
                 table.writerow([scene, f"{frequency:.10g}", kind, count])
 

@@ -19,7 +19,7 @@ use dynamics::{RotatingFrame, gyroscopic_modes};
 use crate::error::LumpedError;
 use crate::kinds::Kinds;
 use crate::model::LumpedModel;
-use crate::modes::Participation;
+use crate::participation::Participation;
 
 /// One mode at a carrier speed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -13,18 +13,8 @@ use crate::coordinates::Coordinates;
 use crate::error::LumpedError;
 use crate::kinds::{Kinds, ModeType};
 use crate::model::LumpedModel;
+use crate::participation::Participation;
 use crate::springs::Spring;
-
-/// Shares of a mode's kinetic energy in the three kinds; they sum to one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Participation {
-    /// Rotational kind.
-    pub rotational: f64,
-    /// Translational kind.
-    pub translational: f64,
-    /// Planet kind.
-    pub planet: f64,
-}
 
 /// One distinct frequency of one type.
 #[derive(Debug, Clone, Serialize)]

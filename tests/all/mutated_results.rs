@@ -35,9 +35,37 @@ const TITLES: [&str; 8] =
 /// Base radius of the sun of the OH-58, m.
 const SUN: f64 = 0.5 * 0.09126 * 27.0 / 35.0;
 
-/// Modes of the kept right model, a mesh cycle of three planets, and of four planets mesh stiffness, resonant peaks and
-/// steady states.
+/// Modes of the kept right model, matrices and vectors of one set, a mesh cycle of three planets, and of four planets
+/// mesh stiffness, resonant peaks and steady states.
 fn files() -> Vec<(&'static str, String)> {
+    let set = validation::scene(validation::PublishedScene::Oh58FourPlanets).unwrap();
+    let model = lumped::LumpedModel::from_scene(&set).unwrap();
+    let (mass, stiffness) = (model.mass_matrix(), model.stiffness());
+    let n = mass.nrows();
+    let mut market = format!("%%MatrixMarket matrix coordinate real general\n{n} {n} {n}\n");
+    for i in 0..n {
+        writeln!(market, "{} {} {}", i + 1, i + 1, mass[(i, i)]).unwrap();
+    }
+    let line = |row: Vec<String>| row.join(",") + "\n";
+    let rows = stiffness.row_iter().map(|row| line(row.iter().map(f64::to_string).collect()));
+    let table: String = rows.collect();
+    let titles = model.coordinates.free().iter().map(|&(body, axis)| match (body, axis) {
+        (_, gearset::Axis::Rotation) => format!("{}_u", body.name()),
+        (gearset::Body::Planet(_), gearset::Axis::First) => format!("{}_radial", body.name()),
+        (gearset::Body::Planet(_), _) => format!("{}_tangential", body.name()),
+        (_, axis) => {
+            format!("{}_{}", body.name(), if axis == gearset::Axis::First { "x" } else { "y" })
+        }
+    });
+    let titles: Vec<String> = titles.collect();
+    let mut vectors = format!("scene,frequency_hz,mode_type,{}\n", titles.join(","));
+    for group in lumped::NaturalModes::of(&model).unwrap().groups {
+        for vector in group.vectors.column_iter() {
+            let numbers: Vec<String> = vector.iter().map(|x| format!("{x:.6e}")).collect();
+            let (hz, name) = (group.frequency_hz, group.mode_type.name());
+            writeln!(vectors, "oh58_4p,{hz:.3},{name},{}", numbers.join(",")).unwrap();
+        }
+    }
     let kept = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/results/right");
     let read = |name: &str| std::fs::read_to_string(kept.join(name)).unwrap();
     let mut cycle = "scene,sun_torque_nm,position,body,coordinate,value\n".to_owned();
@@ -62,10 +90,10 @@ fn files() -> Vec<(&'static str, String)> {
         }
     }
     // A set without teeth: the pair beside which others stand takes a while.
-    let mut stiffness = "scene,sun_torque_nm,body,position,stiffness_n_per_um\n".to_owned();
+    let mut mesh_stiffness = "scene,sun_torque_nm,body,position,stiffness_n_per_um\n".to_owned();
     for k in 0..28 {
         let at = f64::from(k) / 28.0;
-        writeln!(stiffness, "lin_parker_1999_4p,1130,ring_mesh_0,{at},{}", 800 + k).unwrap();
+        writeln!(mesh_stiffness, "lin_parker_1999_4p,1130,ring_mesh_0,{at},{}", 800 + k).unwrap();
     }
     let mut peaks =
         "scene,sun_torque_nm,body,coordinate,harmonic,frequency_hz,amplitude\n".to_owned();
@@ -76,14 +104,17 @@ fn files() -> Vec<(&'static str, String)> {
                 .unwrap();
         }
     }
-    let names = [("modes.csv", read("modes.csv")), ("results.toml", read("results.toml"))];
-    let tables = [
+    vec![
+        ("modes.csv", read("modes.csv")),
+        ("modes.csv", vectors),
+        ("results.toml", read("results.toml")),
+        ("matrices/oh58_4p.M.mtx", market),
+        ("matrices/oh58_4p.K.csv", table),
         ("mesh_cycle.csv", cycle),
-        ("mesh_stiffness.csv", stiffness),
+        ("mesh_stiffness.csv", mesh_stiffness),
         ("torque_peaks.csv", peaks),
         ("steady_states.csv", states),
-    ];
-    names.into_iter().chain(tables).collect()
+    ]
 }
 
 /// One change of a text: of a line, a cell, a title, a separator or a byte.
@@ -91,10 +122,11 @@ fn mutate(text: &str, random: &mut Random) -> Vec<u8> {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let at = random.below(lines.len());
     let replace = |line: &str, random: &mut Random, words: &[&str]| {
-        let mut cells: Vec<String> = line.split(',').map(str::to_owned).collect();
+        let separator = if line.contains(',') { "," } else { " " };
+        let mut cells: Vec<String> = line.split(separator).map(str::to_owned).collect();
         let cell = random.below(cells.len());
         cells[cell] = words[random.below(words.len())].to_owned();
-        cells.join(",")
+        cells.join(separator)
     };
     match random.below(10) {
         0 => drop(lines.remove(at)),
@@ -124,15 +156,22 @@ fn mutate(text: &str, random: &mut Random) -> Vec<u8> {
 fn mutated_through_the_judgement(count: usize, seed: u64) {
     let (files, mut random) = (files(), Random(seed));
     let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("matrices")).unwrap();
     let name = folder.path().to_str().unwrap();
     let mut codes = [0; 3];
     for _ in 0..count {
-        // Two speeds are no sweep: with steady states no folder passes, so that half of them have none.
-        let present = &files[..files.len() - random.below(2)];
+        // Two speeds are no sweep: with steady states no folder passes, so that half of them have none. Of the two
+        // tables of modes, one has vectors; matrices are there in every third folder.
+        let mut present = files.clone();
+        present.truncate(files.len() - random.below(2));
+        if random.below(3) > 0 {
+            present.retain(|(file, _)| !file.starts_with("matrices/"));
+        }
+        present.remove(random.below(2));
         for (file, _) in &files {
             let _ = std::fs::remove_file(folder.path().join(file));
         }
-        for (file, text) in present {
+        for (file, text) in &present {
             std::fs::write(folder.path().join(file), text).unwrap();
         }
         for _ in 0..=random.below(2) {
@@ -170,7 +209,8 @@ fn says_where(err: &str) -> bool {
                 .is_some_and(|line| line.starts_with(|c: char| c.is_ascii_digit()))
         })
     };
-    files().iter().any(|(name, _)| has_line(name))
+    let matrices = ["oh58_4p.M.mtx", "oh58_4p.K.csv"];
+    files().iter().map(|(name, _)| *name).chain(matrices).any(has_line)
         || [": no rows: ", ": cannot be read: "].iter().any(|words| err.contains(words))
 }
 

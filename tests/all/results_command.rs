@@ -125,3 +125,25 @@ fn check_lists_every_table_and_names_the_teeth_that_rules_need() {
         assert!(out.contains(words), "{words}: {out}");
     }
 }
+
+#[test]
+fn matrices_are_listed_and_a_wrong_one_says_where() {
+    let parent = tempfile::tempdir().unwrap();
+    let folder = parent.path().join("matrices");
+    std::fs::create_dir(&folder).unwrap();
+    let row =
+        |i: usize| (0..17).map(|j| if i == j { "1e8" } else { "0" }).collect::<Vec<_>>().join(";");
+    let rows: Vec<String> = (0..17).map(row).collect();
+    std::fs::write(folder.join("oh58_4p.K.csv"), rows.join("\n")).unwrap();
+    let path = parent.path().to_str().unwrap();
+    let (code, out, err) = run(&["results", "check", path]);
+    assert_eq!(code, 0, "{err}");
+    assert!(out.contains("matrices/oh58_4p.K.csv"), "{out}");
+    let (code, out, _) = run(&["validate", "--recorded", path]);
+    assert_eq!(code, 1, "{out}");
+    assert!(out.contains("lumped_model.oh58_4p.stiffness: largest at "), "{out}");
+    std::fs::rename(folder.join("oh58_4p.K.csv"), folder.join("oh58_4p.C.csv")).unwrap();
+    let (code, _, err) = run(&["validate", "--recorded", path]);
+    assert_eq!(code, 2);
+    assert!(err.contains("oh58_4p.C.csv: no matrix is called so: allowed is M or K"), "{err}");
+}

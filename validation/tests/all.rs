@@ -4,7 +4,9 @@
 
 mod closed_forms;
 mod good_results;
+mod judged_matrices;
 mod judged_results;
+mod judged_vectors;
 mod lumped_from_fe;
 mod made_scenes;
 mod sweep;

@@ -4,11 +4,11 @@ use schemars::JsonSchema;
 use serde::Serialize;
 use validation::results::ResultsFolder;
 
-/// Rows of one table about one scene.
+/// Rows of one table or matrix about one scene.
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct Contents {
     /// Name of the file.
-    pub(super) table: &'static str,
+    pub(super) table: String,
     /// Id of the scene.
     pub(super) scene: String,
     pub(super) rows: usize,
@@ -24,13 +24,13 @@ pub(super) struct Contents {
 }
 
 impl Contents {
-    fn new(table: &'static str, scene: &str) -> Self {
+    fn new(table: &str, scene: &str) -> Self {
         let (sun_torques_nm, speeds_rpm, positions) = (Vec::new(), Vec::new(), Vec::new());
-        let scene = scene.to_owned();
+        let (table, scene) = (table.to_owned(), scene.to_owned());
         Self { table, scene, rows: 0, modes: None, sun_torques_nm, speeds_rpm, positions }
     }
 
-    /// Of all tables, in the order in which the folder has scenes.
+    /// Of all tables and matrices, in the order in which the folder has scenes.
     pub(super) fn of_folder(folder: &ResultsFolder) -> Vec<Self> {
         let mut all = Vec::new();
         for row in &folder.modes {
@@ -59,12 +59,19 @@ impl Contents {
         for row in &folder.rules {
             entry(&mut all, "rules.csv", &row.scene.id);
         }
+        for set in &folder.matrices {
+            for (_, matrix) in set.each() {
+                let name = matrix.path.strip_prefix(&folder.path).unwrap_or(&matrix.path);
+                let name = name.display().to_string();
+                all.push(Self { rows: matrix.rows(), ..Self::new(&name, &set.scene.id) });
+            }
+        }
         all
     }
 }
 
 /// The entry of a table and scene, with one more row.
-fn entry<'a>(all: &'a mut Vec<Contents>, table: &'static str, scene: &str) -> &'a mut Contents {
+fn entry<'a>(all: &'a mut Vec<Contents>, table: &str, scene: &str) -> &'a mut Contents {
     let is_same = |entry: &Contents| entry.table == table && entry.scene == scene;
     let index = all.iter().position(is_same).unwrap_or_else(|| {
         all.push(Contents::new(table, scene));

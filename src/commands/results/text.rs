@@ -43,7 +43,7 @@ impl Report for ResultsSummary {
 /// What is there.
 fn tables<'r>() -> Table<'r, &'r Contents> {
     Table::new()
-        .words("table", Notation::Plain, |row: &&Contents| row.table)
+        .words("table", Notation::Plain, |row: &&Contents| &row.table)
         .key()
         .words("scene", Notation::Plain, |row| &row.scene)
         .key()

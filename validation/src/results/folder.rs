@@ -7,6 +7,7 @@ use scene::Scene;
 use super::contradictions::{self, Contradiction, Facts};
 use super::known_scenes::KnownScenes;
 use super::manifest::{Manifest, ManifestError};
+use super::matrices::{self, MatrixError, SceneMatrices};
 use super::rows::{CycleRow, ModeRow, PeakRow, RuleRow, SceneNames, StateRow, StiffnessRow};
 use super::table::{Remark, TableError};
 use crate::model_kind::ModelKind;
@@ -34,6 +35,8 @@ pub struct ResultsFolder {
     pub torque_peaks: Vec<PeakRow>,
     /// `rules.csv`.
     pub rules: Vec<RuleRow>,
+    /// `matrices/`, scene by scene.
+    pub matrices: Vec<SceneMatrices>,
     /// Every file that was read, in order.
     pub files: Vec<PathBuf>,
     /// What was read in another way than it is written.
@@ -56,6 +59,9 @@ pub enum FolderError {
     /// A table.
     #[error(transparent)]
     Table(#[from] TableError),
+    /// A matrix.
+    #[error(transparent)]
+    Matrix(#[from] MatrixError),
     /// `results.toml`.
     #[error(transparent)]
     Manifest(#[from] ManifestError),
@@ -96,8 +102,8 @@ pub enum FolderError {
         #[source]
         source: super::known_scenes::UnknownScene,
     },
-    /// A folder without any table.
-    #[error("{}: none of {} is there", path.display(), TABLES.join(", "))]
+    /// A folder without any table or matrix.
+    #[error("{}: none of {} and matrices/ is there", path.display(), TABLES.join(", "))]
     Empty {
         /// The folder.
         path: PathBuf,
@@ -150,10 +156,27 @@ impl ResultsFolder {
             read.table("steady_states.csv", |path| StateRow::read(path, names()))?;
         let torque_peaks = read.table("torque_peaks.csv", |path| PeakRow::read(path, names()))?;
         let rules = read.table("rules.csv", |path| RuleRow::read(path, names()))?;
+        let matrices = matrices::matrices(folder, &known, standard)?;
+        for set in &matrices {
+            files.extend(set.each().map(|(_, matrix)| matrix.path.clone()));
+            let is_listed = modes.iter().any(|row| row.scene.id == set.scene.id);
+            if let (Some((_, k)), false) = (set.both(), is_listed) {
+                let text = format!(
+                    "frequencies and types of `{}` are those of M and K, for modes.csv has none of it",
+                    set.scene.id
+                );
+                remarks.push(Remark {
+                    path: k.path.clone(),
+                    line: k.size_line(),
+                    columns: vec![],
+                    text,
+                });
+            }
+        }
         let path = folder.to_owned();
         let is_table = |path: &PathBuf| TABLES.iter().any(|name| path.ends_with(name));
         // A table that was read has rows.
-        if !files.iter().any(is_table) {
+        if matrices.is_empty() && !files.iter().any(is_table) {
             return Err(FolderError::Empty { path });
         }
         Ok(Self {
@@ -165,6 +188,7 @@ impl ResultsFolder {
             mesh_stiffness,
             torque_peaks,
             rules,
+            matrices,
             files,
             remarks,
         })
@@ -180,6 +204,10 @@ impl ResultsFolder {
             kind.or(self.manifest.kind),
             &mut facts,
         );
+        let (path, kind) = (self.path.join("modes.csv"), self.kind(kind));
+        found.extend(contradictions::vectors(&path, &self.modes, &self.manifest, kind));
+        let (sets, manifest) = (&self.matrices, &self.manifest);
+        found.extend(contradictions::matrices(sets, &path, &self.modes, manifest, kind));
         found.extend(contradictions::mesh_cycle(
             &self.path.join("mesh_cycle.csv"),
             &self.mesh_cycle,

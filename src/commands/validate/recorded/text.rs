@@ -14,6 +14,9 @@ use crate::output::{Notation, Report, Table, paragraph};
 /// Rows shown of each status.
 const MOST_ROWS: usize = 8;
 
+/// Notes shown of failed checks.
+const MOST_NOTES: usize = 2;
+
 /// Suites listed that were not asked.
 const MOST_SUITES: usize = 8;
 
@@ -65,7 +68,7 @@ fn table<'r>() -> Table<'r, &'r Check> {
         .right()
 }
 
-/// The first rows of a status under a heading, and how many more there are.
+/// The first rows of a status under a heading, how many more there are, and notes of failed ones.
 fn some(checks: &[Check], status: Status, heading: &str, out: &mut dyn Write) -> Result<()> {
     let rows: Vec<&Check> = checks.iter().filter(|check| check.status == status).collect();
     if rows.is_empty() {
@@ -75,6 +78,12 @@ fn some(checks: &[Check], status: Status, heading: &str, out: &mut dyn Write) ->
     table().text(rows.iter().copied().take(MOST_ROWS), out)?;
     if rows.len() > MOST_ROWS {
         writeln!(out, "and {} more (--details lists all)", rows.len() - MOST_ROWS)?;
+    }
+    if status == Status::Fail {
+        let notes = rows.iter().filter_map(|check| Some((&check.id, check.note.as_ref()?)));
+        for (id, note) in notes.take(MOST_NOTES) {
+            writeln!(out, "{}", paragraph(&format!("{id}: {note}"), "  ", "    "))?;
+        }
     }
     Ok(())
 }

@@ -13,7 +13,8 @@ pub struct Contradiction {
     pub path: PathBuf,
     /// Lines that contradict each other, from 1: the first two, or the first and the last of many.
     pub lines: Vec<u64>,
-    /// Names of the columns whose cells cannot be true together.
+    /// Names of the columns whose cells cannot be true together; none of a matrix or a vector, whose statement names the
+    /// coordinates.
     pub columns: &'static [&'static str],
     /// What cannot be true.
     pub statement: String,
@@ -39,6 +40,9 @@ impl fmt::Display for Contradiction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let place = |line: &u64| format!("{}:{line}", self.path.display());
         let places = self.lines.iter().map(place).collect::<Vec<_>>().join(" and ");
+        if self.columns.is_empty() {
+            return write!(f, "{places}: {}: {}", self.statement, self.remedy);
+        }
         let word = if self.columns.len() == 1 { "column" } else { "columns" };
         let columns = self.columns.join("`, `");
         write!(f, "{places}: {word} `{columns}`: {}: {}", self.statement, self.remedy)

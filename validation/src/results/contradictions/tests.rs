@@ -542,7 +542,10 @@ fn resonant_peaks_that_cannot_be() {
         ]
     );
     let huge = rows(&[right[0].clone(), row(1130, "sun", 100.0)]);
-    assert!(huge[0].starts_with("torque_peaks.csv:3: column `amplitude`: rotation of sun is 1e2 rad"), "{huge:?}");
+    assert!(
+        huge[0].starts_with("torque_peaks.csv:3: column `amplitude`: rotation of sun is 1e2 rad"),
+        "{huge:?}"
+    );
     let merged: Vec<String> = [565, 1130, 1695]
         .iter()
         .flat_map(|torque| {
@@ -557,5 +560,8 @@ fn resonant_peaks_that_cannot_be() {
         ]
     );
     let beyond = rows(&[right[0].clone(), row(565, "planet_4", 1e-4)]);
-    assert!(beyond[0].starts_with("torque_peaks.csv:3: column `body`: `planet_4` in a set of 4 planets"));
+    assert!(
+        beyond[0]
+            .starts_with("torque_peaks.csv:3: column `body`: `planet_4` in a set of 4 planets")
+    );
 }

@@ -5,13 +5,13 @@
 //! kind = "lumped"                 # or "fe_contact", "torsional", "measured"; required
 //! program = "my_model"
 //! version = "2.3"
-//! scene = "lin_parker_1999_4p"    # where tables have no column `scene`
-//! held = ["ring"]                 # members that neither move nor turn in the model
+//! scene = "oh58_4p"               # where tables have no column `scene`
+//! held = ["ring"]                 # members held in the model, also where the scene lets them move
 //! positions = 28                  # in a mesh cycle
 //!
-//! [convention]                    # of vectors and matrices; defaults are those of docs/physics.md
+//! [convention]                    # of vectors and matrices; these are the defaults
 //! order = ["carrier", "ring", "sun", "planets"]
-//! frame = "carrier"               # or "fixed"
+//! planets = "radial_tangential"   # translations of planets; or "x_y"
 //! rotation = "arc"                # u = r θ; or "angle", θ
 //! radius = "base"                 # r of u = r θ; or "pitch"
 //! sense = "counter_clockwise"     # positive rotation; or "clockwise"
@@ -19,13 +19,14 @@
 
 use std::path::Path;
 
-use gearset::{Facing, Member};
+use gearset::Member;
 use scene::read_text;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::convention::{Convention, ORDER};
 use super::error::ManifestError;
 use crate::model_kind::ModelKind;
 use crate::nearest::did_you_mean;
@@ -35,9 +36,6 @@ const MOST_BYTES: u64 = 1_000_000;
 
 /// Positions of a mesh cycle that the suites ask for.
 pub(in crate::results) const POSITIONS: usize = 28;
-
-/// Order of bodies in vectors and matrices where none is given.
-pub(in crate::results) const ORDER: [&str; 4] = ["carrier", "ring", "sun", "planets"];
 
 /// What `results.toml` says.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -50,57 +48,12 @@ pub struct Manifest {
     pub version: Option<String>,
     /// Id, file or title of the scene of all tables without a column `scene`.
     pub scene: Option<String>,
-    /// Members that neither move nor turn in the model.
+    /// Members that neither move nor turn in the model, beside those that the scene holds.
     pub held: Vec<Member>,
     /// Positions in a mesh cycle at least, which are 28 if not given.
     pub positions: usize,
     /// How vectors and matrices are to be read.
     pub convention: Convention,
-}
-
-/// How vectors and matrices are to be read.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Convention {
-    /// Order of the bodies.
-    pub order: Vec<String>,
-    /// Frame of the translations.
-    pub frame: Frame,
-    /// What stands for a rotation.
-    pub rotation: RotationCoordinate,
-    /// The radius in u = r θ.
-    pub radius: Radius,
-    /// Positive sense of rotations.
-    pub sense: Facing,
-}
-
-/// Frame in which translations are seen.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Frame {
-    /// Turns with the carrier.
-    Carrier,
-    /// Stands still.
-    Fixed,
-}
-
-/// The coordinate of a rotation θ.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RotationCoordinate {
-    /// u = r θ, m.
-    Arc,
-    /// θ, rad.
-    Angle,
-}
-
-/// The radius in u = r θ of a gear; of the carrier it is the centre distance.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Radius {
-    /// Base radius.
-    Base,
-    /// Operating pitch radius.
-    Pitch,
 }
 
 impl Default for Manifest {
@@ -113,18 +66,6 @@ impl Default for Manifest {
             held: Vec::new(),
             positions: POSITIONS,
             convention: Convention::default(),
-        }
-    }
-}
-
-impl Default for Convention {
-    fn default() -> Self {
-        Self {
-            order: ORDER.map(str::to_owned).to_vec(),
-            frame: Frame::Carrier,
-            rotation: RotationCoordinate::Arc,
-            radius: Radius::Base,
-            sense: Facing::CounterClockwise,
         }
     }
 }
@@ -204,7 +145,7 @@ impl<'d> Keys<'d> {
             return Err(self.fault("convention", value.span().start, fault));
         };
         let table = Keys { table: "convention.", entries, ..*self };
-        table.refuse_others(&["order", "frame", "rotation", "radius", "sense"])?;
+        table.refuse_others(&["order", "planets", "rotation", "radius", "sense"])?;
         let standard = Convention::default();
         let order: Vec<String> = table.choices("order", &ORDER)?;
         let is_whole = ORDER.iter().all(|body| order.iter().filter(|o| o == body).count() == 1);
@@ -215,7 +156,9 @@ impl<'d> Keys<'d> {
         }
         Ok(Convention {
             order: if order.is_empty() { standard.order } else { order },
-            frame: table.choice("frame", &["carrier", "fixed"])?.unwrap_or(standard.frame),
+            planets: table
+                .choice("planets", &["radial_tangential", "x_y"])?
+                .unwrap_or(standard.planets),
             rotation: table.choice("rotation", &["arc", "angle"])?.unwrap_or(standard.rotation),
             radius: table.choice("radius", &["base", "pitch"])?.unwrap_or(standard.radius),
             sense: table
@@ -337,7 +280,7 @@ mod tests {
         assert_eq!(read.convention, Convention::default());
         assert_eq!((read.positions, read.kind), (POSITIONS, Some(ModelKind::Lumped)));
         assert_eq!(read.held, [Member::Ring]);
-        assert_eq!(read.scene.as_deref(), Some("lin_parker_1999_4p"));
+        assert_eq!(read.scene.as_deref(), Some("oh58_4p"));
         let short = Manifest::parse("results.toml".as_ref(), "format = 1\nkind = \"measured\"\n");
         assert_eq!(
             short.unwrap(),
@@ -363,8 +306,8 @@ mod tests {
                 "results.toml:3: `programm` is not known: allowed is format, kind, program, version, scene, held, positions, convention; did you mean `program`?",
             ),
             (
-                "format = 1\nkind = \"lumped\"\n[convention]\nframe = 3",
-                "results.toml:4: `convention.frame` is `no text`: allowed is carrier, fixed",
+                "format = 1\nkind = \"lumped\"\n[convention]\nplanets = 3",
+                "results.toml:4: `convention.planets` is `no text`: allowed is radial_tangential, x_y",
             ),
             (
                 "format = 1\nkind = \"lumped\"\n[convention]\norder = [\"sun\", \"sun\"]",

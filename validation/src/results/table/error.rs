@@ -1,5 +1,6 @@
 //! Why a table cannot be read, and what to do about it.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// The first fault of a table.
@@ -57,7 +58,7 @@ pub enum TableError {
         /// Title of the other.
         second: String,
         /// The column that both are.
-        column: &'static str,
+        column: Cow<'static, str>,
     },
     /// A row with more cells than there are titles.
     #[error("{}:{line}: {cells} cells under {titles} titles, the last is column `{last}`: {remedy}", path.display())]

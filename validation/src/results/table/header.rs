@@ -15,6 +15,8 @@ pub(super) struct Header {
     pub(super) titles: Vec<String>,
     /// Of every column asked for, its place and unit.
     pub(super) places: Vec<Option<Place>>,
+    /// Numbers of further columns in the file, from 0, and their titles in lower case with words joined by `_`.
+    pub(super) further: Vec<(usize, String)>,
 }
 
 /// Where a column stands, and in which unit.
@@ -29,7 +31,7 @@ pub(super) struct Place {
 }
 
 /// What separates the columns of a line of titles. `;` leaves the numbers of a single column their decimal commas.
-pub(super) fn separator(titles: &str) -> u8 {
+pub(in crate::results) fn separator(titles: &str) -> u8 {
     let mut quoted = false;
     let mut found = b';';
     for byte in titles.bytes() {
@@ -75,6 +77,7 @@ impl Header {
         line: u64,
         titles: Vec<String>,
         columns: &[Column],
+        is_further: fn(&str) -> bool,
     ) -> Result<Self, TableError> {
         let named: Vec<String> = titles.iter().map(|title| plain(title)).collect();
         let mut places = Vec::with_capacity(columns.len());
@@ -89,7 +92,7 @@ impl Header {
                     line,
                     first: titles[first.index].clone(),
                     second: titles[second.index].clone(),
-                    column: column.name,
+                    column: column.name.into(),
                 });
             }
             if found.is_empty() && column.required {
@@ -103,7 +106,21 @@ impl Header {
             }
             places.push(found.into_iter().next());
         }
-        Ok(Self { line, titles, places })
+        let mut further: Vec<(usize, String)> = Vec::new();
+        for (index, name) in named.into_iter().enumerate().filter(|(_, name)| is_further(name)) {
+            if let Some((other, _)) = further.iter().find(|(_, known)| *known == name) {
+                let (first, second) = (titles[*other].clone(), titles[index].clone());
+                return Err(TableError::Twice {
+                    path: path.to_owned(),
+                    line,
+                    first,
+                    second,
+                    column: name.into(),
+                });
+            }
+            further.push((index, name));
+        }
+        Ok(Self { line, titles, places, further })
     }
 
     /// What was converted, and what is kept aside.
@@ -124,8 +141,10 @@ impl Header {
             }
         }
         let is_read = |index: usize| self.places.iter().flatten().any(|place| place.index == index);
+        let is_further = |index: usize| self.further.iter().any(|(further, _)| *further == index);
         let extra: Vec<String> = (0..self.titles.len())
-            .filter(|index| !is_read(*index) && !self.titles[*index].is_empty())
+            .filter(|index| !is_read(*index) && !is_further(*index))
+            .filter(|index| !self.titles[*index].is_empty())
             .map(|index| self.titles[index].clone())
             .collect();
         if !extra.is_empty() {

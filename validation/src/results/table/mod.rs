@@ -19,6 +19,8 @@ mod unit;
 pub use cell::Cell;
 pub use column::{Column, Content};
 pub use error::TableError;
+pub(super) use header::separator;
+pub(super) use number::number;
 pub use reader::{Row, Table};
 pub use remark::Remark;
 pub use unit::{Dimension, Quantity};

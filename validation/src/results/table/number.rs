@@ -4,7 +4,7 @@
 ///
 /// A comma counts as the decimal point only where `comma` allows it and no point stands beside it: of `1.234,5` nobody
 /// can say which of the two separates thousands.
-pub(super) fn number(text: &str, comma: bool) -> Option<(f64, bool)> {
+pub(in crate::results) fn number(text: &str, comma: bool) -> Option<(f64, bool)> {
     let has_comma = text.contains(',');
     if has_comma && (!comma || text.contains('.') || text.matches(',').count() > 1) {
         return None;

@@ -23,6 +23,8 @@ pub struct Table {
     pub rows: Vec<Row>,
     /// What was read in another way than it is written.
     pub remarks: Vec<Remark>,
+    /// Titles of further columns of numbers, in lower case with words joined by `_`.
+    pub further: Vec<String>,
     columns: Vec<Column>,
     titles: Vec<String>,
     units: Vec<Option<Dimension>>,
@@ -35,6 +37,8 @@ pub struct Row {
     pub line: u64,
     /// Cells in the order of the columns asked for.
     pub cells: Vec<Cell>,
+    /// Numbers of the further columns; `None` where a cell is empty.
+    pub further: Vec<Option<f64>>,
 }
 
 impl Table {
@@ -43,9 +47,22 @@ impl Table {
     /// # Errors
     /// [`TableError`] with the first fault: file, line, column and what is allowed.
     pub fn read(path: &Path, columns: &[Column], most_bytes: u64) -> Result<Self, TableError> {
+        Self::read_with(path, columns, |_| false, most_bytes)
+    }
+
+    /// The same with every column of numbers whose title, in lower case with words joined by `_`, `is_further`.
+    ///
+    /// # Errors
+    /// As [`Table::read`].
+    pub fn read_with(
+        path: &Path,
+        columns: &[Column],
+        is_further: fn(&str) -> bool,
+        most_bytes: u64,
+    ) -> Result<Self, TableError> {
         let text = read_text(path, most_bytes)
             .map_err(|source| TableError::Unreadable { path: path.to_owned(), source })?;
-        Self::parse(path, &text, columns)
+        Self::parsed(path, &text, columns, is_further)
     }
 
     /// The same of a text; `path` is named in messages.
@@ -53,6 +70,15 @@ impl Table {
     /// # Errors
     /// As [`Table::read`].
     pub fn parse(path: &Path, text: &str, columns: &[Column]) -> Result<Self, TableError> {
+        Self::parsed(path, text, columns, |_| false)
+    }
+
+    fn parsed(
+        path: &Path,
+        text: &str,
+        columns: &[Column],
+        is_further: fn(&str) -> bool,
+    ) -> Result<Self, TableError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let required = columns.iter().filter(|column| column.required);
         let titles = required.map(|column| column.name).collect::<Vec<_>>().join(",");
@@ -81,7 +107,7 @@ impl Table {
                 _ if record.iter().all(str::is_empty) || (header.is_none() && is_mark) => {}
                 None => {
                     let titles = record.iter().map(str::to_owned).collect();
-                    let found = Header::read(path, line, titles, columns)?;
+                    let found = Header::read(path, line, titles, columns, is_further)?;
                     remarks.extend(found.remarks(path, columns));
                     header = Some(found);
                 }
@@ -104,6 +130,7 @@ impl Table {
             path: path.to_owned(),
             rows,
             remarks,
+            further: header.further.iter().map(|(_, title)| title.clone()).collect(),
             columns: columns.to_vec(),
             titles: columns.iter().zip(&header.places).map(title).collect(),
             units: header.places.iter().map(unit).collect(),
@@ -180,7 +207,9 @@ struct Reading<'t> {
 impl Reading<'_> {
     fn row(&self, record: StringRecord, remarks: &mut Vec<Remark>) -> Result<Row, TableError> {
         let cells = self.whole(record, remarks)?;
-        let mut row = Row { line: self.line, cells: Vec::with_capacity(self.columns.len()) };
+        let cell_count = self.columns.len();
+        let mut row =
+            Row { line: self.line, cells: Vec::with_capacity(cell_count), further: Vec::new() };
         for (column, place) in self.columns.iter().zip(&self.header.places) {
             row.cells.push(match place {
                 Some(place) => {
@@ -188,6 +217,14 @@ impl Reading<'_> {
                     self.cell(column, place, text, remarks)?
                 }
                 None => Cell::Empty,
+            });
+        }
+        for (index, _) in &self.header.further {
+            let text = cells.get(*index).map_or("", String::as_str);
+            let title = &self.header.titles[*index];
+            row.further.push(match text.is_empty() {
+                true => None,
+                false => Some(self.number(title, text, remarks)?),
             });
         }
         Ok(row)
@@ -261,15 +298,7 @@ impl Reading<'_> {
                 Ok(Cell::Count(count.ok_or_else(allowed)?))
             }
             Content::Number(_) => {
-                let (number, has_comma) = number(text, self.comma).ok_or_else(|| {
-                    refuse(match text.contains(',') {
-                        true => "a finite number, with one decimal comma only where columns are separated by `;` or tabs",
-                        false => "a finite number",
-                    })
-                })?;
-                if has_comma {
-                    self.once(remarks, title, "decimal commas read");
-                }
+                let number = self.number(title, text, remarks)?;
                 let number = number * place.factor;
                 if !number.is_finite() {
                     return Err(refuse("a finite number, also in the unit of the column"));
@@ -277,6 +306,26 @@ impl Reading<'_> {
                 Ok(Cell::Number(number))
             }
         }
+    }
+
+    /// The number of a cell in the unit that it is written in.
+    fn number(
+        &self,
+        title: &str,
+        text: &str,
+        remarks: &mut Vec<Remark>,
+    ) -> Result<f64, TableError> {
+        let (number, has_comma) = number(text, self.comma).ok_or_else(|| {
+            let allowed = match text.contains(',') {
+                true => "a finite number, with one decimal comma only where columns are separated by `;` or tabs",
+                false => "a finite number",
+            };
+            TableError::value(self.path, self.line, title, text, allowed)
+        })?;
+        if has_comma {
+            self.once(remarks, title, "decimal commas read");
+        }
+        Ok(number)
     }
 
     /// A remark, at the first row that gives occasion to it.

@@ -10,7 +10,7 @@ pub struct Remark {
     pub path: PathBuf,
     /// First line that it concerns, from 1.
     pub line: u64,
-    /// Titles of the columns as written; none of a file that is no table.
+    /// Titles of the columns as written; none of a matrix, or of a file that is no table.
     pub columns: Vec<String>,
     /// What was done.
     pub text: String,
@@ -18,11 +18,12 @@ pub struct Remark {
 
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let place = format!("{}:{}", self.path.display(), self.line);
         if self.columns.is_empty() {
-            return write!(f, "{}:{}: {}", self.path.display(), self.line, self.text);
+            return write!(f, "{place}: {}", self.text);
         }
         let columns = if self.columns.len() == 1 { "column" } else { "columns" };
         let titles = self.columns.join("`, `");
-        write!(f, "{}:{}: {columns} `{titles}`: {}", self.path.display(), self.line, self.text)
+        write!(f, "{place}: {columns} `{titles}`: {}", self.text)
     }
 }

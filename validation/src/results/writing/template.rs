@@ -303,15 +303,15 @@ program = "my program"
 version = "0"
 # The scene of rows whose cell `scene` is empty or absent: an id, that is, the name of a scene file without `.toml`.
 {scene}
-# Members that neither move nor turn in the model: sun, ring, carrier.
+# Members held in the model beside those that the scene holds: sun, ring, carrier.
 # held = ["ring"]
 # Least number of positions in a mesh cycle.
 # positions = {POSITIONS}
 
-# Of vectors and matrices; these are the defaults.
+# Of vectors in modes.csv and of matrices/ID.M.mtx and matrices/ID.K.mtx; these are the defaults.
 [convention]
 order = [{order}]
-frame = "carrier"             # turns with the carrier; or "fixed"
+planets = "radial_tangential" # translations of planets; or "x_y"
 rotation = "arc"              # u = r θ; or "angle", θ
 radius = "base"               # r of u = r θ, of the carrier the centre distance; or "pitch"
 sense = "counter_clockwise"   # positive rotation; or "clockwise"

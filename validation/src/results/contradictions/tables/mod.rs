@@ -9,6 +9,7 @@ mod torque_peaks;
 
 pub(in crate::results) use mesh_cycle::mesh_cycle;
 pub(in crate::results) use mesh_stiffness::mesh_stiffness;
+pub(super) use modes::by_scene;
 pub(in crate::results) use modes::modes;
 pub(in crate::results) use rules::rules;
 pub(in crate::results) use steady_states::steady_states;

@@ -32,7 +32,7 @@ pub(in crate::results) fn modes(
 }
 
 /// Rows of each scene, in the order of the file.
-fn by_scene(rows: &[ModeRow]) -> Vec<Vec<&ModeRow>> {
+pub(in crate::results) fn by_scene(rows: &[ModeRow]) -> Vec<Vec<&ModeRow>> {
     let mut list: Vec<Vec<&ModeRow>> = Vec::new();
     for row in rows {
         match list.iter_mut().find(|rows| rows[0].scene.id == row.scene.id) {

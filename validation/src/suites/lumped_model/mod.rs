@@ -1,7 +1,11 @@
-//! Natural frequencies of any set beside this project's lumped model of the same parameters, or beside its limit of
-//! rotations alone.
+//! Natural frequencies, mode shapes and matrices of any set beside this project's lumped model of the same parameters,
+//! or beside its limit of rotations alone.
 
-use lumped::{LumpedModel, NaturalModes};
+mod matrices;
+mod shapes;
+
+use gearset::{Axis, Body};
+use lumped::{LumpedModel, NaturalModes, SpringId};
 use scene::Scene;
 
 use super::Checks;
@@ -11,22 +15,22 @@ use crate::compare::{ListedMode, ModelMode, compare, rigid_body_hz};
 use crate::error::ValidationError;
 use crate::reference::Reference;
 
+pub(crate) use matrices::{Beside, Difference};
+pub(crate) use shapes::ListedShape;
+pub(crate) use shapes::beside as with_shapes;
+
 /// Frequencies that differ by less than this part are one.
 const EQUAL: f64 = 1e-9;
 
-/// Modes of the model of a scene; of rotations alone if `is_torsional`.
-fn modes_of(scene: &Scene, is_torsional: bool) -> Result<Vec<ModelMode>, ValidationError> {
-    let mut model = LumpedModel::from_scene(scene)?;
-    if is_torsional {
-        model = model.torsional();
-    }
+/// Modes of a model; of rotations alone if `is_torsional`.
+fn modes_of(model: &LumpedModel, is_torsional: bool) -> Result<Vec<ModelMode>, ValidationError> {
     let mode = |group: &lumped::ModeGroup| ModelMode {
         frequency_hz: group.frequency_hz,
         mode_type: if is_torsional { "torsional" } else { group.mode_type.name() }.to_owned(),
         multiplicity: group.multiplicity,
     };
     let mut modes: Vec<ModelMode> = Vec::new();
-    for next in NaturalModes::of(&model)?.groups.iter().map(mode) {
+    for next in NaturalModes::of(model)?.groups.iter().map(mode) {
         // The N − 1 modes of the planets against one another are one frequency of a model of rotations.
         let is_same = |last: &&mut ModelMode| {
             is_torsional
@@ -43,13 +47,14 @@ fn modes_of(scene: &Scene, is_torsional: bool) -> Result<Vec<ModelMode>, Validat
 /// Listed modes of the scene with that id. Modes above the highest of the list are not asked for.
 pub(crate) fn beside(
     id: &str,
-    scene: &Scene,
+    title: &str,
+    model: &LumpedModel,
     listed: &[ListedMode],
     is_torsional: bool,
     reference: &Reference,
 ) -> Checks {
     let percent = reference.registry.check("lumped_model.*")?.percent.unwrap_or_default();
-    let modes = modes_of(scene, is_torsional)?;
+    let modes = modes_of(model, is_torsional)?;
     let found = compare(listed, &modes, percent, false);
     let rigid_hz = rigid_body_hz(&modes);
     // A list without the type of every mode is matched by frequency, and its rows name no type.
@@ -71,9 +76,9 @@ pub(crate) fn beside(
         };
         let check = format!("lumped_model.{id}.{kind}.{number}");
         let title = match (pair.model_hz, is_typed) {
-            (Some(_), true) => format!("{}: {mode_type} mode {number}", scene.title),
-            (Some(_), false) => format!("{}: frequency {number}", scene.title),
-            (None, _) => format!("{}: frequency {number} without a mode of the model", scene.title),
+            (Some(_), true) => format!("{title}: {mode_type} mode {number}"),
+            (Some(_), false) => format!("{title}: frequency {number}"),
+            (None, _) => format!("{title}: frequency {number} without a mode of the model"),
         };
         let about = reference.about(&check, &title)?;
         checks.push(match (pair.model_hz, pair.difference_percent) {
@@ -114,7 +119,37 @@ pub(crate) fn checks(lab: &Lab<'_>) -> Checks {
     }
     let spoilt = limit(&scene, &softer, reference)?;
     judged.push(reference.control("lumped_model.control.ring_mesh_softer", &spoilt)?);
+    let spoilt = ring_axes_turned(&scene, reference)?;
+    judged.push(reference.control("lumped_model.control.ring_axes_turned", &spoilt)?);
     Ok(judged)
+}
+
+/// The stiffness matrix with ψ_n − α_r in place of ψ_n + α_r, which changes no frequency.
+fn ring_axes_turned(scene: &Scene, reference: &Reference) -> Checks {
+    let model = LumpedModel::from_scene(scene)?;
+    let mut turned = model.clone();
+    let alpha = scene.lumped.as_ref().map_or(0.0, |lumped| lumped.pressure_angle_rad.ring_planet);
+    let place = |axis| model.coordinates.of(Body::Ring, axis);
+    for spring in &mut turned.springs {
+        let SpringId::RingMesh(n) = spring.id else { continue };
+        let (sin, cos) = (model.psi[n] - alpha).sin_cos();
+        for (i, b) in spring.rows.iter_mut().flatten() {
+            match Some(*i) {
+                x if x == place(Axis::First) => *b = -sin,
+                y if y == place(Axis::Second) => *b = cos,
+                _ => {}
+            }
+        }
+    }
+    let beside = Beside {
+        name: "stiffness",
+        unit: "N/m",
+        coordinates: &model.coordinates,
+        given: &turned.stiffness(),
+        model: &model.stiffness(),
+    };
+    let id = super::P::LinParkerFourPlanets.id();
+    Ok(vec![beside.check(id, &scene.title, reference, |_| None)?])
 }
 
 /// Frequencies of `scene` with rotations alone against those of `stiffened` with bearings of 1e15 N/m.
@@ -129,7 +164,9 @@ fn limit(scene: &Scene, stiffened: &Scene, reference: &Reference) -> Checks {
         let times = |m: &ModelMode| std::iter::repeat_n(m.frequency_hz, m.multiplicity);
         modes.iter().flat_map(times).collect()
     };
-    let (limit, whole) = (each(modes_of(scene, true)?), each(modes_of(&stiff, false)?));
+    let turning = LumpedModel::from_scene(scene)?.torsional();
+    let stiff = LumpedModel::from_scene(&stiff)?;
+    let (limit, whole) = (each(modes_of(&turning, true)?), each(modes_of(&stiff, false)?));
     let row = |(k, hz): (usize, &f64)| -> Result<Check, ValidationError> {
         let id = format!("lumped_model.limit.{}", k + 1);
         let title = format!("frequency {} of rotations alone, from rigid bearings", k + 1);

@@ -5,19 +5,23 @@ use std::sync::Arc;
 use experiments::BodiesCache;
 use gearset::AllowedKinds;
 
-use super::contradictions::Contradiction;
-use super::folder::ResultsFolder;
-use super::known_scenes::KnownScene;
-use super::manifest::Accepted;
-use super::rows::ModeRow;
 use crate::check::Check;
 use crate::compare::ListedMode;
 use crate::error::ValidationError;
 use crate::model_kind::ModelKind;
 use crate::reference::Reference;
+use crate::results::contradictions::Contradiction;
+use crate::results::folder::ResultsFolder;
+use crate::results::known_scenes::KnownScene;
+use crate::results::manifest::{Accepted, Convention};
+use crate::results::matrices::{MatrixKind, SceneMatrices};
+use crate::results::rows::ModeRow;
 use crate::selection::Selection;
-use crate::suites::{Models, explain_untyped, lumped_model, pair_stiffness, rules};
+use crate::suites::lumped_model::{self, Beside, Difference, ListedShape};
+use crate::suites::{Models, explain_untyped, pair_stiffness, rules};
 use crate::verdict::{NotAsked, Verdict};
+
+use super::recorded::untyped;
 
 /// Why results cannot be judged.
 #[derive(Debug, thiserror::Error)]
@@ -61,8 +65,9 @@ impl ResultsFolder {
         if !contradictions.is_empty() {
             return Err(JudgeError::Contradictions(contradictions));
         }
-        let tables = self.recorded();
         let kind = self.kind(how.kind);
+        let modes = self.completed_modes(kind)?;
+        let tables = self.recorded_with(&modes);
         let models = Models {
             kind: Some(kind),
             // Empty tables answer nothing: suites are then listed with what they lack.
@@ -73,40 +78,60 @@ impl ResultsFolder {
             peaks: Some(&tables),
         };
         let beside = |reference: &Reference, not_asked: &mut Vec<NotAsked>| {
-            self.beside(kind, reference, not_asked)
+            self.beside(kind, &modes, reference, not_asked)
         };
         Ok(crate::judge_with(&models, &how.only, &how.accepted, &beside)?)
     }
 
-    /// What is judged of any scene: frequencies beside this project's lumped model, excitation rules by phasor sums,
-    /// mesh stiffness beside its finite-element/contact pair. What could not be asked, and why, is added to `not_asked`.
-    pub(super) fn beside(
+    /// What is judged of any scene: modes and matrices beside this project's lumped model, excitation rules by phasor
+    /// sums, mesh stiffness beside its finite-element/contact pair. What cannot be asked, and why, is added to
+    /// `not_asked`.
+    pub(in crate::results) fn beside(
         &self,
         kind: ModelKind,
+        modes: &[ModeRow],
         reference: &Reference,
         not_asked: &mut Vec<NotAsked>,
     ) -> Result<Vec<Check>, ValidationError> {
         let is_torsional = kind == ModelKind::Torsional;
-        explain_untyped(not_asked, &self.untyped());
-        let mut checks = Vec::new();
+        explain_untyped(not_asked, &untyped(modes));
         let mut lacks = |suite: &str, lacks: String| {
             not_asked.push(NotAsked { suite: suite.to_owned(), lacks });
         };
-        let with_modes = scenes(self.modes.iter().map(|row| &row.scene));
-        if with_modes.is_empty() {
-            lacks("lumped_model", "modes.csv of any scene with numbers in [lumped]".to_owned());
+        let mut checks = Vec::new();
+        for set in &self.matrices {
+            checks.extend(self.matrices_beside(set, kind, reference)?);
+        }
+        let with_modes = scenes(modes.iter().map(|row| &row.scene));
+        if with_modes.is_empty() && self.matrices.is_empty() {
+            let needs = "modes.csv of any scene with numbers in [lumped], or M and K";
+            lacks("lumped_model", needs.to_owned());
         }
         for KnownScene { id, scene } in with_modes {
             if scene.lumped.is_none() {
                 lacks("lumped_model", format!("numbers in [lumped] of the scene {id}"));
                 continue;
             }
-            let rows = self.modes.iter().filter(|row| row.scene.id == *id);
-            let mut listed: Vec<ListedMode> = rows.map(ModeRow::listed).collect();
-            if is_torsional {
-                listed.iter_mut().for_each(|mode| mode.mode_type = None);
-            }
-            checks.extend(lumped_model::beside(id, scene, &listed, is_torsional, reference)?);
+            let rows: Vec<&ModeRow> = modes.iter().filter(|row| row.scene.id == *id).collect();
+            let found = self.reference_model(scene, kind)?;
+            let (title, model) = (&scene.title, &found.model);
+            let shape = |row: &&ModeRow| {
+                let shape = found.shape(&self.manifest.convention, &row.vector).ok()?;
+                Some(ListedShape { line: row.line, frequency_hz: row.frequency_hz, shape })
+            };
+            let shapes: Option<Vec<ListedShape>> = rows.iter().map(shape).collect();
+            checks.extend(match shapes {
+                Some(shapes) => {
+                    lumped_model::with_shapes(id, title, model, &shapes, is_torsional, reference)?
+                }
+                None => {
+                    let mut listed: Vec<ListedMode> = rows.iter().map(|row| row.listed()).collect();
+                    if is_torsional {
+                        listed.iter_mut().for_each(|mode| mode.mode_type = None);
+                    }
+                    lumped_model::beside(id, title, model, &listed, is_torsional, reference)?
+                }
+            });
         }
         let with_rules = scenes(self.rules.iter().map(|row| &row.scene));
         if with_rules.is_empty() {
@@ -144,6 +169,39 @@ impl ResultsFolder {
                 }
                 Err(error) => return Err(error),
             }
+        }
+        Ok(checks)
+    }
+
+    /// Given matrices beside those of the lumped model.
+    fn matrices_beside(
+        &self,
+        set: &SceneMatrices,
+        kind: ModelKind,
+        reference: &Reference,
+    ) -> Result<Vec<Check>, ValidationError> {
+        let KnownScene { id, scene } = &*set.scene;
+        let found = self.reference_model(scene, kind)?;
+        let convention = &self.manifest.convention;
+        let mut checks = Vec::new();
+        for (which, matrix) in set.each() {
+            let Ok(given) = found.converted(id, convention, &matrix.values) else { continue };
+            let (name, unit, model) = match which {
+                MatrixKind::Mass => ("mass", "kg", found.model.mass_matrix()),
+                MatrixKind::Stiffness => ("stiffness", "N/m", found.model.stiffness()),
+            };
+            let agreeing = |percent: f64| {
+                let agrees = |other: &Convention| {
+                    let converted = found.converted(id, other, &matrix.values);
+                    converted.is_ok_and(|given| Difference::new(&given, &model).percent <= percent)
+                };
+                let other = convention.others().into_iter().find(agrees)?;
+                let keys = other.differences(convention);
+                Some(keys.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(" and "))
+            };
+            let coordinates = &found.model.coordinates;
+            let beside = Beside { name, unit, coordinates, given: &given, model: &model };
+            checks.push(beside.check(id, &scene.title, reference, agreeing)?);
         }
         Ok(checks)
     }

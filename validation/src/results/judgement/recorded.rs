@@ -7,16 +7,21 @@ use gearset::MeshKind;
 use lumped::ModeType;
 use scene::LoadCase;
 
-use super::folder::ResultsFolder;
-use super::rows::{CycleRow, ModeRow, StateRow, StiffnessRow};
+use crate::results::folder::ResultsFolder;
+use crate::results::rows::{CycleRow, ModeRow, StateRow, StiffnessRow};
 
 impl ResultsFolder {
     /// The tables as a model. Of a scene whose modes have no types no modes are there, for suites ask by type.
     pub fn recorded(&self) -> Recorded {
+        self.recorded_with(&self.modes)
+    }
+
+    /// The same with other modes.
+    pub(in crate::results) fn recorded_with(&self, modes: &[ModeRow]) -> Recorded {
         let mut recorded = Recorded::default();
-        let untyped = self.untyped();
+        let untyped = untyped(modes);
         let is_typed = |row: &&ModeRow| !untyped.iter().any(|(id, _)| *id == row.scene.id);
-        self.modes.iter().filter(is_typed).for_each(|row| take_mode(&mut recorded, row));
+        modes.iter().filter(is_typed).for_each(|row| take_mode(&mut recorded, row));
         let mut rows: Vec<&CycleRow> = self.mesh_cycle.iter().collect();
         rows.sort_by(|a, b| a.position.total_cmp(&b.position));
         rows.into_iter().for_each(|row| take_rest(&mut recorded, row));
@@ -33,17 +38,15 @@ impl ResultsFolder {
     }
 }
 
-impl ResultsFolder {
-    /// Ids of scenes with modes of which some have no type, and the line of the first of these.
-    pub(super) fn untyped(&self) -> Vec<(&str, u64)> {
-        let mut scenes: Vec<(&str, u64)> = Vec::new();
-        for row in self.modes.iter().filter(|row| mode_type(row).is_none()) {
-            if !scenes.iter().any(|(id, _)| *id == row.scene.id) {
-                scenes.push((row.scene.id.as_str(), row.line));
-            }
+/// Ids of scenes with modes of which some have no type, and the line of the first of these.
+pub(super) fn untyped(modes: &[ModeRow]) -> Vec<(&str, u64)> {
+    let mut scenes: Vec<(&str, u64)> = Vec::new();
+    for row in modes.iter().filter(|row| mode_type(row).is_none()) {
+        if !scenes.iter().any(|(id, _)| *id == row.scene.id) {
+            scenes.push((row.scene.id.as_str(), row.line));
         }
-        scenes
     }
+    scenes
 }
 
 fn mode_type(row: &ModeRow) -> Option<ModeType> {

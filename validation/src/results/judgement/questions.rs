@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use super::folder::ResultsFolder;
 use crate::error::ValidationError;
 use crate::model_kind::ModelKind;
 use crate::reference::Reference;
+use crate::results::folder::ResultsFolder;
 use crate::selection::Selection;
 use crate::suites;
 use crate::verdict::NotAsked;
@@ -38,7 +38,8 @@ impl ResultsFolder {
     pub fn questions(&self, kind: Option<ModelKind>) -> Result<Questions, ValidationError> {
         let reference = Reference::load()?;
         let kind = self.kind(kind);
-        let tables = self.recorded();
+        let modes = self.completed_modes(kind)?;
+        let tables = self.recorded_with(&modes);
         let models = suites::Models {
             kind: Some(kind),
             modal: Some(&tables),
@@ -49,7 +50,7 @@ impl ResultsFolder {
         };
         let (mut checks, mut not_asked) =
             suites::foreign(&reference, &models, &Selection::default())?;
-        checks.extend(self.beside(kind, &reference, &mut not_asked)?);
+        checks.extend(self.beside(kind, &modes, &reference, &mut not_asked)?);
         let mut asked: Vec<AskedSuite> = Vec::new();
         for check in &checks {
             let suite = reference.registry.suite_of(&check.id).map_or("", |s| s.name.as_str());
