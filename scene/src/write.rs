@@ -122,7 +122,7 @@ impl Scene {
                 file.number("geometry.thickness.ring_planet_backlash_mm", ring_planet);
                 file.number("geometry.thickness.planet_share", planet_share);
             }
-            ThicknessInput::ProfileShift { sun, planet, ring } => {
+            ThicknessInput::ProfileShift { sun, planet, ring, .. } => {
                 for (gear, shift) in [("sun", sun), ("planet", planet), ("ring", ring)] {
                     file.number(&format!("geometry.thickness.profile_shift.{gear}"), shift);
                 }

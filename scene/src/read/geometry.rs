@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use gearset::{
-    CarrierInput, GearInput, GeometryInput, Rack, ReliefShape, ThicknessInput, TipRelief,
+    CarrierInput, GearInput, GeometryInput, Rack, ReliefShape, ThicknessInput, Thinning, TipRelief,
 };
 
 use crate::read::TeethRead;
@@ -108,6 +108,7 @@ fn thickness(s: &Section<'_, '_>, base_pitch: f64) -> ThicknessInput {
             sun: shift.number("sun"),
             planet: shift.number("planet"),
             ring: shift.number("ring"),
+            thinning: Thinning::default(),
         };
     }
     t.skip("profile_shift");
