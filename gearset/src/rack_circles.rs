@@ -186,8 +186,8 @@ fn lower_tip(
     }
 }
 
-/// Makes the fillet of a gear as large as it may be, from the radius that it has down to `least`: it fits into the tooth
-/// space, leaves a flank, and no mating tip touches it more than one of radius `least`.
+/// Makes the fillet of a gear as large as it may be, from the radius that it has down to `least`: it fits into the
+/// tooth space, leaves a flank, and no mating tip touches it more than one of radius `least`.
 fn fit_fillet(
     input: &mut GeometryInput,
     teeth: &Teeth,

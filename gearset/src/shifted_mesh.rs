@@ -70,8 +70,8 @@ impl ShiftedMesh {
         (least < self.center_distance).then(|| (least / self.center_distance).acos())
     }
 
-    /// `[eq:shift-backlash]` Circumferential backlash at the operating pitch circles that the shifts alone leave, m: ± 2a
-    /// (inv α_w − inv α₀ − 2 tan α₀ Σx/Z), upper sign of a sun mesh.
+    /// `[eq:shift-backlash]` Circumferential backlash at the operating pitch circles that the shifts alone leave, m: ±
+    /// 2a (inv α_w − inv α₀ − 2 tan α₀ Σx/Z), upper sign of a sun mesh.
     ///
     /// Source: closed form.
     /// Checked by: `gearset/tests/shifted_mesh.rs::backlash_of_shifts_is_that_of_the_teeth`.

@@ -64,7 +64,7 @@ fn dispatch(
     match arguments.verb {
         Verb::Validate(arguments) => validate::run(&arguments, out, err),
         Verb::Modes(arguments) => modes::run(&arguments, out, err).map(|()| true),
-        Verb::Rules(arguments) => rules::run(&arguments, out).map(|()| true),
+        Verb::Rules(arguments) => rules::run(&arguments, out, err).map(|()| true),
         Verb::Static(arguments) => statics::run(&arguments, out, err).map(|()| true),
         Verb::Impulse(arguments) => impulse::run(&arguments, out, err).map(|()| true),
         Verb::Sweep(arguments) => sweep::run(&arguments, out, err).map(|()| true),
@@ -74,6 +74,6 @@ fn dispatch(
         Verb::Mesh(arguments) => mesh::run(&arguments, out, err).map(|()| true),
         Verb::Scene(verb) => scene::run(&verb, out).map(|()| true),
         Verb::Results(verb) => results::run(&verb, out).map(|()| true),
-        Verb::Compare(arguments) => compare::run(&arguments, out),
+        Verb::Compare(arguments) => compare::run(&arguments, out, err),
     }
 }
