@@ -311,6 +311,29 @@ fn interferences_of_both_meshes_are_told_at_once_with_the_tips_that_fit() {
     // No fillet helps where the involute ends on the base circle.
     assert!(!planet.allowed.contains("fillet") && !ring.allowed.contains("fillet"));
     assert!(Scene::from_toml(&with(39.566, 92.516)).is_ok());
+    // A tip of 39.5666 mm printed with three digits is that tip; one digit further it is another.
+    let (scene, remarks) = read(&with(39.567, 92.516));
+    assert!((2e3 * scene.geometry.unwrap().planet.tip_radius_m - 39.56655).abs() < 1e-4);
+    assert!(
+        remarks.notes.len() == 1 && remarks.notes[0].contains("the planet's tip"),
+        "{remarks:?}"
+    );
+    assert_eq!(faults(&with(39.569, 92.516))[0].key, "geometry.planet.tip_diameter_mm");
+}
+
+/// 30/60/150 of module 1: 0.4 and 0.25 mm of bottom clearance are missing; what printed digits leave open is none.
+#[test]
+fn bottom_clearance_of_nothing_is_none_missing() {
+    let circles =
+        |ring_tip, ring_root| [[32.0, 27.5, 0.1], [60.5, 57.5, 0.1], [ring_tip, ring_root, 0.1]];
+    let with = |ring_tip, ring_root| {
+        set([30, 60, 150], "45", "module_mm = 1", circles(ring_tip, ring_root), "")
+    };
+    let digs = |text: &str| {
+        Scene::from_toml(text).is_err_and(|e| e.faults().iter().any(|f| f.why.contains("digs")))
+    };
+    assert!(digs(&with(147.0, 152.5)) && digs(&with(148.5, 150.38)));
+    assert!(!digs(&with(148.5, 150.495)) && !digs(&with(148.5, 150.5)));
 }
 
 /// Numbers between 0 and 1 that are the same in every run.

@@ -120,7 +120,7 @@ fn meshes(document: &Document<'_>, read: &GeometryRead, teeth: &TeethRead) -> bo
     };
     let mesh = |kind, is_known: bool| {
         let mesh = geometry.mesh(kind).filter(|_| is_known);
-        mesh.map_or(Vec::new(), |mesh| one_mesh(&geometry, mesh, is_whole))
+        mesh.map_or(Vec::new(), |mesh| one_mesh(&geometry, mesh, is_whole, read))
     };
     let of_planet = gear("planet", Some(&geometry.planet));
     let of_sun = [gear("sun", geometry.sun.as_ref()), mesh(MeshKind::SunPlanet, is_known[0])];
@@ -288,7 +288,7 @@ fn tooth(name: &str, gear: &Gear) -> Vec<Found> {
 
 /// Checks interference, clearances and contact ratio of one mesh and, where the tooth thicknesses are known
 /// (`is_whole`), tip fouling and backlash.
-fn one_mesh(geometry: &Geometry, mesh: &Mesh, is_whole: bool) -> Vec<Found> {
+fn one_mesh(geometry: &Geometry, mesh: &Mesh, is_whole: bool, read: &GeometryRead) -> Vec<Found> {
     let mut found = Vec::new();
     let mut fault = |key: String, allowed: &str, why: String| {
         found.push(Found { key, allowed: allowed.into(), why });
@@ -296,6 +296,12 @@ fn one_mesh(geometry: &Geometry, mesh: &Mesh, is_whole: bool) -> Vec<Found> {
     let (driver, driven) = match mesh.kind {
         MeshKind::SunPlanet => ("sun", "planet"),
         MeshKind::RingPlanet => ("planet", "ring"),
+    };
+    let [sun, planet, ring] = read.circles;
+    let rounding = |name: &str| match name {
+        "sun" => sun,
+        "planet" => planet,
+        _ => ring,
     };
     let kind = mesh.kind.name();
     let tip_key = |name: &str| format!("geometry.{name}.tip_diameter_mm");
@@ -339,7 +345,9 @@ fn one_mesh(geometry: &Geometry, mesh: &Mesh, is_whole: bool) -> Vec<Found> {
     }
     for (member, name, _, mate) in meets {
         let clearance = mesh.root_clearance(member);
-        if clearance < 0.0 {
+        // Rounding of the diameters and of the distance: at rest and in time roots and tips never touch.
+        let written = rounding(name).tip + rounding(mate).root + read.written.center_distance_m;
+        if clearance < -written {
             let why =
                 format!("in the {kind} mesh it digs {} into the {mate}'s root", mm(-clearance));
             fault(tip_key(name), "a tip circle that clears the mating root", why);

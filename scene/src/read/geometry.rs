@@ -12,6 +12,7 @@ use crate::read::TeethRead;
 use crate::read::document::Section;
 use crate::read::rack_defaults;
 use crate::read::thickness::{self, thickness};
+use crate::read::tip_rounding;
 
 /// A gear whose table is absent or at fault.
 const UNKNOWN: GearInput = GearInput {
@@ -26,8 +27,28 @@ const UNKNOWN: GearInput = GearInput {
 pub(crate) struct GeometryRead {
     pub(crate) input: GeometryInput,
     pub(crate) written: WrittenRounding,
+    /// The same of tip radius, root radius and fillet of sun, planet and ring, m.
+    pub(crate) circles: [CirclesRounding; 3],
     /// Whether the file gives the ring's shift in the sign of ISO 21771.
     pub(crate) is_iso_sign: bool,
+}
+
+/// Half-units of the last digits of a gear's circles, as radii, m.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct CirclesRounding {
+    pub(crate) tip: f64,
+    pub(crate) root: f64,
+    pub(crate) fillet: f64,
+}
+
+impl CirclesRounding {
+    fn new(s: &Section<'_, '_>) -> Self {
+        Self {
+            tip: 0.5 * s.half_unit("tip_diameter_mm"),
+            root: 0.5 * s.half_unit("root_diameter_mm"),
+            fillet: s.half_unit("fillet_radius_mm"),
+        }
+    }
 }
 
 /// The rack with its profile, in modules; heights may be NaN.
@@ -50,8 +71,10 @@ pub(crate) fn geometry(s: &Section<'_, '_>, teeth: &TeethRead) -> GeometryRead {
     }
     let base_pitch = base_pitch(s, teeth, rack.as_ref().map(|read| read.rack));
     let mut open = [OpenCircles::default(); 3];
+    let mut circles = [CirclesRounding::default(); 3];
     let mut one = |index: usize, key, body, is_wanted: bool| {
         let table = s.section(key);
+        circles[index] = table.as_ref().map(CirclesRounding::new).unwrap_or_default();
         let is_left_out = table.is_none() && !s.may_hold(key);
         let circles = match (&table, is_wanted && is_left_out, has_rack) {
             (Some(table), ..) => gear(table, body, base_pitch, rack.as_ref(), &mut open[index]),
@@ -101,11 +124,13 @@ pub(crate) fn geometry(s: &Section<'_, '_>, teeth: &TeethRead) -> GeometryRead {
             module_m: module_rounding,
             shifts: thickness.shift_rounding,
         },
+        circles,
         is_iso_sign: thickness.is_iso_sign,
     };
     if let Some(teeth) = teeth.complete() {
         rack_defaults::choose(s, &mut read.input, &teeth, rack.as_ref(), &open);
         thickness::close(s, &table, &mut read, &teeth, thickness.backlash);
+        tip_rounding::lower(s, &mut read, &teeth);
     }
     read
 }

@@ -13,6 +13,7 @@ pub(crate) mod remarks;
 mod supports;
 pub(crate) mod text_file;
 pub(crate) mod thickness;
+mod tip_rounding;
 mod unread;
 
 use std::path::Path;
