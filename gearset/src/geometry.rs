@@ -174,20 +174,24 @@ fn set_thickness(
                 set_arc(ring, r_ring, space, mesh.pressure_angle);
             }
         }
-        ThicknessInput::ProfileShift { sun: x_s, planet: x_p, ring: x_r } => {
+        ThicknessInput::ProfileShift { sun: x_s, planet: x_p, ring: x_r, thinning } => {
             // The reader refuses profile shifts without a rack.
-            let alpha = input.rack.map_or(0.0, |rack| rack.pressure_angle_rad);
-            // β_b = t/(2r) + inv α₀ with t = m (π/2 + 2 x tan α₀) on r = m Z/2
-            let shifted = |gear: &mut Gear, x: f64| {
+            let (alpha, module) =
+                input.rack.map_or((0.0, 1.0), |rack| (rack.pressure_angle_rad, rack.module_m));
+            // β_b = t/(2r) + inv α₀ with t = m (π/2 + 2 x tan α₀) on r = m Z/2, less or, of a ring's space, more
+            let shifted = |gear: &mut Gear, x: f64, wider: f64| {
                 let t_over_2r = (FRAC_PI_2 + 2.0 * x * alpha.tan()) / f64::from(gear.teeth);
                 gear.half_angle_base = t_over_2r + inv(alpha);
+                if wider != 0.0 {
+                    gear.half_angle_base += wider / (module * f64::from(gear.teeth));
+                }
             };
             if let Some(sun) = sun {
-                shifted(sun, x_s);
+                shifted(sun, x_s, -thinning.sun_m);
             }
-            shifted(planet, x_p);
+            shifted(planet, x_p, -thinning.planet_m);
             if let Some(ring) = ring {
-                shifted(ring, x_r);
+                shifted(ring, x_r, thinning.ring_m);
             }
         }
     }

@@ -102,7 +102,7 @@ pub enum ThicknessInput {
         /// Planet's share of the sum of sun and planet thicknesses.
         planet_share: f64,
     },
-    /// From profile shifts of the generating rack (ring with the internal-gear sign).
+    /// From profile shifts of the generating rack, each positive outwards: that of the ring widens its tooth spaces.
     ProfileShift {
         /// x_s.
         sun: f64,
@@ -110,5 +110,20 @@ pub enum ThicknessInput {
         planet: f64,
         /// x_r.
         ring: f64,
+        /// By how much teeth are thinner than the shifts say.
+        #[serde(default)]
+        thinning: Thinning,
     },
+}
+
+/// By how much the teeth of each gear are thinner than their profile shift says, m of arc on the reference circle; the
+/// spaces of the ring are as much wider.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Thinning {
+    /// Teeth of the sun.
+    pub sun_m: f64,
+    /// Teeth of the planet.
+    pub planet_m: f64,
+    /// Teeth of the ring.
+    pub ring_m: f64,
 }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::gear::{Facing, Flank, Gear, ToothSide};
-use crate::involute::roll_length_at;
+use crate::involute::{radius_at, roll_length_at};
 use crate::mesh_kind::{MeshKind, MeshMember};
 
 /// One involute mesh with the central gear at the origin and the planet at (a, 0); the central
@@ -191,6 +191,24 @@ impl Mesh {
             (MeshKind::SunPlanet, MeshMember::Driven) => form - self.driven_roll_length(end),
             (MeshKind::RingPlanet, MeshMember::Driven) => self.driven_roll_length(end) - form,
         }
+    }
+
+    /// Tip radius of `member` at which its tip just stays on the involute of its mate, m: external teeth must not be
+    /// higher, those of a ring not reach further in. `None` if no tip circle outside the base circle does.
+    pub fn admissible_tip_radius(&self, member: MeshMember) -> Option<f64> {
+        let reach = self.center_distance * self.pressure_angle.sin();
+        let gear = self.gear(member);
+        let mate = match member {
+            MeshMember::Driver => &self.driven,
+            MeshMember::Driven => &self.driver,
+        };
+        let form = mate.form_roll_length().unwrap_or(0.0);
+        let roll_length = match (self.kind, member) {
+            (MeshKind::SunPlanet, _) => reach - form,
+            (MeshKind::RingPlanet, MeshMember::Driver) => form - reach,
+            (MeshKind::RingPlanet, MeshMember::Driven) => reach + form,
+        };
+        (roll_length > 0.0).then(|| radius_at(gear.base_radius, roll_length))
     }
 
     /// Radial clearance between the tip circle of `member` and the mating root circle, m.

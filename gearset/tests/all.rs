@@ -4,6 +4,8 @@
 mod displaced;
 mod geometry;
 mod kinematics;
+mod rack_circles;
 mod rigid_polygons;
 mod rules;
+mod shifted_mesh;
 mod tooth_section;

@@ -58,6 +58,7 @@ fn a_9_dp_rack_of_22_5_degrees_describes_the_same_set() {
             sun: sums.sun_plus_planet - x_p,
             planet: x_p,
             ring: sums.ring_minus_planet + x_p,
+            thinning: gearset::Thinning::default(),
         };
         scene.geometry.as_mut().unwrap().thickness = shift;
         let g = scene.tooth_geometry().unwrap();

@@ -23,6 +23,7 @@ pub use load::torque_path::NoTorquePath;
 pub use needs::{Lack, Verb};
 pub use read::MOST_SCENE_BYTES;
 pub use read::fault::{Fault, SceneError, SceneFaults};
+pub use read::remarks::{Chosen, Remarks};
 pub use read::text_file::read_text;
 pub use scene::*;
 pub use templates::template;

@@ -1,6 +1,6 @@
 //! From a scene to the text of its file, in the units of the keys.
 
-use gearset::{GearInput, PlanetPositions, ThicknessInput, assembly};
+use gearset::{GearInput, PlanetPositions, ThicknessInput, Thinning, assembly};
 use serde::Serialize;
 use toml::{Table, Value};
 
@@ -122,9 +122,17 @@ impl Scene {
                 file.number("geometry.thickness.ring_planet_backlash_mm", ring_planet);
                 file.number("geometry.thickness.planet_share", planet_share);
             }
-            ThicknessInput::ProfileShift { sun, planet, ring } => {
-                for (gear, shift) in [("sun", sun), ("planet", planet), ("ring", ring)] {
+            ThicknessInput::ProfileShift { sun, planet, ring, thinning } => {
+                let gears = [
+                    ("sun", sun, thinning.sun_m),
+                    ("planet", planet, thinning.planet_m),
+                    ("ring", ring, thinning.ring_m),
+                ];
+                for (gear, shift, thinner) in gears {
                     file.number(&format!("geometry.thickness.profile_shift.{gear}"), shift);
+                    if thinning != Thinning::default() {
+                        file.number(&format!("geometry.thickness.thinning_mm.{gear}"), thinner);
+                    }
                 }
             }
         }

@@ -4,4 +4,6 @@
 mod built_scenes;
 mod gear_pair;
 mod needs;
+mod published_sets;
 mod scene_faults;
+mod six_numbers;

@@ -65,7 +65,6 @@ fn each_kind_of_fault_names_its_key_and_says_why() {
         (&[("format = 1", "")], "format", "absent"),
         (&[("\"planetary\"  ", "\"planet\"  ")], "kind", "gear_pair"),
         (&[(POSITION, "positions_deg = [0, -88.6, 180, 91.4]")], "planets.positions_deg", "-31"),
-        (&[(POSITION, "")], "planets", "position_steps = [0, 32, 63, 95]"),
         (&[(POSITION, "position_steps = [0, 10, 63, 32]")], "planets.position_steps", "overlap"),
         (&[(POSITION, "position_steps = [0, 63, 63, 32]")], "planets.position_steps", "same place"),
         (&[(POSITION, "position_steps = [0, 63]")], "planets.position_steps", "4 entries"),
@@ -192,6 +191,24 @@ fn each_kind_of_fault_names_its_key_and_says_why() {
             "0 or above",
         ),
         (&[("planet_base_diameter_mm = 91.26", "")], "geometry.base_pitch_mm", "exactly one of"),
+        (
+            &[(
+                "planet_base_diameter_mm = 91.26",
+                "rack = { module_mm = 2.8222, addendum = 1.25 }",
+            )],
+            "geometry.rack.dedendum",
+            "above the addendum 1.25",
+        ),
+        (
+            &[(
+                "planet_base_diameter_mm = 91.26",
+                "rack = { module_mm = 2.8222, fillet_radius = 0 }",
+            )],
+            "geometry.rack.fillet_radius",
+            "above 0",
+        ),
+        (&[("tip_diameter_mm = 84.07", "")], "geometry.sun.tip_diameter_mm", "absent"),
+        (&[("center_distance_mm = 88.9", "")], "geometry.center_distance_mm", "absent"),
         (&[("mass_kg = { sun = 0.40, ", "mass_kg = { ")], "lumped.mass_kg.sun", "can move"),
         (&[("planet = 1.27e-3, ", "")], "lumped.inertia_kg_m2.planet", "can rotate"),
         (&[("# from = \"geometry\"", "from = \"teeth\"")], "lumped.from", "\"geometry\""),

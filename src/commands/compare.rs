@@ -13,8 +13,8 @@ use crate::error::{Result, unfit};
 use crate::inputs::{needs, read_scene};
 use crate::output::{self, Notation, Report, Table, paragraph};
 
-pub(crate) fn run(arguments: &Compare, out: &mut dyn Write) -> Result<bool> {
-    let scene = read_scene(&arguments.scene)?;
+pub(crate) fn run(arguments: &Compare, out: &mut dyn Write, err: &mut dyn Write) -> Result<bool> {
+    let scene = read_scene(&arguments.scene, err)?;
     match scene.has_closed_forms() {
         true => needs::require(&arguments.scene, &scene, Verb::Compare, |_| false)?,
         false => {

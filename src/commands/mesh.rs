@@ -68,7 +68,7 @@ struct TeethOutput {
 
 pub(crate) fn run(arguments: &MeshVerb, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let path = &arguments.scene;
-    let scene = read_scene(path)?;
+    let scene = read_scene(path, err)?;
     needs::require(path, &scene, Verb::Mesh, |_| false)?;
     needs::warn(&scene, None, err)?;
     #[cfg(feature = "charts")]

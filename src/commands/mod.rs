@@ -66,7 +66,7 @@ fn dispatch(
     match arguments.verb {
         Verb::Validate(arguments) => validate::run(&arguments, out, err),
         Verb::Modes(arguments) => modes::run(&arguments, out, err).map(|()| true),
-        Verb::Rules(arguments) => rules::run(&arguments, out).map(|()| true),
+        Verb::Rules(arguments) => rules::run(&arguments, out, err).map(|()| true),
         Verb::Static(arguments) => statics::run(&arguments, out, err).map(|()| true),
         Verb::Impulse(arguments) => impulse::run(&arguments, out, err).map(|()| true),
         Verb::Sweep(arguments) => sweep::run(&arguments, out, err).map(|()| true),
@@ -78,6 +78,6 @@ fn dispatch(
         Verb::Results(verb) => results::run(&verb, out).map(|()| true),
         Verb::Dataset(arguments) => dataset::run(&arguments, out),
         Verb::Snapshot(arguments) => snapshot::run(&arguments, out),
-        Verb::Compare(arguments) => compare::run(&arguments, out),
+        Verb::Compare(arguments) => compare::run(&arguments, out, err),
     }
 }

@@ -46,8 +46,8 @@ struct HarmonicRule {
 
 const ASSUMPTION: &str = "all planets carry the same mesh force, each at its own phase";
 
-pub(crate) fn run(arguments: &Rules, out: &mut dyn Write) -> Result<()> {
-    let scene = read_scene(&arguments.scene)?;
+pub(crate) fn run(arguments: &Rules, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
+    let scene = read_scene(&arguments.scene, err)?;
     let path = &arguments.scene;
     if scene.kind != SceneKind::Planetary {
         return Err(unfit(path, "`kind` is \"gear_pair\": rules need \"planetary\""));

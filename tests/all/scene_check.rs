@@ -235,3 +235,32 @@ fn escape_sequences_of_a_scene_do_not_reach_the_terminal() {
         }
     }
 }
+
+#[test]
+fn what_follows_from_six_numbers_and_what_is_taken_for_zero_is_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let six = "format = 1\nkind = \"planetary\"\nplanets.count = 3\nteeth = { sun = 18, planet = 36, ring = 93 }\n\
+        [geometry]\ncenter_distance_mm = 584.0\nrack.module_mm = 21.0\nface_width_mm = 550.0\n\
+        thickness.profile_shift = { sun = 0.3890, planet = 0.5039, ring = -0.1171 }\n[operation]\ntorque_nm = 162105.5\n";
+    let name = written(&folder, six);
+    let (code, out, err) = run(&["scene", "check", &name]);
+    assert_eq!(code, 0, "{err}");
+    let lines = sentences(&out);
+    for words in [
+        "chosen: `geometry.ring.root_diameter_mm` = 2000.5818: m (Z + 2 h_fP + 2x)",
+        "chosen: `ring.motion` = \"held\": the torque acts on the sun",
+        "note: backlash −0.0005 mm of the sun_planet mesh lies within the rounding",
+    ] {
+        assert!(lines.contains(words), "{words} is not in {out}");
+    }
+    assert!(!out.contains("-0.0000"), "{out}");
+    let summary = check(&name);
+    assert_eq!(summary["rounding"].as_array().unwrap().len(), 2);
+    assert!(
+        summary["chosen"].as_array().unwrap().iter().any(|c| c["key"] == "operation.speed_rpm")
+    );
+    // Verbs remark the sign of the ring's shift as well.
+    let slip = written(&folder, &six.replace("-0.1171", "0.1171"));
+    let (code, _, err) = run(&["modes", &slip]);
+    assert!(code == 0 && err.contains("ring_sign"), "{err}");
+}

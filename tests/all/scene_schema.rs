@@ -45,7 +45,7 @@ fn it_refuses_misspelt_keys_wrong_types_and_values_and_missing_keys() {
         ("count = 4", "count = 65", "/planets/count"),
         ("motion = \"held\"", "motion = \"hold\"", "/ring/motion"),
         ("poisson_ratio = 0.3", "poisson_ratio = 0.5", "/material/poisson_ratio"),
-        ("center_distance_mm = 88.9", "", "center_distance_mm"),
+        ("face_width_mm = 25.4", "", "face_width_mm"),
         ("tip_diameter_mm = 84.07", "tip_diameter_mm = 0.0", "/geometry/sun/tip_diameter_mm"),
         ("title = \"A planetary set\"", "title = \"\\u001b[2J\"", "/title"),
     ];

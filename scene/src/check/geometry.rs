@@ -5,34 +5,52 @@ use gearset::{
     PlanetPositions, Teeth, ThicknessInput, assembly,
 };
 
+use crate::check::closing::Closing;
 use crate::read::TeethRead;
 use crate::read::document::Document;
+use crate::read::geometry::GeometryRead;
 
 /// Judges what is there of the tooth geometry; faults go to the document. Of what is absent or at fault no
 /// consequence is reported.
 pub(crate) fn shape(
     document: &Document<'_>,
-    shape: &GeometryInput,
+    read: &GeometryRead,
     teeth: &TeethRead,
     positions: Option<&PlanetPositions>,
 ) {
+    let shape = &read.input;
     let gears = [
         ("sun", shape.sun.as_ref(), teeth.sun),
         ("planet", Some(&shape.planet), teeth.planet),
         ("ring", shape.ring.as_ref(), teeth.ring),
     ];
+    let base = |z: u32| f64::from(z) * shape.base_pitch_m / std::f64::consts::TAU;
+    let is_disordered = gears.iter().any(|(name, gear, z)| {
+        gear.zip(*z).is_some_and(|(gear, z)| {
+            !reaches_base(name, gear, base(z)) || is_tip_within_root(name, gear)
+        })
+    });
+    let is_sound = !document.is_doubtful("geometry") && !document.is_doubtful("teeth");
+    if let Some(teeth) = teeth.complete().filter(|_| is_disordered && is_sound) {
+        let causes = Closing::new(document, shape, &teeth, read).causes([true; 2]);
+        for cause in &causes {
+            document.fault(cause.key, cause.allowed.as_str(), cause.why.as_str());
+        }
+        if !causes.is_empty() {
+            return;
+        }
+    }
     for (name, gear, z) in gears {
         if let Some(gear) = gear {
             let is_z_known = !document.is_doubtful(&format!("teeth.{name}"));
             // 2π r_b = Z p_b
-            let base = z.filter(|_| is_z_known).map_or(f64::NAN, f64::from);
-            circles(document, name, gear, base * shape.base_pitch_m / std::f64::consts::TAU);
+            circles(document, name, gear, z.filter(|_| is_z_known).map_or(f64::NAN, base));
         }
     }
     let is_known = |key: &str| !document.is_doubtful(&format!("planets.{key}"));
     let positions = positions.filter(|_| is_known("position_steps") && is_known("positions_deg"));
     let a = shape.center_distance_m;
-    if a.is_nan() || meshes(document, shape, teeth) {
+    if a.is_nan() || meshes(document, read, teeth) {
         return;
     }
     if let Some(found) = &shape.carrier {
@@ -46,7 +64,8 @@ pub(crate) fn shape(
 
 /// Checks teeth and meshes of the gears that are there without a fault; whether the centre distance leaves no
 /// mesh at all.
-fn meshes(document: &Document<'_>, shape: &GeometryInput, teeth: &TeethRead) -> bool {
+fn meshes(document: &Document<'_>, read: &GeometryRead, teeth: &TeethRead) -> bool {
+    let shape = &read.input;
     let is_sound = |name: &str| {
         !document.is_doubtful(&format!("geometry.{name}"))
             && !document.is_doubtful(&format!("teeth.{name}"))
@@ -80,36 +99,61 @@ fn meshes(document: &Document<'_>, shape: &GeometryInput, teeth: &TeethRead) -> 
         thickness: if is_thickness_known { shape.thickness } else { no_backlash },
         ..shape.clone()
     };
+    let closing = Closing::new(document, &input, &known_teeth, read);
+    let suspect = || closing.wrong_teeth().or_else(|| closing.wrong_distance());
     let geometry = match Geometry::new(&input, &known_teeth) {
         Ok(geometry) => geometry,
         Err(no_mesh) => {
-            let allowed = format!("above {:.4} mm", no_mesh.least * 1e3);
-            document.fault("geometry.center_distance_mm", allowed, no_mesh.to_string());
+            match suspect().filter(|_| is_thickness_known) {
+                Some(cause) => document.fault(cause.key, cause.allowed, cause.why),
+                None => {
+                    let allowed = format!("above {:.4} mm", no_mesh.least * 1e3);
+                    document.fault("geometry.center_distance_mm", allowed, no_mesh.to_string());
+                }
+            }
             return true;
         }
     };
-    let gears = [
-        ("sun", geometry.sun.as_ref()),
-        ("planet", Some(&geometry.planet)),
-        ("ring", geometry.ring.as_ref()),
-    ];
+    let is_known = [is_sound("sun") && is_sound("planet"), is_sound("ring") && is_sound("planet")];
+    let gear = |name, gear: Option<&Gear>| {
+        gear.filter(|_| is_whole).map_or(Vec::new(), |gear| tooth(name, gear))
+    };
+    let mesh = |kind, is_known: bool| {
+        let mesh = geometry.mesh(kind).filter(|_| is_known);
+        mesh.map_or(Vec::new(), |mesh| one_mesh(&geometry, mesh, is_whole, read))
+    };
+    let of_planet = gear("planet", Some(&geometry.planet));
+    let of_sun = [gear("sun", geometry.sun.as_ref()), mesh(MeshKind::SunPlanet, is_known[0])];
+    let of_ring = [gear("ring", geometry.ring.as_ref()), mesh(MeshKind::RingPlanet, is_known[1])];
+    let groups = [of_sun.concat(), of_ring.concat()];
+    let is_faulty = groups.each_ref().map(|faults| !faults.is_empty() || !of_planet.is_empty());
+    let mut explained = [false; 2];
     if is_whole {
-        gears.into_iter().for_each(|(name, gear)| {
-            if let Some(gear) = gear {
-                tooth(document, name, gear);
-            }
-        });
-    }
-    for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
-        let central = if kind == MeshKind::SunPlanet { "sun" } else { "ring" };
-        if let Some(mesh) = geometry.mesh(kind)
-            && is_sound(central)
-            && is_sound("planet")
+        for cause in closing.causes(is_faulty) {
+            document.fault(cause.key, cause.allowed, cause.why);
+            explained = [0, 1].map(|i| explained[i] || cause.meshes[i]);
+        }
+        if is_faulty == [false; 2]
+            && let Some(warning) = closing.sign_warning(document)
         {
-            one_mesh(document, &geometry, mesh, is_whole);
+            document.remarks.borrow_mut().warnings.push(warning);
         }
     }
+    let open =
+        groups.into_iter().zip(explained).filter(|(_, is)| !is).flat_map(|(faults, _)| faults);
+    let of_planet = of_planet.into_iter().filter(|_| explained == [false; 2]);
+    for Found { key, allowed, why } in open.chain(of_planet) {
+        document.fault(&key, allowed, why);
+    }
     false
+}
+
+/// A fault that is reported unless another one explains it.
+#[derive(Clone)]
+struct Found {
+    key: String,
+    allowed: String,
+    why: String,
 }
 
 fn mm(x: f64) -> String {
@@ -170,18 +214,18 @@ fn circles(document: &Document<'_>, name: &str, gear: &GearInput, base: f64) {
         document.fault(&format!("geometry.{name}.{k}"), allowed, why);
     };
     let is_ring = name == "ring";
-    let (tip, root, body) = (gear.tip_radius_m, gear.root_radius_m, gear.body_radius_m);
+    let (root, body) = (gear.root_radius_m, gear.body_radius_m);
     let diameter = |r: f64| mm(2.0 * r);
     // One circle not outside another, seen from the teeth: outwards on an external gear, inwards on the ring.
     let is_within = |x: f64, y: f64| if is_ring { x >= y } else { x <= y };
     let words = |beyond: bool| if beyond != is_ring { "above" } else { "below" };
-    if is_within(tip, root) {
+    if is_tip_within_root(name, gear) {
         let allowed = format!("{} the root diameter {}", words(true), diameter(root));
         let why =
             if is_ring { "internal teeth point inwards" } else { "external teeth point outwards" };
         fault("tip_diameter_mm", allowed, why);
     }
-    if if is_ring { tip < base } else { tip <= base } {
+    if !reaches_base(name, gear, base) {
         let least = if is_ring { "at least" } else { "above" };
         let allowed = format!("{least} the base diameter {}", diameter(base));
         fault("tip_diameter_mm", allowed, "there is no involute inside the base circle");
@@ -193,10 +237,23 @@ fn circles(document: &Document<'_>, name: &str, gear: &GearInput, base: f64) {
     }
 }
 
+/// Whether the tip circle is not outside the root circle of an external gear, or not inside that of the ring.
+fn is_tip_within_root(name: &str, gear: &GearInput) -> bool {
+    let (tip, root) = (gear.tip_radius_m, gear.root_radius_m);
+    if name == "ring" { tip >= root } else { tip <= root }
+}
+
+/// Whether the flank has an involute up to the tip; true where either radius is not known.
+fn reaches_base(name: &str, gear: &GearInput, base: f64) -> bool {
+    let tip = gear.tip_radius_m;
+    !(if name == "ring" { tip < base } else { tip <= base })
+}
+
 /// Checks tip land, tooth space, root fillets and tip relief of one gear.
-fn tooth(document: &Document<'_>, name: &str, gear: &Gear) {
-    let fault = |k: &str, allowed: String, why: &str| {
-        document.fault(&format!("geometry.{name}.{k}"), allowed, why);
+fn tooth(name: &str, gear: &Gear) -> Vec<Found> {
+    let mut found = Vec::new();
+    let mut fault = |k: &str, allowed: String, why: &str| {
+        found.push(Found { key: format!("geometry.{name}.{k}"), allowed, why: why.into() });
     };
     let is_ring = name == "ring";
     let (tip, root) = (gear.tip_radius, gear.root_radius);
@@ -226,57 +283,92 @@ fn tooth(document: &Document<'_>, name: &str, gear: &Gear) {
             fault("tip_relief.start_diameter_mm", allowed, "relief lies on the flank");
         }
     }
+    found
 }
 
 /// Checks interference, clearances and contact ratio of one mesh and, where the tooth thicknesses are known
 /// (`is_whole`), tip fouling and backlash.
-fn one_mesh(document: &Document<'_>, geometry: &Geometry, mesh: &Mesh, is_whole: bool) {
+fn one_mesh(geometry: &Geometry, mesh: &Mesh, is_whole: bool, read: &GeometryRead) -> Vec<Found> {
+    let mut found = Vec::new();
+    let mut fault = |key: String, allowed: &str, why: String| {
+        found.push(Found { key, allowed: allowed.into(), why });
+    };
     let (driver, driven) = match mesh.kind {
         MeshKind::SunPlanet => ("sun", "planet"),
         MeshKind::RingPlanet => ("planet", "ring"),
     };
+    let [sun, planet, ring] = read.circles;
+    let rounding = |name: &str| match name {
+        "sun" => sun,
+        "planet" => planet,
+        _ => ring,
+    };
+    let kind = mesh.kind.name();
     let tip_key = |name: &str| format!("geometry.{name}.tip_diameter_mm");
     let mut interferes = false;
-    let meets = [(MeshMember::Driver, driver, driven), (MeshMember::Driven, driven, driver)];
-    for (member, name, mate) in meets {
+    let meets = [
+        (MeshMember::Driver, driver, MeshMember::Driven, driven),
+        (MeshMember::Driven, driven, MeshMember::Driver, driver),
+    ];
+    for (member, name, mate_member, mate) in meets {
         let overrun = mesh.interference(member);
         if overrun > 0.0 {
             interferes = true;
+            let gear = mesh.gear(member);
+            // The smallest fillet leaves the involute from the root circle or, where that is lower, the base circle.
+            let sharp = Gear { fillet_radius: 0.0, ..gear.clone() };
+            let gained = (sharp.form_roll_length().unwrap_or(0.0)
+                - gear.form_roll_length().unwrap_or(0.0))
+            .abs();
+            let or_fillet = if gained > overrun {
+                format!(", or a smaller fillet of the {name}")
+            } else {
+                String::new()
+            };
             let why = format!(
-                "in the {} mesh the {mate}'s tip touches the {name} {} beyond its form circle ({}), where there is fillet and no involute: lower the tip or the fillet radius",
-                mesh.kind.name(),
+                "in the {kind} mesh the {mate}'s tip touches the {name} {} beyond its form circle ({}), where there is fillet and no involute",
                 mm(overrun),
-                mm(2.0 * mesh.gear(member).form_radius())
+                mm(2.0 * gear.form_radius())
             );
-            let allowed = format!("a tip that stays on the {name}'s involute");
-            document.fault(&tip_key(mate), allowed, why);
+            let most = if mate == "ring" { "at least" } else { "at most" };
+            let allowed = match mesh.admissible_tip_radius(mate_member) {
+                Some(tip) => format!(
+                    "a tip that stays on the {name}'s involute: {most} {}{or_fillet}",
+                    mm(2.0 * tip)
+                ),
+                None => {
+                    format!("a tip that stays on the {name}'s involute, which none does{or_fillet}")
+                }
+            };
+            fault(tip_key(mate), &allowed, why);
         }
     }
-    for (member, name, mate) in meets {
+    for (member, name, _, mate) in meets {
         let clearance = mesh.root_clearance(member);
-        if clearance < 0.0 {
-            let kind = mesh.kind.name();
+        // Rounding of the diameters and of the distance: at rest and in time roots and tips never touch.
+        let written = rounding(name).tip + rounding(mate).root + read.written.center_distance_m;
+        if clearance < -written {
             let why =
                 format!("in the {kind} mesh it digs {} into the {mate}'s root", mm(-clearance));
-            document.fault(&tip_key(name), "a tip circle that clears the mating root", why);
+            fault(tip_key(name), "a tip circle that clears the mating root", why);
         }
     }
     if is_whole && mesh.tip_fouling_clearance().is_some_and(|angle| angle < 0.0) {
         let why = "planet and ring tips collide away from the path of contact (tip fouling)";
-        document.fault(&tip_key("ring"), "tips that pass each other", why);
+        fault(tip_key("ring"), "tips that pass each other", why.into());
     }
     if mesh.contact_ratio < 1.0 && !interferes {
         let why = format!(
-            "the {} mesh has contact ratio {:.3}: one pair must take over before the other leaves",
-            mesh.kind.name(),
+            "the {kind} mesh has contact ratio {:.3}: one pair must take over before the other leaves",
             mesh.contact_ratio
         );
-        document.fault(&tip_key(driven), "tips that give a contact ratio of 1 or more", why);
+        fault(tip_key(driven), "tips that give a contact ratio of 1 or more", why);
     }
     let backlash = geometry.backlash(mesh.kind).unwrap_or(0.0);
     if is_whole && backlash < -1e-9 {
-        let why = format!("the {} mesh has backlash {}: it jams", mesh.kind.name(), mm(backlash));
-        let key = "geometry.thickness.profile_shift";
-        document.fault(key, "shifts that leave backlash 0 or above", why);
+        let why = format!("the {kind} mesh has backlash {}: it jams", mm(backlash));
+        let key = "geometry.thickness.profile_shift".to_owned();
+        fault(key, "shifts that leave backlash 0 or above", why);
     }
+    found
 }

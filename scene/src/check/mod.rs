@@ -1,5 +1,6 @@
 //! Faults of choices and positions that show only when several keys are seen together.
 
+mod closing;
 pub(crate) mod geometry;
 pub(crate) mod load;
 

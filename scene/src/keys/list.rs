@@ -43,8 +43,8 @@ fn set() -> Vec<SceneKey> {
         key("source", Text, "–", "where the numbers come from").left_out("none"),
         key("planets", Table, "–", "planets on the carrier").left_out("always of a planetary set, never of a gear pair").needed_by(ALL),
         key("planets.count", Integer(1, 64), "–", "number of planets N").required().needed_by(ALL),
-        key("planets.position_steps", Integers, "360°/(Z_s+Z_r)", "planet positions counter-clockwise from planet 0, in assembly steps; the first is 0").left_out("equal spacing; not beside positions_deg"),
-        key("planets.positions_deg", Numbers, "°", "planet positions counter-clockwise from planet 0, from -360 to 360; the first is 0; with [teeth] they must be possible to assemble").left_out("equal spacing; not beside position_steps"),
+        key("planets.position_steps", Integers, "360°/(Z_s+Z_r)", "planet positions counter-clockwise from planet 0, in assembly steps; the first is 0").left_out("equal spacing, or the nearest steps; not beside positions_deg"),
+        key("planets.positions_deg", Numbers, "°", "planet positions counter-clockwise from planet 0, from -360 to 360; the first is 0; with [teeth] they must be possible to assemble").left_out("equal spacing, or the nearest steps; not beside position_steps"),
         key("teeth", Table, "–", "numbers of teeth").left_out("a set without it and without [geometry] has parameters only").needed_by(RULES_FE),
         key("teeth.sun", Integer(5, 10000), "–", "number of teeth Z_s").left_out("always of a planetary set; of a gear pair that of its mesh").needed_by(RULES_FE),
         key("teeth.planet", Integer(5, 10000), "–", "number of teeth Z_p").required().needed_by(RULES_FE),
@@ -56,27 +56,34 @@ fn set() -> Vec<SceneKey> {
 fn geometry() -> Vec<SceneKey> {
     vec![
         key("geometry", Table, "–", "tooth geometry").left_out("a set without it has parameters only").needed_by(FE),
-        key("geometry.center_distance_mm", Number(Positive), "mm", "distance a from the sun to a planet").required().needed_by(FE),
+        key("geometry.center_distance_mm", Number(Positive), "mm", "distance a from the sun, or of a ring–planet pair from the ring, to a planet").left_out("with rack where the profile shifts close the meshes, without shifts m (Z_s + Z_p)/2 or m (Z_r − Z_p)/2").needed_by(FE),
         key("geometry.face_width_mm", Number(Positive), "mm", "width b of the teeth").required().needed_by(FE),
         key("geometry.base_pitch_mm", Number(Positive), "mm", "base pitch p_b of every gear").left_out("exactly one of base_pitch_mm, planet_base_diameter_mm and rack").needed_by(FE),
         key("geometry.planet_base_diameter_mm", Number(Positive), "mm", "base diameter of the planet: p_b = π d_b/Z_p").left_out("exactly one of base_pitch_mm, planet_base_diameter_mm and rack").needed_by(FE),
         key("geometry.rack", Table, "–", "generating rack: p_b = π m cos α₀").left_out("exactly one of base_pitch_mm, planet_base_diameter_mm and rack").needed_by(FE),
         key("geometry.rack.module_mm", Number(Positive), "mm", "module m of the rack").required().needed_by(FE),
-        key("geometry.rack.pressure_angle_deg", Number(Between(0.0, 45.0)), "°", "pressure angle α₀ of the rack").required().needed_by(FE),
+        key("geometry.rack.pressure_angle_deg", Number(Between(0.0, 45.0)), "°", "pressure angle α₀ of the rack").default_is("20"),
+        key("geometry.rack.addendum", Number(Positive), "module", "height h_aP of the rack above its datum line, from which tip circles that are left out follow").default_is("1"),
+        key("geometry.rack.dedendum", Number(Positive), "module", "height h_fP below it, from which root circles that are left out follow; above addendum").default_is("1.25"),
+        key("geometry.rack.fillet_radius", Number(Positive), "module", "radius ρ_fP of the rack's rounding, and of the root fillets where root circle and fillet are left out").default_is("0.38"),
     ]
 }
 
 /// Circles and relief of one gear.
 fn gear(name: &str) -> Vec<SceneKey> {
     let circles = key(format!("geometry.{name}"), Table, "–", format!("circles of the {name}")).needed_by(FE);
-    let circles = if name == "planet" { circles.required() } else { circles.left_out("always where [teeth] names this gear") };
+    let circles = circles.left_out("with rack circles from it; otherwise always where [teeth] names this gear");
     let (body, meaning) = if name == "ring" { ("rim_diameter_mm", "outer circle of the ring, its rigid race") } else { ("bore_diameter_mm", "bore, its rigid race") };
+    let from_rack = match name {
+        "ring" => ["with rack m (Z − 2 h_aP + 2x), wider where teeth would touch", "with rack m (Z + 2 h_fP + 2x)", "root circle and 7 m, where that is left out; otherwise always for FE/contact"],
+        _ => ["with rack m (Z + 2 h_aP + 2x), less where teeth would touch", "with rack m (Z − 2 h_fP + 2x)", "root circle less 7 m, at least half of it, where that is left out; otherwise always for FE/contact"],
+    };
     vec![
         circles,
-        key(format!("geometry.{name}.tip_diameter_mm"), Number(Positive), "mm", "tip circle").required().needed_by(FE),
-        key(format!("geometry.{name}.root_diameter_mm"), Number(Positive), "mm", "root circle").required().needed_by(FE),
-        key(format!("geometry.{name}.{body}"), Number(Positive), "mm", meaning).left_out("always for FE/contact").needed_by(FE),
-        key(format!("geometry.{name}.fillet_radius_mm"), Number(NonNegative), "mm", "radius of the root fillet").left_out("0.3 p_b/π; above 0 for FE/contact").needed_by(FE),
+        key(format!("geometry.{name}.tip_diameter_mm"), Number(Positive), "mm", "tip circle").left_out(from_rack[0]).needed_by(FE),
+        key(format!("geometry.{name}.root_diameter_mm"), Number(Positive), "mm", "root circle").left_out(from_rack[1]).needed_by(FE),
+        key(format!("geometry.{name}.{body}"), Number(Positive), "mm", meaning).left_out(from_rack[2]).needed_by(FE),
+        key(format!("geometry.{name}.fillet_radius_mm"), Number(NonNegative), "mm", "radius of the root fillet").left_out("0.3 p_b/π, or geometry.rack.fillet_radius where the root circle is left out, and less where that does not fit; above 0 for FE/contact").needed_by(FE),
         key(format!("geometry.{name}.tip_relief"), Table, "–", "material taken off the flank near the tip").left_out("no relief"),
         key(format!("geometry.{name}.tip_relief.start_diameter_mm"), Number(Positive), "mm", "where the relief starts, between form circle and tip circle").required(),
         key(format!("geometry.{name}.tip_relief.amount_um"), Number(NonNegative), "µm", "material taken off at the tip circle, measured along the line of action").required(),
@@ -92,14 +99,19 @@ fn carrier_and_thickness() -> Vec<SceneKey> {
         key("geometry.carrier.outer_diameter_mm", Number(Positive), "mm", "edge of the annulus").required().needed_by(MOTION),
         key("geometry.carrier.pin_seat_diameter_mm", Number(Positive), "mm", "rigid seat of each planet's pin").default_is("20"),
         key("geometry.carrier.body", Choice(&["flexible", "rigid"]), "–", "whether the annulus gives way between bore and seats").default_is("flexible"),
-        key("geometry.thickness", Table, "–", "tooth thickness, from backlash or from profile shifts").left_out("its defaults"),
-        key("geometry.thickness.sun_planet_backlash_mm", Number(NonNegative), "mm", "circumferential backlash of the sun–planet mesh at its operating pitch circles").left_out("0.04 p_b/π").why("circumferential backlash at the operating pitch circles; below 0 the teeth jam"),
-        key("geometry.thickness.ring_planet_backlash_mm", Number(NonNegative), "mm", "circumferential backlash of the ring–planet mesh at its operating pitch circles").left_out("0.04 p_b/π").why("circumferential backlash at the operating pitch circles; below 0 the teeth jam"),
+        key("geometry.thickness", Table, "–", "tooth thickness, from backlash, from profile shifts, or from profile shifts and by how much the teeth are thinner").left_out("its defaults"),
+        key("geometry.thickness.sun_planet_backlash_mm", Number(NonNegative), "mm", "circumferential backlash of the sun–planet mesh at its operating pitch circles; beside profile_shift both gears are thinned to it").left_out("0.04 p_b/π; beside profile_shift what the shifts leave").why("circumferential backlash at the operating pitch circles; below 0 the teeth jam"),
+        key("geometry.thickness.ring_planet_backlash_mm", Number(NonNegative), "mm", "circumferential backlash of the ring–planet mesh at its operating pitch circles; beside profile_shift both gears are thinned to it").left_out("0.04 p_b/π; beside profile_shift what the shifts leave").why("circumferential backlash at the operating pitch circles; below 0 the teeth jam"),
         key("geometry.thickness.planet_share", Number(Between(0.0, 1.0)), "–", "planet's share of the sum of sun and planet tooth thickness").default_is("0.5"),
-        key("geometry.thickness.profile_shift", Table, "–", "profile shift coefficients, with geometry.rack and without backlash keys").left_out("backlash gives the thickness"),
+        key("geometry.thickness.profile_shift", Table, "–", "profile shift coefficients, with geometry.rack").left_out("backlash gives the thickness"),
         key("geometry.thickness.profile_shift.sun", Number(Between(-5.0, 5.0)), "module", "profile shift x of the sun").default_is("0"),
         key("geometry.thickness.profile_shift.planet", Number(Between(-5.0, 5.0)), "module", "profile shift x of the planet").default_is("0"),
-        key("geometry.thickness.profile_shift.ring", Number(Between(-5.0, 5.0)), "module", "profile shift x of the ring (internal-gear sign)").default_is("0"),
+        key("geometry.thickness.profile_shift.ring", Number(Between(-5.0, 5.0)), "module", "profile shift x of the ring, by default positive outwards, where it widens the ring's tooth spaces: without backlash inv α_w = inv α₀ + 2 tan α₀ (x_r − x_p)/(Z_r − Z_p)").default_is("0").why("profile shift x of the ring in the sign of ring_sign"),
+        key("geometry.thickness.profile_shift.ring_sign", Choice(&["outward", "iso_21771"]), "–", "sign of the ring's shift: positive outwards, as that of sun and planet, or positive where it makes the ring's teeth thicker, as in ISO 21771 and DIN 3960; x_outward = −x_iso").default_is("outward"),
+        key("geometry.thickness.thinning_mm", Table, "–", "thickness allowances: by how much teeth are thinner than profile_shift says, as arcs on the reference circles; not beside backlash keys").left_out("as thick as the shifts say"),
+        key("geometry.thickness.thinning_mm.sun", Number(NonNegative), "mm", "thinning of the sun's teeth").default_is("0"),
+        key("geometry.thickness.thinning_mm.planet", Number(NonNegative), "mm", "thinning of the planet's teeth").default_is("0"),
+        key("geometry.thickness.thinning_mm.ring", Number(NonNegative), "mm", "thinning of the ring's teeth").default_is("0"),
     ]
 }
 
@@ -115,7 +127,7 @@ fn material() -> Vec<SceneKey> {
 
 /// Support of a central member.
 fn support(name: &str) -> Vec<SceneKey> {
-    let never = "free, without bearing; never of a gear pair";
+    let never = "free, without bearing, or held where [planet] is left out and operation.input is another; never of a gear pair";
     let (meaning, left_out, torques, bearing) = match name {
         "sun" => ("support of the sun; of gear pairs only with mesh = \"sun_planet\"", "free, without bearing; of a gear pair with a rigid bearing", "Torques of static, impulse, sweep and branches need one of sun, ring and carrier free without torsional stiffness, on which they act, and the other two held or with a torsional stiffness", "; of a gear pair above 0, and left out the bearing is rigid"),
         "ring" => ("support of the ring", never, "Torques: as `sun.motion`", ""),
@@ -141,7 +153,7 @@ fn shaft(name: &str) -> Vec<SceneKey> {
 /// Every planet on its pin.
 fn planet() -> Vec<SceneKey> {
     vec![
-        key("planet", Table, "–", "every planet on its pin; of a gear pair with mesh = \"sun_planet\" the support of its planet").left_out("always of a planetary set; of a gear pair with a rigid bearing").needed_by(ALL),
+        key("planet", Table, "–", "every planet on its pin; of a gear pair with mesh = \"sun_planet\" the support of its planet").left_out("of a planetary set with [geometry] a bearing of E b/13, ring and carrier held; of a gear pair with a rigid bearing").needed_by(ALL),
         key("planet.bearing_n_per_m", Number(Positive), "N/m", "stiffness between planet and carrier, of a gear pair to ground, equal in all directions").left_out("always of a planetary set; of a gear pair a rigid bearing").needed_by(ALL),
         key("planet.added_mass_kg", Number(NonNegative), "kg", "mass fixed to each planet's race, beside the meshed or lumped mass; not of a gear pair").default_is("0"),
         key("planet.added_inertia_kg_m2", Number(NonNegative), "kg·m²", "polar inertia of the added mass; not of a gear pair").default_is("0"),
@@ -211,7 +223,7 @@ fn operation() -> Vec<SceneKey> {
         key("operation", Table, "–", "operating point").left_out("no torque, speed or mesh frequency of its own").needed_by(LOAD),
         key("operation.fixed", Choice(&["sun", "ring", "carrier"]), "–", "member that stands still, which gives speeds and the ratio of torques; not of a gear pair, whose bearings do. Supports (`motion`) rule the vibrations: the torque acts on the member that turns without support, which must not be this one").default_is("ring"),
         key("operation.input", Choice(&["sun", "ring", "carrier"]), "–", "member whose speed and torque are given; another than fixed; of a gear pair the sun").default_is("sun"),
-        key("operation.speed_rpm", Number(Finite), "rpm", "speed of the input member, counter-clockwise positive; --speeds-rpm and --rpm are magnitudes in this sense. With a torque of the same sign the member drives, with one of the other sign it is braked").required().needed_by(SWEEP),
+        key("operation.speed_rpm", Number(Finite), "rpm", "speed of the input member, counter-clockwise positive; --speeds-rpm and --rpm are magnitudes in this sense. With a torque of the same sign the member drives, with one of the other sign it is braked").default_is("1000").needed_by(SWEEP),
         key("operation.torque_nm", Number(Finite), "N·m", "external torque on the input member, counter-clockwise positive; 0 needs the argument --sun-torque-nm").required().needed_by(LOAD),
     ]
 }

@@ -67,7 +67,9 @@ fn defaults_of_the_list_are_those_of_the_reader() {
             mass_kg = { sun = 1, planet = 1, carrier = 1, ring = 1 }\n\
             inertia_kg_m2 = { sun = 1, planet = 1, carrier = 1, ring = 1 }\n";
         table.insert("lumped".into(), lumped.parse::<toml::Table>().unwrap().into());
-        if key.path.starts_with("geometry.thickness.profile_shift") {
+        let of_shifts =
+            ["geometry.thickness.profile_shift", "geometry.thickness.thinning_mm", "geometry.rack"];
+        if of_shifts.iter().any(|table| key.path.starts_with(table)) {
             let geometry = table["geometry"].as_table_mut().unwrap();
             geometry.remove("planet_base_diameter_mm");
             let rack = "module_mm = 2.8222\npressure_angle_deg = 22.5".parse::<toml::Table>();

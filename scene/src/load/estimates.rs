@@ -8,7 +8,7 @@ use crate::load::case::LoadCase;
 use crate::scene::{Freedom, PerBody, PerMesh, Scene, SceneKind, Support, Torsional};
 
 /// One pair of steel teeth in mesh has about E b/13: 14 N/(mm µm) for steel, as in ISO 6336-1.
-const PAIR_STIFFNESS_DIVISOR: f64 = 13.0;
+pub(crate) const PAIR_STIFFNESS_DIVISOR: f64 = 13.0;
 
 /// An annulus that stands for a body.
 #[derive(Debug, Clone, Copy)]

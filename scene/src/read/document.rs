@@ -15,7 +15,9 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::keys::{KEYS, KeyKind, Presence, SceneKey};
+use crate::read::digits::half_unit;
 use crate::read::fault::{Fault, printable};
+use crate::read::remarks::{Chosen, Remarks};
 use crate::read::unread::{Unread, unfinished_above, without_indices};
 
 /// Magnitudes beyond these are slips of unit or exponent, and would overflow when squared.
@@ -29,6 +31,10 @@ pub(crate) struct Document<'s> {
     spans: RefCell<BTreeMap<String, Range<usize>>>,
     /// What errors of syntax leave unknown.
     unread: RefCell<Unread>,
+    /// What reading decides and notices beside faults.
+    pub(crate) remarks: RefCell<Remarks>,
+    /// Whether the numbers are exact, as those of a program are, whatever digits they are written with.
+    pub(crate) is_exact: bool,
     /// Every key that was asked for.
     #[cfg(test)]
     pub(crate) asked: RefCell<std::collections::BTreeSet<String>>,
@@ -41,6 +47,8 @@ impl<'s> Document<'s> {
             faults: RefCell::default(),
             spans: RefCell::default(),
             unread: RefCell::default(),
+            remarks: RefCell::default(),
+            is_exact: false,
             #[cfg(test)]
             asked: RefCell::default(),
         }
@@ -140,8 +148,16 @@ impl<'s> Document<'s> {
         self.spans.borrow().contains_key(key)
     }
 
-    /// All faults in the order of the file.
-    pub(crate) fn into_faults(self) -> Vec<Fault> {
+    /// The value of a key as the file holds it; empty where it does not.
+    pub(crate) fn written(&self, key: &str) -> String {
+        self.spans
+            .borrow()
+            .get(key)
+            .map_or(String::new(), |span| self.text[span.clone()].to_owned())
+    }
+
+    /// All faults in the order of the file, and the remarks.
+    pub(crate) fn into_findings(self) -> (Vec<Fault>, Remarks) {
         let mut faults = self.faults.into_inner();
         faults.sort_by_key(|f| f.span.start);
         for fault in &mut faults {
@@ -149,7 +165,7 @@ impl<'s> Document<'s> {
                 *text = printable(text);
             }
         }
-        faults
+        (faults, self.remarks.into_inner())
     }
 }
 
@@ -287,6 +303,21 @@ impl<'d, 's> Section<'d, 's> {
             return None;
         }
         Some(x)
+    }
+
+    /// Half a unit of the last digit with which a number is written, in SI units; 0 where it is exact or absent.
+    pub(crate) fn half_unit(&self, key: &'static str) -> f64 {
+        let path = self.full(key);
+        let spans = self.document.spans.borrow();
+        let Some(span) = spans.get(&path).filter(|_| !self.document.is_exact) else { return 0.0 };
+        let half = half_unit(&self.document.text[span.clone()]);
+        self.declared(key).map_or(0.0, |declared| declared.to_si(half))
+    }
+
+    /// Notes what is chosen for a key that is left out: its value in the unit of the key, and why.
+    pub(crate) fn choose(&self, key: &str, value: String, why: &str) {
+        let chosen = Chosen { key: self.full(key), value, why: why.to_owned() };
+        self.document.remarks.borrow_mut().chosen.push(chosen);
     }
 
     /// A number in SI units, or its default.

@@ -1,14 +1,19 @@
 //! From scene text to the plain `Scene`, every fault collected.
 
+mod digits;
 pub(crate) mod document;
 mod dynamics;
 pub(crate) mod fault;
 mod fe_contact;
-mod geometry;
+pub(crate) mod geometry;
 pub(crate) mod lumped;
 mod planets;
+mod rack_defaults;
+pub(crate) mod remarks;
 mod supports;
 pub(crate) mod text_file;
+pub(crate) mod thickness;
+mod tip_rounding;
 mod unread;
 
 use std::path::Path;
@@ -17,12 +22,14 @@ use gearset::{Geometry, Member, MeshKind, Operation, PlanetPositions, Teeth};
 
 use crate::check;
 use crate::choices::FeContactInput;
+use crate::load::estimates::PAIR_STIFFNESS_DIVISOR;
 use crate::read::document::{Document, Section, is_within};
 use crate::read::dynamics::dynamics;
 use crate::read::fault::{Fault, SceneError, SceneFaults, printable};
 use crate::read::fe_contact::fe_contact;
 use crate::read::geometry::geometry;
 use crate::read::planets::planets;
+use crate::read::remarks::Remarks;
 use crate::read::supports::supports;
 use crate::read::text_file::read_text;
 use crate::scene::*;
@@ -47,11 +54,25 @@ impl Scene {
     /// [`SceneError::Invalid`] with every fault found: of syntax, of single keys and of what only several keys
     /// together show. What follows from a fault is not reported beside it.
     pub fn from_toml(text: &str) -> Result<Self, SceneError> {
-        let document = Document::new(text);
+        Ok(Self::with_remarks(text)?.0)
+    }
+
+    /// The same, and what was chosen for keys that the text leaves out and what its digits show.
+    ///
+    /// # Errors
+    /// As [`from_toml`](Self::from_toml).
+    pub fn with_remarks(text: &str) -> Result<(Self, Remarks), SceneError> {
+        Self::read_text(text, false)
+    }
+
+    /// Reads text whose numbers are rounded to the digits they have, or exact.
+    fn read_text(text: &str, is_exact: bool) -> Result<(Self, Remarks), SceneError> {
+        let mut document = Document::new(text);
+        document.is_exact = is_exact;
         let scene = read_document(&document);
-        let faults = document.into_faults();
+        let (faults, remarks) = document.into_findings();
         match scene {
-            Some(scene) if faults.is_empty() => Ok(scene),
+            Some(scene) if faults.is_empty() => Ok((scene, remarks)),
             _ => Err(SceneError::Invalid { text: printable(text), faults: or_unknown(faults) }),
         }
     }
@@ -76,8 +97,8 @@ impl Scene {
     /// # Errors
     /// [`SceneFaults`] with every fault, each with its key and the value in the unit of the key.
     pub fn check(&self) -> Result<(), SceneFaults> {
-        match Self::from_toml(&self.to_toml()) {
-            Ok(read)
+        match Self::read_text(&self.to_toml(), true) {
+            Ok((read, _))
                 if self.planets.steps.is_some() && self.planets.steps != read.planets.steps =>
             {
                 Err(SceneFaults(vec![Fault {
@@ -145,7 +166,7 @@ pub(crate) struct TeethRead {
 }
 
 impl TeethRead {
-    fn complete(&self) -> Option<Teeth> {
+    pub(crate) fn complete(&self) -> Option<Teeth> {
         Some(Teeth { sun: self.sun, planet: self.planet?, ring: self.ring })
     }
 }
@@ -170,14 +191,20 @@ fn read(document: &Document<'_>, root: Section<'_, '_>) -> Option<Scene> {
     if is_pair && !root.has("geometry") {
         root.fault("geometry", "[geometry]", "a gear pair is nothing without its tooth geometry");
     }
-    let supports = supports(&root, kind, pair);
+    let material = material(&root.table("material"));
+    let operation = root.section("operation").and_then(|s| operation(&s, is_pair));
+    let pair_stiffness = geometry.as_ref().map(|read| read.input.face_width_m);
+    let pair_stiffness = pair_stiffness
+        .map(|width| material.young_modulus_pa * width / PAIR_STIFFNESS_DIVISOR)
+        .filter(|stiffness| stiffness.is_finite());
+    let supports = supports(&root, kind, pair, pair_stiffness, operation);
     let fe_contact = fe_contact(&root.table("fe_contact"));
     let dynamics = dynamics(&root.table("dynamics"));
     let (fe_contact, dynamics) = (fe_contact?, dynamics?);
     let whole_teeth = teeth.complete();
     let is_sound = !document.is_doubtful("geometry") && !document.is_doubtful("teeth");
     let resolved = geometry.as_ref().zip(whole_teeth.as_ref()).filter(|_| is_sound);
-    let resolved = resolved.and_then(|(g, t)| Geometry::new(g, t).ok());
+    let resolved = resolved.and_then(|(g, t)| Geometry::new(&g.input, t).ok());
     let lumped = match root.section("lumped") {
         Some(_) if is_pair && pair == Some(MeshKind::RingPlanet) => {
             root.fault("lumped", "nothing here", "only a sun–planet pair has a lumped model");
@@ -187,9 +214,7 @@ fn read(document: &Document<'_>, root: Section<'_, '_>) -> Option<Scene> {
         None => None,
     };
     let overrides = overrides(&root, planets.as_ref());
-    let material = material(&root.table("material"));
     let damping = damping(&root.table("damping"));
-    let operation = root.section("operation").map(|s| operation(&s, is_pair));
     if let Some(positions) = &planets {
         check::distinct_positions(document, positions);
     }
@@ -209,13 +234,13 @@ fn read(document: &Document<'_>, root: Section<'_, '_>) -> Option<Scene> {
         source,
         planets: planets?,
         teeth: whole_teeth,
-        geometry,
+        geometry: geometry.map(|read| read.input),
         material,
         supports,
         lumped,
         overrides,
         damping,
-        operation: operation.flatten(),
+        operation,
         fe_contact,
         dynamics,
     })
@@ -304,5 +329,8 @@ fn operation(s: &Section<'_, '_>, is_pair: bool) -> Option<Operation> {
         s.fault("input", "another member than `fixed`", "a held member cannot be driven");
     }
     let (speed_rpm, torque_nm) = (s.number("speed_rpm"), s.number("torque_nm"));
+    if !s.may_hold("speed_rpm") {
+        s.choose("speed_rpm", speed_rpm.to_string(), "a speed to begin with");
+    }
     Some(Operation { fixed: fixed?, input: input?, speed_rpm, torque_nm })
 }

@@ -27,7 +27,7 @@ pub(crate) fn planets(
     if s.may_hold("position_steps") || s.may_hold("positions_deg") {
         return positions(root, &s, count, steps, degrees, teeth);
     }
-    equal_positions(root, count?, teeth.sun.zip(teeth.ring))
+    equal_positions(&s, count?, teeth.sun.zip(teeth.ring))
 }
 
 /// Positions given explicitly, checked against count and assembly.
@@ -108,29 +108,34 @@ fn positions(
     all_fit.then_some(PlanetPositions { psi_rad, steps: Some(steps) })
 }
 
-/// Equal spacing; with teeth known it must be possible to assemble it.
+/// Equal spacing; with teeth known the assembly positions nearest to it.
 fn equal_positions(
-    root: &Section<'_, '_>,
+    s: &Section<'_, '_>,
     n: usize,
     sun_ring: Option<(u32, u32)>,
 ) -> Option<PlanetPositions> {
-    let mut positions = PlanetPositions::equally_spaced(n);
+    let positions = PlanetPositions::equally_spaced(n);
     let Some((z_s, z_r)) = sun_ring else {
         return Some(positions);
     };
-    let total = u64::from(z_s) + u64::from(z_r);
-    if total % n as u64 != 0 {
-        let n = n as u64;
-        // n·total/N, rounded in whole numbers.
-        let nearest: Vec<_> = (0..n).map(|i| ((2 * i * total + n) / (2 * n)).to_string()).collect();
-        let why = format!(
-            "(Z_s+Z_r)/N = {total}/{n} is not whole, so equal spacing cannot be assembled; nearest: position_steps = [{}]",
-            nearest.join(", ")
-        );
-        root.fault("planets", "positions that can be assembled", why);
+    let (total, count) = (u64::from(z_s) + u64::from(z_r), n as u64);
+    // n·total/N, rounded in whole numbers.
+    let nearest = (0..count).map(|i| ((2 * i * total + count) / (2 * count)) as i64);
+    let steps: Vec<i64> = nearest.collect();
+    if total % count == 0 {
+        return Some(PlanetPositions { steps: Some(steps), ..positions });
+    }
+    let why = format!(
+        "(Z_s+Z_r)/N = {total}/{n} is not whole, so that equal spacing cannot be assembled; these are the nearest positions"
+    );
+    if s.document.is_exact {
+        let allowed =
+            format!("positions that can be assembled, such as position_steps = {steps:?}");
+        s.fault("positions_deg", allowed, why);
         return None;
     }
-    let each = (total / n as u64) as i64;
-    positions.steps = Some((0..n as i64).map(|i| i * each).collect());
-    Some(positions)
+    s.choose("position_steps", format!("{steps:?}"), &why);
+    let step = assembly::assembly_step_rad(z_s, z_r);
+    let psi_rad = steps.iter().map(|&k| k as f64 * step).collect();
+    Some(PlanetPositions { psi_rad, steps: Some(steps) })
 }

@@ -1,23 +1,50 @@
 //! The tables `[sun]`, `[ring]`, `[carrier]` and `[planet]`.
 
-use gearset::MeshKind;
+use gearset::{Member, MeshKind, Operation};
 
 use crate::read::document::Section;
 use crate::scene::*;
+use crate::warnings::shown;
 
 /// Reads the supports of all members; `kind` is `None` where the file does not say it, `mesh` is that of a gear
-/// pair.
+/// pair, `pair_stiffness` (N/m) that of a pair of teeth where the geometry gives it.
+///
+/// Where `[planet]` is left out its bearing is as stiff as a pair of teeth, and of ring, carrier and sun those are held
+/// whose tables are left out, but for the member on which the torque acts.
 pub(crate) fn supports(
     root: &Section<'_, '_>,
     kind: Option<SceneKind>,
     mesh: Option<MeshKind>,
+    pair_stiffness: Option<f64>,
+    operation: Option<Operation>,
 ) -> Supports {
     if kind == Some(SceneKind::GearPair) {
         return pair_supports(root, mesh);
     }
     let central = |key| support(&root.table(key), false);
-    let (carrier, ring, sun) = (central("carrier"), central("ring"), central("sun"));
-    if kind == Some(SceneKind::Planetary) && !root.has("planet") {
+    let (mut carrier, mut ring, mut sun) = (central("carrier"), central("ring"), central("sun"));
+    let chosen = pair_stiffness.filter(|_| {
+        kind == Some(SceneKind::Planetary) && !root.may_hold("planet") && !root.document.is_exact
+    });
+    if let Some(stiffness) = chosen {
+        root.choose(
+            "planet.bearing_n_per_m",
+            shown(stiffness),
+            "as stiff as a pair of teeth, E b/13",
+        );
+        let loaded = loaded(operation);
+        for (member, key, support) in [
+            (Member::Sun, "sun", &mut sun),
+            (Member::Ring, "ring", &mut ring),
+            (Member::Carrier, "carrier", &mut carrier),
+        ] {
+            if member != loaded && !root.may_hold(key) {
+                *support = Support::HELD;
+                let why = format!("the torque acts on the {}", loaded.name());
+                root.choose(&format!("{key}.motion"), "\"held\"".into(), &why);
+            }
+        }
+    } else if kind == Some(SceneKind::Planetary) && !root.has("planet") {
         let why = "every planet runs on a bearing on the carrier";
         root.fault("planet", "[planet] with bearing_n_per_m", why);
     }
@@ -29,7 +56,7 @@ pub(crate) fn supports(
         mass_kg: s.number("added_mass_kg"),
         inertia_kg_m2: s.number("added_inertia_kg_m2"),
     };
-    let planet_bearing = s.number("bearing_n_per_m");
+    let planet_bearing = chosen.unwrap_or_else(|| s.number("bearing_n_per_m"));
     Supports {
         carrier,
         ring,
@@ -37,6 +64,16 @@ pub(crate) fn supports(
         planet_bearing_n_per_m: planet_bearing,
         planet_added,
         pair: None,
+    }
+}
+
+/// Member that is left free for the torque: the driven one or, in place of the carrier, which may have no mass, the
+/// other one that turns.
+fn loaded(operation: Option<Operation>) -> Member {
+    match operation {
+        Some(Operation { input: Member::Ring, .. })
+        | Some(Operation { input: Member::Carrier, fixed: Member::Sun, .. }) => Member::Ring,
+        _ => Member::Sun,
     }
 }
 

@@ -1,5 +1,6 @@
 //! Values that are allowed and unlikely: each with the slip of unit that would explain it.
 
+mod closing;
 mod numerics;
 
 use std::fmt;
@@ -10,6 +11,8 @@ use crate::load::case::LoadCase;
 use crate::load::estimates::{self, BODIES};
 use crate::load::size::LARGE_MODULES;
 use crate::scene::{PerBody, Scene, SceneKind, Support, Torsional};
+pub(crate) use crate::warnings::closing::{LARGE_BACKLASH, sign_warning, signed_mm};
+use crate::warnings::closing::{backlash, ring_teeth};
 use crate::warnings::numerics::numerics;
 
 /// Mass and inertia of a body against its disc of the same width and density: webs, hubs and shafts change them by
@@ -69,8 +72,10 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
     material(scene, &mut found);
     if let Some(geometry) = &geometry {
         lengths(geometry, &mut found);
+        backlash(scene, geometry, &mut found);
         load(scene, geometry, &mut found);
     }
+    ring_teeth(scene, &mut found);
     bodies(scene, &mut found);
     supports(scene, geometry.as_ref(), &mut found);
     damping(scene, &mut found);
@@ -89,7 +94,7 @@ impl Found {
 }
 
 /// A number as people write it.
-fn shown(x: f64) -> String {
+pub(crate) fn shown(x: f64) -> String {
     if x != 0.0 && !(1e-3..1e5).contains(&x.abs()) {
         return format!("{x:.4e}");
     }

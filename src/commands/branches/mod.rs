@@ -64,7 +64,7 @@ struct Kept<'s> {
 /// Follows the branch: results to `out`, warnings to `err`.
 pub(super) fn run(arguments: &Branches, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let path = &arguments.scene;
-    let mut scene = read_scene(path)?;
+    let mut scene = read_scene(path, err)?;
     let settings = settings(arguments)?;
     needs::not_ring_pair(path, &scene)?;
     let case = case(arguments, &scene, &settings, err)?;

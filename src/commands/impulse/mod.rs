@@ -34,7 +34,7 @@ const BAND_POSITIONS: usize = 28;
 const BAND_HIGHEST_HZ: f64 = 16e3;
 
 pub(super) fn run(arguments: &Impulse, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
-    let scene = read_scene(&arguments.scene)?;
+    let scene = read_scene(&arguments.scene, err)?;
     let preload = preload(arguments, &scene, err)?;
     let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
     needs::require(&arguments.scene, &scene, Verb::Impulse, is_given)?;

@@ -21,7 +21,7 @@ use crate::output;
 use closed_form::StatedErrorEntry;
 
 pub(crate) fn run(arguments: &Modes, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
-    let scene = read_scene(&arguments.scene)?;
+    let scene = read_scene(&arguments.scene, err)?;
     needs::warn(&scene, None, err)?;
     let most = scene::SPEEDS_RPM[1];
     // Not `abs() > most`: what is no number is within nothing.

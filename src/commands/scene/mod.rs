@@ -14,14 +14,15 @@ use scene::{SceneKind, template};
 
 use crate::arguments::SceneVerb;
 use crate::error::{Result, unwritten};
-use crate::inputs::read_scene;
+use crate::inputs::scene_with_remarks;
 use crate::output;
 
 pub(crate) fn run(verb: &SceneVerb, out: &mut dyn Write) -> Result<()> {
     match verb {
         SceneVerb::New { path, kind } => new(path, *kind, out),
         SceneVerb::Check { scene, format } => {
-            output::show(*format, &SceneSummary::of(&read_scene(scene)?), out)
+            let (scene, remarks) = scene_with_remarks(scene)?;
+            output::show(*format, &SceneSummary::new(&scene, remarks), out)
         }
         SceneVerb::Schema => output::json(out, &scene::scene_schema()),
     }

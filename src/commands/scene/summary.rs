@@ -4,7 +4,7 @@ use fe_contact::FeError;
 use fe_contact::statics::within_memory;
 use gearset::involute::roll_length_at;
 use gearset::{Gear, Geometry, Mesh, MeshKind, Phasing};
-use scene::{LoadCase, Scene, SceneKind, Verb};
+use scene::{LoadCase, Remarks, Scene, SceneKind, Verb};
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -34,6 +34,12 @@ pub(crate) struct SceneSummary {
     pub(super) carrier_speed_rpm: Option<f64>,
     /// Speeds and torques at the operating point.
     pub(super) motion: Option<MotionSummary>,
+    /// Values of keys that the file leaves out and that follow from others.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) chosen: Vec<ChosenSummary>,
+    /// What was taken for zero within the rounding of the digits written.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) rounding: Vec<String>,
     pub(super) limits: Vec<String>,
     /// Finite-element bodies of the gears; null if they cannot be meshed.
     pub(super) fe_bodies: Option<FeBodiesSummary>,
@@ -41,6 +47,16 @@ pub(crate) struct SceneSummary {
     pub(super) warnings: Vec<WarningSummary>,
     /// Every verb that reads a scene, `sweep` at each fidelity.
     pub(super) verbs: Vec<VerbSummary>,
+}
+
+/// A value that the file leaves out.
+#[derive(Debug, Serialize, JsonSchema)]
+pub(super) struct ChosenSummary {
+    pub(super) key: String,
+    /// In the unit of the key, numbers to five decimals or digits.
+    pub(super) value: String,
+    /// Where it comes from.
+    pub(super) why: String,
 }
 
 /// Size of the finite-element bodies of the gears.
@@ -115,7 +131,7 @@ pub(super) struct MeshSummary {
 }
 
 impl SceneSummary {
-    pub(super) fn of(scene: &Scene) -> Self {
+    pub(super) fn new(scene: &Scene, remarks: Remarks) -> Self {
         let geometry = scene.tooth_geometry().ok();
         let kinematics = scene.kinematics().ok();
         let mesh_frequency_hz = LoadCase::of_scene(scene).ok().map(|case| case.mesh_frequency_hz);
@@ -148,18 +164,30 @@ impl SceneSummary {
             mesh_frequency_hz,
             carrier_speed_rpm: kinematics.as_ref().map(|k| k.speeds_rpm.carrier),
             motion: MotionSummary::new(scene),
+            chosen: remarks.chosen.into_iter().map(chosen).collect(),
+            rounding: remarks.notes,
             limits: scene.limits(),
             fe_bodies: admitted.as_ref().ok().map(|found| FeBodiesSummary {
                 degrees_of_freedom: found.bodies.iter().map(|b| b.unknowns).sum(),
                 memory_mb: 1e-6 * found.peak_bytes as f64,
             }),
-            warnings: scene::warnings(scene).into_iter().map(warning).collect(),
+            warnings: remarks
+                .warnings
+                .into_iter()
+                .chain(scene::warnings(scene))
+                .map(warning)
+                .collect(),
             verbs: Verb::ALL
                 .into_iter()
                 .map(|verb| needs(scene, verb, admitted.as_ref().err()))
                 .collect(),
         }
     }
+}
+
+fn chosen(chosen: scene::Chosen) -> ChosenSummary {
+    let scene::Chosen { key, value, why } = chosen;
+    ChosenSummary { key, value, why }
 }
 
 fn warning(w: scene::Warning) -> WarningSummary {
@@ -224,12 +252,18 @@ fn meshes(geometry: &Geometry) -> Vec<MeshSummary> {
         pressure_angle_deg: mesh.pressure_angle.to_degrees(),
         operating_module_mm: 1e3 * mesh.operating_module,
         contact_ratio: mesh.contact_ratio,
-        backlash_mm: 1e3 * geometry.backlash(mesh.kind).unwrap_or(f64::NAN),
+        backlash_mm: 1e3 * backlash(geometry, mesh.kind),
     };
     [MeshKind::SunPlanet, MeshKind::RingPlanet]
         .into_iter()
         .filter_map(|kind| geometry.mesh(kind).map(summary))
         .collect()
+}
+
+/// Backlash, m, without the rounding errors of one that is 0.
+fn backlash(geometry: &Geometry, kind: MeshKind) -> f64 {
+    let backlash = geometry.backlash(kind).unwrap_or(f64::NAN);
+    if backlash.abs() < 1e-12 { 0.0 } else { backlash }
 }
 
 fn relief(gear: &Gear) -> Option<ReliefSummary> {

@@ -88,6 +88,12 @@ impl Report for SceneSummary {
                 fe.degrees_of_freedom, fe.memory_mb
             )?;
         }
+        for c in &self.chosen {
+            writeln!(out, "chosen: `{}` = {}: {}", c.key, c.value, c.why)?;
+        }
+        for note in &self.rounding {
+            writeln!(out, "note: {note}")?;
+        }
         for limit in &self.limits {
             writeln!(out, "note: {limit}")?;
         }

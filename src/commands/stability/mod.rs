@@ -57,7 +57,7 @@ pub(super) fn run(arguments: &Stability, out: &mut dyn Write, err: &mut dyn Writ
     }
     let scene = match &arguments.scene {
         Some(path) => {
-            let scene = read_scene(path)?;
+            let scene = read_scene(path, err)?;
             needs::warn(&scene, None, err)?;
             scene
         }

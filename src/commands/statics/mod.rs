@@ -20,7 +20,7 @@ use crate::error::{Result, refused, unfit};
 use crate::inputs::{loads, needs, read_scene};
 
 pub(crate) fn run(arguments: &Static, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
-    let scene = read_scene(&arguments.scene)?;
+    let scene = read_scene(&arguments.scene, err)?;
     if scene.geometry.is_none() {
         let reason = "[geometry] is absent: teeth are needed to touch";
         return Err(unfit(&arguments.scene, reason));

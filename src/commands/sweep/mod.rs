@@ -42,7 +42,7 @@ pub(super) fn run(
     err: &mut dyn Write,
 ) -> Result<()> {
     let path = &arguments.scene;
-    let scene = read_scene(path)?;
+    let scene = read_scene(path, err)?;
     let task = Task::new(arguments, &scene, err)?;
     if let Some(response) = auto::response(&scene) {
         return auto::run(&task, &scene, response, out, err);
