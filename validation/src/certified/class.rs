@@ -1,9 +1,12 @@
 //! How far a value is certain.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Class of a value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema,
+)]
 pub enum Class {
     /// Certified: two independent codes, or a code and a theorem or closed form, agree on its digits.
     A,

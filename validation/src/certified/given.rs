@@ -2,6 +2,10 @@
 
 use std::collections::HashMap;
 
+use serde::Serialize;
+
+use crate::check::{Check, ReferenceKind, Status, Value};
+use crate::model_kind::ModelKind;
 use crate::results::{CycleRow, ModeRow, ResultsFolder, StateRow};
 
 use super::row::Row;
@@ -81,8 +85,38 @@ fn turning(row: &StateRow, kind: &str) -> Row {
     }
 }
 
+/// Values that differ by less than this part are one.
+const EQUAL: f64 = 1e-9;
+
+/// Correct digits of a judged number: up to what the data set has of its reference as certain, or up to the digits in
+/// which a published reference is printed. `None` of words, of bounds and of what another kind of model is shown beside.
+pub fn digits_of(check: &Check, kind: ModelKind) -> Option<f64> {
+    let (Value::Number(expected), Some(Value::Number(given))) = (&check.expected, &check.actual)
+    else {
+        return None;
+    };
+    if !matches!(check.status, Status::Pass | Status::Fail | Status::Miss) || *expected == 0.0 {
+        return None;
+    }
+    let scene = check.id.strip_prefix("lumped_model.").and_then(|id| id.split('.').next());
+    let is_reference = |row: &&Row| {
+        Some(row.scene.as_str()) == scene
+            && row.kind == kind.name()
+            && row.quantity == "frequency"
+            && (row.value - expected).abs() <= EQUAL * expected.abs()
+    };
+    let values = CertifiedValues::shipped();
+    if let Some(row) = values.rows().find(is_reference) {
+        return Some(correct_digits(*given, row.value, row.uncertainty, values.largest(row)));
+    }
+    let is_printed =
+        matches!(check.kind, ReferenceKind::Published | ReferenceKind::HandCalculation);
+    let digits = correct_digits(*given, *expected, check.tolerance.absolute, *expected);
+    (is_printed && check.tolerance.band.is_none()).then_some(digits)
+}
+
 /// How the values of one quantity of a scene agree with the data set.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, schemars::JsonSchema)]
 pub struct Score {
     /// Id of the scene.
     pub scene: String,
@@ -100,12 +134,28 @@ pub struct Score {
     pub worst: String,
 }
 
+/// The row of the data set that a row is held against: that of its id, and of a frequency the nearest of its type, for
+/// a list may leave out modes.
+fn partner<'v>(given: &Row, values: &'v CertifiedValues) -> Option<&'v Row> {
+    if given.quantity != "frequency" {
+        return values.row(&given.id);
+    }
+    let is_like = |row: &&Row| {
+        row.quantity == given.quantity
+            && row.scene == given.scene
+            && row.kind == given.kind
+            && (given.subject.is_empty() || row.subject == given.subject)
+    };
+    let apart = |row: &&Row| (row.value - given.value).abs();
+    values.rows().filter(is_like).min_by(|a, b| apart(a).total_cmp(&apart(b)))
+}
+
 /// Scores of rows that the data set has too, by scene and quantity.
 pub fn scores(given: &[Row]) -> Vec<Score> {
     let values = CertifiedValues::shipped();
     let mut groups: Vec<(&Row, Vec<(f64, &Row)>)> = Vec::new();
     for row in given {
-        let Some(kept) = values.row(&row.id) else { continue };
+        let Some(kept) = partner(row, values) else { continue };
         let digits = correct_digits(row.value, kept.value, kept.uncertainty, values.largest(kept));
         let is_same = |(first, _): &&mut (&Row, _)| {
             first.scene == kept.scene && first.quantity == kept.quantity

@@ -19,7 +19,7 @@ pub use check::{Alteration, altered};
 pub use class::Class;
 pub use closed_form::closed_forms;
 pub use drift::{Drift, Moved};
-pub use given::{Score, given_rows, scores};
+pub use given::{Score, digits_of, given_rows, scores};
 pub use package::package;
 pub use quantity::{QUANTITIES, Quantity};
 pub use row::Row;

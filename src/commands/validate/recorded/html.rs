@@ -30,6 +30,7 @@ pub(super) fn html(result: &RecordedOutput, suites: &[JudgedSuite<'_>]) -> Strin
     scenes(result, &mut page);
     asked(suites, &mut page);
     values(suites, &mut page);
+    scores(result, &mut page);
     not_asked(result, &mut page);
     // Writing to a string cannot fail.
     let _ = write!(
@@ -199,6 +200,33 @@ fn not_asked(result: &RecordedOutput, page: &mut String) {
     page.push_str("</tbody></table></div>\n");
 }
 
+/// Correct digits beside the data set.
+fn scores(result: &RecordedOutput, page: &mut String) {
+    if result.scores.is_empty() {
+        return;
+    }
+    page.push_str(
+        "<h2>Correct digits beside the data set</h2>\n<div class=\"scroll\"><table>\n<thead><tr><th>scene</th>\
+         <th>quantity</th><th>class</th><th class=\"number\">values</th><th class=\"number\">fewest</th>\
+         <th class=\"number\">median</th><th>value with the fewest</th></tr></thead>\n<tbody>\n",
+    );
+    for score in &result.scores {
+        let _ = writeln!(
+            page,
+            "<tr><td><code>{}</code></td><td>{}</td><td>{}</td><td class=\"number\">{}</td>\
+             <td class=\"number\">{:.1}</td><td class=\"number\">{:.1}</td><td><code>{}</code></td></tr>",
+            breakable(&score.scene),
+            breakable(&score.quantity),
+            score.class.name(),
+            score.values,
+            score.fewest_digits,
+            score.median_digits,
+            breakable(&score.worst)
+        );
+    }
+    page.push_str("</tbody></table></div>\n");
+}
+
 /// Tables by suite.
 fn values(suites: &[JudgedSuite<'_>], page: &mut String) {
     page.push_str(
@@ -212,7 +240,8 @@ fn values(suites: &[JudgedSuite<'_>], page: &mut String) {
             page,
             "<h3 id=\"{name}\">{name} <span>{about}</span></h3>\n<div class=\"scroll\"><table class=\"values\">\n<thead><tr>\
              <th>check</th><th class=\"number\">reference</th><th class=\"number\">yours</th><th>unit</th>\
-             <th class=\"number\">difference %</th><th class=\"number\">tolerance</th><th>verdict</th>\
+             <th class=\"number\">difference %</th><th class=\"number\">tolerance</th><th class=\"number\">digits</th>\
+             <th>verdict</th>\
              <th colspan=\"2\">difference / tolerance</th></tr></thead>"
         );
         for group in suite.groups() {
@@ -220,7 +249,7 @@ fn values(suites: &[JudgedSuite<'_>], page: &mut String) {
             let [reason, source] = [group[0].reason, group[0].source].map(xml);
             let _ = writeln!(
                 page,
-                "<tr class=\"why\"><th colspan=\"9\">Tolerance: {reason}. Reference: {source}.</th></tr>"
+                "<tr class=\"why\"><th colspan=\"10\">Tolerance: {reason}. Reference: {source}.</th></tr>"
             );
             group.iter().for_each(|row| value(row, page));
             page.push_str("</tbody>\n");
@@ -234,7 +263,7 @@ fn value(row: &JudgedRow<'_>, page: &mut String) {
     let accepted = row.acceptance();
     let accepted =
         accepted.map_or_else(String::new, |text| format!("<small>{}</small>", xml(&text)));
-    let JudgedRow { difference, tolerance, word, .. } = row;
+    let JudgedRow { difference, tolerance, digits, word, .. } = row;
     let ([reference, yours], mark) = match row.is_list {
         true => ([String::new(), String::new()], " class=\"long\""),
         false => ([&row.reference, &row.yours].map(|text| xml(text)), ""),
@@ -244,7 +273,7 @@ fn value(row: &JudgedRow<'_>, page: &mut String) {
         "<tr id=\"{id}\"{mark}><td>{title}<small><code>{}</code></small>{accepted}</td>\
          <td class=\"number\">{reference}</td><td class=\"number\">{yours}</td><td>{unit}</td>\
          <td class=\"number\">{difference}</td><td class=\"number\">{tolerance}</td>\
-         <td class=\"{}\">{word}</td><td class=\"number\">{}</td><td>{}</td></tr>",
+         <td class=\"number\">{digits}</td><td class=\"{}\">{word}</td><td class=\"number\">{}</td><td>{}</td></tr>",
         breakable(row.id),
         class(row.status),
         row.part.map_or_else(|| "–".to_owned(), size),
@@ -255,7 +284,7 @@ fn value(row: &JudgedRow<'_>, page: &mut String) {
         let yours = if yours == reference { "the same" } else { &yours };
         let _ = writeln!(
             page,
-            "<tr class=\"list\"><td colspan=\"9\">reference: {reference}<br>yours: {yours}</td></tr>"
+            "<tr class=\"list\"><td colspan=\"10\">reference: {reference}<br>yours: {yours}</td></tr>"
         );
     }
 }

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use validation::Status;
+use validation::certified::Score;
 
 use super::RecordedOutput;
 use super::escape::markdown as escaped;
@@ -28,6 +29,7 @@ pub(super) fn markdown(result: &RecordedOutput, suites: &[JudgedSuite<'_>]) -> S
         let rows = suites.iter().flat_map(|s| &s.rows).filter(|row| row.status == status);
         table(heading, is_folded, &rows.collect::<Vec<_>>(), &mut text);
     }
+    scores(&result.scores, &mut text);
     reasons(suites, &mut text);
     let _ = writeln!(text, "## What was read\n\nKind of model: {}.\n", about.kind.name());
     text.push_str("| file | SHA-256 |\n|---|---|\n");
@@ -65,15 +67,17 @@ fn table(heading: &str, is_folded: bool, rows: &[&JudgedRow<'_>], text: &mut Str
         true => writeln!(text, "<details><summary>{heading} ({count})</summary>\n"),
         false => writeln!(text, "## {heading} ({count})\n"),
     };
-    text.push_str("| check | title | reference | yours | unit | difference % | tolerance |\n");
-    text.push_str("|---|---|---:|---:|---|---:|---:|\n");
+    text.push_str(
+        "| check | title | reference | yours | unit | difference % | tolerance | correct digits |\n",
+    );
+    text.push_str("|---|---|---:|---:|---|---:|---:|---:|\n");
     for row in rows {
         let yours = if row.is_list && row.yours == row.reference { "the same" } else { &row.yours };
         let [title, reference, yours] = [row.title, &row.reference, yours].map(escaped);
-        let JudgedRow { id, unit, difference, tolerance, .. } = row;
+        let JudgedRow { id, unit, difference, tolerance, digits, .. } = row;
         let _ = writeln!(
             text,
-            "| `{id}` | {title} | {reference} | {yours} | {unit} | {difference} | {tolerance} |"
+            "| `{id}` | {title} | {reference} | {yours} | {unit} | {difference} | {tolerance} | {digits} |"
         );
     }
     text.push('\n');
@@ -85,6 +89,27 @@ fn table(heading: &str, is_folded: bool, rows: &[&JudgedRow<'_>], text: &mut Str
     if is_folded {
         text.push_str("</details>\n\n");
     }
+}
+
+/// Correct digits beside the data set.
+fn scores(scores: &[Score], text: &mut String) {
+    if scores.is_empty() {
+        return;
+    }
+    text.push_str("## Correct digits beside the data set\n\n");
+    text.push_str(
+        "| scene | quantity | class | values | fewest | median | value with the fewest |\n",
+    );
+    text.push_str("|---|---|---|---:|---:|---:|---|\n");
+    for score in scores {
+        let Score { scene, quantity, class, values, fewest_digits, median_digits, worst } = score;
+        let class = class.name();
+        let _ = writeln!(
+            text,
+            "| `{scene}` | {quantity} | {class} | {values} | {fewest_digits:.1} | {median_digits:.1} | `{worst}` |"
+        );
+    }
+    text.push('\n');
 }
 
 /// The reason of every tolerance, once for the checks that share it.

@@ -12,13 +12,15 @@ mod row;
 mod suite;
 mod text;
 
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::Serialize;
+use validation::certified::{Score, digits_of, given_rows, scores};
 use validation::results::{Accepted, Judgement, ResultsFolder};
-use validation::{Miss, ModelKind, Selection, Verdict};
+use validation::{Check, Miss, ModelKind, Selection, Verdict};
 
 use crate::arguments::{Format, Validate};
 use crate::error::{Result, refused};
@@ -33,6 +35,10 @@ pub(crate) struct RecordedOutput {
     about: About,
     #[serde(flatten)]
     verdict: Verdict,
+    /// Correct digits of judged numbers, by the id of the check.
+    digits: BTreeMap<String, f64>,
+    /// How values agree with the data set of certified values, by scene and quantity.
+    scores: Vec<Score>,
     /// Rows that the author knows to miss.
     #[serde(skip)]
     accepted: Vec<Miss>,
@@ -89,6 +95,7 @@ pub(super) fn run(arguments: &Validate, folder: &Path, out: &mut dyn Write) -> R
         remarks.push("types of modes are not asked of a model of rotations alone".to_owned());
     }
     let scenes = JudgedScene::of_folder(&read);
+    let scores = scores(&given_rows(&read));
     let about = About {
         folder: folder.display().to_string(),
         kind: read.kind(arguments.kind),
@@ -100,7 +107,11 @@ pub(super) fn run(arguments: &Validate, folder: &Path, out: &mut dyn Write) -> R
         remarks,
         scenes,
     };
+    let of_check = |check: &Check| Some((check.id.clone(), digits_of(check, about.kind)?));
+    let digits = verdict.checks.iter().filter_map(of_check).collect();
     let result = RecordedOutput {
+        digits,
+        scores,
         about,
         verdict,
         accepted: how.accepted.misses,

@@ -24,6 +24,8 @@ pub(super) struct JudgedRow<'v> {
     pub(super) source: &'v str,
     pub(super) status: Status,
     pub(super) word: &'static str,
+    /// Correct digits; `–` where none can be counted.
+    pub(super) digits: String,
     /// What the author accepts, where this row misses.
     pub(super) accepted: Option<&'v Miss>,
     /// (yours − reference)/tolerance; none of words, lists and exact counts.
@@ -33,7 +35,7 @@ pub(super) struct JudgedRow<'v> {
 }
 
 impl<'v> JudgedRow<'v> {
-    pub(super) fn new(check: &'v Check, accepted: &'v [Miss]) -> Self {
+    pub(super) fn new(check: &'v Check, accepted: &'v [Miss], digits: Option<f64>) -> Self {
         let [reference, yours, difference, tolerance] = cells(check);
         // Cells shorten lists, which a report has room for.
         let whole = |value: Option<&Value>, short: String| match value {
@@ -62,6 +64,7 @@ impl<'v> JudgedRow<'v> {
                 Some(_) => "accepted miss",
                 None => status_word(check.status),
             },
+            digits: digits_cell(digits),
             accepted,
             part: signed_part(check),
             allowed: check.tolerance.band.map_or([-1.0, 1.0], |band| band.map(|x| x / absolute)),
@@ -97,4 +100,9 @@ impl<'v> JudgedRow<'v> {
         )
         .replace(", difference – %", "")
     }
+}
+
+/// Correct digits with one decimal.
+pub(super) fn digits_cell(digits: Option<f64>) -> String {
+    digits.map_or_else(|| "–".to_owned(), |digits| format!("{digits:.1}"))
 }

@@ -33,7 +33,8 @@ impl RecordedOutput {
         let mut suites = Vec::new();
         for check in &self.verdict.checks {
             let name = registry.suite_of(&check.id).map_or(check.id.as_str(), |s| s.name.as_str());
-            let row = JudgedRow::new(check, &self.accepted);
+            let digits = self.digits.get(&check.id).copied();
+            let row = JudgedRow::new(check, &self.accepted, digits);
             suite(&mut suites, name, &registry).rows.push(row);
         }
         for not_asked in &self.verdict.not_asked {

@@ -2,9 +2,11 @@
 
 use std::io::Write;
 
+use validation::certified::Score;
 use validation::{Check, NotAsked, Status};
 
 use super::RecordedOutput;
+use super::row::digits_cell;
 use crate::commands::validate::check_cells::{cells, status_word};
 use crate::commands::validate::result;
 use crate::commands::validate::summary::suite_of;
@@ -34,7 +36,9 @@ impl Report for RecordedOutput {
         let checks = &self.verdict.checks;
         if self.details {
             let verdict = |check: &&Check| status_word(check.status);
-            table().words("verdict", Notation::Plain, verdict).text(checks, out)?;
+            let digits = |check: &&Check| digits_cell(self.digits.get(&check.id).copied());
+            let table = table().words("digits", Notation::Plain, digits).right();
+            table.words("verdict", Notation::Plain, verdict).text(checks, out)?;
         } else {
             let headings = [
                 (Status::Fail, "failed"),
@@ -47,7 +51,36 @@ impl Report for RecordedOutput {
         }
         not_asked(&self.verdict.not_asked, out)?;
         passed(checks, out)?;
+        self.beside_the_data_set(out)?;
         Ok(writeln!(out, "{}", self.counts())?)
+    }
+}
+
+impl RecordedOutput {
+    /// The fewest correct digits of every quantity that the data set has.
+    fn beside_the_data_set(&self, out: &mut dyn Write) -> Result<()> {
+        let mut worst: Vec<(&Score, usize)> = Vec::new();
+        for score in &self.scores {
+            match worst.iter_mut().find(|(known, _)| known.quantity == score.quantity) {
+                Some((known, values)) => {
+                    *values += score.values;
+                    if score.fewest_digits < known.fewest_digits {
+                        *known = score;
+                    }
+                }
+                None => worst.push((score, score.values)),
+            }
+        }
+        if worst.is_empty() {
+            return Ok(());
+        }
+        let one = |(score, values): &(&Score, usize)| {
+            let Score { quantity, fewest_digits, worst, .. } = score;
+            format!("{quantity} {fewest_digits:.1} of {values} values ({worst})")
+        };
+        let each: Vec<String> = worst.iter().map(one).collect();
+        let text = format!("fewest correct digits beside the data set: {}", each.join(", "));
+        Ok(writeln!(out, "{}", paragraph(&text, "", "  "))?)
     }
 }
 
