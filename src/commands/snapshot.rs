@@ -63,24 +63,24 @@ fn beside(folder: &Path) -> PathBuf {
 }
 
 fn table<'r>() -> Table<'r, &'r Moved> {
-    let digits = |digits: Option<f64>| digits.map_or("–".to_owned(), |d| format!("{d:.1}"));
+    let digits = |m: &&Moved| match m.digits_before.zip(m.digits_now) {
+        Some((before, now)) => format!("{before:.1} to {now:.1}, {}", m.direction()),
+        None => "not in the data set".to_owned(),
+    };
     Table::<&Moved>::new()
         .column("id", "", |m| m.id.clone())
         .shown("value", Notation::Plain)
+        .key()
         .column("baseline", "", |m| m.baseline)
         .shown("baseline", Notation::Plain)
         .column("now", "", |m| m.now)
         .shown("now", Notation::Plain)
         .column("unit", "", |m| m.unit.clone())
-        .shown("unit", Notation::Plain)
         .column("common_digits", "", |m| m.common_digits)
         .shown("common digits", Notation::Fixed(1))
         .column("digits_before", "", |m| m.digits_before)
-        .shown_as("correct before", move |m| digits(m.digits_before))
         .column("digits_now", "", |m| m.digits_now)
-        .shown_as("now", move |m| digits(m.digits_now))
-        .column("direction", "", |m| m.direction())
-        .shown("", Notation::Plain)
+        .shown_as("correct digits", digits)
 }
 
 impl Report for DriftOutput {

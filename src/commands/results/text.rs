@@ -27,7 +27,7 @@ impl Report for ResultsSummary {
         let version = self.version.as_ref().map_or(String::new(), |v| format!(" {v}"));
         writeln!(out, "{program}{version} in {}, kind {}", self.folder, self.kind.name())?;
         writeln!(out)?;
-        tables().text(&self.tables, out)?;
+        tables(&self.tables).text(&self.tables, out)?;
         list("remarks", &self.remarks, out)?;
         list("contradictions", &self.contradictions, out)?;
         if !self.asked.is_empty() {
@@ -40,22 +40,29 @@ impl Report for ResultsSummary {
     }
 }
 
-/// What is there.
-fn tables<'r>() -> Table<'r, &'r Contents> {
-    Table::new()
+/// What is there; a column of which no table has anything is left out.
+fn tables<'r>(rows: &[Contents]) -> Table<'r, &'r Contents> {
+    let mut table = Table::new()
         .words("table", Notation::Plain, |row: &&Contents| &row.table)
         .key()
         .words("scene", Notation::Plain, |row| &row.scene)
         .key()
-        .words("rows", Notation::Plain, |row| row.rows)
-        .words("modes", Notation::Plain, |row| row.modes)
-        .words("sun torques N·m", Notation::Plain, |row| range(&row.sun_torques_nm))
-        .right()
-        .words("speeds rpm", Notation::Plain, |row| range(&row.speeds_rpm))
-        .right()
-        .words("positions", Notation::Plain, |row| {
-            (!row.positions.is_empty()).then_some(row.positions.len())
-        })
+        .words("rows", Notation::Plain, |row| row.rows);
+    if rows.iter().any(|row| row.modes.is_some()) {
+        table = table.words("modes", Notation::Plain, |row| row.modes);
+    }
+    if rows.iter().any(|row| !row.sun_torques_nm.is_empty()) {
+        let torques = |row: &&Contents| range(&row.sun_torques_nm);
+        table = table.words("sun torques N·m", Notation::Plain, torques).right();
+    }
+    if rows.iter().any(|row| !row.speeds_rpm.is_empty()) {
+        table = table.words("speeds rpm", Notation::Plain, |row| range(&row.speeds_rpm)).right();
+    }
+    if rows.iter().any(|row| !row.positions.is_empty()) {
+        let count = |row: &&Contents| (!row.positions.is_empty()).then_some(row.positions.len());
+        table = table.words("positions", Notation::Plain, count);
+    }
+    table
 }
 
 /// Suites with what is asked or needed.

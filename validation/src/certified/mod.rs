@@ -20,7 +20,7 @@ pub use class::Class;
 pub use closed_form::closed_forms;
 pub use drift::{Drift, Moved};
 pub use given::{Score, digits_of, given_rows, scores};
-pub use package::package;
+pub use package::{package, sha256};
 pub use quantity::{QUANTITIES, Quantity};
 pub use row::Row;
 pub use score::correct_digits;

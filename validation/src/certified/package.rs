@@ -81,8 +81,8 @@ pub fn package() -> Vec<(String, String)> {
 const LICENCE: &str = "Creative Commons Attribution 4.0 International (CC BY 4.0)\n\
                        https://creativecommons.org/licenses/by/4.0/\n";
 
-/// SHA-256, hexadecimal.
-pub(super) fn sha256(bytes: &[u8]) -> String {
+/// SHA-256, hexadecimal, as `sha256sum` prints it.
+pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().fold(String::new(), |mut text, byte| {
         let _ = write!(text, "{byte:02x}");
         text

@@ -5,30 +5,26 @@ use std::path::Path;
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use sha2::{Digest, Sha256};
+use validation::certified::sha256;
 
 use crate::error::{Result, unread};
 
 /// A file that was read.
 #[derive(Debug, Serialize, JsonSchema)]
 pub(super) struct FileHash {
-    /// Its name without the folder.
+    /// Its path from the results folder; of a file elsewhere its name.
     pub(super) name: String,
     /// SHA-256 of its bytes, hexadecimal, as `sha256sum` prints it.
     pub(super) sha256: String,
 }
 
 impl FileHash {
-    pub(super) fn read(path: &Path) -> Result<Self> {
+    pub(super) fn read(path: &Path, folder: &Path) -> Result<Self> {
         let bytes = fs::read(path).map_err(unread(path))?;
-        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+        let name = path.strip_prefix(folder).ok().map(Path::as_os_str).or(path.file_name());
+        let name = name.unwrap_or(path.as_os_str()).to_string_lossy().replace('\\', "/");
         Ok(Self { name, sha256: sha256(&bytes) })
     }
-}
-
-/// SHA-256, hexadecimal.
-pub(super) fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 #[cfg(test)]
@@ -40,7 +36,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("modes.csv");
         fs::write(&path, "abc").unwrap();
-        let hash = FileHash::read(&path).unwrap();
+        let hash = FileHash::read(&path, folder.path()).unwrap();
         assert_eq!(hash.name, "modes.csv");
         // FIPS 180-4, example of one block.
         let standard = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";

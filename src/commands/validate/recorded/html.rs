@@ -26,12 +26,12 @@ pub(super) fn html(result: &RecordedOutput, suites: &[JudgedSuite<'_>]) -> Strin
         include_str!("page.css")
     );
     verdict(result, &mut page);
-    files(result, &mut page);
-    scenes(result, &mut page);
     asked(suites, &mut page);
     values(suites, &mut page);
     scores(result, &mut page);
     not_asked(result, &mut page);
+    scenes(result, &mut page);
+    files(result, &mut page);
     // Writing to a string cannot fail.
     let _ = write!(
         page,

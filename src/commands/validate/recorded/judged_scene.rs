@@ -3,9 +3,8 @@
 use scene::{Freedom, PerBody, Scene, Torsional};
 use schemars::JsonSchema;
 use serde::Serialize;
+use validation::certified::sha256;
 use validation::results::{KnownScene, ResultsFolder};
-
-use super::file_hash::sha256;
 
 /// A scene of some tables.
 #[derive(Debug, Serialize, JsonSchema)]

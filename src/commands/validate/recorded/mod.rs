@@ -80,7 +80,7 @@ pub(super) fn run(arguments: &Validate, folder: &Path, out: &mut dyn Write) -> R
         },
     };
     let verdict = read.judge(&how)?;
-    let files = read.files.iter().chain(&arguments.accept).map(|path| FileHash::read(path));
+    let files = read.files.iter().chain(&arguments.accept).map(|path| FileHash::read(path, folder));
     let files = files.collect::<Result<_, _>>()?;
     let mut remarks: Vec<String> = read.remarks.iter().map(ToString::to_string).collect();
     if arguments.kind.is_none() && read.manifest.kind.is_none() {
