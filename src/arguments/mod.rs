@@ -72,7 +72,7 @@ pub(crate) enum Format {
     /// The table: one row per mode (`modes`, `impulse`, `compare`), harmonic (`rules`), position and tooth pair
     /// (`static`), speed, quantity and harmonic (`sweep`), point, quantity and harmonic (`branches`), border
     /// (`stability`; without a map, one row per map), quantity and setting (`study`), body (`mesh`), verb
-    /// (`scene check`), suite (`results check`), or check (`validate`).
+    /// (`scene check`), suite (`results check`), value that moved (`snapshot`), or check (`validate`).
     Csv,
 }
 

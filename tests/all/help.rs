@@ -81,7 +81,12 @@ fn short(verb: &str, plain: &str) -> Option<String> {
         "results check" => {
             format!("results check {}", results_folder(Path::new(plain).parent().unwrap()))
         }
-        "scene new" | "scene schema" | "results new" => return None,
+        "snapshot" => {
+            let results = results_folder(Path::new(plain).parent().unwrap());
+            good(&format!("snapshot {results}"));
+            format!("snapshot {results} --check")
+        }
+        "scene new" | "scene schema" | "results new" | "dataset" => return None,
         other => panic!("`{other}` is a new verb: give it a short run here"),
     })
 }

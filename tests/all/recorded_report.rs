@@ -130,7 +130,7 @@ fn four_files_agree_with_the_verdict_and_nothing_else_is_written() {
             assert!(files["verdict.md"].contains(&format!("| `{id}` |")), "{id}");
             assert!(junit.contains(&format!("name=\"{id}: ")), "{id}");
         }
-        assert!(html.len() < 100_000, "{} bytes", html.len());
+        assert!(html.len() < 200_000, "{} bytes", html.len());
         let is_nothing_judged = html.contains("Nothing was judged");
         assert_eq!(is_nothing_judged, more == measured, "{name} {more:?}");
     }
@@ -234,7 +234,9 @@ fn files_are_named_with_their_hashes_and_an_accepted_miss_with_its_reason() {
         .iter()
         .map(|file| file["name"].as_str().unwrap())
         .collect();
-    assert_eq!(read, ["results.toml", "modes.csv", "accepted.toml"]);
+    assert_eq!(read[..2], ["results.toml", "modes.csv"]);
+    assert_eq!(read.last(), Some(&"accepted.toml"));
+    assert!(read.contains(&"matrices/oh58_4p.K.csv"), "{read:?}");
     for file in judged["about"]["files"].as_array().unwrap() {
         let hash = file["sha256"].as_str().unwrap();
         assert_eq!(hash.len(), 64);
