@@ -3,10 +3,10 @@
     python3 -m venv venv && venv/bin/pip install --quiet mpmath numpy
     venv/bin/python benches/independent_borders.py > b.csv && mv b.csv reference/independent_borders.csv   # 5 seconds
 
-Mass, stiffness, mesh phases, contact ratios and frequencies are those of independent_routes.py. Between two switches of a
-mesh's stiffness the motion is exp(A t), here by its power series; their product over a mesh cycle is the monodromy
-matrix. A pair of modes is unstable while a Floquet multiplier is larger than 1. The pairs and the relative variation are
-those of data/dataset/stability.csv: only their names are read.
+Mass, stiffness, mesh phases, contact ratios and frequencies are those of independent_routes.py. Between two switches of
+a mesh's stiffness the motion is exp(A t), here by its power series; their product over a mesh cycle is the monodromy
+matrix. A pair of modes is unstable while a Floquet multiplier is larger than 1. The pairs are those of
+data/dataset/stability.csv, of which only the names are read.
 """
 
 import csv

@@ -2,8 +2,8 @@
 //!
 //! Class A: the longest step of central difference, by the theorem ω Δt = 2 on the frequency of the independent routes
 //! and by the spectral radius of the program's steps; borders of tongues by Floquet multipliers of this program and of
-//! `benches/independent_borders.py`. Class B: the damping below which teeth part (`kept/stability/contact-loss.json`) by
-//! branches and by scaling. Class C: what has no theory.
+//! `benches/independent_borders.py`. Class B: the damping below which teeth part, by branches and by scaling
+//! (`kept/stability/contact-loss.json`). Class C: what has no theory.
 
 use std::f64::consts::PI;
 

@@ -33,7 +33,7 @@ const ABOUT: [(&str, &str); TABLES.len()] = [
 const COLUMNS: [(&str, &str, &str); 19] = [
     ("id", "string", "name of the value, the same in every version"),
     ("quantity", "string", "name of the quantity, explained in quantities.csv"),
-    ("scene", "string", "gear set: scenes/SCENE.toml"),
+    ("scene", "string", "gear set: the file of that name in the folder scenes"),
     ("kind", "string", "geometry (true of every model), lumped, torsional or fe_contact"),
     (
         "subject",
