@@ -4,6 +4,7 @@
 mod assumptions;
 mod attraction;
 mod auto;
+mod certified_values;
 mod dataset;
 mod effects;
 mod equations;
@@ -27,7 +28,7 @@ type Outcome = Result<(), Box<dyn Error + Send + Sync>>;
 type Remake = fn() -> Outcome;
 
 /// Name, what it makes, how.
-const ALL: [(&str, &str, Remake); 16] = [
+const ALL: [(&str, &str, Remake); 17] = [
     (
         "assumptions",
         "docs/assumptions.md from the ledger and the kept verdict",
@@ -39,6 +40,11 @@ const ALL: [(&str, &str, Remake); 16] = [
         attraction::remake,
     ),
     ("auto", "kept/auto.csv: choices of auto on drawn sets and their errors", auto::remake),
+    (
+        "certified_values",
+        "docs/certified_values.md from the tables of the data set",
+        certified_values::remake,
+    ),
     ("dataset", "data/dataset/: tables of certified values", dataset::remake),
     (
         "effects",

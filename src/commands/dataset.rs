@@ -3,11 +3,15 @@
 use std::io::Write;
 use std::path::Path;
 
+#[cfg(feature = "parquet")]
+use validation::certified::Row;
 use validation::certified::{CertifiedValues, Class, DATA_SET_VERSION, altered, package};
 
 use crate::arguments::{DataSet, DataSetVerb};
 use crate::error::{CommandError, Result, refused, unwritten};
 use crate::folder::must_be_empty;
+#[cfg(feature = "parquet")]
+use crate::output::Table;
 
 pub(crate) fn run(arguments: &DataSet, out: &mut dyn Write) -> Result<bool> {
     match (&arguments.verb, &arguments.folder) {
@@ -19,14 +23,19 @@ pub(crate) fn run(arguments: &DataSet, out: &mut dyn Write) -> Result<bool> {
 
 fn write(folder: &Path, out: &mut dyn Write) -> Result<()> {
     must_be_empty(folder)?;
-    let files = package();
-    for (name, text) in &files {
+    let values = CertifiedValues::shipped();
+    let sweeps = sweeps(values)?;
+    let mut files = package(&sweeps)
+        .into_iter()
+        .map(|(name, text)| (name, text.into_bytes()))
+        .collect::<Vec<_>>();
+    files.extend(sweeps);
+    for (name, bytes) in &files {
         let path = folder.join(name);
         let parent = path.parent().unwrap_or(folder);
         std::fs::create_dir_all(parent).map_err(unwritten(parent))?;
-        std::fs::write(&path, text).map_err(unwritten(&path))?;
+        std::fs::write(&path, bytes).map_err(unwritten(&path))?;
     }
-    let values = CertifiedValues::shipped();
     let count = |class: Class| values.rows().filter(|row| row.class == class).count();
     let [a, b, c] = Class::ALL.map(count);
     writeln!(
@@ -37,6 +46,42 @@ fn write(folder: &Path, out: &mut dyn Write) -> Result<()> {
         files.len()
     )?;
     Ok(())
+}
+
+/// The table of sweeps as Parquet, columns as in CSV.
+#[cfg(feature = "parquet")]
+fn sweeps(values: &CertifiedValues) -> Result<Vec<(String, Vec<u8>)>> {
+    const NAME: &str = "steady_states";
+    let table = Table::<&Row>::new()
+        .column("id", "", |row| row.id.clone())
+        .column("quantity", "", |row| row.quantity.clone())
+        .column("scene", "", |row| row.scene.clone())
+        .column("kind", "", |row| row.kind.clone())
+        .column("subject", "", |row| row.subject.clone())
+        .column("coordinate", "", |row| row.coordinate.clone())
+        .column("number", "", |row| row.number)
+        .column("harmonic", "", |row| row.harmonic)
+        .column("sun_torque_nm", "", |row| row.sun_torque_nm)
+        .column("speed_rpm", "", |row| row.speed_rpm)
+        .column("position", "", |row| row.position)
+        .column("approach_um", "", |row| row.approach_um)
+        .column("value", "", |row| row.value)
+        .column("unit", "", |row| row.unit.clone())
+        .column("uncertainty", "", |row| row.uncertainty)
+        .column("class", "", |row| row.class.name())
+        .column("routes", "", |row| row.routes.clone())
+        .column("source", "", |row| row.source.clone())
+        .column("version", "", |row| row.version.clone());
+    let tables = values.tables.iter().filter(|(name, _)| *name == NAME);
+    let rows: Vec<&Row> = tables.flat_map(|(_, rows)| rows).collect();
+    let bytes = table.parquet(NAME, &rows).map_err(std::io::Error::other)?;
+    Ok(vec![(format!("{NAME}.parquet"), bytes)])
+}
+
+/// No Parquet without the feature.
+#[cfg(not(feature = "parquet"))]
+fn sweeps(_: &CertifiedValues) -> Result<Vec<(String, Vec<u8>)>> {
+    Ok(Vec::new())
 }
 
 fn check(folder: &Path, out: &mut dyn Write) -> Result<bool> {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use validation::certified::{Drift, Moved, given_rows, read_rows, write_rows};
+use validation::certified::{Drift, Moved, Score, given_rows, read_rows, scores, write_rows};
 use validation::results::{JudgeError, ResultsFolder};
 
 use crate::arguments::Snapshot;
@@ -38,7 +38,13 @@ pub(crate) fn run(arguments: &Snapshot, out: &mut dyn Write) -> Result<bool> {
     if !arguments.check {
         let text = write_rows(&now).map_err(std::io::Error::from).map_err(unwritten(&path))?;
         std::fs::write(&path, text).map_err(unwritten(&path))?;
-        writeln!(out, "stored {} values in {}", now.len(), path.display())?;
+        let scores = scores(&now);
+        let known: usize = scores.iter().map(|score| score.values).sum();
+        if known > 0 {
+            score_table().text(scores, out)?;
+        }
+        let (all, path) = (now.len(), path.display());
+        writeln!(out, "stored {all} values in {path}; the data set has {known} of them")?;
         return Ok(true);
     }
     let text = ::scene::read_text(&path, MOST_BYTES).map_err(unread(&path))?;
@@ -60,6 +66,18 @@ fn beside(folder: &Path) -> PathBuf {
     let mut name = name.unwrap_or_default();
     name.push(".baseline.csv");
     folder.with_file_name(name)
+}
+
+/// Correct digits by scene and quantity.
+fn score_table<'r>() -> Table<'r, Score> {
+    Table::<Score>::new()
+        .words("scene", Notation::Plain, |score| score.scene.clone())
+        .words("quantity", Notation::Plain, |score| score.quantity.clone())
+        .words("class", Notation::Plain, |score| score.class.name())
+        .words("values", Notation::Plain, |score| score.values)
+        .words("fewest correct digits", Notation::Fixed(1), |score| score.fewest_digits)
+        .words("median", Notation::Fixed(1), |score| score.median_digits)
+        .words("worst", Notation::Plain, |score| score.worst.clone())
 }
 
 fn table<'r>() -> Table<'r, &'r Moved> {

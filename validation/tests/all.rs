@@ -2,6 +2,7 @@
 //! faster:
 //! `cargo test --release -p epicyclic-validation --test all sweep` runs those whose name has the word.
 
+mod certified;
 mod closed_forms;
 mod good_results;
 mod judged_matrices;

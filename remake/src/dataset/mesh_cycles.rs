@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use scene::{LoadCase, Scene};
 use validation::certified::{Class, Row};
 
+use super::meshes::{Found, MESHES, Mesh};
 use super::scenes;
 
 /// Scenes, and the torque on the sun where it is not that of the scene, N m.
@@ -34,11 +35,6 @@ const MARGIN: f64 = 0.1;
 /// Least uncertainty in parts of the largest value of a quantity: where contact iterations end.
 const ITERATIONS: f64 = 1e-9;
 
-/// Elements along a flank and contact cells over those of the scene, of the finer and the coarser mesh.
-const MESHES: [(u32, f64); 2] = [(28, 1.5), (20, 1.0)];
-
-type Found<T> = Result<T, Box<dyn std::error::Error + Send + Sync>>;
-
 pub(super) fn rows() -> Found<Vec<Row>> {
     let known = scenes();
     let sets = SETS.iter().filter_map(|(id, torque)| {
@@ -51,7 +47,7 @@ pub(super) fn rows() -> Found<Vec<Row>> {
             case = case.with_sun_torque(torque_nm);
         }
         let found: Vec<Found<Vec<Row>>> =
-            MESHES.par_iter().map(|mesh| one_mesh(id, scene, &case, *mesh)).collect();
+            MESHES.par_iter().map(|mesh| one_mesh(id, scene, &case, mesh)).collect();
         let [fine, coarse] = found.try_into().map_err(|_| "two meshes")?;
         rows.extend(compared(fine?, &coarse?));
         eprintln!("mesh cycle of {id}");
@@ -77,18 +73,16 @@ fn compared(fine: Vec<Row>, coarse: &[Row]) -> Vec<Row> {
     let with = |row: Row| {
         let least = ITERATIONS * values[&row.quantity];
         let uncertainty = (2.0 * largest[&group(&row)]).max(least);
-        let routes = format!("epicyclic: {} and {} flank elements", MESHES[0].0, MESHES[1].0);
+        let routes = Mesh::routes();
         Row { uncertainty, class: Class::B, routes, ..row }
     };
-    fine.into_iter().map(with).collect()
+    // A member that is held does not move.
+    let moves = |row: &Row| values[&row.quantity] > 0.0;
+    fine.into_iter().filter(moves).map(with).collect()
 }
 
-fn one_mesh(id: &str, scene: &Scene, case: &LoadCase, mesh: (u32, f64)) -> Found<Vec<Row>> {
-    let (flank_elements, cells) = mesh;
-    let mut scene = scene.clone();
-    scene.fe_contact.flank_elements = flank_elements;
-    let cells = (f64::from(scene.fe_contact.contact_cells) * cells).round();
-    scene.fe_contact.contact_cells = cells as u32;
+fn one_mesh(id: &str, scene: &Scene, case: &LoadCase, mesh: &Mesh) -> Found<Vec<Row>> {
+    let scene = mesh.given_to(scene);
     let bodies = BodiesCache::default().of(&scene)?;
     let set = StaticSet::new(&scene, &bodies, case.sense(), Imperfections::default())?;
     let cycle = set.cycle(case.sun_load_nm(), POSITIONS, &ActiveSet)?;

@@ -39,22 +39,35 @@ pub fn given_rows(folder: &ResultsFolder) -> Vec<Row> {
     rows
 }
 
-/// Modes count upwards within their scene and type.
+/// Rigid-body motion is below this, Hz.
+const RIGID_HZ: f64 = 1.0;
+
+/// Frequencies of one type that differ by no more than this part are one that occurs twice.
+const SAME: f64 = 1e-6;
+
+/// Modes count upwards within their scene and type; rigid-body motion that the data set has and a list leaves out
+/// counts too.
 fn modes(listed: &[ModeRow], kind: &str) -> Vec<Row> {
     let mut listed: Vec<&ModeRow> = listed.iter().collect();
     listed.sort_by(|a, b| a.frequency_hz.total_cmp(&b.frequency_hz));
     let mut numbers: HashMap<(&str, Option<&str>), (u32, f64)> = HashMap::new();
+    let values = CertifiedValues::shipped();
     let mut rows = Vec::new();
     for mode in listed {
         let key = (mode.scene.id.as_str(), mode.mode_type.as_deref());
-        let (number, last_hz) = numbers.entry(key).or_insert((0, f64::NAN));
-        // A frequency that is listed again is the same mode.
-        if *last_hz == mode.frequency_hz {
+        let subject = mode.mode_type.as_deref().unwrap_or_default();
+        let row = Row::new(&mode.scene.id, kind, "frequency", subject, mode.frequency_hz);
+        let left_out = || {
+            let lowest = values.row(&Row { number: Some(1), ..row.clone() }.name());
+            let is_rigid = lowest.is_some_and(|lowest| lowest.value < RIGID_HZ);
+            (u32::from(is_rigid && mode.frequency_hz >= RIGID_HZ), f64::NAN)
+        };
+        let (number, last_hz) = numbers.entry(key).or_insert_with(left_out);
+        // A frequency that is listed again is that of the same number.
+        if (mode.frequency_hz - *last_hz).abs() <= SAME * mode.frequency_hz {
             continue;
         }
         (*number, *last_hz) = (*number + 1, mode.frequency_hz);
-        let subject = mode.mode_type.as_deref().unwrap_or_default();
-        let row = Row::new(&mode.scene.id, kind, "frequency", subject, mode.frequency_hz);
         rows.push(Row { number: Some(*number), ..row });
     }
     rows

@@ -1,5 +1,5 @@
-//! The data set: one value per quantity, scene and kind of model, with its uncertainty, the routes that agree on it, and
-//! the score of a result that is held against it.
+//! The data set: one value per quantity, scene and kind of model, with its uncertainty and the routes that agree on it,
+//! and the score of a result that is held against it.
 
 /// Version of the data set: it changes with any value.
 pub const DATA_SET_VERSION: &str = "1";

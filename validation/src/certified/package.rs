@@ -16,18 +16,24 @@ pub(super) const HASHES: &str = "SHA256SUMS";
 /// What the tables hold.
 const ABOUT: [(&str, &str); TABLES.len()] = [
     ("geometry", "geometry and kinematics of gears and meshes, mesh phases, Hertz pressures"),
-    ("modes", "natural frequencies and multiplicities of lumped and torsional models"),
+    (
+        "modes",
+        "natural frequencies of lumped, torsional and, under the torque of the scene, finite-element/contact models",
+    ),
     ("matrices", "mass and stiffness matrices of lumped models, upper triangles"),
     ("rules", "kinds of modes that harmonics of the mesh frequency can excite"),
     ("pairs", "forces and pressures of one mesh at a prescribed approach"),
     ("mesh_cycle", "sets at rest under load over a mesh cycle, finite-element/contact model"),
+    ("steady_states", "amplitudes of steady states over speed, finite-element/contact model"),
+    ("torque_growth", "resonant peaks over torque, finite-element/contact model"),
+    ("stability", "Floquet multipliers of these steady states; borders of instability"),
 ];
 
 /// Columns of every table: name, type of Frictionless, unit and meaning.
 const COLUMNS: [(&str, &str, &str); 19] = [
     ("id", "string", "name of the value, the same in every version"),
     ("quantity", "string", "name of the quantity, explained in quantities.csv"),
-    ("scene", "string", "gear set: scenes/SCENE.toml"),
+    ("scene", "string", "gear set: the file of that name in the folder scenes"),
     ("kind", "string", "geometry (true of every model), lumped, torsional or fe_contact"),
     (
         "subject",
@@ -50,8 +56,9 @@ const COLUMNS: [(&str, &str, &str); 19] = [
     ("version", "string", "version of the data set"),
 ];
 
-/// Every file of the folder: path and text. The same from the same version.
-pub fn package() -> Vec<(String, String)> {
+/// Every file of the folder: path and text. The same from the same version; `further` are files that a program adds, of
+/// which only the hash is here.
+pub fn package(further: &[(String, Vec<u8>)]) -> Vec<(String, String)> {
     let text = |path: String| {
         let found = epicyclic_data::FILES.iter().find(|(name, _)| *name == path);
         found.map(|(_, text)| (*text).to_owned()).unwrap_or_default()
@@ -70,9 +77,10 @@ pub fn package() -> Vec<(String, String)> {
     files.push(("README.md".to_owned(), readme()));
     files.push(("datapackage.json".to_owned(), descriptor(&files)));
     let mut hashes = String::new();
-    for (path, text) in &files {
+    let texts = files.iter().map(|(path, text)| (path, text.as_bytes()));
+    for (path, bytes) in texts.chain(further.iter().map(|(path, bytes)| (path, bytes.as_slice()))) {
         // Writing to a string cannot fail.
-        let _ = writeln!(hashes, "{}  {path}", sha256(text.as_bytes()));
+        let _ = writeln!(hashes, "{}  {path}", sha256(bytes));
     }
     files.push((HASHES.to_owned(), hashes));
     files

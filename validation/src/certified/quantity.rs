@@ -26,7 +26,7 @@ const POSITIVE: [f64; 2] = [0.0, f64::MAX];
 const ANY: [f64; 2] = [f64::MIN, f64::MAX];
 
 /// All of them.
-pub const QUANTITIES: [Quantity; 26] = [
+pub const QUANTITIES: [Quantity; 35] = [
     quantity("base_radius", "m", POSITIVE, "base radius of a gear"),
     quantity("base_pitch", "m", POSITIVE, "distance of teeth along the line of action"),
     quantity(
@@ -103,6 +103,56 @@ pub const QUANTITIES: [Quantity; 26] = [
         "amplitude at the top of a resonance; m, rad or N by its coordinate",
     ),
     quantity("peak_speed", "rpm", POSITIVE, "speed of the driven member at the top of a resonance"),
+    quantity(
+        "peak_growth",
+        "",
+        POSITIVE,
+        "peak_amplitude over that at 565 N m on the sun; the number is that of the mode within its type",
+    ),
+    quantity(
+        "static_growth",
+        "",
+        POSITIVE,
+        "amplitude of a harmonic of the sun at rest over that at 565 N m on the sun",
+    ),
+    quantity(
+        "multiplier",
+        "",
+        [0.0, 100.0],
+        "size of the largest Floquet multiplier of a steady state over a mesh cycle: below 1 it attracts",
+    ),
+    quantity(
+        "longest_step",
+        "s",
+        POSITIVE,
+        "longest stable time step of the explicit central difference, without damping",
+    ),
+    quantity(
+        "lower_border",
+        "Hz",
+        POSITIVE,
+        "mesh frequency where parametric instability of a pair of modes begins: mesh stiffness is a rectangular wave of \
+         2 % of its mean, half its peak-to-peak, without damping",
+    ),
+    quantity("upper_border", "Hz", POSITIVE, "mesh frequency where that instability ends"),
+    quantity(
+        "contact_loss_damping_factor",
+        "",
+        POSITIVE,
+        "factor on all damping of a scene below which teeth part at its strongest resonance",
+    ),
+    quantity(
+        "several_motions_damping_factor",
+        "",
+        POSITIVE,
+        "factor below which several motions are stable at one speed",
+    ),
+    quantity(
+        "backside_contact_damping_factor",
+        "",
+        POSITIVE,
+        "factor below which backside flanks touch",
+    ),
 ];
 
 impl Quantity {

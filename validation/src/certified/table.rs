@@ -7,7 +7,17 @@ use std::sync::LazyLock;
 use super::row::Row;
 
 /// Names of the tables that are shipped.
-pub const TABLES: [&str; 6] = ["geometry", "modes", "matrices", "rules", "pairs", "mesh_cycle"];
+pub const TABLES: [&str; 9] = [
+    "geometry",
+    "modes",
+    "matrices",
+    "rules",
+    "pairs",
+    "mesh_cycle",
+    "steady_states",
+    "torque_growth",
+    "stability",
+];
 
 /// Why a table of rows cannot be used.
 #[derive(Debug, thiserror::Error)]
