@@ -34,7 +34,8 @@ pub(crate) fn run(arguments: &Compare, out: &mut dyn Write, err: &mut dyn Write)
             multiplicity: g.multiplicity,
         })
         .collect();
-    let list = ModeList::read(&arguments.modes, &scene)?;
+    let id = arguments.scene.file_stem().unwrap_or_default().to_string_lossy();
+    let list = ModeList::read(&arguments.modes, &id, &scene)?;
     if !list.contradictions.is_empty() {
         return Err(JudgeError::Contradictions(list.contradictions).into());
     }

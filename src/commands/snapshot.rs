@@ -1,11 +1,12 @@
 //! `snapshot RESULTS` and `snapshot RESULTS --check`.
 
+use std::collections::{HashMap, HashSet};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::Serialize;
-use validation::certified::{Drift, Moved, Score, given_rows, read_rows, scores, write_rows};
+use validation::certified::{Drift, Moved, Row, Score, given_rows, read_rows, scores, write_rows};
 use validation::results::{JudgeError, ResultsFolder};
 
 use crate::arguments::Snapshot;
@@ -34,6 +35,10 @@ pub(crate) fn run(arguments: &Snapshot, out: &mut dyn Write) -> Result<bool> {
         return Err(JudgeError::Contradictions(contradictions).into());
     }
     let now = given_rows(&folder);
+    if now.is_empty() {
+        let reason = "no table has a value that can be stored".to_owned();
+        return Err(CommandError::Results { path: arguments.results.clone(), reason });
+    }
     let path = arguments.baseline.clone().unwrap_or_else(|| beside(&arguments.results));
     if !arguments.check {
         let text = write_rows(&now).map_err(std::io::Error::from).map_err(unwritten(&path))?;
@@ -53,6 +58,9 @@ pub(crate) fn run(arguments: &Snapshot, out: &mut dyn Write) -> Result<bool> {
         reason: format!("is no baseline: {error}; store one with `epicyclic snapshot RESULTS`"),
     };
     let baseline = read_rows(&path, &text).map_err(unusable)?;
+    if let Some(reason) = unsound(&baseline, &now) {
+        return Err(CommandError::Results { path, reason });
+    }
     let drift = Drift::between(&baseline, &now);
     let same = drift.is_none();
     let result = DriftOutput { baseline: path.display().to_string(), drift };
@@ -60,12 +68,35 @@ pub(crate) fn run(arguments: &Snapshot, out: &mut dyn Write) -> Result<bool> {
     Ok(same)
 }
 
+/// What in a baseline cannot be one: a value that is none, an id twice or of another row, another unit.
+fn unsound(baseline: &[Row], now: &[Row]) -> Option<String> {
+    let units: HashMap<&str, &str> =
+        now.iter().map(|row| (row.id.as_str(), row.unit.as_str())).collect();
+    let mut seen = HashSet::new();
+    for (k, row) in baseline.iter().enumerate() {
+        let unit = units.get(row.id.as_str()).filter(|unit| **unit != row.unit);
+        let fault = match unit {
+            _ if !row.value.is_finite() => format!("the value is {}", row.value),
+            _ if row.id != row.name() => format!("its columns make `{}`", row.name()),
+            _ if !seen.insert(row.id.as_str()) => "the row is there twice".to_owned(),
+            Some(unit) => format!("the unit is `{}`, and that of the results `{unit}`", row.unit),
+            None => continue,
+        };
+        return Some(format!("line {}: `{}`: {fault}: store a baseline again", k + 2, row.id));
+    }
+    None
+}
+
 /// `my_results.baseline.csv` beside the folder `my_results`.
 fn beside(folder: &Path) -> PathBuf {
-    let name = folder.components().next_back().map(|part| part.as_os_str().to_owned());
-    let mut name = name.unwrap_or_default();
-    name.push(".baseline.csv");
-    folder.with_file_name(name)
+    let whole = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+    let name = whole.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let file = format!("{name}.baseline.csv");
+    // A path that ends in a name is shown as it was given.
+    match folder.file_name() {
+        Some(_) => folder.with_file_name(file),
+        None => whole.with_file_name(file),
+    }
 }
 
 /// Correct digits by scene and quantity.

@@ -73,6 +73,9 @@ pub struct CheckEntry {
     pub absolute: Option<f64>,
     /// The same in percent of the expected value.
     pub percent: Option<f64>,
+    /// Largest |actual − expected| of another program's tables, in the unit, where `absolute` rests on how far this
+    /// project's solvers converge.
+    pub of_tables: Option<f64>,
     /// The range of actual − expected that unknown parameters explain, from `kept/parameter_bands.toml`.
     #[serde(default)]
     pub parameter_band: bool,

@@ -26,12 +26,28 @@ pub(super) fn cells(check: &Check) -> [String; 4] {
         t if t < 1e-4 => format!("{t:.0e}"),
         t => format!("{t:.4}").trim_end_matches('0').trim_end_matches('.').to_owned(),
     };
+    let [expected, actual] = match (&check.expected, &check.actual) {
+        (Value::List(expected), Some(Value::List(actual))) if expected != actual => {
+            first_difference(expected, actual)
+        }
+        (expected, actual) => [shown(expected), actual.as_ref().map_or("–".into(), shown)],
+    };
     [
-        shown(&check.expected),
-        check.actual.as_ref().map_or("–".into(), shown),
+        expected,
+        actual,
         check.difference_percent.map_or("–".into(), |d| format!("{d:+.3}")),
         tolerance,
     ]
+}
+
+/// The first entries of two lists that differ, each with its number.
+fn first_difference(expected: &[Value], actual: &[Value]) -> [String; 2] {
+    let most = expected.len().max(actual.len());
+    let k = (0..most).find(|k| expected.get(*k) != actual.get(*k)).unwrap_or_default();
+    [expected, actual].map(|list| match list.get(k) {
+        Some(entry) => format!("entry {}: {}", k + 1, summary(std::slice::from_ref(entry))),
+        None => format!("{} entries", list.len()),
+    })
 }
 
 /// A list for a table cell: equal neighbours counted, long lists cut.

@@ -105,7 +105,7 @@ impl Rows<'_> {
             self.add("geometry", "backlash", name, backlash);
         }
         let Some((case, sun)) = case.zip(geometry.sun.as_ref()) else { return };
-        // [eq:hertz-pressure]: radii of curvature r_b tan α at the pitch point, 1/R = 1/R₁ ± 1/R₂
+        // Hertz: p² = F E/(2 (1 − ν²) π b R) with radii of curvature r_b tan α at the pitch point, 1/R = 1/R₁ ± 1/R₂
         let radius = |member| mesh.gear(member).base_radius * mesh.pressure_angle.tan();
         let (driver, driven) = (radius(MeshMember::Driver), radius(MeshMember::Driven));
         let curvature = match kind {

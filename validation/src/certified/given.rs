@@ -6,7 +6,9 @@ use serde::Serialize;
 
 use crate::check::{Check, ReferenceKind, Status, Value};
 use crate::model_kind::ModelKind;
-use crate::results::{CycleRow, ModeRow, ResultsFolder, StateRow};
+use crate::results::{
+    CycleRow, GivenMatrix, MatrixKind, ModeRow, PeakRow, ResultsFolder, StateRow,
+};
 
 use super::row::Row;
 use super::score::correct_digits;
@@ -18,6 +20,17 @@ pub fn given_rows(folder: &ResultsFolder) -> Vec<Row> {
     let mut rows = modes(&folder.modes, kind);
     rows.extend(folder.mesh_cycle.iter().map(|row| at_rest(row, kind)));
     rows.extend(folder.steady_states.iter().map(|row| turning(row, kind)));
+    rows.extend(folder.mesh_stiffness.iter().map(|row| Row {
+        sun_torque_nm: Some(row.sun_torque_nm),
+        position: Some(row.position),
+        ..Row::new(&row.scene.id, kind, "mesh_stiffness", &row.part.name(), row.stiffness_n_per_m)
+    }));
+    rows.extend(peaks(&folder.torque_peaks, kind));
+    for set in &folder.matrices {
+        rows.extend(
+            set.each().flat_map(|(which, given)| entries(&set.scene.id, which, given, kind)),
+        );
+    }
     for rule in &folder.rules {
         let kinds = rule.excites;
         for (name, is_excited) in [
@@ -71,6 +84,45 @@ fn modes(listed: &[ModeRow], kind: &str) -> Vec<Row> {
         rows.push(Row { number: Some(*number), ..row });
     }
     rows
+}
+
+/// Peaks of one quantity, harmonic and torque count upwards in frequency.
+fn peaks(listed: &[PeakRow], kind: &str) -> Vec<Row> {
+    let mut listed: Vec<&PeakRow> = listed.iter().collect();
+    listed.sort_by(|a, b| a.peak.frequency_hz.total_cmp(&b.peak.frequency_hz));
+    let mut counts = HashMap::<String, u32>::new();
+    let row = |row: &PeakRow| {
+        let peak = &row.peak;
+        let mut found = Row {
+            coordinate: peak.coordinate.name().to_owned(),
+            harmonic: Some(peak.harmonic as u32),
+            sun_torque_nm: Some(peak.sun_torque_nm),
+            unit: peak.coordinate.unit().to_owned(),
+            ..Row::new(&row.scene.id, kind, "peak_amplitude", &peak.part.name(), peak.amplitude)
+        };
+        let count = counts.entry(found.name()).or_default();
+        *count += 1;
+        found.number = Some(*count);
+        found
+    };
+    listed.into_iter().map(row).collect()
+}
+
+/// Entries of a matrix that are not zero, in the convention of its author.
+fn entries(scene: &str, which: MatrixKind, given: &GivenMatrix, kind: &str) -> Vec<Row> {
+    let quantity = match which {
+        MatrixKind::Mass => "mass",
+        MatrixKind::Stiffness => "stiffness",
+    };
+    let (rows, columns) = given.values.shape();
+    let places = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j)));
+    let filled = places.filter(|place| given.values[*place] != 0.0);
+    filled
+        .map(|(i, j)| {
+            let subject = format!("row_{} column_{}", i + 1, j + 1);
+            Row::new(scene, kind, quantity, &subject, given.values[(i, j)])
+        })
+        .collect()
 }
 
 fn at_rest(row: &CycleRow, kind: &str) -> Row {
@@ -169,7 +221,13 @@ pub fn scores(given: &[Row]) -> Vec<Score> {
     let mut groups: Vec<(&Row, Vec<(f64, &Row)>)> = Vec::new();
     for row in given {
         let Some(kept) = partner(row, values) else { continue };
-        let digits = correct_digits(row.value, kept.value, kept.uncertainty, values.largest(kept));
+        let largest = values.largest(kept);
+        // Zero by symmetry: nothing but the uncertainty says how near a value must be.
+        let is_zero = largest <= kept.uncertainty;
+        if is_zero && row.value.abs() <= kept.uncertainty {
+            continue;
+        }
+        let digits = correct_digits(row.value, kept.value, kept.uncertainty, largest);
         let is_same = |(first, _): &&mut (&Row, _)| {
             first.scene == kept.scene && first.quantity == kept.quantity
         };

@@ -11,7 +11,7 @@ const MOST_DIGITS: f64 = 15.0;
 /// the uncertainty U leaves, −log₁₀(U/max(|v|, 10⁻³ V)). V is the largest magnitude of the quantity in its scene.
 ///
 /// Source: the scale of a relative error after McCullough (1998), with an absolute floor.
-/// Checked by: `certified::score::tests`.
+/// Checked by: `validation/src/certified/score.rs::digits_are_counted_up_to_what_is_certain`.
 ///
 /// ```
 /// use validation::certified::correct_digits;

@@ -44,7 +44,7 @@ pub struct ResultsFolder {
 }
 
 /// Tables of a folder, of which it must have one.
-const TABLES: [&str; 6] = [
+pub(super) const TABLES: [&str; 6] = [
     "modes.csv",
     "mesh_cycle.csv",
     "mesh_stiffness.csv",
@@ -81,6 +81,12 @@ pub enum FolderError {
         path: PathBuf,
         /// The title.
         title: String,
+    },
+    /// A scene file that is called as a shipped scene and differs from it: tables would mean either.
+    #[error("{}: is called as a shipped scene and is another: give the file a name of its own", path.display())]
+    SharedId {
+        /// The file.
+        path: PathBuf,
     },
     /// A scene file that is no text.
     #[error("{}: cannot be read: {source}", path.display())]
@@ -173,6 +179,7 @@ impl ResultsFolder {
                 });
             }
         }
+        remarks.extend(strangers(folder));
         let path = folder.to_owned();
         let is_table = |path: &PathBuf| TABLES.iter().any(|name| path.ends_with(name));
         // A table that was read has rows.
@@ -260,6 +267,21 @@ impl Tables<'_> {
     }
 }
 
+/// Remarks on CSV files that no table is called so.
+fn strangers(folder: &Path) -> Vec<Remark> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    let is_strange = |name: &String| name.ends_with(".csv") && !TABLES.contains(&name.as_str());
+    let mut names: Vec<String> = names.filter(is_strange).collect();
+    names.sort();
+    let remark = |name: String| {
+        let hint = did_you_mean(&name, TABLES);
+        let text = format!("kept aside, no table is called so{hint}");
+        Remark { path: folder.join(name), line: 1, columns: Vec::new(), text }
+    };
+    names.into_iter().map(remark).collect()
+}
+
 /// `; did you mean …` of a folder whose name is like the last part of `path`; nothing if there is none.
 fn similar_folder(path: &Path) -> String {
     let parent = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
@@ -311,6 +333,9 @@ fn scenes(
             && shipped.scene != scene
         {
             return Err(FolderError::SharedTitle { path, title: scene.title });
+        }
+        if shipped.iter().any(|other| other.id == id && other.scene != scene) {
+            return Err(FolderError::SharedId { path });
         }
         known.add(id, scene);
     }

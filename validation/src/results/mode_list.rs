@@ -11,9 +11,6 @@ use super::table::{Remark, TableError};
 use crate::compare::ListedMode;
 use crate::model_kind::ModelKind;
 
-/// Id of the set of a list in the reader.
-const ID: &str = "scene";
-
 /// What a list holds.
 #[derive(Debug, Clone)]
 pub struct ModeList {
@@ -26,14 +23,26 @@ pub struct ModeList {
 }
 
 impl ModeList {
-    /// Reads a list of natural frequencies of `scene`: columns of `modes.csv`, of which `scene` is not needed.
+    /// Reads a list of natural frequencies of `scene`, whose id is `id`: columns of `modes.csv`, of which `scene` is not
+    /// needed. Rows of other shipped scenes are left out.
     ///
     /// # Errors
     /// [`TableError`] with file, line, column and remedy of the first fault.
-    pub fn read(path: &Path, scene: &Scene) -> Result<Self, TableError> {
-        let mut known = KnownScenes::default();
-        known.add(ID.to_owned(), scene.clone());
-        let (rows, remarks) = ModeRow::read(path, SceneNames::new(&known, Some(ID)))?;
+    pub fn read(path: &Path, id: &str, scene: &Scene) -> Result<Self, TableError> {
+        let mut known = KnownScenes::shipped();
+        known.add(id.to_owned(), scene.clone());
+        let (mut rows, mut remarks) = ModeRow::read(path, SceneNames::new(&known, Some(id)))?;
+        let first = rows.first().map_or(0, |row| row.line);
+        let all = rows.len();
+        rows.retain(|row| row.scene.scene == *scene);
+        if rows.len() < all {
+            remarks.push(Remark {
+                path: path.to_owned(),
+                line: first,
+                columns: vec!["scene".to_owned()],
+                text: format!("{} rows are of other scenes and left out", all - rows.len()),
+            });
+        }
         let kind = Some(ModelKind::Lumped);
         let contradictions = contradictions::modes(path, &rows, kind, &mut Facts::new(kind));
         Ok(Self { modes: rows.iter().map(ModeRow::listed).collect(), remarks, contradictions })

@@ -104,7 +104,7 @@ const fn ask(suite: &'static str, question: Question, needs: &'static str) -> As
 const TYPES: &str = "frequency and type of every mode";
 
 /// Speeds of a sweep that has peaks of four harmonics.
-const SPEEDS: &str = "steady states at 1130 N·m, 450 to 2500 rpm, 2 % apart";
+const SPEEDS: &str = "steady states at 1130 N·m, 450 to 2500 rpm, 2 % apart, 10 rpm about peaks; types in modes.csv for the peaks";
 
 /// Stiffness of both meshes.
 const STIFFNESS: &str = "sun_mesh_0 and ring_mesh_0 at 1130 N·m, 28 positions";
@@ -175,7 +175,7 @@ pub(crate) const ASKABLE: [Askable; 22] = [
     ask(
         "sweep",
         SteadyStates(&[P::FivePlanets], fe::sweeps::asked),
-        "steady states at the torque of the scene, 450 to 2500 rpm, 8 % apart",
+        "steady states at the torque of the scene, 450 to 2500 rpm, 10 rpm apart",
     ),
     ask(
         "torque",
@@ -201,16 +201,43 @@ impl Question {
     }
 }
 
+/// Tables that a suite asks of which one of these checks is.
+pub(crate) fn asked_tables(checks: &[Check]) -> Vec<&'static str> {
+    let is_asked = |askable: &Askable| {
+        let is_of = |check: &Check| {
+            check.id.strip_prefix(askable.suite).is_some_and(|rest| rest.starts_with('.'))
+        };
+        checks.iter().any(is_of)
+    };
+    let mut tables: Vec<&'static str> =
+        ASKABLE.iter().filter(|askable| is_asked(askable)).map(Askable::table).collect();
+    for (suite, table) in [
+        ("lumped_model.", "modes.csv"),
+        ("rules.", "rules.csv"),
+        ("pair_stiffness.", "mesh_stiffness.csv"),
+    ] {
+        if checks.iter().any(|check| check.id.starts_with(suite)) {
+            tables.push(table);
+        }
+    }
+    tables
+}
+
 impl Askable {
-    /// The table that it needs, of which scenes, and what of them.
-    fn needs(&self) -> String {
-        let table = match self.question {
+    /// The table whose rows answer.
+    fn table(&self) -> &'static str {
+        match self.question {
             Modes(..) => "modes.csv",
             MeshCycle(..) => "mesh_cycle.csv",
             SteadyStates(..) => "steady_states.csv",
             MeshStiffness(..) => "mesh_stiffness.csv",
             TorquePeaks(..) => "torque_peaks.csv",
-        };
+        }
+    }
+
+    /// The table that it needs, of which scenes, and what of them.
+    fn needs(&self) -> String {
+        let table = self.table();
         let ids: Vec<&str> = self.question.scenes().iter().map(|scene| scene.id()).collect();
         format!("{table} of {}: {}", ids.join(" and "), self.needs)
     }

@@ -90,6 +90,9 @@ pub(super) fn run(arguments: &Validate, folder: &Path, out: &mut dyn Write) -> R
         ));
     }
     remarks.extend(how.accepted.without_effect(&verdict.checks));
+    if how.only.is_everything() {
+        remarks.extend(read.unused(&verdict));
+    }
     let is_typed = read.modes.iter().any(|row| row.mode_type.is_some());
     if is_typed && read.kind(arguments.kind) == ModelKind::Torsional {
         remarks.push("types of modes are not asked of a model of rotations alone".to_owned());

@@ -13,8 +13,8 @@ pub struct Contradiction {
     pub path: PathBuf,
     /// Lines that contradict each other, from 1: the first two, or the first and the last of many.
     pub lines: Vec<u64>,
-    /// Names of the columns whose cells cannot be true together; none of a matrix or a vector, whose statement names the
-    /// coordinates.
+    /// Names of the columns whose cells cannot be true together; none of a matrix or a vector, whose statement names
+    /// the coordinates.
     pub columns: &'static [&'static str],
     /// What cannot be true.
     pub statement: String,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use gearset::{Facing, MeshKind, Phasing};
 use lumped::{LumpedModel, NaturalModes};
-use scene::{LoadCase, Scene, SceneKind, Torsional};
+use scene::{Freedom, LoadCase, Scene, SceneKind, Torsional};
 
 use crate::model_kind::ModelKind;
 use crate::results::known_scenes::KnownScene;
@@ -29,9 +29,12 @@ pub(super) struct SceneFacts {
     pub(super) sun_base_radius: Option<f64>,
     /// Mesh frequency of one rpm of the driven member, Hz.
     pub(super) mesh_frequency_per_rpm_hz: Option<f64>,
+    /// Whether the sun turns freely and neither ring nor carrier does: it then turns with its torque at rest.
+    pub(super) sun_alone_turns: bool,
     /// Whether meshes of that kind carry the whole torque.
     pub(super) carries_all: [bool; 2],
-    /// Natural frequencies of the lumped model, or of its limit of rotations alone, Hz, ascending, each as often as it occurs; empty without parameters.
+    /// Natural frequencies of the lumped model, or of its limit of rotations alone, Hz, ascending, each as often as it
+    /// occurs; empty without parameters.
     pub(super) lumped_hz: Vec<f64>,
     /// Phases of the sun meshes, cycles; empty without geometry.
     phases: Vec<f64>,
@@ -80,6 +83,11 @@ impl SceneFacts {
             planets: scene.planets.count(),
             sun_base_radius: sun.map(|sun| sun.base_radius).or(radius),
             mesh_frequency_per_rpm_hz: per_rpm.filter(|hz| *hz > 0.0),
+            sun_alone_turns: scene.kind == SceneKind::Planetary
+                && supports.sun.motion.rotates()
+                && ![supports.ring.motion, supports.carrier.motion]
+                    .into_iter()
+                    .any(Freedom::rotates),
             carries_all,
             lumped_hz,
             phases: phases.unwrap_or_default(),

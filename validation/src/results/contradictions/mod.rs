@@ -22,6 +22,7 @@
 mod absurd;
 mod balance;
 mod contradiction;
+mod even;
 mod facts;
 mod frequency_factor;
 mod matrices;

@@ -11,14 +11,14 @@ use crate::error::ValidationError;
 use crate::model_kind::ModelKind;
 use crate::reference::Reference;
 use crate::results::contradictions::Contradiction;
-use crate::results::folder::ResultsFolder;
+use crate::results::folder::{ResultsFolder, TABLES};
 use crate::results::known_scenes::KnownScene;
 use crate::results::manifest::{Accepted, Convention};
 use crate::results::matrices::{MatrixKind, SceneMatrices};
 use crate::results::rows::ModeRow;
 use crate::selection::Selection;
 use crate::suites::lumped_model::{self, Beside, Difference, ListedShape};
-use crate::suites::{Models, explain_untyped, pair_stiffness, rules};
+use crate::suites::{Models, asked_tables, explain_untyped, pair_stiffness, rules};
 use crate::verdict::{NotAsked, Verdict};
 
 use super::recorded::untyped;
@@ -80,7 +80,33 @@ impl ResultsFolder {
         let beside = |reference: &Reference, not_asked: &mut Vec<NotAsked>| {
             self.beside(kind, &modes, reference, not_asked)
         };
-        Ok(crate::judge_with(&models, &how.only, &how.accepted, &beside)?)
+        let mut verdict = crate::judge_with(&models, &how.only, &how.accepted, &beside)?;
+        // What a table that is there lacks comes before what lacks its table.
+        let is_there = |lack: &NotAsked| {
+            self.tables().any(|table| {
+                lack.lacks.strip_prefix(table).is_some_and(|rest| rest.starts_with(' '))
+            })
+        };
+        verdict.not_asked.sort_by_key(|lack| !is_there(lack));
+        Ok(verdict)
+    }
+
+    /// Tables that are there and of which no check was asked, with the suites that need more of them.
+    pub fn unused(&self, verdict: &Verdict) -> Vec<String> {
+        let asked = asked_tables(&verdict.checks);
+        let about = |table: &str| {
+            let of_table = |lack: &&NotAsked| lack.lacks.starts_with(table);
+            let lacks = verdict.not_asked.iter().filter(of_table);
+            let needs: Vec<String> =
+                lacks.map(|lack| format!("{} needs {}", lack.suite, lack.lacks)).collect();
+            format!("{table}: no check uses it; {}", needs.join("; "))
+        };
+        self.tables().filter(|table| !asked.contains(table)).map(about).collect()
+    }
+
+    /// Names of the tables that were read.
+    fn tables(&self) -> impl Iterator<Item = &'static str> {
+        TABLES.into_iter().filter(|table| self.files.iter().any(|file| file.ends_with(table)))
     }
 
     /// What is judged of any scene: modes and matrices beside this project's lumped model, excitation rules by phasor

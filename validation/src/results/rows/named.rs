@@ -54,11 +54,15 @@ pub(super) fn part(table: &Table, row: &Row) -> Result<Part, TableError> {
     })
 }
 
+/// Positions are told apart to one part in so many of a cycle.
+const PLACES: f64 = 1e7;
+
 /// The position of a row in the mesh cycle, 0 to 1.
 pub(super) fn cycle_position(table: &Table, row: &Row) -> Result<f64, TableError> {
     let position = table.number(row, "position").unwrap_or_default();
     match (0.0..=1.0).contains(&position) {
-        true => Ok(position),
+        // Rows of one position need not agree in their last digits.
+        true => Ok((position * PLACES).round() / PLACES),
         false => {
             let allowed = "a part of the mesh cycle, 0 to 1";
             Err(table.refusal(row, "position", &position.to_string(), allowed))

@@ -3,11 +3,12 @@
 use std::collections::HashSet;
 use std::path::Path;
 
-use experiments::sweep::Coordinate;
+use experiments::sweep::{Coordinate, Part};
 
 use super::super::absurd::{Sized, absurd, unknown_planets};
 use super::super::balance::{Force, TOLERANCE, imbalance};
 use super::super::contradiction::{Contradiction, counted};
+use super::super::even::uneven;
 use super::super::facts::{Facts, SceneFacts};
 use super::super::merged::{PlanetRow, merged};
 use super::super::repeated::Repeated;
@@ -64,6 +65,7 @@ fn one_cycle(
         found.extend(unbalanced(path, &without_repeats(rows), facts));
     }
     found.extend(absurd);
+    found.extend(against_the_torque(path, rows, facts));
     let of_planets = rows.iter().filter(|row| row.part.planet().is_some());
     let of_planets: Vec<PlanetRow> = of_planets.map(|row| row.of_planet()).collect();
     found.extend(merged(path, &["value"], facts, &of_planets));
@@ -99,6 +101,10 @@ fn positions<'r>(path: &Path, rows: &[&'r CycleRow], asked: usize) -> Option<Con
             remedy,
         ));
     }
+    let points: Vec<(f64, u64)> = cycle.iter().map(|s| (s[0].position, s[0].line)).collect();
+    if let Some(uneven) = uneven(path, &points) {
+        return Some(uneven);
+    }
     let is_there = |state: &[&CycleRow], row: &CycleRow| {
         state.iter().any(|r| r.part == row.part && r.coordinate == row.coordinate)
     };
@@ -118,6 +124,27 @@ fn positions<'r>(path: &Path, rows: &[&'r CycleRow], asked: usize) -> Option<Con
     );
     let remedy = "give every quantity at every position";
     Some(Contradiction::new(path, [row.line, other.line], &["position"], statement, remedy))
+}
+
+/// A sun that turns against its torque, on average over the cycle.
+fn against_the_torque(
+    path: &Path,
+    rows: &[&CycleRow],
+    facts: &SceneFacts,
+) -> Option<Contradiction> {
+    let is_rotation = |row: &&&CycleRow| row.part == Part::SUN && row.coordinate == "rotation";
+    let turns: Vec<&&CycleRow> = rows.iter().filter(is_rotation).collect();
+    let (first, last) = (turns.first()?, turns.last()?);
+    let mean = turns.iter().map(|row| row.value).sum::<f64>() / turns.len() as f64;
+    let statement = format!(
+        "the sun turns by {mean:e} rad on average under {} N·m, against its torque",
+        first.sun_torque_nm
+    );
+    let remedy =
+        "give torque and rotation counter-clockwise positive, the rotation from the unloaded place";
+    let is_against = facts.sun_alone_turns && mean * first.sun_torque_nm < 0.0;
+    is_against
+        .then(|| Contradiction::new(path, [first.line, last.line], &["value"], statement, remedy))
 }
 
 /// The worst imbalance over the cycle.

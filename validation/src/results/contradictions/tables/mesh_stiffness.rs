@@ -4,15 +4,13 @@ use std::path::Path;
 
 use super::super::absurd::unknown_planets;
 use super::super::contradiction::{Contradiction, counted};
+use super::super::even::uneven;
 use super::super::facts::{Facts, SceneFacts};
 use super::super::repeated::Repeated;
 use crate::results::rows::StiffnessRow;
 
 /// Largest stiffness of a mesh, N/m: steel teeth of a face width of more than 50 m.
 const LARGEST: f64 = 1e12;
-
-/// The largest step between even positions is at most this many times the smallest.
-const EVEN: f64 = 1.5;
 
 /// Fewest different numbers that show a mesh cycle.
 const FEWEST: usize = 3;
@@ -63,7 +61,7 @@ fn one_cycle(
     let size = not_positive(path, rows).or_else(|| absurd(path, rows, facts));
     match (repeated.is_empty(), &size) {
         (true, None) => {
-            let uneven = too_few(path, rows, asked).or_else(|| uneven(path, rows));
+            let uneven = too_few(path, rows, asked).or_else(|| uneven(path, &points(rows)));
             found.extend(uneven.or_else(|| two_cycles(path, rows)));
         }
         _ => found.extend(repeated),
@@ -125,6 +123,11 @@ fn absurd(path: &Path, rows: &[&StiffnessRow], facts: &SceneFacts) -> Option<Con
     ))
 }
 
+/// Positions with their lines.
+fn points(rows: &[&StiffnessRow]) -> Vec<(f64, u64)> {
+    rows.iter().map(|row| (row.position, row.line)).collect()
+}
+
 fn too_few(path: &Path, rows: &[&StiffnessRow], asked: usize) -> Option<Contradiction> {
     let (first, last) = (rows.first()?, rows.last()?);
     let statement = format!(
@@ -138,30 +141,6 @@ fn too_few(path: &Path, rows: &[&StiffnessRow], asked: usize) -> Option<Contradi
         "give even positions over one cycle, or their number as `positions` in results.toml";
     let lines = [first.line, last.line];
     (rows.len() < asked).then(|| Contradiction::new(path, lines, &["position"], statement, remedy))
-}
-
-/// Steps that differ; the mean over uneven positions is not that over the cycle.
-fn uneven(path: &Path, rows: &[&StiffnessRow]) -> Option<Contradiction> {
-    let next = rows.iter().cycle().skip(1);
-    let step = |(a, b): (&&StiffnessRow, &&StiffnessRow)| {
-        // The last step leads into the next cycle.
-        let step = b.position - a.position + if b.position < a.position { 1.0 } else { 0.0 };
-        (step, [a.line, b.line], [a.position, b.position])
-    };
-    let mut steps: Vec<_> = rows.iter().zip(next).map(|(a, b)| step((a, b))).collect();
-    steps.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let (least, largest) = (steps.first()?, steps.last()?);
-    if rows.len() < 2 || largest.0 <= EVEN * least.0 {
-        return None;
-    }
-    let (what, lines, [a, b]) = match least.0 {
-        // Position 1 is position 0 of the next cycle.
-        step if step <= 0.0 => ("are one position of the cycle", least.1, least.2),
-        _ => ("leave a gap", largest.1, largest.2),
-    };
-    let statement = format!("positions are not even: {a} and {b} {what}");
-    let remedy = "give positions k/n, k from 0 to n − 1: without 1 where 0 is there";
-    Some(Contradiction::new(path, lines, &["position"], statement, remedy))
 }
 
 /// The second half of the cycle repeats the first to the last digit.
