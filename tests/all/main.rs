@@ -7,6 +7,7 @@ mod branches_command;
 mod closed_forms;
 mod command;
 mod compare_command;
+mod field_sets;
 mod figures;
 mod harness;
 mod help;
