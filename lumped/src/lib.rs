@@ -22,6 +22,7 @@ mod spacing_tolerance;
 mod springs;
 mod time_varying;
 mod torsional;
+mod type_name;
 mod type_tolerance;
 
 /// The crate whose matrices and vectors stand in signatures.
@@ -43,4 +44,5 @@ pub use sensitivity::{Parameter, Sensitivity, sensitivities};
 pub use spacing_tolerance::SpacingChange;
 pub use springs::{Spring, SpringId};
 pub use time_varying::{MeshLawCouplings, TimeVarying};
+pub use type_name::{NamedModes, type_name};
 pub use type_tolerance::{TypeTolerance, tolerances_to, type_warnings};

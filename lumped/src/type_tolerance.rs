@@ -9,8 +9,8 @@
 //!
 //! to leading order in the mixing of kinds; within its kind, where near frequencies mix most, the mode is that of the
 //! changed set. λ is λ_i, but λ_j where j is of a kind before that of i in the order rotational, translational,
-//! planet: shares are projections in the changed M on the first kinds, and the last kinds are what they leave. Modes of
-//! different kinds that coincide have no tolerance at all.
+//! planet: shares are projections in the changed M on the first kinds, and the last kinds are what they leave.
+//! Modes of different kinds that coincide have no tolerance at all.
 
 use dynamics::IMPURE;
 use gearset::Body;
@@ -21,6 +21,7 @@ use crate::error::LumpedError;
 use crate::kinds::ModeType;
 use crate::model::LumpedModel;
 use crate::modes::{ModeGroup, NaturalModes};
+use crate::type_name::type_name;
 
 /// Part of a planet's mass that scenes leave open: half a unit in the third digit.
 const OPEN_MASS: f64 = 5e-4;
@@ -66,8 +67,8 @@ impl LumpedModel {
     }
 }
 
-/// The tolerance of each group of modes whose type is pure, over the planets the smallest; modes of a group split, and
-/// the smallest counts. Rigid-body modes and mixed ones are left out.
+/// The tolerance of each group of modes whose type is pure, over the planets the smallest; modes of a group split,
+/// and the smallest counts. Rigid-body modes and mixed ones are left out.
 fn type_tolerances(model: &LumpedModel, modes: &NaturalModes) -> Vec<TypeTolerance> {
     let lesser = |(all, own): (TypeTolerance, TypeTolerance)| {
         if own.pure_up_to < all.pure_up_to { own } else { all }
@@ -221,28 +222,55 @@ fn coupling(
     })
 }
 
-/// What a reader of types must know: modes whose type an unequal planet within the open digits of its mass would take
-/// away, and mixed modes that have most of their motion in one kind. Empty where types can be relied on.
+/// What a reader of types must know, in two sentences at most: modes whose type an unequal planet within the open
+/// digits of its mass would take away, and mixed modes that have most of their motion in one kind. Empty where
+/// types can be relied on, and of one planet, beside which none can be unequal.
 pub fn type_warnings(model: &LumpedModel, modes: &NaturalModes) -> Vec<String> {
-    let mut all = Vec::new();
-    let mut told: Vec<[(f64, ModeType); 2]> = Vec::new();
-    for t in type_tolerances(model, modes).iter().filter(|t| t.half_up_to < OPEN_MASS) {
-        let (own, nearest) = ((t.frequency_hz, t.mode_type), (t.nearest_hz, t.nearest_type));
-        // Each of two modes has the other as its nearest: one warning for both.
-        if told.contains(&[nearest, own]) {
-            continue;
-        }
-        told.push([own, nearest]);
-        all.push(format!(
-            "the {} mode at {:.2} Hz and the {} one at {:.2} Hz lie so close that a planet heavier by {:.1e} of its mass mixes \
-             them: read the two as one group, or separate them by another stiffness",
-            t.mode_type.name(),
-            t.frequency_hz,
-            t.nearest_type.name(),
-            t.nearest_hz,
-            t.half_up_to
-        ));
+    if model.psi.len() == 1 {
+        return Vec::new();
     }
+    [close_modes(model, modes), nearly_pure(modes)].into_iter().flatten().collect()
+}
+
+/// Modes that a planet heavier by less than [`OPEN_MASS`] mixes.
+fn close_modes(model: &LumpedModel, modes: &NaturalModes) -> Option<String> {
+    let mut pairs: Vec<[(f64, &str); 2]> = Vec::new();
+    let mut least = OPEN_MASS;
+    let name = |hz: f64, mode_type: ModeType| {
+        let group = modes.of_type(mode_type).find(|g| g.frequency_hz == hz);
+        group.map_or(mode_type.name(), |group| type_name(model, group))
+    };
+    for t in type_tolerances(model, modes).iter().filter(|t| t.half_up_to < OPEN_MASS) {
+        let one = (t.frequency_hz, name(t.frequency_hz, t.mode_type));
+        let other = (t.nearest_hz, name(t.nearest_hz, t.nearest_type));
+        // Modes of one name are one group to the reader; each of two modes has the other as its nearest.
+        if one.1 != other.1 && !pairs.contains(&[other, one]) {
+            pairs.push([one, other]);
+            least = least.min(t.half_up_to);
+        }
+    }
+    let each: Vec<String> = pairs
+        .iter()
+        .map(|[(f, one), (g, other)]| format!("{one} at {f:.2} Hz and {other} at {g:.2} Hz"))
+        .collect();
+    // Below the rounding of frequencies they coincide.
+    let how_much = match least < 1e-9 {
+        true => "however little heavier".to_owned(),
+        false => format!("heavier by {least:.1e} of its mass"),
+    };
+    (!each.is_empty()).then(|| {
+        format!(
+            "modes lie so close that a planet {how_much} mixes their types: {}; read each two as one group, or separate them by \
+             another stiffness",
+            each.join(", ")
+        )
+    })
+}
+
+/// Mixed modes that would be of one type if the planets were equal.
+fn nearly_pure(modes: &NaturalModes) -> Option<String> {
+    let mut least = 1.0f64;
+    let mut each = Vec::new();
     for g in modes.of_type(ModeType::Mixed).filter(|g| g.lambda > 0.0) {
         let p = g.participation;
         let shares = [
@@ -251,14 +279,15 @@ pub fn type_warnings(model: &LumpedModel, modes: &NaturalModes) -> Vec<String> {
             (p.planet, ModeType::Planet),
         ];
         if let Some((share, kind)) = shares.into_iter().find(|(share, _)| *share >= 0.99) {
-            all.push(format!(
-                "the mode at {:.2} Hz is listed as mixed, but {:.5} of it is {}: planets are not quite equal or not quite \
-                 symmetric; with equal planets it would be of that type",
-                g.frequency_hz,
-                share,
-                kind.name()
-            ));
+            least = least.min(share);
+            each.push(format!("{} at {:.2} Hz", kind.name(), g.frequency_hz));
         }
     }
-    all
+    (!each.is_empty()).then(|| {
+        format!(
+            "planets are not quite equal or not quite symmetric: modes listed as mixed are to {least:.5} or more of one type, \
+             which they have with equal planets: {}",
+            each.join(", ")
+        )
+    })
 }

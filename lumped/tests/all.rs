@@ -4,6 +4,7 @@
 
 mod analytic;
 mod balanced;
+mod bearing_bounds;
 mod built_scenes;
 mod common;
 mod derivatives;
@@ -16,4 +17,5 @@ mod spacing;
 mod spread;
 mod time_varying;
 mod torsional;
+mod type_names;
 mod type_tolerance;

@@ -73,6 +73,9 @@ fn types_that_mean_nothing_are_warned_of() {
         type_warnings(&heavier, &NaturalModes::of(&heavier).unwrap())
     };
     let is_mixed = |w: &String| w.contains("listed as mixed");
+    // One heavier planet is one line, and none is heavier by nothing.
+    assert_eq!(of(1e-3).iter().filter(|w| is_mixed(w)).count(), 1, "{:?}", of(1e-3));
+    assert!(of(1e-3).len() <= 2 && !of(1e-3).concat().contains("0.0e0"), "{:?}", of(1e-3));
     assert!(!of(1e-7).iter().any(is_mixed), "{:?}", of(1e-7));
     assert!(of(1e-2).iter().any(is_mixed), "{:?}", of(1e-2));
     assert!(model.with_heavier_planet(5, 0.1).is_err());

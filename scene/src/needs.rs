@@ -3,7 +3,7 @@
 use gearset::{GearInput, Member, MeshKind};
 
 use crate::choices::{Fidelity, MeshKinematics};
-use crate::scene::{Freedom, Scene, SceneKind};
+use crate::scene::{Freedom, PlanetOverride, Scene, SceneKind};
 
 /// A verb of the command that reads a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,6 +61,22 @@ impl Verb {
             Self::Branches(Fidelity::Modal(_)) => "branches (modal)",
             Self::Branches(Fidelity::Full) => "branches (full)",
             Self::Compare => "compare",
+        }
+    }
+}
+
+impl Verb {
+    /// Whether a value of this key can change a result of the verb, as far as the key's table shows it.
+    pub fn reads(self, key: &str) -> bool {
+        let is_in_time = matches!(self, Self::Impulse | Self::Sweep(_) | Self::Branches(_));
+        match key.split('.').next() {
+            // A carrier without a shape has the mass and inertia of the lumped parameters.
+            Some("lumped") if key.ends_with(".carrier") => self != Self::Mesh,
+            Some("lumped" | "planet_override") => matches!(self, Self::Modes | Self::Compare),
+            Some("damping" | "dynamics") => is_in_time,
+            Some("fe_contact") => is_in_time || matches!(self, Self::Mesh | Self::Static),
+            _ if key == "operation.speed_rpm" => is_in_time && self != Self::Impulse,
+            _ => true,
         }
     }
 }
@@ -139,22 +155,34 @@ impl Scene {
             Verb::Static => {
                 self.lacks_bodies(&mut lacks);
                 match self.kind {
+                    SceneKind::GearPair if self.pair_force_n().is_some() => {}
                     SceneKind::GearPair => {
-                        let why = "one mesh alone is loaded by a normal force, which no key gives";
+                        let (key, why) = match self.pair {
+                            Some(MeshKind::RingPlanet) => (
+                                "operation",
+                                "one mesh alone is loaded by a normal force, which no key gives",
+                            ),
+                            _ => (
+                                "operation.torque_nm",
+                                "a torque other than 0 loads the teeth by |T|/r_b",
+                            ),
+                        };
                         let argument = Some("--normal-force-n");
-                        lacks.push(Lack { argument, ..lack("operation", why) });
+                        lacks.push(Lack { argument, ..lack(key, why) });
                     }
                     SceneKind::Planetary => {
                         self.lacks_torque(&mut lacks);
                         self.lacks_torque_path(&mut lacks);
                     }
                 }
+                self.lacks_equal_planets(&mut lacks);
             }
             Verb::Impulse => {
                 self.lacks_bodies(&mut lacks);
                 self.lacks_torque(&mut lacks);
                 self.lacks_torque_path(&mut lacks);
                 self.lacks_carrier_mass(&mut lacks);
+                self.lacks_equal_planets(&mut lacks);
                 self.lacks_elastic_pair(self.dynamics.fidelity, &mut lacks);
                 if self.dynamics.fidelity == Fidelity::MeshLaw {
                     let why = "\"mesh_law\" solves no contact: \"quasi_static\", \"modal\" or \"full\" is needed";
@@ -182,6 +210,7 @@ impl Scene {
                 self.lacks_torque(&mut lacks);
                 self.lacks_torque_path(&mut lacks);
                 self.lacks_carrier_mass(&mut lacks);
+                self.lacks_equal_planets(&mut lacks);
                 self.lacks_one_flexibility(fidelity, &mut lacks);
                 self.lacks_elastic_pair(fidelity, &mut lacks);
             }
@@ -274,6 +303,7 @@ impl Scene {
         self.lacks_torque_path(lacks);
         self.lacks_turning_sun(lacks);
         self.lacks_carrier_mass(lacks);
+        self.lacks_equal_planets(lacks);
         lacks.iter_mut().for_each(|lack| lack.argument = None);
     }
 
@@ -325,6 +355,32 @@ impl Scene {
             let why = "the carrier can move and has no mass: give its shape, or `lumped.mass_kg.carrier`, or \
                        `carrier.motion` = \"held\"";
             lacks.push(lack("geometry.carrier", why));
+        }
+    }
+
+    /// Planets that differ in nothing but their bearings: masses and mesh stiffnesses of single planets are those
+    /// of the lumped model, and finite-element planets are meshed alike.
+    fn lacks_equal_planets(&self, lacks: &mut Vec<Lack>) {
+        for (i, planet) in self.overrides.iter().enumerate() {
+            let PlanetOverride {
+                planet: _,
+                mass_kg,
+                inertia_over_r2_kg,
+                bearing_n_per_m: _,
+                sun_mesh_n_per_m,
+                ring_mesh_n_per_m,
+            } = *planet;
+            let given = [
+                ("mass_kg", mass_kg),
+                ("inertia_over_r2_kg", inertia_over_r2_kg),
+                ("sun_planet_n_per_m", sun_mesh_n_per_m),
+                ("ring_planet_n_per_m", ring_mesh_n_per_m),
+            ];
+            for (key, _) in given.into_iter().filter(|(_, value)| value.is_some()) {
+                let why = "nothing: it is of the lumped model (modes, compare) and would change nothing here, where all planets \
+                           are meshed alike and differ in `bearing_n_per_m` alone";
+                lacks.push(lack(format!("planet_override.{i}.{key}"), why));
+            }
         }
     }
 

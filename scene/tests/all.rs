@@ -2,6 +2,7 @@
 //! `cargo test --release -p epicyclic-scene --test all needs` runs those whose name has the word.
 
 mod built_scenes;
+mod field_sets;
 mod gear_pair;
 mod needs;
 mod published_sets;

@@ -24,7 +24,7 @@ fn one_mesh_alone_is_meshed_and_loaded_by_a_force() {
     for verb in Verb::ALL {
         let expected: &[&str] = match verb {
             Verb::Mesh => &[],
-            Verb::Static => &["operation"],
+            Verb::Static => &["operation.torque_nm"],
             Verb::Modes => &["lumped"],
             Verb::Rules | Verb::Compare => &["kind"],
             Verb::Impulse => &["operation.torque_nm"],

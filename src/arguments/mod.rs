@@ -171,13 +171,16 @@ pub(crate) struct Static {
     /// Torques on the sun, N·m; negative is clockwise. If left out, what a set's operating point loads the sun with.
     #[arg(long, value_name = "NM,…", value_delimiter = ',', allow_negative_numbers = true)]
     pub sun_torque_nm: Vec<f64>,
-    /// Normal force of a gear pair, N.
+    /// Normal force of a gear pair, N. If left out, |T|/r_b of a sun–planet pair's `operation.torque_nm`.
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub normal_force_n: Option<f64>,
     /// Number of evenly spaced positions in the mesh cycle, from phase 0 [default: 140].
     #[arg(long, value_parser = whole::<1, 100_000>,
           conflicts_with = "approach_um", allow_negative_numbers = true)]
     pub positions: Option<u32>,
+    /// Compute also what by estimate takes more than 2 GiB of memory.
+    #[arg(long)]
+    pub large: bool,
     /// Solver of the contact problem.
     #[arg(long, value_enum, default_value_t = ContactSolver::ActiveSet)]
     pub solver: ContactSolver,

@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use lumped::NamedModes;
 use scene::Verb;
 use serde::Serialize;
 use validation::results::{JudgeError, ModeList};
@@ -24,14 +25,15 @@ pub(crate) fn run(arguments: &Compare, out: &mut dyn Write, err: &mut dyn Write)
             }
         }
     }
-    let (_, found) = modes::solve(&scene).map_err(|reason| unfit(&arguments.scene, reason))?;
+    let (parameters, found) =
+        modes::solve(&scene).map_err(|reason| unfit(&arguments.scene, reason))?;
     let model: Vec<ModelMode> = found
-        .groups
-        .iter()
-        .map(|g| ModelMode {
-            frequency_hz: g.frequency_hz,
-            mode_type: g.mode_type.name().to_owned(),
-            multiplicity: g.multiplicity,
+        .named(&parameters)
+        .into_iter()
+        .map(|NamedModes { name, group, .. }| ModelMode {
+            frequency_hz: group.frequency_hz,
+            mode_type: name.to_owned(),
+            multiplicity: group.multiplicity,
         })
         .collect();
     let id = arguments.scene.file_stem().unwrap_or_default().to_string_lossy();

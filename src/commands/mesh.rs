@@ -70,7 +70,7 @@ pub(crate) fn run(arguments: &MeshVerb, out: &mut dyn Write, err: &mut dyn Write
     let path = &arguments.scene;
     let scene = read_scene(path, err)?;
     needs::require(path, &scene, Verb::Mesh, |_| false)?;
-    needs::warn(&scene, None, err)?;
+    needs::warn(&scene, Some(Verb::Mesh), None, err)?;
     #[cfg(feature = "charts")]
     writable(arguments.svg.as_deref())?;
     folder("--vtu", arguments.vtu.as_deref())?;

@@ -30,7 +30,7 @@ use crate::arguments::{Arguments, Verb};
 use crate::error::Result;
 
 /// Runs the command: results to `out`, everything else to `err`. Returns the exit code: 0 ran and
-/// every check passed, 1 ran and a check failed, 2 bad input.
+/// every check passed, 1 ran and a check failed or a speed of a sweep could not be computed, 2 bad input.
 pub fn run<I, T>(arguments: I, out: &mut dyn Write, err: &mut (dyn Write + Send)) -> u8
 where
     I: IntoIterator<Item = T>,
@@ -57,7 +57,7 @@ where
     }
 }
 
-/// Runs one verb; whether every check passed.
+/// Runs one verb; whether every check passed and every speed of a sweep was computed.
 fn dispatch(
     arguments: Arguments,
     out: &mut dyn Write,
@@ -69,7 +69,7 @@ fn dispatch(
         Verb::Rules(arguments) => rules::run(&arguments, out, err).map(|()| true),
         Verb::Static(arguments) => statics::run(&arguments, out, err).map(|()| true),
         Verb::Impulse(arguments) => impulse::run(&arguments, out, err).map(|()| true),
-        Verb::Sweep(arguments) => sweep::run(&arguments, out, err).map(|()| true),
+        Verb::Sweep(arguments) => sweep::run(&arguments, out, err),
         Verb::Branches(arguments) => branches::run(&arguments, out, err).map(|()| true),
         Verb::Stability(arguments) => stability::run(&arguments, out, err).map(|()| true),
         Verb::Study(arguments) => study::run(&arguments, out, err).map(|()| true),

@@ -46,13 +46,26 @@ pub(crate) fn torque_range(
         .try_for_each(|end| sized(argument, end, "N·m", scene.size_of_sun_torque(end), err))
 }
 
-/// Normal force of a gear pair, N.
+/// Normal force of a gear pair, N: that of `--normal-force-n`, or |T|/r_b of the operating point.
 pub(crate) fn normal_force(asked: Option<f64>, scene: &Scene, err: &mut dyn Write) -> Result<f64> {
-    let Some(force) = asked else {
+    let Some(force) = asked.or_else(|| scene.pair_force_n()) else {
         let name = &scene.title;
-        let reason = format!("is absent: `{name}` is a gear pair, loaded by a normal force in N");
+        let reason = format!(
+            "is absent: `{name}` is a gear pair, loaded by a normal force in N, or, of a sun and a planet, by `operation.torque_nm`"
+        );
         return Err(refused("--normal-force-n", reason));
     };
+    if asked.is_none() {
+        // A torque that is too large was refused when the scene was read.
+        let size = scene.size_of_normal_force(force);
+        return match size.and_then(|size| size.refusal(force, "N along the line of action")) {
+            Some(reason) => Err(refused(
+                "--normal-force-n",
+                format!("is absent, and `operation.torque_nm` gives {reason}"),
+            )),
+            None => Ok(force),
+        };
+    }
     if !(force.is_finite() && force > 0.0) {
         let reason = format!("{force}: allowed is a finite force above 0 N; flanks only press");
         return Err(refused("--normal-force-n", reason));

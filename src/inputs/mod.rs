@@ -1,10 +1,12 @@
 //! What a verb is given: the scene, loads, what it lacks; and what it is doing meanwhile.
 
 pub(crate) mod loads;
+mod memory;
 pub(crate) mod needs;
 mod working;
 
-pub(crate) use working::{Working, progress};
+pub(crate) use memory::within_memory;
+pub(crate) use working::{Progress, Working, progress};
 
 use std::io::Write;
 use std::path::Path;

@@ -42,10 +42,17 @@ pub(crate) fn caution(
     settings.caution(steps).map_or(Ok(()), |words| writeln!(err, "warning: {words}"))
 }
 
-/// Writes a scene's warnings, one a line. Refuses a folder of figures that cannot be made, and warns of characters in
-/// the title that figures cannot show.
-pub(crate) fn warn(scene: &Scene, figures: Option<&Path>, err: &mut dyn Write) -> Result<()> {
-    scene::warnings(scene).iter().try_for_each(|warning| writeln!(err, "warning: {warning}"))?;
+/// Writes a scene's warnings, one a line, of keys that the verb reads if one is named. Refuses a folder of figures
+/// that cannot be made, and warns of characters in the title that figures cannot show.
+pub(crate) fn warn(
+    scene: &Scene,
+    verb: Option<Verb>,
+    figures: Option<&Path>,
+    err: &mut dyn Write,
+) -> Result<()> {
+    let mut warnings =
+        scene::warnings(scene).into_iter().filter(|w| verb.is_none_or(|verb| verb.reads(&w.key)));
+    warnings.try_for_each(|warning| writeln!(err, "warning: {warning}"))?;
     crate::folder::folder("--figures", figures)?;
     #[cfg(feature = "charts")]
     let lacking = crate::figures::lacking(&scene.title);

@@ -13,6 +13,21 @@ pub(crate) enum Cell {
     Nothing,
 }
 
+impl Cell {
+    /// The same, with an apostrophe before words that begin as a formula of a spreadsheet does and are no numbers.
+    pub(super) fn no_formula(self) -> Self {
+        match self {
+            Self::Words(text)
+                if text.starts_with(['=', '+', '-', '@', '\t', '\r'])
+                    && !text.split_whitespace().all(|part| part.parse::<f64>().is_ok()) =>
+            {
+                Self::Words(format!("'{text}"))
+            }
+            other => other,
+        }
+    }
+}
+
 /// Kind of the cells of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
@@ -139,6 +154,26 @@ impl<'t, R> Column<'t, R> {
         match &shown.look {
             Look::Cell(factor, notation) => notation.cell(&(self.cell)(row), *factor),
             Look::Words(words) => words(row),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Text that a spreadsheet would compute is text; numbers stay what they are.
+    #[test]
+    fn formulas_are_text_and_numbers_are_numbers() {
+        for formula in ["=1+1", "+cmd|'/C calc'!A0", "-2+3+cmd", "@SUM(A1)", "\t=1", "-"] {
+            let expected = Cell::Words(format!("'{formula}"));
+            assert_eq!(Cell::Words(formula.into()).no_formula(), expected);
+        }
+        for text in ["-0.5", "-0.5 +3e-4", "a set = b", "", "–", "(-1)"] {
+            assert_eq!(Cell::Words(text.into()).no_formula(), Cell::Words(text.into()));
+        }
+        for cell in [Cell::Number(-1.5), Cell::Count(-2), Cell::Flag(true), Cell::Nothing] {
+            assert_eq!(cell.clone().no_formula(), cell);
         }
     }
 }

@@ -163,12 +163,14 @@ impl<'t, R> Table<'t, R> {
         said.try_for_each(|(meaning, shown)| writeln!(out, "{}: {meaning}", shown.heading))
     }
 
-    /// Writes rows as CSV: numbers in the shortest form that reads as the same number.
+    /// Writes rows as CSV: numbers in the shortest form that reads as the same number, text that a spreadsheet
+    /// would take for a formula behind an apostrophe.
     pub(crate) fn csv(&self, rows: impl IntoIterator<Item = R>, out: &mut dyn Write) -> Result<()> {
         let mut writer = csv::Writer::from_writer(out);
         writer.write_record(self.named().map(|(name, _)| name))?;
         for row in rows {
-            let cells: Vec<Cell> = self.named().map(|(_, column)| (column.cell)(&row)).collect();
+            let cell = |(_, column): (_, &Column<'t, R>)| (column.cell)(&row).no_formula();
+            let cells: Vec<Cell> = self.named().map(cell).collect();
             writer.serialize(cells)?;
         }
         Ok(writer.flush()?)

@@ -8,6 +8,7 @@ mod closed_forms;
 mod command;
 mod compare_command;
 mod dataset_command;
+mod field_sets;
 mod figures;
 mod harness;
 mod help;

@@ -182,10 +182,10 @@ fn it_says_verb_by_verb_what_is_lacking() {
 #[test]
 fn warnings_as_text_and_json() {
     let folder = tempfile::tempdir().unwrap();
-    let text = mutilated(&[], &[("{ sun = 0.40,", "{ sun = 40.0,")]);
+    let text = mutilated(&[], &[("{ sun = 0.40,", "{ sun = 400.0,")]);
     let name = &written(&folder, &text);
     let (_, out, _) = run(&["scene", "check", name]);
-    assert!(out.contains("warning: `lumped.mass_kg.sun` is 40: a disc"), "{out}");
+    assert!(out.contains("warning: `lumped.mass_kg.sun` is 400: a disc"), "{out}");
     let result = check(name);
     let keys: Vec<&str> =
         result["warnings"].as_array().unwrap().iter().map(|w| w["key"].as_str().unwrap()).collect();

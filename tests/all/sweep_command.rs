@@ -453,7 +453,7 @@ fn a_speed_that_cannot_be_computed_is_kept_with_its_reason() {
             "200",
         ]);
         let output = command.arg("--out").arg(&out).output().unwrap();
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert_eq!(output.status.code(), Some(1), "{}", String::from_utf8_lossy(&output.stderr));
         String::from_utf8(output.stdout).unwrap()
     };
     let printed = run();

@@ -26,7 +26,7 @@ mod teeth;
 pub use approach::{MeshAtApproach, PairAtApproach, at_approach};
 pub use bodies::{Bodies, FeSettings};
 pub(crate) use bodies::{FLEXIBILITY_FACTOR, missing_mesh};
-pub use estimate::{BodyEstimate, FeEstimate, MOST_BYTES, estimate, within_memory};
+pub use estimate::{BodyEstimate, FeEstimate, MOST_BYTES, cycle_bytes, estimate, within_memory};
 pub use imperfection::{Imperfections, PitchError};
 pub(crate) use kinematic_rest::LinearMesh;
 pub(crate) use mesh_rows::{invariants, turned};

@@ -197,7 +197,7 @@ fn lumped_meshes() -> Vec<SceneKey> {
 /// `[[planet_override]]`.
 fn planet_override() -> Vec<SceneKey> {
     vec![
-        key("planet_override", Tables, "–", "one planet that differs from the others; values left out stay those of the others").left_out("all planets alike; with [lumped]"),
+        key("planet_override", Tables, "–", "one planet that differs from the others; values left out stay those of the others. Values of the lumped model alone are refused by static, impulse, sweep and branches, of which they would change nothing").left_out("all planets alike; with [lumped]"),
         key("planet_override.planet", Integer(0, 63), "–", "index of the planet, from 0 and below planets.count; each once").required(),
         key("planet_override.mass_kg", Number(Positive), "kg", "mass of this planet in the lumped model").left_out("as of the others"),
         key("planet_override.inertia_over_r2_kg", Number(Positive), "kg", "I/r² of this planet in the lumped model").left_out("as of the others"),

@@ -1,5 +1,7 @@
 //! Loads and speeds given beside a scene, as on the command line: how far teeth give way, and what a speed can be.
 
+use gearset::MeshKind;
+
 use crate::load::estimates;
 use crate::scene::{Scene, SceneKind};
 
@@ -99,6 +101,14 @@ impl Scene {
         let force = torque_nm.abs() / radius / self.planets.count() as f64;
         let deflection = estimates::way_under(self, &geometry, force)?;
         Some(LoadSize { deflection, module: estimates::module(&geometry)? })
+    }
+
+    /// Normal force of a sun–planet pair under the torque of its operating point, |T_s|/r_b, N; `None` without one, or
+    /// of another scene.
+    pub fn pair_force_n(&self) -> Option<f64> {
+        let geometry =
+            self.tooth_geometry().ok().filter(|_| self.pair == Some(MeshKind::SunPlanet))?;
+        estimates::mesh_force(self, &geometry).filter(|force| *force > 0.0)
     }
 
     /// Deflection of a gear pair's teeth under a normal force, N. `None` of a set and without tooth geometry.

@@ -17,7 +17,9 @@ use toml::de::{DeTable, DeValue};
 use crate::keys::{KEYS, KeyKind, Presence, SceneKey};
 use crate::read::digits::half_unit;
 use crate::read::fault::{Fault, printable};
+use crate::read::nearest::nearest;
 use crate::read::remarks::{Chosen, Remarks};
+use crate::read::scope::out_of_scope;
 use crate::read::unread::{Unread, unfinished_above, without_indices};
 
 /// Magnitudes beyond these are slips of unit or exponent, and would overflow when squared.
@@ -432,13 +434,28 @@ impl Drop for Section<'_, '_> {
             if known.iter().any(|k| k == key) || self.document.unread.borrow().covers(span.start) {
                 continue;
             }
-            let nearest = known.iter().min_by_key(|k| levenshtein(k, key));
-            let hint = match nearest {
-                Some(k) if levenshtein(k, key) <= 1 + key.len() / 3 => {
-                    format!("unknown key; did you mean `{k}`?")
-                }
-                _ => "unknown key".to_owned(),
-            };
+            let numbers = self
+                .entries
+                .iter()
+                .filter_map(|(key, (_, value))| Some((key.as_str(), as_f64(value.get_ref())?)));
+            let hint = nearest(key, known);
+            // A letter off a long key is a slip, whatever else the word may mean.
+            let is_slip = hint.is_some_and(|(k, _)| levenshtein(k, key) <= key.len() / 6);
+            if let Some((why, instead)) = out_of_scope(key, &numbers.collect()).filter(|_| !is_slip)
+            {
+                self.document.faults.borrow_mut().push(Fault {
+                    key: full_path(&self.path, key),
+                    value: "out of scope".into(),
+                    allowed: instead,
+                    why: why.into(),
+                    span: span.clone(),
+                });
+                continue;
+            }
+            let hint = hint.map_or_else(
+                || "unknown key".to_owned(),
+                |(k, difference)| format!("unknown key; did you mean `{k}`{difference}?"),
+            );
             let shown = if key.is_empty() { "\"\"" } else { key.as_str() };
             self.document.faults.borrow_mut().push(Fault {
                 key: full_path(&self.path, shown),

@@ -1,28 +1,30 @@
 //! Values that are allowed and unlikely: each with the slip of unit that would explain it.
 
+mod bodies;
 mod closing;
+mod contradictions;
 mod numerics;
 
 use std::fmt;
 
 use gearset::Geometry;
 
+use crate::keys::KEYS;
 use crate::load::case::LoadCase;
-use crate::load::estimates::{self, BODIES};
+use crate::load::estimates;
 use crate::load::size::LARGE_MODULES;
-use crate::scene::{PerBody, Scene, SceneKind, Support, Torsional};
+use crate::scene::{Scene, SceneKind, Support, Torsional};
+use crate::warnings::bodies::bodies;
 pub(crate) use crate::warnings::closing::{LARGE_BACKLASH, sign_warning, signed_mm};
 use crate::warnings::closing::{backlash, ring_teeth};
+use crate::warnings::contradictions::contradictions;
 use crate::warnings::numerics::numerics;
 
-/// Mass and inertia of a body against its disc of the same width and density: webs, hubs and shafts change them by
-/// less than this factor, a slip of unit or of size by more.
-const BODY_FACTOR: f64 = 3.0;
-/// (Radius of gyration / r)² of a body whose circles are not given; 1.3 for a ring, and a slip of unit is 1000.
-const GYRATION_SQUARED: f64 = 10.0;
 /// Stiffness of a central support over that of a mesh: a support meant to float is still above this, and one in
 /// N/µm is below it.
 const SUPPORT_TO_MESH: f64 = 1e-4;
+/// Given mesh stiffness over E b/13, above which teeth are meant to be rigid: real ones have 0.5 to 2.
+const STIFF_MESH: f64 = 100.0;
 /// Stiffness of a planet bearing over that of a mesh. Planets never float: real ratios are 0.05 to 10, and a bearing
 /// in N/mm is below 1e-3 of its likely ratio 0.25.
 const PIN_TO_MESH: f64 = 1e-3;
@@ -74,6 +76,7 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
         lengths(geometry, &mut found);
         backlash(scene, geometry, &mut found);
         load(scene, geometry, &mut found);
+        contradictions(scene, geometry, &mut found);
     }
     ring_teeth(scene, &mut found);
     bodies(scene, &mut found);
@@ -194,68 +197,11 @@ fn load(scene: &Scene, geometry: &Geometry, found: &mut Found) {
     }
 }
 
-fn of(values: &PerBody, name: &str) -> Option<f64> {
-    match name {
-        "sun" => values.sun,
-        "planet" => values.planet,
-        "ring" => values.ring,
-        _ => values.carrier,
-    }
-}
-
-/// Masses and inertias of the lumped model against discs.
-fn bodies(scene: &Scene, found: &mut Found) {
-    let Some(lumped) = &scene.lumped else { return };
-    for (name, disc) in BODIES.into_iter().zip(estimates::discs(scene)) {
-        let (mass, over_r2) = (of(&lumped.mass_kg, name), of(&lumped.inertia_over_r2_kg, name));
-        let inertia = over_r2.zip(of(&lumped.radius_m, name)).map(|(i, r)| i * r * r);
-        let far = |value: f64, own: f64| is_outside([own / BODY_FACTOR, own * BODY_FACTOR], value);
-        let against = |disc: f64, unit: &str| {
-            format!(
-                "a disc of the {name}'s circles, face width and density has {} {unit}",
-                shown(disc)
-            )
-        };
-        if let (Some(mass), Some(disc)) = (mass, disc)
-            && far(mass, disc.mass)
-        {
-            let likely = "likely it is in g or t, or belongs to a set of another size";
-            found.add(format!("lumped.mass_kg.{name}"), mass, against(disc.mass, "kg"), likely);
-        }
-        let key = || format!("lumped.inertia_kg_m2.{name}");
-        if let (Some(inertia), Some(disc)) = (inertia, disc)
-            && far(inertia, disc.inertia())
-        {
-            let likely = "likely it is in kg mm² or kg cm², or belongs to a set of another size";
-            found.add(key(), inertia, against(disc.inertia(), "kg m²"), likely);
-        }
-        match (mass, inertia, over_r2, disc) {
-            (Some(m), Some(i), _, Some(disc)) if i > m * disc.outermost.powi(2) => {
-                let what = format!(
-                    "with {} kg its radius of gyration is {} mm, outside the {name} of radius {} mm",
-                    shown(m),
-                    shown(1e3 * (i / m).sqrt()),
-                    shown(1e3 * disc.outermost)
-                );
-                found.add(key(), i, what, "likely inertia and mass are in different units");
-            }
-            (Some(m), _, Some(over_r2), None) if over_r2 > GYRATION_SQUARED * m => {
-                let what = format!(
-                    "with {} kg its radius of gyration is {} times the radius r of u = r·θ",
-                    shown(m),
-                    shown((over_r2 / m).sqrt())
-                );
-                let key = format!("lumped.inertia_over_r2_kg.{name}");
-                found.add(key, over_r2, what, "likely I/r² or `lumped.mass_kg` is in another unit");
-            }
-            _ => {}
-        }
-    }
-}
-
 /// Stiffnesses of bearings and torsional supports against that of a mesh.
 fn supports(scene: &Scene, geometry: Option<&Geometry>, found: &mut Found) {
     let Some(mesh) = estimates::mesh_stiffness(scene) else { return };
+    // Teeth that are given as all but rigid say nothing of bearings.
+    let mesh = estimates::pair_stiffness(scene).map_or(mesh, |pair| mesh.min(STIFF_MESH * pair));
     let force = geometry.and_then(|g| estimates::mesh_force(scene, g)).unwrap_or(0.0);
     let soft = |k: f64, least: f64| {
         k > 0.0 && (k < least * mesh || (k < SOFT_BEARING_N_PER_M && force > HEAVY_MESH_FORCE_N))
@@ -325,7 +271,9 @@ fn damping(scene: &Scene, found: &mut Found) {
     for (key, value, ratio) in values {
         // `bearing_s` left out is β.
         let is_repeated = key == "damping.bearing_s" && value == beta;
-        if ratio > DAMPING_RATIO && !is_repeated {
+        // The default reaches this in sets whose bearings are given as all but rigid.
+        let is_default = KEYS.iter().any(|k| k.path == key && k.default_si() == Some(value));
+        if ratio > DAMPING_RATIO && !is_repeated && !is_default {
             let hertz = shown(omega / std::f64::consts::TAU);
             let what = format!(
                 "near the highest mode, about {hertz} Hz, it makes a damping ratio of {}",

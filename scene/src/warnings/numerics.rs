@@ -5,8 +5,12 @@ use std::f64::consts::TAU;
 use gearset::{Geometry, Symmetry};
 
 use crate::choices::{AutoQuantity, ElementFamily};
+use crate::keys::{KEYS, SceneKey};
 use crate::scene::Scene;
 use crate::warnings::Warning;
+
+/// Its default is nobody's choice and warned of by no verb.
+const STEPS: &str = "dynamics.steps_per_cycle";
 
 /// Largest difference from a whole number of phases that count as equal, cycles.
 const EQUAL: f64 = 1e-9;
@@ -28,10 +32,15 @@ pub(crate) fn numerics(scene: &Scene, geometry: Option<&Geometry>) -> Vec<Warnin
         return found;
     }
     let steps = scene.dynamics.steps_per_cycle;
+    let is_default =
+        |key: &&SceneKey| key.path == STEPS && key.default() == Some(steps.to_string().as_str());
+    if KEYS.iter().any(|key| is_default(&key)) {
+        return found;
+    }
     let parts = geometry.and_then(|g| phased_parts(scene, g)).unwrap_or(1);
     if !(steps as usize).is_multiple_of(parts) {
         found.push(Warning {
-            key: "dynamics.steps_per_cycle".into(),
+            key: STEPS.into(),
             value: steps.to_string(),
             what: format!(
                 "the set is itself again, with its planets renumbered, after 1/{parts} of a mesh cycle, which is no whole number \

@@ -41,11 +41,29 @@ fn elastic_constants_and_density() {
     let e = "young_modulus_pa = 207e9";
     let no_torque = ("torque_nm = 1413", "torque_nm = 0");
     let key = "material.young_modulus_pa";
-    let at = |text: &'static str| [no_torque, (e, text)];
-    border(key, "GPa", &at("young_modulus_pa = 207"), &at("young_modulus_pa = 1.001e9"));
-    border(key, "MPa", &at("young_modulus_pa = 207e3"), &at("young_modulus_pa = 1.09e12"));
-    border(key, "exponent", &at("young_modulus_pa = 0.999e9"), &[]);
-    border(key, "exponent", &at("young_modulus_pa = 1.11e12"), &[]);
+    // Mesh stiffnesses of 80 MN/m for each 1e11 Pa, which ISO 6336-1 gives these teeth within a quarter.
+    let mesh = "mesh_n_per_m = { sun_planet = 350e6, ring_planet = 350e6 }";
+    let with = |value: &'static str| {
+        let k = 1.7e-3 * value.parse::<f64>().unwrap();
+        let (text, stiff) = (
+            format!("young_modulus_pa = {value}"),
+            format!("mesh_n_per_m = {{ sun_planet = {k:e}, ring_planet = {k:e} }}"),
+        );
+        warnings(&scene(&[no_torque, (e, &text), (mesh, &stiff)]))
+    };
+    for (value, likely) in
+        [("207", "GPa"), ("207e3", "MPa"), ("0.999e9", "exponent"), ("1.11e12", "exponent")]
+    {
+        let found = with(value);
+        assert!(found[0].key == key && found[0].likely.contains(likely), "{value}: {found:?}");
+    }
+    for value in ["1.001e9", "1.09e12"] {
+        assert!(
+            with(value).iter().all(|w| w.key.contains("bearing")),
+            "{value}: {:?}",
+            with(value)
+        );
+    }
     let nu = |text: &'static str| [("poisson_ratio = 0.3", text)];
     border(
         "material.poisson_ratio",
@@ -76,27 +94,53 @@ fn elastic_constants_and_density() {
 
 #[test]
 fn masses_and_inertias_against_discs() {
-    let mass = "mass_kg = { sun = 0.40,";
-    // The sun's disc: π (38.66² − 28.58²) mm² · 25.4 mm · 7595 kg/m³ = 0.411 kg.
+    let mass = "sun = 0.40, planet = 0.66";
+    // The planet's disc: π (49.135² − 36.83²) mm² · 25.4 mm · 7595 kg/m³ = 0.6411 kg.
+    border(
+        "lumped.mass_kg.planet",
+        "disc",
+        &[(mass, "sun = 0.40, planet = 1.93")],
+        &[(mass, "sun = 0.40, planet = 1.92")],
+    );
+    // The sun's disc: π (38.66² − 28.58²) mm² · 25.4 mm · 7595 kg/m³ = 0.411 kg. A shaft on it may weigh more, not
+    // less.
+    let inertia = "{ sun = 0.483e-3, planet = 1.27e-3";
+    let light = [(mass, "sun = 0.136, planet = 0.66"), ("{ sun = 0.483e-3", "{ sun = 0.2e-3")];
+    border("lumped.mass_kg.sun", "in g or t", &light, &[(mass, "sun = 0.138, planet = 0.66")]);
     border(
         "lumped.mass_kg.sun",
-        "disc",
-        &[(mass, "mass_kg = { sun = 1.24,")],
-        &[(mass, "mass_kg = { sun = 1.22,")],
+        "in g or t",
+        &[(mass, "sun = 138, planet = 0.66")],
+        &[(mass, "sun = 136, planet = 0.66")],
     );
-    let light = [(mass, "mass_kg = { sun = 0.136,"), ("{ sun = 0.483e-3", "{ sun = 0.2e-3")];
-    border("lumped.mass_kg.sun", "in g or t", &light, &[(mass, "mass_kg = { sun = 0.40,")]);
-    // Its inertia: 0.411/2 (38.66² + 28.58²) mm² = 0.475e-3 kg m².
-    let inertia = "{ sun = 0.483e-3";
-    let heavy = [(mass, "mass_kg = { sun = 1.2,"), (inertia, "{ sun = 1.43e-3")];
-    let less = [(mass, "mass_kg = { sun = 1.2,"), (inertia, "{ sun = 1.41e-3")];
-    border("lumped.inertia_kg_m2.sun", "disc", &heavy, &less);
-    // Tip radius 42.035 mm: 0.4 kg on it are 0.7068e-3 kg m².
+    // Its inertia: 0.411/2 (38.66² + 28.58²) mm² = 0.475e-3 kg m²; a generator has some 10⁴ times that.
     border(
         "lumped.inertia_kg_m2.sun",
+        "kg mm²",
+        &[("{ sun = 0.483e-3", "{ sun = 483")],
+        &[("{ sun = 0.483e-3", "{ sun = 150")],
+    );
+    // The planet's inertia: 0.6411/2 (49.135² + 36.83²) mm² = 1.209e-3 kg m².
+    let heavy =
+        [(mass, "sun = 0.40, planet = 1.9"), (inertia, "{ sun = 0.483e-3, planet = 3.64e-3")];
+    let less =
+        [(mass, "sun = 0.40, planet = 1.9"), (inertia, "{ sun = 0.483e-3, planet = 3.61e-3")];
+    border("lumped.inertia_kg_m2.planet", "disc", &heavy, &less);
+    // Tip radius 52.5 mm: 0.66 kg on it are 1.819e-3 kg m².
+    border(
+        "lumped.inertia_kg_m2.planet",
         "gyration",
-        &[(inertia, "{ sun = 0.708e-3")],
-        &[(inertia, "{ sun = 0.705e-3")],
+        &[(inertia, "{ sun = 0.483e-3, planet = 1.83e-3")],
+        &[(inertia, "{ sun = 0.483e-3, planet = 1.81e-3")],
+    );
+    // Both beyond their borders have one cause and one line.
+    let both =
+        [(mass, "sun = 0.40, planet = 3.9"), (inertia, "{ sun = 0.483e-3, planet = 22.4e-3")];
+    let found = warnings(&scene(&both));
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(
+        found[0].key == "lumped.mass_kg.planet" && found[0].what.contains("kg m²"),
+        "{found:?}"
     );
 }
 
@@ -118,7 +162,6 @@ fn a_set_of_another_size_does_not_keep_the_masses_of_the_template() {
         warnings(&Scene::from_toml(&text).unwrap()).into_iter().map(|w| w.key).collect();
     for name in ["sun", "planet", "carrier"] {
         assert!(keys.contains(&format!("lumped.mass_kg.{name}")), "{keys:?}");
-        assert!(keys.contains(&format!("lumped.inertia_kg_m2.{name}")), "{keys:?}");
     }
 }
 
@@ -131,13 +174,16 @@ fn inertias_of_parameter_only_sets() {
     .unwrap();
     let with = |value: &str| {
         let text = text.replace(
-            "inertia_over_r2_kg = { sun = 0.39",
-            &format!("inertia_over_r2_kg = {{ sun = {value}"),
+            "inertia_over_r2_kg = { sun = 0.39, ring = 3.00, carrier = 6.29, planet = 0.61",
+            &format!("inertia_over_r2_kg = {{ ring = 3.00, carrier = 6.29, {value}"),
         );
         warnings(&Scene::from_toml(&text).unwrap())
     };
-    assert_eq!(with("3.99"), []);
-    assert_eq!(with("4.01")[0].key, "lumped.inertia_over_r2_kg.sun");
+    assert_eq!(with("sun = 0.39, planet = 6.59"), []);
+    assert_eq!(with("sun = 0.39, planet = 6.61")[0].key, "lumped.inertia_over_r2_kg.planet");
+    // A generator on the sun's shaft.
+    assert_eq!(with("sun = 1e4, planet = 0.61"), []);
+    assert_eq!(with("sun = 390e3, planet = 0.61")[0].key, "lumped.inertia_over_r2_kg.sun");
 }
 
 #[test]
@@ -309,4 +355,51 @@ fn elements_that_lock_and_steps_that_phasing_does_not_share() {
         &[(steps, "steps_per_cycle = 141")],
         &[(steps, "steps_per_cycle = 142")],
     );
+}
+
+#[test]
+fn lumped_parameters_against_the_geometry() {
+    let line = "# radius_mm = { sun = 35.2 }";
+    let radius = |text: &'static str| [(line, text)];
+    // The centre distance is 88.9 mm.
+    border(
+        "lumped.radius_mm.carrier",
+        "centre distance",
+        &radius("radius_mm = { carrier = 88.4 } #"),
+        &radius("radius_mm = { carrier = 88.5 } #"),
+    );
+    border(
+        "lumped.radius_mm.carrier",
+        "diameter",
+        &radius("radius_mm = { carrier = 177.8 } #"),
+        &radius("radius_mm = { carrier = 89.3 } #"),
+    );
+    let angle = "# pressure_angle_deg = { sun_planet = 24.6, ring_planet = 24.6 }";
+    let mesh = scene(&[]).tooth_geometry().unwrap();
+    let of = |kind| mesh.mesh(kind).unwrap().pressure_angle.to_degrees();
+    use gearset::MeshKind::{RingPlanet, SunPlanet};
+    let with = |off: f64| {
+        let (s, r) = (of(SunPlanet), of(RingPlanet) + off);
+        let text = format!("pressure_angle_deg = {{ sun_planet = {s}, ring_planet = {r} }}");
+        warnings(&scene(&[(angle, &text)]))
+    };
+    assert_eq!(with(0.19), []);
+    assert_eq!(with(-0.19), []);
+    assert_eq!(with(-0.21)[0].key, "lumped.pressure_angle_deg.ring_planet");
+    // c_γ of ISO 6336-1: E b/13 (0.75 ε + 0.25).
+    let no_torque = ("torque_nm = 1413", "torque_nm = 0");
+    let both = "mesh_n_per_m = { sun_planet = 350e6, ring_planet = 350e6 }";
+    let estimate = estimates::estimated_mesh_stiffness(&scene(&[]), mesh.mesh(SunPlanet).unwrap());
+    let with = |part: f64| {
+        let text = format!(
+            "mesh_n_per_m = {{ sun_planet = {:e}, ring_planet = 350e6 }}",
+            part * estimate.unwrap()
+        );
+        warnings(&scene(&[no_torque, (both, &text)]))
+    };
+    assert_eq!(with(0.26), []);
+    assert_eq!(with(0.24)[0].key, "lumped.mesh_n_per_m.sun_planet");
+    assert_eq!(with(3.9), []);
+    assert_eq!(with(4.1)[0].key, "lumped.mesh_n_per_m.sun_planet");
+    assert_eq!(with(101.0), [], "teeth that are meant to be rigid");
 }

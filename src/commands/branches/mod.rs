@@ -21,7 +21,7 @@ use super::turning;
 use crate::arguments::{Branches, DAMPING_FACTORS, Model};
 use crate::error::{CommandError, Result, fe_refused, refused, unfit};
 use crate::folder::{Claim, KeptFiles, Manifest, PLAN, RunKind, write_results};
-use crate::inputs::{Working, loads, needs, read_scene, scene_text};
+use crate::inputs::{Working, loads, needs, read_scene, scene_text, within_memory};
 use crate::output::{self, Report};
 use result::Fixed;
 
@@ -71,8 +71,14 @@ pub(super) fn run(arguments: &Branches, out: &mut dyn Write, err: &mut dyn Write
     let steps = scene.dynamics.steps_per_cycle as usize;
     let harmonics = SteadySettings { harmonics: settings.harmonics, ..SteadySettings::default() };
     harmonics.check(steps).map_err(|e| unfit(path, e))?;
+    within_memory(path, &scene, ("`dynamics.steps_per_cycle`", steps), arguments.large)?;
     needs::caution(&harmonics, steps, err)?;
-    needs::warn(&scene, arguments.figures.as_deref(), err)?;
+    needs::warn(
+        &scene,
+        Some(Verb::Branches(scene.dynamics.fidelity)),
+        arguments.figures.as_deref(),
+        err,
+    )?;
     let fixed = Fixed { case, damping_factor: arguments.damping_factor };
     let search = Search { switch: arguments.switch };
     let fidelity = turning::name(arguments.model, &scene);

@@ -38,7 +38,7 @@ pub(super) fn run(arguments: &Impulse, out: &mut dyn Write, err: &mut dyn Write)
     let preload = preload(arguments, &scene, err)?;
     let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
     needs::require(&arguments.scene, &scene, Verb::Impulse, is_given)?;
-    needs::warn(&scene, arguments.figures.as_deref(), err)?;
+    needs::warn(&scene, Some(Verb::Impulse), arguments.figures.as_deref(), err)?;
     let found = find(arguments, scene, preload)?;
     let saved: Result<()> = Ok(());
     #[cfg(feature = "charts")]

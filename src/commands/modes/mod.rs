@@ -22,7 +22,7 @@ use closed_form::StatedErrorEntry;
 
 pub(crate) fn run(arguments: &Modes, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let scene = read_scene(&arguments.scene, err)?;
-    needs::warn(&scene, None, err)?;
+    needs::warn(&scene, Some(Verb::Modes), None, err)?;
     let most = scene::SPEEDS_RPM[1];
     // Not `abs() > most`: what is no number is within nothing.
     if let Some(bad) = arguments.carrier_speeds_rpm.iter().find(|s| !(-most..=most).contains(*s)) {
@@ -121,8 +121,9 @@ fn in_closed_form(arguments: &Modes, scene: &Scene, out: &mut dyn Write) -> Resu
     }
     let found = (&closed.set.model, &closed.modes);
     let mut result = ModesOutput::new(scene, Some(found), arguments.details);
-    for (mode, errors) in result.modes.iter_mut().zip(&closed.errors) {
-        mode.stated_error = StatedErrorEntry::new(errors);
+    for mode in &mut result.modes {
+        mode.stated_error =
+            closed.errors.get(mode.group).and_then(|errors| StatedErrorEntry::new(errors));
     }
     result.parameters = Some(parameters);
     output::show(arguments.format, &result, out)

@@ -5,7 +5,7 @@ use std::io::Write;
 
 use experiments::auto::Choice;
 use lumped::{
-    LumpedModel, ModeGroup, NaturalModes, Parameter, Participation, SpeedModes, kinetic_energy,
+    LumpedModel, NamedModes, NaturalModes, Parameter, Participation, SpeedModes, kinetic_energy,
     sensitivities, strain_energy,
 };
 use scene::Scene;
@@ -51,8 +51,11 @@ pub(crate) struct ModeEntry {
     /// With parameters in closed form: stated error beside FE/contact; absent for given parameters.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) stated_error: Option<StatedErrorEntry>,
-    /// rotational, translational, planet or mixed.
+    /// rotational, translational, planet or mixed; of a gear pair rotational, translational or coupled.
     pub(crate) mode_type: String,
+    /// Its first group of modes of the model.
+    #[serde(skip)]
+    pub(super) group: usize,
     pub(crate) multiplicity: usize,
     participation: KindShares,
     /// Kinetic energy share by kind of body.
@@ -97,7 +100,7 @@ impl ModesOutput {
         details: bool,
     ) -> Self {
         let entries = |(model, modes): (&LumpedModel, &NaturalModes)| {
-            modes.groups.iter().map(|group| entry(model, group)).collect()
+            modes.named(model).iter().map(|named| entry(model, named)).collect()
         };
         Self {
             modes: found.map(entries).unwrap_or_default(),
@@ -228,7 +231,7 @@ impl Report for ModesOutput {
     }
 }
 
-fn entry(model: &LumpedModel, group: &ModeGroup) -> ModeEntry {
+fn entry(model: &LumpedModel, NamedModes { name, group, first }: &NamedModes) -> ModeEntry {
     let mut kinetic: BTreeMap<String, f64> = BTreeMap::new();
     for energy in kinetic_energy(model, group) {
         *kinetic.entry(energy.of.kind_name().to_owned()).or_default() += energy.share;
@@ -248,7 +251,8 @@ fn entry(model: &LumpedModel, group: &ModeGroup) -> ModeEntry {
         frequency_hz: group.frequency_hz,
         uncertainty_hz: group.uncertainty * group.frequency_hz,
         stated_error: None,
-        mode_type: group.mode_type.name().to_owned(),
+        mode_type: (*name).to_owned(),
+        group: *first,
         multiplicity: group.multiplicity,
         participation: KindShares { rotational, translational, planet },
         kinetic_energy: kinetic,

@@ -58,7 +58,7 @@ pub(super) fn run(arguments: &Stability, out: &mut dyn Write, err: &mut dyn Writ
     let scene = match &arguments.scene {
         Some(path) => {
             let scene = read_scene(path, err)?;
-            needs::warn(&scene, None, err)?;
+            needs::warn(&scene, None, None, err)?;
             scene
         }
         None => built_in()?,

@@ -17,7 +17,7 @@ use scene::{Scene, SceneKind, Verb};
 
 use crate::arguments::Static;
 use crate::error::{Result, refused, unfit};
-use crate::inputs::{loads, needs, read_scene};
+use crate::inputs::{loads, needs, read_scene, within_memory};
 
 pub(crate) fn run(arguments: &Static, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let scene = read_scene(&arguments.scene, err)?;
@@ -29,7 +29,12 @@ pub(crate) fn run(arguments: &Static, out: &mut dyn Write, err: &mut dyn Write) 
         return Err(refused(option, "has no use without --approach-um, which turns a gear pair"));
     }
     let path = &arguments.scene;
-    needs::warn(&scene, arguments.figures.as_deref(), err)?;
+    needs::warn(&scene, Some(Verb::Static), arguments.figures.as_deref(), err)?;
+    // Where settings are chosen, so is the number of positions; an approach has one.
+    if auto::request(&scene).is_none() && arguments.approach_um.is_none() {
+        let positions = ("--positions", arguments.position_count());
+        within_memory(path, &scene, positions, arguments.large)?;
+    }
     match scene.kind {
         SceneKind::GearPair if arguments.approach_um.is_some() => {
             approach::run(arguments, &scene, out, err)

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use experiments::auto::{AmplitudeQuestion, choose_amplitude};
-use scene::{AutoQuantity, AutoResponse, Scene};
+use scene::{AutoQuantity, AutoResponse, Scene, Verb};
 
 use super::Task;
 use super::result::SweepOutput;
@@ -28,7 +28,7 @@ pub(super) fn run(
     response: AutoResponse,
     out: &mut dyn Write,
     err: &mut dyn Write,
-) -> Result<()> {
+) -> Result<bool> {
     let one_motion = "compares settings by one motion at each speed";
     let named_speeds = "gives the largest amplitude over the speeds that are named";
     let no_folder = "has no folder of points, which belong to one named fidelity";
@@ -40,7 +40,12 @@ pub(super) fn run(
         ("--harmonics", arguments.harmonics > 5, "chooses steps that resolve up to 5 harmonics"),
         ("--out", arguments.out.is_some(), no_folder),
     ])?;
-    needs::warn(scene, arguments.figures.as_deref(), err)?;
+    needs::warn(
+        scene,
+        Some(Verb::Sweep(scene.dynamics.fidelity)),
+        arguments.figures.as_deref(),
+        err,
+    )?;
     let speeds_rpm = plan.chains.iter().flat_map(|c| c.speeds_rpm.iter().copied()).collect();
     let tolerance_percent = scene.dynamics.auto.map_or(f64::NAN, |a| a.tolerance_percent);
     let steady = plan.steady.clone();
@@ -67,6 +72,7 @@ pub(super) fn run(
         _ => Ok(()),
     };
     // What was computed is shown also where its figures cannot be saved.
-    let shown = output::show(arguments.format, &result.chosen_by(found.choice), out);
-    saved.and(shown).and(said)
+    let result = result.chosen_by(found.choice);
+    let shown = output::show(arguments.format, &result, out);
+    saved.and(shown).and(said).map(|()| result.failed.is_empty())
 }

@@ -24,7 +24,7 @@ use crate::arguments::{Format, Sweep as SweepArguments};
 use crate::error::{Result, fe_refused, refused, unfit};
 use crate::folder::{Claim, KeptFiles, Manifest, PLAN, write_results};
 use crate::inputs::needs::{self, not_ring_pair};
-use crate::inputs::{Working, loads, progress, read_scene, scene_text};
+use crate::inputs::{Working, loads, progress, read_scene, scene_text, within_memory};
 use crate::output;
 use folder::PEAKS;
 
@@ -35,12 +35,12 @@ const SPAN: f64 = 0.04;
 const PROMINENT: f64 = 1.25;
 
 /// Runs the sweep: results to `out`; beside a table on `out`, which has no place for them, speeds that could
-/// not be computed go to `err`.
+/// not be computed go to `err`. Whether every speed could be computed.
 pub(super) fn run(
     arguments: &SweepArguments,
     out: &mut dyn Write,
     err: &mut dyn Write,
-) -> Result<()> {
+) -> Result<bool> {
     let path = &arguments.scene;
     let scene = read_scene(path, err)?;
     let task = Task::new(arguments, &scene, err)?;
@@ -49,7 +49,12 @@ pub(super) fn run(
     }
     // Bodies and tables take minutes: a folder that cannot be used is refused before.
     let _claim = task.claim()?;
-    needs::warn(&scene, arguments.figures.as_deref(), err)?;
+    needs::warn(
+        &scene,
+        Some(Verb::Sweep(scene.dynamics.fidelity)),
+        arguments.figures.as_deref(),
+        err,
+    )?;
     let working = Working::new("meshing the bodies and laying out tables");
     let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
     let model = turning::model(arguments.model, &scene, &bodies, task.case)?;
@@ -80,7 +85,7 @@ pub(super) fn run(
         Format::Csv => result.write_failed(err),
         _ => Ok(()),
     };
-    saved.and(shown).and(said)
+    saved.and(shown).and(said).map(|()| result.failed.is_empty())
 }
 
 /// Table and sidecar of a finished sweep.
@@ -160,6 +165,7 @@ impl<'a> Task<'a> {
         if auto::response(scene).is_none() {
             let steps = scene.dynamics.steps_per_cycle as usize;
             steady.check(steps).map_err(refuse("--harmonics"))?;
+            within_memory(path, scene, ("`dynamics.steps_per_cycle`", steps), arguments.large)?;
             needs::caution(&steady, steps, err)?;
         }
         let directions: &[Direction] = match arguments.both_ways {
@@ -186,15 +192,15 @@ impl<'a> Task<'a> {
 
     /// Runs one plan and stores its points if a folder is given.
     fn march(&self, model: &dyn SweepModel, plan: &Plan, manifest: &str) -> Result<Sweep> {
-        let template = "{bar:32} {pos}/{len} speeds, {eta} to go";
-        let bar = progress(template, Some(plan.points() as u64), "");
+        let template = "{bar:32} {pos}/{len} {msg}, {elapsed}, {eta} to go";
+        let bar = progress(template, Some(plan.points() as u64), "speeds");
         let store: Box<dyn PointStore> = match &self.arguments.out {
             Some(folder) => Box::new(KeptFiles::open(folder, manifest, &self.manifest(plan)?)?),
             None => Box::new(Memory),
         };
         let done = |_: &Kept| bar.inc(1);
         let found = run_plan(model, plan, store.as_ref(), &done);
-        bar.finish_and_clear();
+        drop(bar);
         found.map_err(|e| match e {
             SweepError::Fe(e) => unfit(&self.arguments.scene, e),
             other => other.into(),

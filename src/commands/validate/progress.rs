@@ -3,20 +3,22 @@
 use std::io::Write;
 use std::sync::{Mutex, PoisonError};
 
-use indicatif::ProgressBar;
 use validation::Progress;
 
-use crate::inputs::progress;
+use crate::inputs;
 
 /// Writes the progress of the suites to `err`.
 pub(super) struct SuiteProgress<'e> {
     err: Mutex<&'e mut (dyn Write + Send)>,
-    running: ProgressBar,
+    running: inputs::Progress,
 }
 
 impl<'e> SuiteProgress<'e> {
     pub(super) fn new(err: &'e mut (dyn Write + Send)) -> Self {
-        Self { err: Mutex::new(err), running: progress("{spinner} {msg} {elapsed}", None, "") }
+        Self {
+            err: Mutex::new(err),
+            running: inputs::progress("{spinner} {msg} {elapsed}", None, ""),
+        }
     }
 
     pub(super) fn tell(&self, progress: Progress<'_>) {
