@@ -10,9 +10,6 @@ use super::named::{cycle_position, part};
 use crate::results::known_scenes::KnownScene;
 use crate::results::table::{Column, Content, Quantity, Remark, Table, TableError};
 
-/// Positions are told apart to this part of a cycle.
-const POSITIONS: f64 = 1e7;
-
 /// Longest table that is read, bytes.
 const MOST_BYTES: u64 = 50_000_000;
 
