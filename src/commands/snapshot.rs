@@ -130,6 +130,7 @@ fn table<'r>() -> Table<'r, &'r Moved> {
         .column("digits_before", "", |m| m.digits_before)
         .column("digits_now", "", |m| m.digits_now)
         .shown_as("correct digits", digits)
+        .column("direction", "", |m| m.direction())
 }
 
 impl Report for DriftOutput {

@@ -41,6 +41,18 @@ fn compare_takes_letter_case_an_index_column_and_a_table_that_ends() {
 }
 
 #[test]
+fn compare_takes_the_rows_of_its_scene_from_a_results_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("modes.csv");
+    let text = "scene,frequency_hz\noh58_4p_as_published,768.75\nlin_parker_1999_3p,743.164\n";
+    std::fs::write(&path, text).unwrap();
+    let set = scene("oh58_4p_as_published.toml");
+    let (code, out, err) = run(&["compare", path.to_str().unwrap(), "--scene", &set]);
+    assert_eq!(code, 0, "{out}{err}");
+    assert!(out.contains("1 rows are of other scenes and left out"), "{out}");
+}
+
+#[test]
 fn bad_tables_of_modes_name_line_and_column() {
     let folder = tempfile::tempdir().unwrap();
     let cases = [

@@ -269,4 +269,64 @@ fn a_baseline_that_is_none_ends_with_2() {
     let (code, out, err) = run(&["snapshot", &folder, "--check"]);
     assert_eq!((code, out.as_str()), (2, ""));
     assert!(err.contains("is no baseline") && err.contains("epicyclic snapshot RESULTS"), "{err}");
+    // A value that is none, another unit, a row twice.
+    run(&["snapshot", &folder]);
+    let stored = fs::read_to_string(&baseline).unwrap();
+    let (head, rows) = stored.split_once('\n').unwrap();
+    for (text, fault) in [
+        (
+            stored.replacen(",2000.0,", ",inf,", 1),
+            "line 2: `lumped.lin_parker_1999_4p.frequency.rotational.2`: the value is inf",
+        ),
+        (stored.replacen(",Hz,", ",kHz,", 1), "the unit is `kHz`, and that of the results `Hz`"),
+        (
+            format!("{head}\n{rows}{rows}"),
+            "line 4: `lumped.lin_parker_1999_4p.frequency.rotational.2`: the row is there twice",
+        ),
+    ] {
+        fs::write(&baseline, text).unwrap();
+        let (code, out, err) = run(&["snapshot", &folder, "--check"]);
+        assert_eq!((code, out.as_str()), (2, ""));
+        assert!(err.contains(fault), "{fault}: {err}");
+    }
+}
+
+#[test]
+fn matrices_stiffness_and_peaks_are_guarded_too() {
+    let parent = tempfile::tempdir().unwrap();
+    let folder = parent.path().join("mine");
+    fs::create_dir_all(folder.join("matrices")).unwrap();
+    let mass = |first: &str| {
+        let row = |i: usize| {
+            (0..17).map(move |j| {
+                if i != j {
+                    "0"
+                } else if i == 0 {
+                    first
+                } else {
+                    "1"
+                }
+            })
+        };
+        (0..17).map(|i| row(i).collect::<Vec<_>>().join(",") + "\n").collect::<String>()
+    };
+    let matrix = folder.join("matrices/oh58_4p.M.csv");
+    fs::write(&matrix, mass("1")).unwrap();
+    let stiffness = |k: u32| {
+        let head = "scene,sun_torque_nm,body,position,stiffness_n_per_m\n".to_owned();
+        let row = |n: u32| format!("oh58_4p,1130,sun_mesh_0,{},{}\n", f64::from(n) / 28.0, k + n);
+        head + &(0..28).map(row).collect::<String>()
+    };
+    let table = folder.join("mesh_stiffness.csv");
+    fs::write(&table, stiffness(500_000_000)).unwrap();
+    let peaks = "scene,sun_torque_nm,body,coordinate,harmonic,frequency_hz,amplitude\noh58_4p,565,sun,rotation,2,1150,1e-5\n";
+    fs::write(folder.join("torque_peaks.csv"), peaks).unwrap();
+    let path = folder.to_str().unwrap();
+    let (code, out, err) = run(&["snapshot", path]);
+    assert!(code == 0 && out.contains("stored 46 values"), "{out} {err}");
+    fs::write(&matrix, mass("2")).unwrap();
+    fs::write(&table, stiffness(600_000_000)).unwrap();
+    fs::write(folder.join("torque_peaks.csv"), peaks.replace("1e-5", "2e-5")).unwrap();
+    let (code, out, _) = run(&["snapshot", path, "--check"]);
+    assert!(code == 1 && out.contains("46 values compared") && out.contains(": 30 moved"), "{out}");
 }

@@ -111,6 +111,15 @@ fn check_lists_every_table_and_names_the_teeth_that_rules_need() {
     assert_eq!(code, 0, "{err}");
     let line = out.lines().find(|line| line.starts_with("rules.csv")).unwrap();
     assert!(line.contains("oh58_4p") && line.contains('1'), "{line}");
+    // Peaks under torques of which no suite asks, beside a table that is judged.
+    let peaks = "scene,sun_torque_nm,body,coordinate,harmonic,frequency_hz,amplitude\noh58_4p,0.565,sun,rotation,2,1150,1e-9\n";
+    write("torque_peaks.csv", peaks);
+    let (code, out, err) = run(&["validate", "--recorded", path]);
+    assert_eq!(code, 0, "{err}");
+    assert!(
+        out.contains("torque_peaks.csv: no check uses it; torque needs torque_peaks.csv of"),
+        "{out}"
+    );
     write("rules.csv", "scene,harmonic,excites\nlin_parker_1999_4p,1,translational\n");
     write(
         "torque_peaks.csv",

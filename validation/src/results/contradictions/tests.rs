@@ -116,6 +116,39 @@ fn tables_that_are_right_have_none() {
 }
 
 #[test]
+fn positions_that_are_not_even_and_a_sun_that_turns_against_its_torque() {
+    let head = "scene,sun_torque_nm,position,body,coordinate,value\n";
+    let turned = |place: fn(f64) -> f64, turn: f64| {
+        let mut text = head.to_owned();
+        for k in 0..POSITIONS {
+            let at = place(k as f64 / POSITIONS as f64);
+            writeln!(text, "oh58_4p,1413,{at},sun,rotation,{}", turn * (1.0 + at)).unwrap();
+        }
+        found("mesh_cycle.csv", &text)
+    };
+    assert_eq!(turned(|at| at, 0.01), [""; 0]);
+    // Rows of one position that differ in the last bits are rows of one position.
+    assert_eq!(turned(|at| at + 1e-12, 0.01), [""; 0]);
+    for (place, what) in [
+        ((|at| 0.5 * at) as fn(f64) -> f64, "0.4821429 and 0 leave a gap"),
+        (|at| at * 28.0 / 27.0, "1 and 0 are one position of the cycle"),
+        (|at| at.powf(1.5), "leave a gap"),
+    ] {
+        let [one] = turned(place, 0.01).try_into().unwrap();
+        let stated = one.contains("column `position`: positions are not even: ");
+        assert!(stated && one.contains(what), "{one}");
+    }
+    assert_eq!(
+        turned(|at| at, -0.01),
+        [
+            "mesh_cycle.csv:2 and mesh_cycle.csv:29: column `value`: the sun turns by -1.4821428571428572e-2 rad on average \
+             under 1413 N·m, against its torque: give torque and rotation counter-clockwise positive, the rotation from the \
+             unloaded place"
+        ]
+    );
+}
+
+#[test]
 fn every_force_1_n_under_1413_nm() {
     assert_eq!(
         found("mesh_cycle.csv", &cycle(POSITIONS, |_, _, _| 1.0)),
@@ -271,6 +304,10 @@ fn a_harmonic_of_a_scene_with_two_rules() {
     );
 }
 
+fn validation_scene(id: &str) -> String {
+    epicyclic_data::text(&format!("scenes/{id}.toml")).unwrap().to_owned()
+}
+
 #[test]
 fn what_is_misspelt_is_recognised() {
     assert_eq!(
@@ -295,6 +332,21 @@ fn what_is_misspelt_is_recognised() {
     );
     std::fs::write(folder.path().join("mine.toml"), "title = \"x\"\n").unwrap();
     assert!(ResultsFolder::read(folder.path()).is_err());
+    std::fs::remove_file(folder.path().join("mine.toml")).unwrap();
+    std::fs::write(folder.path().join("mesh_cycles.csv"), "x\n").unwrap();
+    let read = ResultsFolder::read(folder.path()).unwrap();
+    let last = bare(&read.remarks.last().unwrap().to_string(), folder.path());
+    let said =
+        "mesh_cycles.csv:1: kept aside, no table is called so; did you mean `mesh_cycle.csv`?";
+    assert_eq!(last, said);
+    let other = validation_scene("oh58_4p").replace("count = 4", "count = 4 # changed");
+    std::fs::write(folder.path().join("oh58_4p.toml"), &other).unwrap();
+    assert!(ResultsFolder::read(folder.path()).is_ok());
+    let other = other.replace("title = \"Army", "title = \"Mine, Army");
+    std::fs::write(folder.path().join("oh58_4p.toml"), other).unwrap();
+    let error = ResultsFolder::read(folder.path()).unwrap_err().to_string();
+    let said = "oh58_4p.toml: is called as a shipped scene and is another: give the file a name of its own";
+    assert_eq!(bare(&error, folder.path()), said);
     std::fs::create_dir(folder.path().join("results")).unwrap();
     let error = ResultsFolder::read(&folder.path().join("resluts")).unwrap_err().to_string();
     assert_eq!(
@@ -366,7 +418,7 @@ fn speeds_planets_and_quantities_that_do_not_fit() {
         found("mesh_cycle.csv", &lacking.join("\n")),
         [
             "mesh_cycle.csv:2 and mesh_cycle.csv:10: column `position`: force of sun_mesh_0 is given at position 0 and not at \
-             0.03571428571428571: give every quantity at every position"
+             0.0357143: give every quantity at every position"
         ]
     );
 }
@@ -488,7 +540,7 @@ fn mesh_stiffness_that_no_mesh_cycle_has() {
         ),
         (
             &|_, p: f64, k| (0.5 * p, k),
-            "mesh_stiffness.csv:29 and mesh_stiffness.csv:2: column `position`: positions are not even: 0.48214285714285715 and 0 leave a gap: \
+            "mesh_stiffness.csv:29 and mesh_stiffness.csv:2: column `position`: positions are not even: 0.4821429 and 0 leave a gap: \
              give positions k/n, k from 0 to n − 1: without 1 where 0 is there",
         ),
         (
