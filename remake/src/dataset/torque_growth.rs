@@ -1,6 +1,6 @@
 //! Class B: resonant peaks over torque, on a fine mesh of elements with many steps in a mesh cycle and, of
-//! `kept/torque_peaks.toml`, on those of the scene. Where `kept/exact_peaks.toml` has exact kinematics at every step, it
-//! is a third route.
+//! `kept/torque_peaks.toml`, on those of the scene. Where `kept/exact_peaks.toml` has exact kinematics at every
+//! step, it is a third route.
 
 use experiments::models::FeContact;
 use experiments::sweep::{Part, naturals};

@@ -154,7 +154,8 @@ fn turning(row: &StateRow, kind: &str) -> Row {
 const EQUAL: f64 = 1e-9;
 
 /// Correct digits of a judged number: up to what the data set has of its reference as certain, or up to the digits in
-/// which a published reference is printed. `None` of words, of bounds and of what another kind of model is shown beside.
+/// which a published reference is printed. `None` of words, of bounds and of what another kind of model is shown
+/// beside.
 pub fn digits_of(check: &Check, kind: ModelKind) -> Option<f64> {
     let (Value::Number(expected), Some(Value::Number(given))) = (&check.expected, &check.actual)
     else {
