@@ -23,8 +23,8 @@ pub struct ModeList {
 }
 
 impl ModeList {
-    /// Reads a list of natural frequencies of `scene`, whose id is `id`: columns of `modes.csv`, of which `scene` is not
-    /// needed. Rows of other shipped scenes are left out.
+    /// Reads a list of natural frequencies of `scene`, whose id is `id`: columns of `modes.csv`, of which `scene` is
+    /// not needed. Rows of other shipped scenes are left out.
     ///
     /// # Errors
     /// [`TableError`] with file, line, column and remedy of the first fault.
