@@ -352,7 +352,7 @@ fn contradictions_of_matrices_name_their_entries() {
             right_m.clone(),
             right_k.clone(),
             Some(listed),
-            "modes.csv:4: 1075.2 Hz, and M.csv with K.csv has 1102.42 Hz as the nearest: write table and matrices from \
+            "modes.csv:4: column `frequency_hz`: 1075.2 Hz, and M.csv with K.csv has 1102.42 Hz as the nearest: write table and matrices from \
              one model",
         ),
     ] {

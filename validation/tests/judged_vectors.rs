@@ -202,7 +202,7 @@ fn contradictions_of_vectors_name_their_rows() {
         (
             with(&|list| list[moving] = list[moving].replace("translational", "rotational")),
             format!(
-                "modes.csv:{}: `mode_type` is rotational, and the vector is translational: 0.0 % of its kinetic energy \
+                "modes.csv:{}: column `mode_type`: `mode_type` is rotational, and the vector is translational: 0.0 % of its kinetic energy \
                  is rotational, 100.0 % translational and 0.0 % of planets alone: leave the type out, which then \
                  follows from the vector",
                 line(moving)
@@ -248,7 +248,7 @@ fn contradictions_of_vectors_name_their_rows() {
     let rows: Vec<String> = right.iter().enumerate().map(times).collect();
     let text = table(&model, &rows).replacen("frequency_hz,", "frequency_hz,multiplicity,", 1);
     let found = judged(folder(&manifest(set), &[("modes.csv", &text)]).path()).unwrap_err();
-    let message = "modes.csv:5: one vector with multiplicity 2: write a row for each vector, each of multiplicity 1";
+    let message = "modes.csv:5: column `multiplicity`: one vector with multiplicity 2: write a row for each vector, each of multiplicity 1";
     assert!(found.lines().any(|line| line == message), "{found}");
     // The OH-58 holds its ring.
     let (_, held) = self::model(PublishedScene::Oh58FourPlanets);
