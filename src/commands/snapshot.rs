@@ -34,7 +34,7 @@ pub(crate) fn run(arguments: &Snapshot, out: &mut dyn Write) -> Result<bool> {
     if !contradictions.is_empty() {
         return Err(JudgeError::Contradictions(contradictions).into());
     }
-    let now = given_rows(&folder);
+    let now: Vec<Row> = given_rows(&folder, folder.kind(None)).collect();
     if now.is_empty() {
         let reason = "no table has a value that can be stored".to_owned();
         return Err(CommandError::Results { path: arguments.results.clone(), reason });
@@ -43,7 +43,7 @@ pub(crate) fn run(arguments: &Snapshot, out: &mut dyn Write) -> Result<bool> {
     if !arguments.check {
         let text = write_rows(&now).map_err(std::io::Error::from).map_err(unwritten(&path))?;
         std::fs::write(&path, text).map_err(unwritten(&path))?;
-        let scores = scores(&now);
+        let scores = scores(now.iter().cloned());
         let known: usize = scores.iter().map(|score| score.values).sum();
         if known > 0 {
             score_table().text(scores, out)?;

@@ -105,12 +105,12 @@ pub fn judge_model(
     models: &Models<'_>,
     only: impl Into<Selection>,
 ) -> Result<Verdict, ValidationError> {
-    judge_with(models, &only.into(), &Accepted::default(), &|_, _| Ok(Vec::new()))
+    judge_with(models, &only.into(), &Accepted::default(), false, &|_, _| Ok(Vec::new()))
 }
 
 /// The same with `further` checks, which may say more of what suites lack; `accepted` are rows that this model is known
-/// to miss, beside those that are listed
-/// for the models of this project, and thresholds.
+/// to miss, beside those that are listed for the models of this project, and thresholds. Of tables (`are_tables`) what
+/// is exact is asked to printed digits.
 ///
 /// # Errors
 /// As [`judge_model`].
@@ -118,6 +118,7 @@ pub(crate) fn judge_with(
     models: &Models<'_>,
     only: &Selection,
     accepted: &Accepted,
+    are_tables: bool,
     further: &dyn Fn(&Reference, &mut Vec<NotAsked>) -> suites::Checks,
 ) -> Result<Verdict, ValidationError> {
     if models.is_empty() {
@@ -133,26 +134,14 @@ pub(crate) fn judge_with(
         return Err(ValidationError::NothingAsked(not_asked));
     }
     let judges = |id: &str| models.kind.is_none_or(|kind| reference.registry.judges(id, kind));
-    if models.kind.is_some() {
-        checks.iter_mut().try_for_each(|check| as_table(check, &reference))?;
+    if are_tables {
+        for check in &mut checks {
+            if let Some(judged) = reference.as_table(check)? {
+                *check = judged;
+            }
+        }
     }
     checks.iter_mut().for_each(|check| accepted.judge(check));
     let misses = [&accepted.misses[..], &reference.misses].concat();
     Ok(Verdict::of_results(checks, &misses, judges, not_asked))
-}
-
-/// Judges a number whose tolerance rests on how far this project's solvers converge by that for tables of others.
-fn as_table(check: &mut Check, reference: &Reference) -> Result<(), ValidationError> {
-    let Some(absolute) = reference.registry.check(&check.id)?.of_tables else { return Ok(()) };
-    let (Value::Number(expected), Some(Value::Number(actual))) = (&check.expected, &check.actual)
-    else {
-        return Ok(());
-    };
-    let reason = "exact by symmetry; printed digits and the solver of another program".to_owned();
-    check.tolerance = Tolerance { absolute, band: None, reason };
-    check.status = match check.tolerance.allows(actual - expected) {
-        true => Status::Pass,
-        false => Status::Fail,
-    };
-    Ok(())
 }

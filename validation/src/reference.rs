@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use crate::check::{Check, ReferenceKind, Status, Subject, Tolerance};
+use crate::check::{Check, ReferenceKind, Status, Subject, Tolerance, Value};
 use crate::judged::Judged;
 use crate::own_truth::{ExactPeaks, FullImpulse, FullSweep, Ladder, TorqueMap, TorquePeaks};
 use crate::parameter_bands::ParameterBands;
@@ -259,9 +259,16 @@ impl Reference {
     /// # Errors
     /// [`ReferenceError::Undeclared`] if the registry does not declare it.
     pub fn control(&self, id: &str, judged: &[Check]) -> Result<Check, ReferenceError> {
-        let ControlEntry { spoils, breaks, .. } = self.registry.control(id)?;
-        let found = judged.iter().find(|c| c.id == *breaks).map(|c| c.status);
-        let word = match found {
+        let ControlEntry { spoils, breaks, time_grid_only, .. } = self.registry.control(id)?;
+        let broken = judged.iter().find(|c| c.id == *breaks);
+        let in_tables = match broken {
+            Some(check) if !time_grid_only => self.as_table(check)?,
+            _ => None,
+        };
+        let word = match broken.map(|c| c.status) {
+            Some(Status::Fail) if in_tables.is_some_and(|c| c.status == Status::Pass) => {
+                "passes as a table"
+            }
             Some(Status::Fail) => "fails",
             Some(_) => "passes",
             None => "is not there",
@@ -275,6 +282,24 @@ impl Reference {
             unit: "",
         };
         Ok(Check::equal(subject, "fails", word))
+    }
+}
+
+impl Reference {
+    /// A check by the tolerance for tables of another program; `None` where it has no such.
+    pub(crate) fn as_table(&self, check: &Check) -> Result<Option<Check>, ReferenceError> {
+        let entry = self.registry.check(&check.id)?;
+        let (Some(absolute), Value::Number(expected), Some(Value::Number(actual))) =
+            (entry.tables_absolute, &check.expected, &check.actual)
+        else {
+            return Ok(None);
+        };
+        let tolerance = Tolerance { absolute, band: None, reason: entry.tables_reason.clone() };
+        let status = match tolerance.allows(actual - expected) {
+            true => Status::Pass,
+            false => Status::Fail,
+        };
+        Ok(Some(Check { tolerance, status, ..check.clone() }))
     }
 }
 

@@ -75,7 +75,10 @@ pub struct CheckEntry {
     pub percent: Option<f64>,
     /// Largest |actual − expected| of another program's tables, in the unit, where `absolute` rests on how far this
     /// project's solvers converge.
-    pub of_tables: Option<f64>,
+    pub tables_absolute: Option<f64>,
+    /// Reason for that.
+    #[serde(default)]
+    pub tables_reason: String,
     /// The range of actual − expected that unknown parameters explain, from `kept/parameter_bands.toml`.
     #[serde(default)]
     pub parameter_band: bool,
@@ -100,6 +103,9 @@ pub struct ControlEntry {
     pub spoils: String,
     /// Id of the check that must fail.
     pub breaks: String,
+    /// Whether what is spoilt is the time grid, which tables of another program do not show.
+    #[serde(default)]
+    pub time_grid_only: bool,
 }
 
 impl Registry {

@@ -125,6 +125,6 @@ fn scores_see_shifts_beyond_the_uncertainty() {
     let row = values.row("lumped.oh58_4p.frequency.rotational.2").unwrap();
     let rounded: f64 = format!("{:.3e}", row.value).parse().unwrap();
     let coarser: f64 = format!("{:.1e}", row.value).parse().unwrap();
-    let score = |value: f64| scores(&[Row { value, ..row.clone() }])[0].fewest_digits;
+    let score = |value: f64| scores([Row { value, ..row.clone() }].into_iter())[0].fewest_digits;
     assert!(score(rounded) > 3.0 && score(coarser) < score(rounded) - 1.0);
 }

@@ -415,6 +415,41 @@ fn misses_that_an_author_accepts_are_misses_at_their_pinned_value_alone() {
     assert!(refusal.contains("accepted.list:1") && refusal.contains("[[miss]]"), "{refusal}");
 }
 
+/// Numbers of four digits are judged as such: the mesh cycle of the data set passes when it is rounded, and a planet
+/// that carries 1 % more does not.
+#[test]
+fn symmetries_of_tables_are_judged_to_printed_digits() {
+    let rows = validation::certified::CertifiedValues::shipped().rows();
+    let is_asked = |row: &&validation::certified::Row| {
+        row.kind == "fe_contact" && row.scene == "oh58_3p" && row.position.is_some()
+    };
+    let rows: Vec<_> = rows.filter(is_asked).filter(|row| !row.coordinate.is_empty()).collect();
+    assert!(rows.len() >= 28 * 9);
+    let table = |more: f64| {
+        let mut text = "sun_torque_nm,position,body,coordinate,value\n".to_owned();
+        for row in &rows {
+            let factor = match row.subject.as_str() {
+                "sun_mesh_1" => 1.0 + more,
+                "sun_mesh_2" => 1.0 - more,
+                _ => 1.0,
+            };
+            let (at, body, coordinate) = (row.position.unwrap(), &row.subject, &row.coordinate);
+            let value = factor * row.value;
+            writeln!(text, "1413,{at:.4},{body},{coordinate},{value:.3e}").unwrap();
+        }
+        let folder = folder("fe_contact", &[("mesh_cycle.csv", &text)]);
+        let file = folder.path().join("results.toml");
+        let manifest = std::fs::read_to_string(&file).unwrap() + "scene = \"oh58_3p\"\n";
+        std::fs::write(file, manifest).unwrap();
+        judged(folder.path(), &Judgement::default()).unwrap()
+    };
+    let rounded = table(0.0);
+    assert_eq!((count(&rounded, "fe.sets", Status::Pass), rounded.failed), (2, 0), "{rounded:#?}");
+    let check = rounded.checks.iter().find(|check| check.id == "fe.sets.sharing.three").unwrap();
+    assert_eq!(check.tolerance.absolute, 1e-3);
+    assert_eq!(count(&table(0.01), "fe.sets.sharing.three", Status::Fail), 1);
+}
+
 #[test]
 fn a_test_that_asks_nothing_is_an_error() {
     assert!(matches!(judge_model(&Models::default(), ""), Err(ValidationError::NoModel)));

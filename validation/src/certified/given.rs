@@ -7,49 +7,57 @@ use serde::Serialize;
 use crate::check::{Check, ReferenceKind, Status, Value};
 use crate::model_kind::ModelKind;
 use crate::results::{
-    CycleRow, GivenMatrix, MatrixKind, ModeRow, PeakRow, ResultsFolder, StateRow,
+    CycleRow, GivenMatrix, MatrixKind, ModeRow, PeakRow, ResultsFolder, RuleRow, StateRow,
+    StiffnessRow,
 };
 
 use super::row::Row;
 use super::score::correct_digits;
 use super::table::CertifiedValues;
 
-/// Values of a results folder as rows of class C: ids are those of the data set where it has the same value.
-pub fn given_rows(folder: &ResultsFolder) -> Vec<Row> {
-    let kind = folder.kind(None).name();
-    let mut rows = modes(&folder.modes, kind);
-    rows.extend(folder.mesh_cycle.iter().map(|row| at_rest(row, kind)));
-    rows.extend(folder.steady_states.iter().map(|row| turning(row, kind)));
-    rows.extend(folder.mesh_stiffness.iter().map(|row| Row {
+/// Values of a results folder as rows of class C, one after the other, for tables may be large: ids are those of the
+/// data set where it has the same value of that kind of model.
+pub fn given_rows(folder: &ResultsFolder, kind: ModelKind) -> impl Iterator<Item = Row> + '_ {
+    let kind = kind.name();
+    let stiffness = move |row: &StiffnessRow| Row {
         sun_torque_nm: Some(row.sun_torque_nm),
         position: Some(row.position),
         ..Row::new(&row.scene.id, kind, "mesh_stiffness", &row.part.name(), row.stiffness_n_per_m)
-    }));
-    rows.extend(peaks(&folder.torque_peaks, kind));
-    for set in &folder.matrices {
-        rows.extend(
-            set.each().flat_map(|(which, given)| entries(&set.scene.id, which, given, kind)),
-        );
-    }
-    for rule in &folder.rules {
-        let kinds = rule.excites;
-        for (name, is_excited) in [
-            ("rotational", kinds.rotational),
-            ("translational", kinds.translational),
-            ("planet", kinds.planet),
-        ] {
-            let value = f64::from(u8::from(is_excited));
-            let row = Row::new(&rule.scene.id, "geometry", "excites", name, value);
-            rows.push(Row { harmonic: Some(rule.harmonic as u32), ..row });
-        }
-    }
+    };
+    let matrices = folder.matrices.iter().flat_map(move |set| {
+        set.each().flat_map(move |(which, given)| entries(&set.scene.id, which, given, kind))
+    });
+    let rows = modes(&folder.modes, kind)
+        .into_iter()
+        .chain(folder.mesh_cycle.iter().map(move |row| at_rest(row, kind)))
+        .chain(folder.steady_states.iter().map(move |row| turning(row, kind)))
+        .chain(folder.mesh_stiffness.iter().map(stiffness))
+        .chain(peaks(&folder.torque_peaks, kind))
+        .chain(matrices)
+        .chain(folder.rules.iter().flat_map(excited));
     let program = folder.manifest.program.as_deref().unwrap_or("results");
-    for row in &mut rows {
+    let version = folder.manifest.version.as_deref().unwrap_or_default();
+    rows.map(move |mut row| {
         row.id = row.name();
         row.routes = program.to_owned();
-        row.version = folder.manifest.version.clone().unwrap_or_default();
-    }
-    rows
+        row.version = version.to_owned();
+        row
+    })
+}
+
+/// Kinds of modes that a harmonic excites, a row each.
+fn excited(rule: &RuleRow) -> [Row; 3] {
+    let kinds = rule.excites;
+    [
+        ("rotational", kinds.rotational),
+        ("translational", kinds.translational),
+        ("planet", kinds.planet),
+    ]
+    .map(|(name, is_excited)| {
+        let value = f64::from(u8::from(is_excited));
+        let row = Row::new(&rule.scene.id, "geometry", "excites", name, value);
+        Row { harmonic: Some(rule.harmonic as u32), ..row }
+    })
 }
 
 /// Rigid-body motion is below this, Hz.
@@ -217,11 +225,11 @@ fn partner<'v>(given: &Row, values: &'v CertifiedValues) -> Option<&'v Row> {
 }
 
 /// Scores of rows that the data set has too, by scene and quantity.
-pub fn scores(given: &[Row]) -> Vec<Score> {
+pub fn scores(given: impl Iterator<Item = Row>) -> Vec<Score> {
     let values = CertifiedValues::shipped();
     let mut groups: Vec<(&Row, Vec<(f64, &Row)>)> = Vec::new();
     for row in given {
-        let Some(kept) = partner(row, values) else { continue };
+        let Some(kept) = partner(&row, values) else { continue };
         let largest = values.largest(kept);
         // Zero by symmetry: nothing but the uncertainty says how near a value must be.
         let is_zero = largest <= kept.uncertainty;

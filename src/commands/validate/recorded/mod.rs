@@ -98,7 +98,7 @@ pub(super) fn run(arguments: &Validate, folder: &Path, out: &mut dyn Write) -> R
         remarks.push("types of modes are not asked of a model of rotations alone".to_owned());
     }
     let scenes = JudgedScene::of_folder(&read);
-    let scores = scores(&given_rows(&read));
+    let scores = scores(given_rows(&read, read.kind(arguments.kind)));
     let about = About {
         folder: folder.display().to_string(),
         kind: read.kind(arguments.kind),

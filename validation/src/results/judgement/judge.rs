@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use experiments::BodiesCache;
+use experiments::models::Recorded;
 use gearset::AllowedKinds;
 
 use crate::check::Check;
@@ -78,9 +79,9 @@ impl ResultsFolder {
             peaks: Some(&tables),
         };
         let beside = |reference: &Reference, not_asked: &mut Vec<NotAsked>| {
-            self.beside(kind, &modes, reference, not_asked)
+            self.beside(kind, &modes, &tables, reference, not_asked)
         };
-        let mut verdict = crate::judge_with(&models, &how.only, &how.accepted, &beside)?;
+        let mut verdict = crate::judge_with(&models, &how.only, &how.accepted, true, &beside)?;
         // What a table that is there lacks comes before what lacks its table.
         let is_there = |lack: &NotAsked| {
             self.tables().any(|table| {
@@ -116,6 +117,7 @@ impl ResultsFolder {
         &self,
         kind: ModelKind,
         modes: &[ModeRow],
+        tables: &Recorded,
         reference: &Reference,
         not_asked: &mut Vec<NotAsked>,
     ) -> Result<Vec<Check>, ValidationError> {
@@ -178,7 +180,7 @@ impl ResultsFolder {
             let needs = "mesh_stiffness.csv of any scene with tooth geometry";
             lacks("pair_stiffness", needs.to_owned());
         }
-        let (tables, gears) = (self.recorded(), BodiesCache::default());
+        let gears = BodiesCache::default();
         for KnownScene { id, scene } in with_stiffness {
             let cycles = tables.mesh_stiffness.iter().filter(|(title, _)| *title == scene.title);
             let cycles: Vec<_> = cycles.map(|(_, cycle)| cycle).collect();

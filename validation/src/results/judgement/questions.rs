@@ -50,7 +50,7 @@ impl ResultsFolder {
         };
         let (mut checks, mut not_asked) =
             suites::foreign(&reference, &models, &Selection::default())?;
-        checks.extend(self.beside(kind, &modes, &reference, &mut not_asked)?);
+        checks.extend(self.beside(kind, &modes, &tables, &reference, &mut not_asked)?);
         let mut asked: Vec<AskedSuite> = Vec::new();
         for check in &checks {
             let suite = reference.registry.suite_of(&check.id).map_or("", |s| s.name.as_str());
