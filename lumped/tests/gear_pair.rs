@@ -52,6 +52,21 @@ fn rigid_bearings_leave_one_frequency_and_the_rigid_rotation() {
     close(found[1], expected, 1e-12);
 }
 
+/// The pair of Kahraman & Singh (1991) as a public script gives it, two gears of 50 mm base radius, without tooth geometry.
+/// With r²/J twice, √(2 k r²/J)/2π = 6469.16 Hz.
+#[test]
+fn a_pair_without_geometry_has_natural_frequencies() {
+    let scene = Scene::from_toml(
+        "format = 1\nkind = \"gear_pair\"\nmesh = \"sun_planet\"\n[lumped]\n\
+         inertia_kg_m2 = { sun = 0.00115, planet = 0.00115 }\nradius_mm = { sun = 50, planet = 50 }\n\
+         mesh_n_per_m = { sun_planet = 3.8e8 }\npressure_angle_deg = { sun_planet = 20 }\n",
+    );
+    let found = frequencies(&scene.unwrap());
+    assert_eq!(found.len(), 2);
+    assert!(found[0] < 1e-3, "{found:?}");
+    assert!((found[1] - 6469.16).abs() < 5e-3, "{found:?}");
+}
+
 /// With equal gears the motions in and out of phase decouple. Along the line of action, with p = v_s − v_p and
 /// w = u_s + u_p: m/2 p̈ + k_b/2 p + k(p + w) = 0 and J/2r² ẅ + k_t/2r² w + k(p + w) = 0. In v_s + v_p and at right
 /// angles to the line of action each gear vibrates on its bearing alone, in u_s − u_p on its shaft.

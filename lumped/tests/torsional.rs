@@ -45,6 +45,26 @@ fn a_wind_turbine_stage_has_the_frequencies_of_an_independent_torsional_model() 
     }
 }
 
+/// A stage of ratio 5 with teeth and pins of 1e12 N/m, whose carrier twists a shaft of 1e6 N·m/rad: all turn as one, so
+/// that J = J_c + 5² J_s + N m_p a² + N J_p (Z_r/Z_p − 1)² and f = √(k/J)/2π = 13.528 Hz.
+#[test]
+fn a_rigid_stage_reflects_the_inertia_of_its_sun() {
+    let set = Scene::from_toml(
+        "format = 1\nkind = \"planetary\"\nplanets.count = 3\nteeth = { sun = 18, planet = 27, ring = 72 }\n\
+         geometry = { rack.module_mm = 10, face_width_mm = 100 }\n[sun]\nbearing_n_per_m = 1e9\n\
+         [ring]\nmotion = \"held\"\n[carrier]\nbearing_n_per_m = 1e9\ntorsional_nm_per_rad = 1e6\n\
+         [planet]\nbearing_n_per_m = 1e12\n[lumped]\nmass_kg = { sun = 20, planet = 40, carrier = 200 }\n\
+         inertia_kg_m2 = { sun = 5, planet = 0.4, carrier = 4 }\n\
+         mesh_n_per_m = { sun_planet = 1e12, ring_planet = 1e12 }\n",
+    );
+    let first = frequencies(&LumpedModel::from_scene(&set.unwrap()).unwrap())[0];
+    let (a, planets) = (0.225f64, 3.0);
+    let inertia =
+        4.0 + 25.0 * 5.0 + planets * (40.0 * a * a + 0.4 * (72.0f64 / 27.0 - 1.0).powi(2));
+    let rigid = (1e6 / inertia).sqrt() / std::f64::consts::TAU;
+    assert!((rigid - 13.528).abs() < 5e-4 && (first / rigid - 1.0).abs() < 1e-4, "{first} {rigid}");
+}
+
 const STAGE: &str = r#"
 format = 1
 kind = "planetary"

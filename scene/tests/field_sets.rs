@@ -234,6 +234,8 @@ fn what_is_out_of_scope_is_recognised() {
         ("geometry.planet", "lead_crowning_um = 5", "face_width_mm"),
         ("lubrication", "oil = \"ISO VG 320\"", "[damping]"),
         ("rack", "diametral_pitch = 8", "25.4/DP"),
+        ("lumped", "mesh_amplitude_n_per_m = 1e8", "ParametricSet"),
+        ("lumped", "mesh_phases = [0, 0.5]", "ParametricSet"),
     ] {
         let found = fault(table, line);
         assert!(
@@ -264,6 +266,11 @@ fn unknown_keys_are_guessed_by_meaning() {
             "youngs_modulus_gpa = 206",
             "did you mean `young_modulus_pa`, in another unit?",
         ),
+        ("rack", "modul_mm = 30", "did you mean `module_mm`?"),
+        ("geometry", "width_mm = 300", "did you mean `face_width_mm`?"),
+        ("material", "young_pa = 2e11", "did you mean `young_modulus_pa`?"),
+        // Of several diameters none is meant.
+        ("geometry.sun", "diameter_mm = 300", "unknown key"),
         // A mass is no stiffness, however alike the letters.
         ("planet", "bearing_kg = 2", "unknown key"),
         ("operation", "torque_n = 2", "unknown key"),
@@ -273,5 +280,25 @@ fn unknown_keys_are_guessed_by_meaning() {
             found.why == why || found.why == format!("unknown key; {why}"),
             "{table} {line}: {found}"
         );
+    }
+}
+
+/// A key that must be there and stands under another name is one fault, and so is what would follow from it.
+#[test]
+fn a_misnamed_key_is_one_fault() {
+    let template = scene::template(scene::SceneKind::Planetary);
+    for (key, other) in [
+        ("\nkind =", "\ntype ="),
+        ("\nsun = 27", "\nsun_teeth = 27"),
+        ("\ncount =", "\nnumber ="),
+        ("center_distance_mm", "centre_distance_mm"),
+        ("face_width_mm", "width_mm"),
+        ("mass_kg = {", "masses_kg = {"),
+        ("mesh_n_per_m = {", "mesh_stiffness_n_per_m = {"),
+    ] {
+        assert!(template.contains(key), "{key}");
+        let error = Scene::from_toml(&template.replacen(key, other, 1)).unwrap_err();
+        let [fault] = error.faults() else { panic!("{other}: {error}") };
+        assert!(fault.why.contains("did you mean"), "{fault}");
     }
 }

@@ -1,7 +1,7 @@
 //! Sets as reports print them: shifts of three or four digits that close the meshes only nominally, the ring's shift in
 //! either sign, and slips of which the message names the cause.
 
-use gearset::{MeshKind, MeshMember};
+use gearset::{MeshKind, MeshMember, Phasing, Spacing, excitation};
 use scene::{Fault, Remarks, Scene, warnings};
 
 /// A planetary set without operating point: teeth, distance, rack, tip, root and fillet of each gear, further lines.
@@ -334,6 +334,120 @@ fn bottom_clearance_of_nothing_is_none_missing() {
     };
     assert!(digs(&with(147.0, 152.5)) && digs(&with(148.5, 150.38)));
     assert!(!digs(&with(148.5, 150.495)) && !digs(&with(148.5, 150.5)));
+}
+
+/// A tip that reaches the mating root circle within the rounding of the diameters is told; one with clearance is not.
+#[test]
+fn missing_bottom_clearance_within_the_rounding_is_told() {
+    let warned = |tip: &str| {
+        all_warnings(&format!(
+            "format = 1\nkind = \"gear_pair\"\nmesh = \"sun_planet\"\nteeth = {{ sun = 40, planet = 75 }}\n\
+             [geometry]\ncenter_distance_mm = 115\nface_width_mm = 10\nrack = {{ module_mm = 2 }}\n\
+             sun = {{ tip_diameter_mm = {tip}, root_diameter_mm = 75, fillet_radius_mm = 0.05 }}\n\
+             planet = {{ tip_diameter_mm = 153, root_diameter_mm = 145.0, fillet_radius_mm = 0.05 }}\n"
+        ))
+    };
+    let [told] = &warned("85.002")[..] else { panic!("{:?}", warned("85.002")) };
+    let words = "it lies 1.0000e-3 mm beyond the planet's root circle, within the rounding";
+    assert!(told.contains("geometry.sun.tip_diameter_mm") && told.contains(words), "{told}");
+    assert!(warned("84").is_empty(), "{:?}", warned("84"));
+}
+
+/// Sets of reports on interference: how far which tip goes wrong, planets that overlap, bores taken for diameters.
+#[test]
+fn interference_is_told_with_its_size() {
+    let pair = |mesh: &str, teeth: &str, geometry: &str| {
+        format!(
+            "format = 1\nkind = \"gear_pair\"\nmesh = \"{mesh}\"\nteeth = {{ {teeth} }}\n[geometry]\n{geometry}"
+        )
+    };
+    let undercut = pair(
+        "sun_planet",
+        "sun = 20, planet = 8",
+        "center_distance_mm = 42\nface_width_mm = 5\nrack = { module_mm = 3, pressure_angle_deg = 14.5 }\n\
+         sun = { tip_diameter_mm = 66, root_diameter_mm = 52.5, fillet_radius_mm = 0.5 }\n\
+         planet = { tip_diameter_mm = 30, root_diameter_mm = 16.5, fillet_radius_mm = 0.5 }\n",
+    );
+    assert_only_fault(&undercut, "geometry.sun.tip_diameter_mm", &["5.1500 mm", "61.7791 mm"]);
+    let few_teeth = pair(
+        "ring_planet",
+        "planet = 68, ring = 70",
+        "center_distance_mm = 1\nface_width_mm = 10\nrack = { module_mm = 1 }\n\
+         planet = { tip_diameter_mm = 70, root_diameter_mm = 65.5, fillet_radius_mm = 0.2 }\n\
+         ring = { tip_diameter_mm = 68.5, root_diameter_mm = 72.5, fillet_radius_mm = 0.2 }\n",
+    );
+    assert_only_fault(&few_teeth, "geometry.ring.tip_diameter_mm", &["tip fouling"]);
+    let bores = pair(
+        "sun_planet",
+        "sun = 40, planet = 75",
+        "center_distance_mm = 115\nface_width_mm = 20\nrack = { module_mm = 2 }\n\
+         sun = { tip_diameter_mm = 84, root_diameter_mm = 75, bore_diameter_mm = 80 }\n\
+         planet = { tip_diameter_mm = 154, root_diameter_mm = 145, bore_diameter_mm = 150 }\n",
+    );
+    let keys: Vec<String> = faults(&bores).into_iter().map(|fault| fault.key).collect();
+    assert_eq!(keys, ["geometry.sun.bore_diameter_mm", "geometry.planet.bore_diameter_mm"]);
+    let four = DIAGNOSIS.replace("planets.count = 3", "planets.count = 4");
+    let overlaps = faults(&four);
+    assert!(overlaps.iter().all(|f| f.key == "planets.count" && f.why.contains("4.0812 mm")));
+    assert_eq!(overlaps.len(), 4, "{overlaps:?}");
+}
+
+/// A test gearbox for diagnosis from a thesis: 17/37/91, module 5, with the tips of standard teeth.
+const DIAGNOSIS: &str = "format = 1\nkind = \"planetary\"\nplanets.count = 3\n\
+    teeth = { sun = 17, planet = 37, ring = 91 }\n[planet]\nbearing_n_per_m = 5.8e7\n\
+    [geometry]\ncenter_distance_mm = 135\nface_width_mm = 6\nrack = { module_mm = 5 }\n\
+    [geometry.sun]\ntip_diameter_mm = 95\nroot_diameter_mm = 72.5\nfillet_radius_mm = 1.5\n\
+    [geometry.planet]\ntip_diameter_mm = 195\nroot_diameter_mm = 172.5\nfillet_radius_mm = 1.5\n\
+    [geometry.ring]\ntip_diameter_mm = 445\nroot_diameter_mm = 467.5\nfillet_radius_mm = 1.5\n\
+    [operation]\nfixed = \"ring\"\ninput = \"sun\"\nspeed_rpm = 800\ntorque_nm = 7.87\n";
+
+/// f_m = Z_s Z_r n_s/60 (Z_s + Z_r), contact ratios from tip circle to tip circle, γ of the ring meshes.
+#[test]
+fn a_set_of_standard_teeth_has_the_meshing_of_the_formulas() {
+    let scene = read(DIAGNOSIS).0;
+    let geometry = scene.tooth_geometry().unwrap();
+    let ratio = |kind| geometry.mesh(kind).unwrap().contact_ratio;
+    assert!((ratio(MeshKind::SunPlanet) - 1.6064).abs() < 5e-5);
+    assert!((ratio(MeshKind::RingPlanet) - 1.9418).abs() < 5e-5);
+    let phases = Phasing::new(&geometry, &scene.planets).unwrap();
+    assert!((phases.gamma() - 0.23779).abs() < 5e-6, "{}", phases.gamma());
+    let frequency = scene.kinematics().unwrap().mesh_frequency_hz;
+    assert!((frequency - 190.988).abs() < 5e-4, "{frequency}");
+}
+
+/// Stage 1 under the torque that its report prints: T/(N r_b) is 829 478.6 N in each sun mesh.
+#[test]
+fn the_force_of_each_mesh_is_that_of_the_printed_torque() {
+    let scene = read(&stage_1("sun = 0.6170, planet = 0.8021, ring = 0.5013")).0;
+    let radius = scene.tooth_geometry().unwrap().sun.unwrap().base_radius;
+    let force = 999_650.9 / 3.0 / radius;
+    assert!((force - 829_478.6).abs() < 0.05, "{force}");
+}
+
+/// Planets of published sets by the phases of their first harmonic: rotation, translation, planets against each other.
+/// Where (Z_s + Z_r)/N is not whole, the nearest steps are taken.
+#[test]
+fn planets_stand_at_the_nearest_steps_and_mesh_with_their_phasors() {
+    for (count, [z_s, z_p, z_r], steps, torque, [plus, minus], planets) in [
+        (4, [16, 16, 48], vec![0, 16, 32, 48], 1.0, [0.0, 0.0], 0.0),
+        (4, [17, 17, 51], vec![0, 17, 34, 51], 0.0, [0.0, 1.0], 0.0),
+        (4, [18, 18, 54], vec![0, 18, 36, 54], 0.0, [0.0, 0.0], 1.0),
+        (4, [18, 17, 52], vec![0, 18, 35, 53], 0.393, [0.0, 0.0], 0.920),
+        (5, [18, 17, 52], vec![0, 14, 28, 42, 56], 0.0, [0.0, 0.0], 1.0),
+        (5, [16, 17, 50], vec![0, 13, 26, 40, 53], 0.301, [0.163, 0.920], 0.221),
+    ] {
+        let scene = read(&format!(
+            "format = 1\nkind = \"planetary\"\nplanets.count = {count}\nplanet.bearing_n_per_m = 1e8\n\
+             teeth = {{ sun = {z_s}, planet = {z_p}, ring = {z_r} }}\n"
+        ))
+        .0;
+        assert_eq!(scene.planets.steps.as_deref(), Some(&steps[..]));
+        let e = excitation(&Spacing::of(&scene.planets, scene.teeth).unwrap(), z_s, 1);
+        let found = [e.net_torque, e.net_force_plus, e.net_force_minus, e.planet];
+        for (found, expected) in found.into_iter().zip([torque, plus, minus, planets]) {
+            assert!((found - expected).abs() < 6e-4, "{steps:?}: {e:?}");
+        }
+    }
 }
 
 /// Numbers between 0 and 1 that are the same in every run.

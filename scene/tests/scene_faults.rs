@@ -344,7 +344,7 @@ fn nothing_is_reported_that_only_follows_from_another_fault() {
         // Positions, base radii, meshes and angles depend on the teeth.
         (&[("sun = 27", "sun = 27.5")], &["teeth.sun"]),
         (&[("planet = 35", "")], &["teeth.planet"]),
-        (&[("\n[teeth]", "\n[teethe]")], &["teeth", "teethe"]),
+        (&[("\n[teeth]", "\n[teethe]")], &["teethe"]),
         // The kind decides what must be there.
         (&[("\"planetary\"  ", "\"planet\"  ")], &["kind"]),
         // Without circles of the sun the planet's thickness is not known.

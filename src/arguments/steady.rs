@@ -41,9 +41,9 @@ fn methods() -> impl TypedValueParser<Value = SteadyMethod> {
 pub(crate) struct Sweep {
     /// Scene file of a whole set, or a sun–planet gear pair; its `[dynamics]` gives fidelity and steps per mesh cycle.
     pub scene: PathBuf,
-    /// Speeds of the input member: first, last and step, rpm.
+    /// Speeds of the input member, rpm: first, last and step, or one alone.
     #[arg(long, value_name = "FROM:TO:STEP", default_value = "100:2500:25", allow_negative_numbers = true,
-          value_parser = numbers::<3>("three numbers as FROM:TO:STEP, in rpm"))]
+          value_parser = speeds)]
     pub speeds_rpm: [f64; 3],
     /// Torque on the sun, N·m; negative is clockwise. The operating torque if left out.
     #[arg(long, value_name = "NM", allow_negative_numbers = true)]

@@ -45,6 +45,14 @@ pub(super) fn numbers<const N: usize>(
     }
 }
 
+/// First, last and step of speeds, rpm; one alone is first and last.
+pub(super) fn speeds(text: &str) -> Result<[f64; 3], &'static str> {
+    match text.trim().parse::<f64>() {
+        Ok(speed) => Ok([speed, speed, 1.0]),
+        Err(_) => numbers("one speed, or three numbers as FROM:TO:STEP, in rpm")(text),
+    }
+}
+
 /// A whole number from `LOW` to `HIGH`.
 pub(super) fn whole<const LOW: u32, const HIGH: u32>(text: &str) -> Result<u32, String> {
     match text.parse() {

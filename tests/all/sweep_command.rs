@@ -35,6 +35,21 @@ fn results(out: &Path) -> [Vec<u8>; 2] {
 }
 
 #[test]
+fn one_speed_is_a_sweep() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = coarse(folder.path());
+    let scene = scene.to_str().unwrap();
+    let of = |speeds: &str| {
+        let line = ["sweep", scene, "--speeds-rpm", speeds, "--between-cycles", "0"];
+        crate::harness::run(&[&line[..], &["--format", "csv"]].concat())
+    };
+    let (code, one, err) = of("1200");
+    assert_eq!(code, 0, "{err}");
+    assert_eq!(one, of("1200:1200:10").1);
+    assert!(of("12 00").2.contains("one speed, or three numbers as FROM:TO:STEP"));
+}
+
+#[test]
 fn killed_twenty_times_or_on_one_thread_the_bytes_are_the_same() {
     let folder = tempfile::tempdir().unwrap();
     let scene = coarse(folder.path());

@@ -269,7 +269,7 @@ fn tooth(name: &str, gear: &Gear) -> Vec<Found> {
     }
     let too_deep = is_ring && gear.root_radius - gear.fillet_radius < gear.base_radius;
     if too_deep || gear.root_land_angle() < 0.0 {
-        let why = "the fillets of one tooth space would overlap: make the radius smaller";
+        let why = "the fillets of one tooth space would overlap: make the radius smaller, or the space wider by shift or root circle";
         fault("fillet_radius_mm", "a radius that fits twice into the space".into(), why);
     } else if (is_ring && gear.form_radius() <= tip) || (!is_ring && gear.form_radius() >= tip) {
         let why = "the fillet would eat the whole flank: make the radius smaller";

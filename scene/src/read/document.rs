@@ -33,6 +33,8 @@ pub(crate) struct Document<'s> {
     spans: RefCell<BTreeMap<String, Range<usize>>>,
     /// What errors of syntax leave unknown.
     unread: RefCell<Unread>,
+    /// Keys that unknown ones mean.
+    meant: RefCell<Vec<String>>,
     /// What reading decides and notices beside faults.
     pub(crate) remarks: RefCell<Remarks>,
     /// Whether the numbers are exact, as those of a program are, whatever digits they are written with.
@@ -49,6 +51,7 @@ impl<'s> Document<'s> {
             faults: RefCell::default(),
             spans: RefCell::default(),
             unread: RefCell::default(),
+            meant: RefCell::default(),
             remarks: RefCell::default(),
             is_exact: false,
             #[cfg(test)]
@@ -161,6 +164,10 @@ impl<'s> Document<'s> {
     /// All faults in the order of the file, and the remarks.
     pub(crate) fn into_findings(self) -> (Vec<Fault>, Remarks) {
         let mut faults = self.faults.into_inner();
+        // A key that stands under another name is one fault, not also an absent one.
+        let meant = self.meant.into_inner();
+        let is_meant = |f: &Fault| meant.iter().any(|meant| is_within(&f.key, meant));
+        faults.retain(|f| f.value != "absent" || !is_meant(f));
         faults.sort_by_key(|f| f.span.start);
         for fault in &mut faults {
             for text in [&mut fault.key, &mut fault.value, &mut fault.allowed, &mut fault.why] {
@@ -451,6 +458,9 @@ impl Drop for Section<'_, '_> {
                     span: span.clone(),
                 });
                 continue;
+            }
+            if let Some((meant, _)) = hint {
+                self.document.meant.borrow_mut().push(full_path(&self.path, meant));
             }
             let hint = hint.map_or_else(
                 || "unknown key".to_owned(),

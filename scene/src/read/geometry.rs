@@ -96,7 +96,8 @@ pub(crate) fn geometry(s: &Section<'_, '_>, teeth: &TeethRead) -> GeometryRead {
     for (key, gear) in [("sun", &sun), ("ring", &ring)] {
         // Without [teeth] as a whole that table is what is missing.
         let teeth = format!("teeth.{key}");
-        if gear.is_some() && s.document.may_hold("teeth") && !s.document.may_hold(&teeth) {
+        let is_told = s.document.is_doubtful(&teeth);
+        if gear.is_some() && s.document.may_hold("teeth") && !s.document.has(&teeth) && !is_told {
             s.fault(key, format!("with {teeth} given"), "its number of teeth is missing");
         }
     }

@@ -190,8 +190,10 @@ fn read(document: &Document<'_>, root: Section<'_, '_>) -> Option<Scene> {
     if root.has("geometry") && !root.has("teeth") {
         root.fault("teeth", "[teeth] with sun, planet, ring", "geometry needs numbers of teeth");
     }
-    if is_pair && !root.has("geometry") {
-        root.fault("geometry", "[geometry]", "a gear pair is nothing without its tooth geometry");
+    if is_pair && !root.has("geometry") && !root.has("lumped") {
+        let why =
+            "a gear pair has tooth geometry, or lumped parameters for its natural modes alone";
+        root.fault("geometry", "[geometry], or [lumped]", why);
     }
     let material = material(&root.table("material"));
     let operation = root.section("operation").and_then(|s| operation(&s, is_pair));

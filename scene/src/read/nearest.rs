@@ -54,7 +54,7 @@ const UNITS: [(&str, &str); 44] = [
 const IDLE: [&str; 7] = ["stiffness", "the", "of", "value", "total", "gear", "rate"];
 
 /// Words of the trade and the word that keys here have.
-const WORDS: [(&str, &str); 18] = [
+const WORDS: [(&str, &str); 19] = [
     ("centre", "center"),
     ("outside", "tip"),
     ("addendum", "tip"),
@@ -71,6 +71,7 @@ const WORDS: [(&str, &str); 18] = [
     ("n", "count"),
     ("steps", "step"),
     ("angular", ""),
+    ("type", "kind"),
     ("radius", "diameter"),
     ("dia", "diameter"),
 ];
@@ -128,8 +129,31 @@ pub(crate) fn nearest<'k>(key: &str, known: &[&'k str]) -> Option<(&'k str, &'st
         })?;
         Some((distance, candidate, difference(&asked, &other)))
     };
-    let best = known.iter().filter_map(|candidate| fits(candidate)).min_by_key(|(d, ..)| *d)?;
-    Some((best.1, best.2))
+    let best = known.iter().filter_map(|candidate| fits(candidate)).min_by_key(|(d, ..)| *d);
+    let parts = with_these_words(&asked, known);
+    match (best, &parts[..]) {
+        (Some((0, key, difference)), _) => Some((key, difference)),
+        // Of several diameters none is meant.
+        (_, [_, _, ..]) => None,
+        (Some((_, key, difference)), _) => Some((key, difference)),
+        (None, [one]) => Some((one, difference(&asked, &Meaning::of(one)))),
+        (None, []) => None,
+    }
+}
+
+/// The known keys of the same quantity that have all words of the key asked for, or of which it has all.
+fn with_these_words<'k>(asked: &Meaning, known: &[&'k str]) -> Vec<&'k str> {
+    let is_part = |a: &Meaning, b: &Meaning| {
+        !a.words.is_empty() && a.words.iter().all(|word| b.words.contains(word))
+    };
+    let is_near = |candidate: &&'k str| {
+        let other = Meaning::of(candidate);
+        asked.measures() == other.measures() && (is_part(asked, &other) || is_part(&other, asked))
+    };
+    let mut found: Vec<&str> = known.iter().copied().filter(is_near).collect();
+    found.sort_unstable();
+    found.dedup();
+    found
 }
 
 fn difference(asked: &Meaning, other: &Meaning) -> &'static str {

@@ -12,7 +12,7 @@ struct Subject {
     instead: &'static str,
 }
 
-const SUBJECTS: [Subject; 16] = [
+const SUBJECTS: [Subject; 17] = [
     Subject {
         words: &["helix", "helical", "beta", "overlap", "spiral"],
         why: "teeth are straight: sections along the axis are alike",
@@ -103,6 +103,24 @@ const SUBJECTS: [Subject; 16] = [
         ],
         why: "all teeth of a gear are alike",
         instead: "a softer mesh of one planet in the lumped model: sun_planet_n_per_m or ring_planet_n_per_m of [[planet_override]]",
+    },
+    Subject {
+        words: &[
+            "amplitude",
+            "amplitudes",
+            "harmonic",
+            "harmonics",
+            "fourier",
+            "variation",
+            "phase",
+            "phases",
+            "phasing",
+            "contact_ratio",
+            "contact_ratios",
+        ],
+        why: "a mesh stiffness given here has one value: how it varies over the mesh cycle is computed",
+        instead: "[geometry], from which `sweep`, `branches` and `stability parametric` compute it; in a program a stiffness of any \
+                  course, by ParametricSet of `lumped` or pair_law of `gearset`",
     },
     Subject { words: &["gravity", "weight"], why: "no weight acts", instead: "nothing" },
     Subject {

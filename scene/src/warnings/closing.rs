@@ -1,12 +1,14 @@
 //! Backlash and numbers of teeth that do not belong together.
 
-use gearset::{Geometry, MeshKind, ShiftedMesh, ThicknessInput};
+use gearset::{Geometry, MeshKind, MeshMember, ShiftedMesh, ThicknessInput};
 
 use crate::scene::Scene;
 use crate::warnings::{Found, Warning, shown};
 
 /// Backlash over the module: gears have 0.02 to 0.1.
 pub(crate) const LARGE_BACKLASH: f64 = 0.15;
+/// Missing bottom clearance, m, that rounding in the computer does not make.
+const CLEARANCE: f64 = 1e-9;
 
 /// A ring's shift that leaves unusual backlash in this sign, and a usual one in the other; lengths in m.
 pub(crate) fn sign_warning(value: String, this: f64, other: f64, module: f64) -> Warning {
@@ -76,6 +78,33 @@ pub(super) fn backlash(scene: &Scene, geometry: &Geometry, found: &mut Found) {
                 let key = format!("geometry.thickness.{}_backlash_mm", kind.name());
                 let likely = "likely it is in another unit, or a diameter's";
                 found.add(key, 1e3 * backlash, what("a backlash of"), likely);
+            }
+        }
+    }
+}
+
+/// Tips that reach the mating root circle by no more than the rounding of the printed diameters: more is a fault.
+pub(super) fn bottom_clearance(geometry: &Geometry, found: &mut Found) {
+    for kind in [MeshKind::SunPlanet, MeshKind::RingPlanet] {
+        let Some(mesh) = geometry.mesh(kind) else { continue };
+        let names = match kind {
+            MeshKind::SunPlanet => ["sun", "planet"],
+            MeshKind::RingPlanet => ["planet", "ring"],
+        };
+        let members = [MeshMember::Driver, MeshMember::Driven];
+        for (member, name, mate) in
+            [(members[0], names[0], names[1]), (members[1], names[1], names[0])]
+        {
+            let missing = -mesh.root_clearance(member);
+            if missing > CLEARANCE {
+                let key = format!("geometry.{name}.tip_diameter_mm");
+                let what = format!(
+                    "in the {} mesh it lies {} mm beyond the {mate}'s root circle, within the rounding of the diameters",
+                    kind.name(),
+                    shown(1e3 * missing)
+                );
+                let likely = "likely bottom clearance was left out: gears have 0.2 to 0.4 modules";
+                found.add(key, 2e3 * mesh.gear(member).tip_radius, what, likely);
             }
         }
     }

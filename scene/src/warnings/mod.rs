@@ -16,7 +16,7 @@ use crate::load::size::LARGE_MODULES;
 use crate::scene::{Scene, SceneKind, Support, Torsional};
 use crate::warnings::bodies::bodies;
 pub(crate) use crate::warnings::closing::{LARGE_BACKLASH, sign_warning, signed_mm};
-use crate::warnings::closing::{backlash, ring_teeth};
+use crate::warnings::closing::{backlash, bottom_clearance, ring_teeth};
 use crate::warnings::contradictions::contradictions;
 use crate::warnings::numerics::numerics;
 
@@ -75,6 +75,7 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
     if let Some(geometry) = &geometry {
         lengths(geometry, &mut found);
         backlash(scene, geometry, &mut found);
+        bottom_clearance(geometry, &mut found);
         load(scene, geometry, &mut found);
         contradictions(scene, geometry, &mut found);
     }

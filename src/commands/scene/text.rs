@@ -32,7 +32,7 @@ impl Report for SceneSummary {
             writeln!(out, "in assembly steps: {steps:?}")?;
         }
         if let (Some(a), Some(p)) = (self.center_distance_mm, self.base_pitch_mm) {
-            writeln!(out, "centre distance {a:.4} mm, base pitch {p:.5} mm")?;
+            writeln!(out, "centre distance {a:.4} mm, transverse base pitch {p:.5} mm")?;
         }
         if !self.gears.is_empty() {
             let mm = Notation::Fixed(4);
