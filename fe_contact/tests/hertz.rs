@@ -1,10 +1,12 @@
-//! Two cylinders as half-planes with circular gaps, against Hertz's closed forms.
+//! Two cylinders as half-planes with circular gaps, and two gears at their pitch point, against Hertz's closed forms.
 
 use fe_contact::Elastic;
 use fe_contact::complementarity::ActiveSet;
 use fe_contact::contact::cylinders::Cylinders;
 use fe_contact::contact::hertz::{Hertz, fit};
-use scene::PlaneState;
+use fe_contact::statics::{Bodies, at_phase};
+use gearset::MeshKind;
+use scene::{PlaneState, Scene};
 
 #[test]
 fn profile_half_width_and_approach() {
@@ -50,4 +52,30 @@ fn approach_between_matched_points() {
         println!("{times}: {:.2e}", found / expected - 1.0);
         assert!((found / expected - 1.0).abs() < 2e-3, "{times}: {found:e} {expected:e}");
     }
+}
+
+/// The FZG C pair (16/24, module 4.5) under 200 N·m at its pitch point, where one pair carries all of it: a report prints
+/// the 1347 MPa of Hertz, cylinders of radii r sin α pressed in plane strain. The 1 % are those of cylinders above.
+#[test]
+fn the_pressure_at_the_pitch_point_is_that_of_hertz() {
+    let scene = Scene::from_toml(
+        "format = 1\nkind = \"gear_pair\"\nmesh = \"sun_planet\"\nteeth = { sun = 16, planet = 24 }\n\
+         [geometry]\ncenter_distance_mm = 91.5\nface_width_mm = 14.0\nrack = { module_mm = 4.5 }\n\
+         [geometry.sun]\ntip_diameter_mm = 82.636\nroot_diameter_mm = 62.386\n\
+         bore_diameter_mm = 30\nfillet_radius_mm = 1.35\n\
+         [geometry.planet]\ntip_diameter_mm = 118.544\nroot_diameter_mm = 98.294\n\
+         bore_diameter_mm = 30\nfillet_radius_mm = 1.35\n\
+         [geometry.thickness]\nprofile_shift = { sun = 0.1817, planet = 0.1715 }\n\
+         [material]\nyoung_modulus_pa = 206e9\npoisson_ratio = 0.3\n",
+    );
+    let bodies = Bodies::new(&scene.unwrap()).unwrap();
+    let mesh = bodies.geometry.mesh(MeshKind::SunPlanet).unwrap();
+    let radius = bodies.geometry.sun.as_ref().unwrap().base_radius;
+    let pitch_point = radius * mesh.pressure_angle.tan();
+    let phase = (pitch_point - mesh.path_start) / mesh.base_pitch;
+    let at = at_phase(&bodies, MeshKind::SunPlanet, 200.0 / radius, phase, &ActiveSet).unwrap();
+    let [pair] = &at.pairs[..] else { panic!("{:?}", at.pairs) };
+    let pressure = pair.peak_pressure / 1e6;
+    println!("{pressure} MPa");
+    assert!((pressure / 1347.0 - 1.0).abs() < 0.01, "{pressure} MPa");
 }

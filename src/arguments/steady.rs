@@ -8,7 +8,7 @@ use experiments::branches::BranchParameter;
 use experiments::sweep::SteadyMethod;
 
 use super::Format;
-use super::values::{DAMPING_FACTORS, number, numbers, one_of, over, whole};
+use super::values::{DAMPING_FACTORS, number, numbers, one_of, over, speeds, whole};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Model {
