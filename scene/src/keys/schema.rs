@@ -31,6 +31,10 @@ fn table_schema(table: &str) -> Map<String, Value> {
             own.insert("items".into(), Value::Object(table_schema(&key.path)));
         }
         own.insert("description".into(), description(key).into());
+        if !key.is_table() {
+            let verbs = key.changes.split(", ").filter(|verb| *verb != "–");
+            own.insert("x-changes".into(), verbs.collect::<Vec<_>>().into());
+        }
         match key.presence {
             Presence::Required => required.push(Value::from(name)),
             Presence::Default(text) => {

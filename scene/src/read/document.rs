@@ -150,6 +150,11 @@ impl<'s> Document<'s> {
         self.spans.borrow().contains_key(key)
     }
 
+    /// Full dotted paths of the keys and tables of the file.
+    pub(crate) fn keys(&self) -> Vec<String> {
+        self.spans.borrow().keys().cloned().collect()
+    }
+
     /// The value of a key as the file holds it; empty where it does not.
     pub(crate) fn written(&self, key: &str) -> String {
         self.spans

@@ -16,7 +16,7 @@ mod supports;
 pub(crate) mod text_file;
 pub(crate) mod thickness;
 mod tip_rounding;
-mod unread;
+pub(crate) mod unread;
 
 use std::path::Path;
 
@@ -72,9 +72,13 @@ impl Scene {
         let mut document = Document::new(text);
         document.is_exact = is_exact;
         let scene = read_document(&document);
-        let (faults, remarks) = document.into_findings();
+        let written = document.keys();
+        let (faults, mut remarks) = document.into_findings();
         match scene {
-            Some(scene) if faults.is_empty() => Ok((scene, remarks)),
+            Some(scene) if faults.is_empty() => {
+                remarks.idle = scene.idle_keys(written);
+                Ok((scene, remarks))
+            }
             _ => Err(SceneError::Invalid { text: printable(text), faults: or_unknown(faults) }),
         }
     }
