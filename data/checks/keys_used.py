@@ -203,7 +203,7 @@ BASES = {
         "planets": {"count": 2, "position_steps": [0, 35]}, "geometry.carrier": None, "planet_override": [
             {"planet": 1, "bearing_n_per_m": 7e7}],
         "geometry.rack": None, "geometry.planet_base_diameter_mm": 49.889,
-        "lumped.radius_mm": None, "lumped.pressure_angle_deg": None,
+        "lumped.radius_mm": {"carrier": 54.0}, "lumped.pressure_angle_deg": None,
         "ring": {"motion": "free", "bearing_n_per_m": 1e9, "torsional_nm_per_rad": 1e6},
         "carrier": {"motion": "free", "bearing_n_per_m": 8e7, "torsional_n_per_m": 1e8}}, None),
     "set with ring input": (SET, AS_SET | LUMPED_SET | OVER_R2 | {
