@@ -211,6 +211,8 @@ BASES = {
         "sun": {"motion": "free", "bearing_n_per_m": 8e7, "torsional_n_per_m": 1e8},
         "ring": {"motion": "free", "bearing_n_per_m": 1e9}, "operation.fixed": "sun", "operation.input": "ring"}, None),
     "set of the rack": (SET, AS_SET | NO_CIRCLES | RACK | {
+        "sun": {"motion": "free", "bearing_n_per_m": 8e7, "torsional_nm_per_rad": 1e5},
+        "ring": {"motion": "free", "bearing_n_per_m": 1e9}, "operation.fixed": "sun", "operation.input": "ring",
         "geometry.ring": None, "geometry.center_distance_mm": 54.0, "geometry.thickness": {
             "profile_shift": {"sun": 0.05, "planet": -0.05, "ring": 0.05, "ring_sign": "outward"},
             "thinning_mm": {"sun": 0.03, "planet": 0.04, "ring": 0.05}}}, None),

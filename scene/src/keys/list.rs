@@ -175,9 +175,9 @@ fn planet() -> Vec<SceneKey> {
         key("planet.bearing_n_per_m", Number(Positive), "N/m", "stiffness between planet and carrier, of a gear pair to ground, equal in all directions").left_out("always of a planetary set; of a gear pair a rigid bearing").needed_by(ALL),
         key("planet.added_mass_kg", Number(NonNegative), "kg", "mass fixed to each planet's race, beside the meshed or lumped mass; not of a gear pair").default_is("0").changes(MOVING),
         key("planet.added_inertia_kg_m2", Number(NonNegative), "kg·m²", "polar inertia of the added mass; not of a gear pair").default_is("0").changes(MOVING),
-        key("planet.motion", Choice(&["free", "rotation_held", "held"]), "–", "as `sun.motion`. A planet of a gear pair that turns freely carries the torque that balances the sun's; one that is held or sprung passes it to its support").left_out("free; only of a gear pair").why("which coordinates the member has"),
-        key("planet.torsional_n_per_m", Number(NonNegative), "N/m", "stiffness of the planet's shaft to ground per u = r·θ; only with motion = \"free\"").left_out("0; only of a gear pair"),
-        key("planet.torsional_nm_per_rad", Number(NonNegative), "N·m/rad", "the same per θ, instead of torsional_n_per_m").left_out("torsional_n_per_m holds; only of a gear pair"),
+        key("planet.motion", Choice(&["free", "rotation_held", "held"]), "–", "as `sun.motion`. A planet of a gear pair that turns freely carries the torque that balances the sun's; one that is held or sprung passes it to its support").left_out("free; only of a gear pair").why("which coordinates the member has").changes(MOVING),
+        key("planet.torsional_n_per_m", Number(NonNegative), "N/m", "stiffness of the planet's shaft to ground per u = r·θ; only with motion = \"free\"").left_out("0; only of a gear pair").changes(MOVING),
+        key("planet.torsional_nm_per_rad", Number(NonNegative), "N·m/rad", "the same per θ, instead of torsional_n_per_m").left_out("torsional_n_per_m holds; only of a gear pair").changes(MOVING),
     ]
 }
 
@@ -218,10 +218,10 @@ fn lumped_meshes() -> Vec<SceneKey> {
 fn planet_override() -> Vec<SceneKey> {
     vec![
         key("planet_override", Tables, "–", "one planet that differs from the others; values left out stay those of the others. Values of the lumped model alone are refused by static, impulse, sweep and branches, of which they would change nothing").left_out("all planets alike; with [lumped]"),
-        key("planet_override.planet", Integer(0, 63), "–", "index of the planet, from 0 and below planets.count; each once").required(),
+        key("planet_override.planet", Integer(0, 63), "–", "index of the planet, from 0 and below planets.count; each once").required().changes(LOADED),
         key("planet_override.mass_kg", Number(Positive), "kg", "mass of this planet in the lumped model").left_out("as of the others"),
         key("planet_override.inertia_over_r2_kg", Number(Positive), "kg", "I/r² of this planet in the lumped model").left_out("as of the others"),
-        key("planet_override.bearing_n_per_m", Number(Positive), "N/m", "bearing stiffness of this planet").left_out("as of the others"),
+        key("planet_override.bearing_n_per_m", Number(Positive), "N/m", "bearing stiffness of this planet").left_out("as of the others").changes(LOADED),
         key("planet_override.sun_planet_n_per_m", Number(Positive), "N/m", "sun mesh stiffness of this planet in the lumped model").left_out("as of the others"),
         key("planet_override.ring_planet_n_per_m", Number(Positive), "N/m", "ring mesh stiffness of this planet in the lumped model").left_out("as of the others"),
     ]
