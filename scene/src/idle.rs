@@ -29,7 +29,7 @@ impl Scene {
     fn uses(&self, verb: Verb, key: &str) -> bool {
         let table = key.split('.').next().unwrap_or_default();
         verb.reads(key)
-            && !self.is_of_other_mesh(key)
+            && !self.is_of_other_gear(key)
             && match verb {
                 Verb::Modes | Verb::Compare if self.lumped.is_some() => {
                     !BEHIND_PARAMETERS.contains(&table) && !self.is_of_held_body(key)
@@ -44,15 +44,14 @@ impl Scene {
             }
     }
 
-    /// Whether the key is of the gear that a pair does not have, or of its mesh.
-    fn is_of_other_mesh(&self, key: &str) -> bool {
-        let (gear, mesh) = match self.pair {
-            None => return false,
-            Some(MeshKind::SunPlanet) => ("ring", "ring_planet"),
-            Some(MeshKind::RingPlanet) => ("sun", "sun_planet"),
-        };
-        let is_geometry = key.starts_with("geometry.") || key.starts_with("teeth.");
-        is_geometry && key.split('.').any(|step| step == gear || step.starts_with(mesh))
+    /// Whether the key is of the circles of the gear that a pair does not have; its teeth and backlash share in the
+    /// thickness of the planet's teeth.
+    fn is_of_other_gear(&self, key: &str) -> bool {
+        match self.pair {
+            None => false,
+            Some(MeshKind::SunPlanet) => key.starts_with("geometry.ring."),
+            Some(MeshKind::RingPlanet) => key.starts_with("geometry.sun."),
+        }
     }
 
     /// Whether the key is a mass of a body that is held, or an inertia or radius of one whose rotation is.
