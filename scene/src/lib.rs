@@ -3,6 +3,7 @@
 mod check;
 mod choices;
 mod gear_set;
+mod idle;
 mod keys;
 mod load;
 mod needs;

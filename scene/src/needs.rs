@@ -3,6 +3,7 @@
 use gearset::{GearInput, Member, MeshKind};
 
 use crate::choices::{Fidelity, MeshKinematics};
+use crate::keys::{KEYS, is_within, without_indices};
 use crate::scene::{Freedom, PlanetOverride, Scene, SceneKind};
 
 /// A verb of the command that reads a scene.
@@ -66,18 +67,15 @@ impl Verb {
 }
 
 impl Verb {
-    /// Whether a value of this key can change a result of the verb, as far as the key's table shows it.
+    /// Whether a value of this key, or of a key of this table, can change a result of the verb for some scene.
     pub fn reads(self, key: &str) -> bool {
-        let is_in_time = matches!(self, Self::Impulse | Self::Sweep(_) | Self::Branches(_));
-        match key.split('.').next() {
-            // A carrier without a shape has the mass and inertia of the lumped parameters.
-            Some("lumped") if key.ends_with(".carrier") => self != Self::Mesh,
-            Some("lumped" | "planet_override") => matches!(self, Self::Modes | Self::Compare),
-            Some("damping" | "dynamics") => is_in_time,
-            Some("fe_contact") => is_in_time || matches!(self, Self::Mesh | Self::Static),
-            _ if key == "operation.speed_rpm" => is_in_time && self != Self::Impulse,
-            _ => true,
-        }
+        let key = without_indices(key);
+        let name = match self {
+            Self::Compare => Self::Modes.name(),
+            _ => self.name().split(' ').next().unwrap_or_default(),
+        };
+        let mut declared = KEYS.iter().filter(|declared| is_within(&declared.path, &key));
+        declared.any(|declared| declared.changes.split(", ").any(|verb| verb == name))
     }
 }
 

@@ -19,6 +19,8 @@ pub struct SceneKey {
     pub(crate) reason_given: Option<&'static str>,
     /// Verbs that do nothing without it; `–` if none.
     pub needed_by: &'static str,
+    /// Verbs whose results it changes; empty of a table, `–` of a key that changes none.
+    pub changes: &'static str,
 }
 
 /// What a key holds.
@@ -68,6 +70,7 @@ pub(crate) fn key(
         meaning: meaning.into(),
         reason_given: None,
         needed_by: "–",
+        changes: "",
     }
 }
 
@@ -162,5 +165,10 @@ impl SceneKey {
     /// Verbs that do nothing without it.
     pub(crate) fn needed_by(self, verbs: &'static str) -> Self {
         Self { needed_by: verbs, ..self }
+    }
+
+    /// Verbs whose results it changes.
+    pub(crate) fn changes(self, verbs: &'static str) -> Self {
+        Self { changes: verbs, ..self }
     }
 }

@@ -5,6 +5,7 @@ mod key;
 #[rustfmt::skip]
 mod list;
 mod page;
+mod path;
 mod schema;
 
 pub use key::{KeyKind, Presence, SceneKey};
@@ -12,6 +13,7 @@ pub use page::scene_key_page;
 pub use schema::scene_schema;
 
 pub(crate) use list::KEYS;
+pub(crate) use path::{is_within, without_indices};
 
 /// Every key of a scene file, each table before its keys.
 pub fn scene_keys() -> &'static [SceneKey] {

@@ -30,17 +30,18 @@ pub fn scene_key_page() -> String {
         if own.is_empty() {
             continue;
         }
-        text.push_str("| key | unit | allowed | left out | meaning | needed by |\n|---|---|---|---|---|---|\n");
+        text.push_str("| key | unit | allowed | left out | meaning | needed by | changes |\n|---|---|---|---|---|---|---|\n");
         for key in own {
             let name = key.table_and_name().1;
             let _ = writeln!(
                 text,
-                "| `{name}` | {} | {} | {} | {} | {} |",
+                "| `{name}` | {} | {} | {} | {} | {} | {} |",
                 key.unit,
                 key.kind.words(),
                 left_out(key),
                 key.meaning,
-                key.needed_by
+                key.needed_by,
+                key.changes
             );
         }
     }
@@ -96,6 +97,8 @@ stiffnesses of a planetary set from its geometry in closed form (`docs/closed_fo
 prints them as this table. `epicyclic mesh` prints masses and moments of inertia of the meshed bodies, and
 `epicyclic static` the mean mesh stiffnesses.
 
-A key *needed by* a verb must be there for it to run, as far as the column *left out* says so; `–` is a key that changes
-results and is never needed.
+A key *needed by* a verb must be there for it to run, as far as the column *left out* says so; `–` is a key that is never
+needed. *Changes* names the verbs whose results another value of the key changes, of some set and at some fidelity: this is
+measured (`checks/keys_used.py`). `compare` uses what `modes` uses. `scene check` lists the keys of a scene that are idle:
+no verb that runs on it uses them.
 ";

@@ -14,13 +14,13 @@ use strsim::levenshtein;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use crate::keys::{KEYS, KeyKind, Presence, SceneKey};
+use crate::keys::{KEYS, KeyKind, Presence, SceneKey, is_within, without_indices};
 use crate::read::digits::half_unit;
 use crate::read::fault::{Fault, printable};
 use crate::read::nearest::nearest;
 use crate::read::remarks::{Chosen, Remarks};
 use crate::read::scope::out_of_scope;
-use crate::read::unread::{Unread, unfinished_above, without_indices};
+use crate::read::unread::{Unread, unfinished_above};
 
 /// Magnitudes beyond these are slips of unit or exponent, and would overflow when squared.
 const LARGEST: f64 = 1e30;
@@ -153,6 +153,11 @@ impl<'s> Document<'s> {
         self.spans.borrow().contains_key(key)
     }
 
+    /// Full dotted paths of the keys and tables of the file.
+    pub(crate) fn keys(&self) -> Vec<String> {
+        self.spans.borrow().keys().cloned().collect()
+    }
+
     /// The value of a key as the file holds it; empty where it does not.
     pub(crate) fn written(&self, key: &str) -> String {
         self.spans
@@ -176,11 +181,6 @@ impl<'s> Document<'s> {
         }
         (faults, self.remarks.into_inner())
     }
-}
-
-/// Whether `key` is `table` or a key below it.
-pub(crate) fn is_within(key: &str, table: &str) -> bool {
-    key.strip_prefix(table).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
 /// One table of the document, read by the list of keys. Every key asked for counts as known; when the table is

@@ -24,8 +24,9 @@ use gearset::{Geometry, Member, MeshKind, Operation, PlanetPositions, Teeth};
 
 use crate::check;
 use crate::choices::FeContactInput;
+use crate::keys::is_within;
 use crate::load::estimates::PAIR_STIFFNESS_DIVISOR;
-use crate::read::document::{Document, Section, is_within};
+use crate::read::document::{Document, Section};
 use crate::read::dynamics::dynamics;
 use crate::read::fault::{Fault, SceneError, SceneFaults, printable};
 use crate::read::fe_contact::fe_contact;
@@ -72,9 +73,13 @@ impl Scene {
         let mut document = Document::new(text);
         document.is_exact = is_exact;
         let scene = read_document(&document);
-        let (faults, remarks) = document.into_findings();
+        let written = document.keys();
+        let (faults, mut remarks) = document.into_findings();
         match scene {
-            Some(scene) if faults.is_empty() => Ok((scene, remarks)),
+            Some(scene) if faults.is_empty() => {
+                remarks.idle = scene.idle_keys(written);
+                Ok((scene, remarks))
+            }
             _ => Err(SceneError::Invalid { text: printable(text), faults: or_unknown(faults) }),
         }
     }

@@ -11,6 +11,8 @@ pub struct Remarks {
     pub notes: Vec<String>,
     /// Allowed values that are unlikely beside the digits of others.
     pub warnings: Vec<Warning>,
+    /// Full dotted paths of keys in the file of which no verb that runs on the scene uses the value.
+    pub idle: Vec<String>,
 }
 
 /// A value that the file leaves out.

@@ -3,6 +3,8 @@
 
 use std::ops::Range;
 
+use crate::keys::without_indices;
+
 /// Keys and stretches of text of which nothing is known.
 #[derive(Debug, Default)]
 pub(crate) struct Unread {
@@ -59,12 +61,6 @@ impl Unread {
         let key = without_indices(key);
         self.paths.iter().any(|path| is_above(path, &key) || is_above(&key, path))
     }
-}
-
-/// The path without the numbers that tell tables of an array apart, which their headers do not have.
-pub(crate) fn without_indices(key: &str) -> String {
-    let steps = key.split('.').filter(|step| step.parse::<usize>().is_err());
-    steps.collect::<Vec<_>>().join(".")
 }
 
 /// The line, as a byte range, whose list or table is unfinished when the line of byte `at` begins; only the nearest

@@ -41,6 +41,9 @@ pub(crate) struct SceneSummary {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) rounding: Vec<String>,
     pub(super) limits: Vec<String>,
+    /// Keys in the file of which no verb that runs uses the value.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(super) idle: Vec<String>,
     /// Finite-element bodies of the gears; null if they cannot be meshed.
     pub(super) fe_bodies: Option<FeBodiesSummary>,
     /// Allowed values that are unlikely.
@@ -167,6 +170,7 @@ impl SceneSummary {
             chosen: remarks.chosen.into_iter().map(chosen).collect(),
             rounding: remarks.notes,
             limits: scene.limits(),
+            idle: remarks.idle,
             fe_bodies: admitted.as_ref().ok().map(|found| FeBodiesSummary {
                 degrees_of_freedom: found.bodies.iter().map(|b| b.unknowns).sum(),
                 memory_mb: 1e-6 * found.peak_bytes as f64,

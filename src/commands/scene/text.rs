@@ -97,6 +97,10 @@ impl Report for SceneSummary {
         for limit in &self.limits {
             writeln!(out, "note: {limit}")?;
         }
+        if !self.idle.is_empty() {
+            let keys: Vec<_> = self.idle.iter().map(|key| format!("`{key}`")).collect();
+            writeln!(out, "note: no verb that runs uses {}", keys.join(", "))?;
+        }
         for w in &self.warnings {
             writeln!(out, "warning: `{}` is {}: {}; {}", w.key, w.value, w.what, w.likely)?;
         }
