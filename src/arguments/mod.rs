@@ -178,7 +178,7 @@ pub(crate) struct Static {
     #[arg(long, value_parser = whole::<1, 100_000>,
           conflicts_with = "approach_um", allow_negative_numbers = true)]
     pub positions: Option<u32>,
-    /// Compute also what by estimate takes more than 2 GiB of memory.
+    /// Compute also what by estimate takes more than 2 GiB of memory or a day on one core.
     #[arg(long)]
     pub large: bool,
     /// Solver of the contact problem.
@@ -261,6 +261,9 @@ pub(crate) struct Impulse {
     #[arg(long, value_name = "LOW:HIGH", allow_negative_numbers = true,
           value_parser = numbers::<2>("two frequencies as LOW:HIGH, in Hz"))]
     pub band_hz: Option<[f64; 2]>,
+    /// Compute also what by estimate takes more than 2 GiB of memory or a day on one core.
+    #[arg(long)]
+    pub large: bool,
     /// Also linearise over the mesh cycle at half, once and one and a half times the torque.
     #[arg(long)]
     pub band: bool,
@@ -310,6 +313,9 @@ pub(crate) struct Study {
 pub(crate) struct MeshVerb {
     /// Scene file.
     pub scene: PathBuf,
+    /// Mesh also bodies that by estimate take more than 2 GiB of memory.
+    #[arg(long)]
+    pub large: bool,
     /// Draw the assembled meshes into this file (SVG).
     #[cfg(feature = "charts")]
     #[arg(long, value_name = "FILE")]

@@ -84,7 +84,7 @@ pub(crate) struct Sweep {
     /// found by shooting it is measured over the last two.
     #[arg(long, default_value_t = 16, value_parser = whole::<0, 10_000>, allow_negative_numbers = true)]
     pub between_cycles: u32,
-    /// Compute also what by estimate takes more than 2 GiB of memory.
+    /// Compute also what by estimate takes more than 2 GiB of memory or a day on one core.
     #[arg(long)]
     pub large: bool,
     /// Folder for finished points, then the table (CSV) and a sidecar (JSON); the same command resumes from
@@ -149,7 +149,7 @@ pub(crate) struct Branches {
     #[arg(long, value_name = "N", default_value_t = 500,
           value_parser = whole::<2, 100_000>, allow_negative_numbers = true)]
     pub max_points: u32,
-    /// Compute also what by estimate takes more than 2 GiB of memory.
+    /// Compute also what by estimate takes more than 2 GiB of memory or a day on one core.
     #[arg(long)]
     pub large: bool,
     /// Folder for finished steps, then the table (CSV) and everything (JSON); the same command resumes from the steps

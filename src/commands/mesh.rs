@@ -16,7 +16,7 @@ use crate::error::{Result, fe_refused};
 #[cfg(feature = "charts")]
 use crate::folder::writable;
 use crate::folder::{folder, save};
-use crate::inputs::{Working, needs, read_scene};
+use crate::inputs::{Working, bodies, needs, read_scene};
 use crate::output::{self, Notation, Report, Table};
 
 /// `mesh --format json`.
@@ -75,7 +75,7 @@ pub(crate) fn run(arguments: &MeshVerb, out: &mut dyn Write, err: &mut dyn Write
     writable(arguments.svg.as_deref())?;
     folder("--vtu", arguments.vtu.as_deref())?;
     let working = Working::new("meshing and factorising the bodies");
-    let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
+    let bodies = bodies(path, &scene, arguments.large)?;
     let carrier = carrier(&scene, &bodies).transpose().map_err(fe_refused(path))?;
     drop(working);
     let saved: Result<()> = Ok(());

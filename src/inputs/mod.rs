@@ -1,11 +1,11 @@
 //! What a verb is given: the scene, loads, what it lacks; and what it is doing meanwhile.
 
+mod cost;
 pub(crate) mod loads;
-mod memory;
 pub(crate) mod needs;
 mod working;
 
-pub(crate) use memory::within_memory;
+pub(crate) use cost::{Run, bodies};
 pub(crate) use working::{Progress, Working, progress};
 
 use std::io::Write;

@@ -139,3 +139,61 @@ fn large_mesh_cycles_need_to_be_asked_for() {
         );
     }
 }
+
+/// Runs of more than a day are refused before anything is computed, and the refusal says what fits.
+#[test]
+fn runs_of_more_than_a_day_need_to_be_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let set = scene("oh58_4p.toml");
+    let torques = vec!["1000"; 5000].join(",");
+    let speeds = ["--speeds-rpm", "500:2500:0.1", "--random-starts", "99"];
+    for (line, dial) in [
+        (
+            [
+                &["static", &set, "--positions", "6000", "--sun-torque-nm"],
+                &[torques.as_str()] as &[&str],
+            ],
+            "positions",
+        ),
+        ([&["sweep", &set], &speeds as &[&str]], "random starts"),
+    ] {
+        let (code, out, err) = run(&line.concat());
+        assert_eq!((code, out.as_str()), (2, ""), "{err}");
+        assert!(
+            err.contains(" h on one core") && err.contains("24 h") && err.contains("--large"),
+            "{err}"
+        );
+        assert!(err.contains(&format!("{dial} (")), "{dial}: {err}");
+    }
+    // A fault that is found after the limits: with the argument they are not in its way.
+    let taken = folder.path().join("taken");
+    std::fs::create_dir(&taken).unwrap();
+    std::fs::write(taken.join("sweep.csv"), "").unwrap();
+    let out = ["--large", "--out", taken.to_str().unwrap()];
+    let (code, _, err) = run(&[&["sweep", &set] as &[&str], &speeds, &out].concat());
+    assert!(code == 2 && !err.contains("24 h") && err.contains("taken"), "{err}");
+}
+
+/// Bodies of more than 2 GiB are refused, and every verb that makes them takes the argument that allows them.
+#[test]
+fn large_bodies_need_to_be_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = std::fs::read_to_string(scene("oh58_4p.toml")).unwrap();
+    let text = format!("{text}\n[fe_contact]\nflank_elements = 64\n");
+    let fine = file(folder.path(), "fine.toml", &text);
+    for verb in [
+        &["mesh"] as &[&str],
+        &["static"],
+        &["impulse"],
+        &["sweep"],
+        &["branches", "--speeds-rpm", "900:1000"],
+    ] {
+        let (code, _, err) = run(&[verb, &[fine.as_str()] as &[&str]].concat());
+        let is_told = err.contains("`fe_contact.flank_elements`") && err.contains("--large");
+        assert!(code == 2 && is_told, "{verb:?}: {err}");
+        let (code, out, _) = run(&[verb[0], "--help"]);
+        assert!(code == 0 && out.contains("--large"), "{verb:?}: {out}");
+    }
+    let (code, out, err) = run(&["scene", "check", &fine]);
+    assert!(code == 0 && out.contains("or argument --large"), "{out}{err}");
+}

@@ -35,6 +35,14 @@ impl BranchSettings {
         Self { over, range, start, most_points: 500, harmonics: 5, longest_step: 0.5 }
     }
 
+    /// About how many points a branch over the range has: steps of the longest that is allowed, if only the parameter
+    /// changes, and as many again for changes of the motion.
+    pub fn points(&self) -> usize {
+        let [from, to] = self.range;
+        let unit = self.over.share() * 0.5 * (from + to).abs();
+        (2.0 * (to - from) / (unit * self.longest_step)).ceil() as usize
+    }
+
     /// Refuses values and numbers that make no branch.
     ///
     /// # Errors

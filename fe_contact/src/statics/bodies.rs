@@ -138,6 +138,15 @@ impl Bodies {
     /// the bodies would need more than [`super::MOST_BYTES`] of memory.
     pub fn new(scene: &Scene) -> Result<Self, FeError> {
         super::estimate::within_memory(scene)?;
+        Self::of_any_size(scene)
+    }
+
+    /// As [`Bodies::new`], however much memory they need.
+    ///
+    /// # Errors
+    /// Those of [`Bodies::new`], but for memory.
+    pub fn of_any_size(scene: &Scene) -> Result<Self, FeError> {
+        super::estimate::estimate(scene)?;
         let geometry = geometry(scene)?;
         scene.check_keys(&KEYS)?;
         planets_apart(scene, &geometry)?;

@@ -13,15 +13,14 @@ use experiments::branches::{
 use experiments::sweep::{
     KeyedModel, Memory, SteadySettings, SweepError, SweepModel, steps_needed,
 };
-use fe_contact::statics::Bodies;
 use scene::{LoadCase, Scene, Verb};
 use serde::Serialize;
 
 use super::turning;
 use crate::arguments::{Branches, DAMPING_FACTORS, Model};
-use crate::error::{CommandError, Result, fe_refused, refused, unfit};
+use crate::error::{CommandError, Result, refused, unfit};
 use crate::folder::{Claim, KeptFiles, Manifest, PLAN, RunKind, write_results};
-use crate::inputs::{Working, loads, needs, read_scene, scene_text, within_memory};
+use crate::inputs::{Run, Working, bodies, loads, needs, read_scene, scene_text};
 use crate::output::{self, Report};
 use result::Fixed;
 
@@ -71,7 +70,14 @@ pub(super) fn run(arguments: &Branches, out: &mut dyn Write, err: &mut dyn Write
     let steps = scene.dynamics.steps_per_cycle as usize;
     let harmonics = SteadySettings { harmonics: settings.harmonics, ..SteadySettings::default() };
     harmonics.check(steps).map_err(|e| unfit(path, e))?;
-    within_memory(path, &scene, ("`dynamics.steps_per_cycle`", steps), arguments.large)?;
+    let points = settings.points().min(2 * settings.most_points);
+    let run = Run::motions(&scene, arguments.model, &harmonics, ["points", "--max-points"], points)
+        .followed();
+    let run = match settings.over {
+        BranchParameter::Key(key) if key.enters_statics() => run.with_tables_of_each_motion(),
+        _ => run,
+    };
+    run.admit(path, arguments.large, err)?;
     needs::caution(&harmonics, steps, err)?;
     needs::warn(
         &scene,
@@ -105,7 +111,7 @@ pub(super) fn run(arguments: &Branches, out: &mut dyn Write, err: &mut dyn Write
         Some(found) => found,
         None => {
             let working = Working::new("meshing the bodies and laying out tables");
-            let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
+            let bodies = bodies(path, &scene, arguments.large)?;
             let model: Box<dyn SweepModel + '_> = match settings.over {
                 BranchParameter::Key(key) => {
                     let (at, factor) = ((key, settings.start), arguments.damping_factor);

@@ -10,17 +10,16 @@ use std::io::Write;
 
 use experiments::modal::{
     FeMode, ImpulseSettings, ModalError, Preload, SettingsError, band_of, frequency_band,
-    impulse_test, linear_modes, mesh_influence, preloaded,
+    impulse_test, linear_modes, mesh_influence, preloaded, pulses,
 };
 use fe_contact::FeError;
-use fe_contact::statics::Bodies;
 use scene::{Fidelity, LoadCase, Scene, Verb};
 #[cfg(feature = "charts")]
 use validation::ValidationError;
 
 use crate::arguments::{Format, Impulse};
 use crate::error::{Result, fe_refused, refused, unfit};
-use crate::inputs::{Working, loads, needs, read_scene};
+use crate::inputs::{Run, Working, bodies, loads, needs, read_scene};
 use crate::output;
 use found::Found;
 
@@ -39,7 +38,7 @@ pub(super) fn run(arguments: &Impulse, out: &mut dyn Write, err: &mut dyn Write)
     let is_given = |a: &str| a == "--sun-torque-nm" && arguments.sun_torque_nm.is_some();
     needs::require(&arguments.scene, &scene, Verb::Impulse, is_given)?;
     needs::warn(&scene, Some(Verb::Impulse), arguments.figures.as_deref(), err)?;
-    let found = find(arguments, scene, preload)?;
+    let found = find(arguments, scene, preload, err)?;
     let saved: Result<()> = Ok(());
     #[cfg(feature = "charts")]
     let saved = arguments.figures.as_ref().map_or(saved, |folder| draw(&found, folder));
@@ -112,7 +111,7 @@ fn argument(error: &SettingsError) -> &'static str {
     }
 }
 
-fn find(arguments: &Impulse, scene: Scene, preload: Preload) -> Result<Found> {
+fn find(arguments: &Impulse, scene: Scene, preload: Preload, err: &mut dyn Write) -> Result<Found> {
     let path = &arguments.scene;
     let torque = preload.load.sun_torque_nm;
     let failed = |e: ModalError| match e {
@@ -123,7 +122,7 @@ fn find(arguments: &Impulse, scene: Scene, preload: Preload) -> Result<Found> {
         _ => unfit(path, e),
     };
     let working = Working::new("meshing and factorising the bodies");
-    let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
+    let bodies = bodies(path, &scene, arguments.large)?;
     working.now("linearising the set");
     let is_full = scene.dynamics.fidelity == Fidelity::Full;
     let mut linear_scene = scene.clone();
@@ -145,6 +144,8 @@ fn find(arguments: &Impulse, scene: Scene, preload: Preload) -> Result<Found> {
     };
     let settings = asked(arguments, preload, band_hz);
     settings.check().map_err(|e| refused(argument(&e), e))?;
+    let run = Run::decays(&scene, pulses(&races).len(), settings.steps());
+    run.admit(path, arguments.large, err)?;
     let (low, high) = band_hz;
     let is_inside = |m: &FeMode| (low..=high).contains(&m.frequency_hz);
     let (inside, outside): (Vec<_>, Vec<_>) = modes

@@ -1,7 +1,7 @@
 //! What a scene describes: `scene check`.
 
 use fe_contact::FeError;
-use fe_contact::statics::within_memory;
+use fe_contact::statics::{estimate, within_memory};
 use gearset::involute::roll_length_at;
 use gearset::{Gear, Geometry, Mesh, MeshKind, Phasing};
 use scene::{LoadCase, Remarks, Scene, SceneKind, Verb};
@@ -150,7 +150,10 @@ impl SceneSummary {
             list.iter().map(in_time).collect::<Vec<_>>()
         };
         let zero = phases.as_ref().map_or(0.0, |p| p.sun_planet[0]);
-        let admitted = within_memory(scene);
+        let size = estimate(scene);
+        let refusal = within_memory(scene).err();
+        // Bodies that have a size lack nothing but memory.
+        let refusal = refusal.as_ref().map(|why| (why, size.as_ref().ok().map(|_| "--large")));
         Self {
             title: scene.title.clone(),
             kind: word(&scene.kind),
@@ -171,7 +174,7 @@ impl SceneSummary {
             rounding: remarks.notes,
             limits: scene.limits(),
             idle: remarks.idle,
-            fe_bodies: admitted.as_ref().ok().map(|found| FeBodiesSummary {
+            fe_bodies: size.as_ref().ok().map(|found| FeBodiesSummary {
                 degrees_of_freedom: found.bodies.iter().map(|b| b.unknowns).sum(),
                 memory_mb: 1e-6 * found.peak_bytes as f64,
             }),
@@ -181,10 +184,7 @@ impl SceneSummary {
                 .chain(scene::warnings(scene))
                 .map(warning)
                 .collect(),
-            verbs: Verb::ALL
-                .into_iter()
-                .map(|verb| needs(scene, verb, admitted.as_ref().err()))
-                .collect(),
+            verbs: Verb::ALL.into_iter().map(|verb| needs(scene, verb, refusal)).collect(),
         }
     }
 }
@@ -199,17 +199,17 @@ fn warning(w: scene::Warning) -> WarningSummary {
     WarningSummary { key, value, what, likely }
 }
 
-/// What a verb lacks; `refusal`: why the finite-element bodies cannot be made.
-fn needs(scene: &Scene, verb: Verb, refusal: Option<&FeError>) -> VerbSummary {
+/// What a verb lacks; `refusal`: why the finite-element bodies are not made, and the argument with which they are.
+fn needs(
+    scene: &Scene,
+    verb: Verb,
+    refusal: Option<(&FeError, Option<&'static str>)>,
+) -> VerbSummary {
     let mut lacks = scene.lacks(verb);
     let is_on_bodies = !matches!(verb, Verb::Modes | Verb::Rules | Verb::Compare);
     let is_complete = lacks.iter().all(|lack| lack.argument.is_some());
-    if let (true, true, Some(refusal)) = (is_on_bodies, is_complete, refusal) {
-        lacks.push(scene::Lack {
-            key: "fe_contact".into(),
-            why: refusal.to_string(),
-            argument: None,
-        });
+    if let (true, true, Some((why, argument))) = (is_on_bodies, is_complete, refusal) {
+        lacks.push(scene::Lack { key: "fe_contact".into(), why: why.to_string(), argument });
     }
     let is_on_closed_forms =
         matches!(verb, Verb::Modes | Verb::Compare) && scene.has_closed_forms();

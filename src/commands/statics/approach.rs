@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use fe_contact::export::calculix::{DeckSettings, deck};
-use fe_contact::statics::{Bodies, at_approach};
+use fe_contact::statics::at_approach;
 use scene::Scene;
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -14,7 +14,7 @@ use super::solver::solver;
 use crate::arguments::Static;
 use crate::error::{Result, fe_refused, refused, unfit};
 use crate::folder::{save, writable};
-use crate::inputs::{Working, loads};
+use crate::inputs::{Working, bodies, loads};
 use crate::output::{self, Report, Table};
 
 /// `static --approach-um --format json`.
@@ -59,7 +59,7 @@ pub(super) fn run(
     let phase = phase.rem_euclid(1.0);
     let start = Instant::now();
     let working = Working::new("meshing the bodies and solving the positions");
-    let bodies = Bodies::new(scene).map_err(fe_refused(path))?;
+    let bodies = bodies(path, scene, arguments.large)?;
     let before = Instant::now();
     let solver = solver(arguments.solver);
     let found = at_approach(&bodies, kind, phase, approach_um * 1e-6, solver);

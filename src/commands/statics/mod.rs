@@ -17,7 +17,7 @@ use scene::{Scene, SceneKind, Verb};
 
 use crate::arguments::Static;
 use crate::error::{Result, refused, unfit};
-use crate::inputs::{loads, needs, read_scene, within_memory};
+use crate::inputs::{Run, loads, needs, read_scene};
 
 pub(crate) fn run(arguments: &Static, out: &mut dyn Write, err: &mut dyn Write) -> Result<()> {
     let scene = read_scene(&arguments.scene, err)?;
@@ -32,8 +32,10 @@ pub(crate) fn run(arguments: &Static, out: &mut dyn Write, err: &mut dyn Write) 
     needs::warn(&scene, Some(Verb::Static), arguments.figures.as_deref(), err)?;
     // Where settings are chosen, so is the number of positions; an approach has one.
     if auto::request(&scene).is_none() && arguments.approach_um.is_none() {
-        let positions = ("--positions", arguments.position_count());
-        within_memory(path, &scene, positions, arguments.large)?;
+        let torques = arguments.sun_torque_nm.len().max(1);
+        let slowness = solver::slowness(arguments.solver);
+        let run = Run::at_rest(&scene, arguments.position_count(), torques, slowness);
+        run.admit(path, arguments.large, err)?;
     }
     match scene.kind {
         SceneKind::GearPair if arguments.approach_um.is_some() => {

@@ -13,7 +13,7 @@ use crate::arguments::Static;
 use crate::error::{Result, fe_refused, unfit};
 #[cfg(feature = "charts")]
 use crate::figures;
-use crate::inputs::Working;
+use crate::inputs::{Working, bodies};
 use crate::output::{self, Notation, Report, Table};
 
 /// `static --format json` of a gear pair. δ = r_b · elastic rotation of the driving gear, the driven
@@ -63,7 +63,7 @@ pub(super) fn run(
     let path = &arguments.scene;
     let kind = scene.pair.ok_or_else(|| unfit(path, "`mesh` is absent"))?;
     let working = Working::new("meshing the bodies and solving the positions");
-    let bodies = Bodies::new(scene).map_err(fe_refused(path))?;
+    let bodies = bodies(path, scene, arguments.large)?;
     let solver = solver(arguments.solver);
     let positions = arguments.position_count();
     let cycle = pair_cycle(&bodies, kind, force, positions, solver).map_err(fe_refused(path))?;

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use experiments::auto::Choice;
-use fe_contact::statics::{Bodies, Imperfections, MeshState, SetCycle, SetState, StaticSet};
+use fe_contact::statics::{Imperfections, MeshState, SetCycle, SetState, StaticSet};
 use gearset::{Member, MemberTorques};
 use scene::{LoadCase, Scene};
 use schemars::JsonSchema;
@@ -16,7 +16,7 @@ use crate::commands::auto_choice;
 use crate::error::{Result, fe_refused, unfit};
 #[cfg(feature = "charts")]
 use crate::figures;
-use crate::inputs::Working;
+use crate::inputs::{Working, bodies};
 use crate::output::{self, Notation, Report, Table};
 
 /// `static --format json` of a whole set. Displacements in the carrier frame, counter-clockwise.
@@ -134,7 +134,7 @@ pub(super) fn run(
 ) -> Result<()> {
     let path = &arguments.scene;
     let working = Working::new("meshing the bodies and solving the positions");
-    let bodies = Bodies::new(scene).map_err(fe_refused(path))?;
+    let bodies = bodies(path, scene, arguments.large)?;
     let solver = solver(arguments.solver);
     let mut cycles = Vec::new();
     for torque in torques {

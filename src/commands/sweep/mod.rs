@@ -21,15 +21,18 @@ use scene::{LoadCase, Scene, Verb};
 
 use super::turning;
 use crate::arguments::{Format, Sweep as SweepArguments};
-use crate::error::{Result, fe_refused, refused, unfit};
+use crate::error::{Result, refused, unfit};
 use crate::folder::{Claim, KeptFiles, Manifest, PLAN, write_results};
 use crate::inputs::needs::{self, not_ring_pair};
-use crate::inputs::{Working, loads, progress, read_scene, scene_text, within_memory};
+use crate::inputs::{Run, Working, bodies, loads, progress, read_scene, scene_text};
 use crate::output;
 use folder::PEAKS;
 
 /// Half-width of the refinement about a peak, as a share of its speed.
 const SPAN: f64 = 0.04;
+
+/// Peaks that are refined, where time is estimated.
+const USUAL_PEAKS: usize = 8;
 
 /// Peaks at least this many times as high as the curve to either side are refined.
 const PROMINENT: f64 = 1.25;
@@ -56,7 +59,7 @@ pub(super) fn run(
         err,
     )?;
     let working = Working::new("meshing the bodies and laying out tables");
-    let bodies = Bodies::new(&scene).map_err(fe_refused(path))?;
+    let bodies = bodies(path, &scene, arguments.large)?;
     let model = turning::model(arguments.model, &scene, &bodies, task.case)?;
     let model = model.as_ref();
     drop(working);
@@ -165,7 +168,6 @@ impl<'a> Task<'a> {
         if auto::response(scene).is_none() {
             let steps = scene.dynamics.steps_per_cycle as usize;
             steady.check(steps).map_err(refuse("--harmonics"))?;
-            within_memory(path, scene, ("`dynamics.steps_per_cycle`", steps), arguments.large)?;
             needs::caution(&steady, steps, err)?;
         }
         let directions: &[Direction] = match arguments.both_ways {
@@ -174,6 +176,13 @@ impl<'a> Task<'a> {
         };
         let plan = Plan::new(&speeds, directions, steady).map_err(refuse("--speeds-rpm"))?;
         let plan = plan.with_random_starts(arguments.random_starts);
+        if auto::response(scene).is_none() {
+            let dial = ["motions", "--speeds-rpm, --both-ways, --refine"];
+            let each = directions.len() * speeds.len() + USUAL_PEAKS * arguments.refine as usize;
+            let run = Run::motions(scene, arguments.model, &plan.steady, dial, each);
+            let run = run.with_random_starts(arguments.random_starts as usize);
+            run.admit(path, arguments.large, err)?;
+        }
         let text = scene_text(path)?;
         let fidelity = turning::name(arguments.model, scene);
         Ok(Self { arguments, text, case, plan, fidelity })
