@@ -469,7 +469,7 @@ def row(bases, key, own):
             if base.results[verb][0] is not None:
                 own_answers.append(answer)
             cells[verb] = best([cells[verb], answer])
-        if own_answers and set(own_answers) == {"."}:
+        if own_answers and "x" not in own_answers:
             idle.append(base.name)
     return cells, idle
 

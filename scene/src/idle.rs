@@ -26,6 +26,9 @@ impl Scene {
 
     /// Whether a verb that reads a key has a use for it in this scene.
     fn uses(&self, verb: Verb, key: &str) -> bool {
+        if key == "dynamics.fidelity" && self.dynamics.auto.is_some() {
+            return true; // "auto" is what makes a verb choose settings.
+        }
         let table = key.split('.').next().unwrap_or_default();
         verb.reads(key)
             && !self.is_of_other_gear(key)
