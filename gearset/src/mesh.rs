@@ -196,19 +196,28 @@ impl Mesh {
     /// Tip radius of `member` at which its tip just stays on the involute of its mate, m: external teeth must not be
     /// higher, those of a ring not reach further in. `None` if no tip circle outside the base circle does.
     pub fn admissible_tip_radius(&self, member: MeshMember) -> Option<f64> {
+        self.tip_radius_reaching(member, self.mate(member).form_roll_length().unwrap_or(0.0))
+    }
+
+    /// Tip radius of `member` at which its tip touches its mate at a roll length of the mate, m. `None` if no tip circle
+    /// outside the base circle does.
+    pub fn tip_radius_reaching(&self, member: MeshMember, mate_roll_length: f64) -> Option<f64> {
         let reach = self.center_distance * self.pressure_angle.sin();
-        let gear = self.gear(member);
-        let mate = match member {
+        let roll_length = match (self.kind, member) {
+            (MeshKind::SunPlanet, _) => reach - mate_roll_length,
+            (MeshKind::RingPlanet, MeshMember::Driver) => mate_roll_length - reach,
+            (MeshKind::RingPlanet, MeshMember::Driven) => reach + mate_roll_length,
+        };
+        let base_radius = self.gear(member).base_radius;
+        (roll_length > 0.0).then(|| radius_at(base_radius, roll_length))
+    }
+
+    /// The gear that meshes with `member`.
+    pub fn mate(&self, member: MeshMember) -> &Gear {
+        match member {
             MeshMember::Driver => &self.driven,
             MeshMember::Driven => &self.driver,
-        };
-        let form = mate.form_roll_length().unwrap_or(0.0);
-        let roll_length = match (self.kind, member) {
-            (MeshKind::SunPlanet, _) => reach - form,
-            (MeshKind::RingPlanet, MeshMember::Driver) => form - reach,
-            (MeshKind::RingPlanet, MeshMember::Driven) => reach + form,
-        };
-        (roll_length > 0.0).then(|| radius_at(gear.base_radius, roll_length))
+        }
     }
 
     /// Radial clearance between the tip circle of `member` and the mating root circle, m.

@@ -4,7 +4,7 @@
 //! a land of 0.2 modules, and the mate's involute. A fillet is made smaller where it does not fit into the tooth space,
 //! or where the mating tip would touch it.
 
-use crate::gear::Gear;
+use crate::gear::{Gear, ToothSide};
 use crate::geometry::Geometry;
 use crate::geometry_input::{GearInput, GeometryInput, ThicknessInput};
 use crate::mesh::{Mesh, NoMesh};
@@ -19,6 +19,9 @@ const LEAST_FILLET: f64 = 0.1;
 const RIM: f64 = 3.5;
 /// Least bore over the root circle.
 const LEAST_BORE: f64 = 0.5;
+/// Least roll angle at which a chosen tip touches an external tooth, rad: towards the base circle the involute's radius of
+/// curvature vanishes and the pressure grows without bound.
+const LEAST_ROLL_ANGLE: f64 = 0.05;
 /// Room that is left where two circles would just touch, m: more than rounding, less than any tolerance.
 const ROOM: f64 = 1e-9;
 
@@ -127,7 +130,16 @@ pub fn fill_circles(
         (MeshKind::RingPlanet, MeshMember::Driver, 1),
         (MeshKind::RingPlanet, MeshMember::Driven, RING),
     ] {
-        if let Some(limit) = set.mesh(kind).and_then(|mesh| mesh.admissible_tip_radius(member)) {
+        let limit = set.mesh(kind).and_then(|mesh| {
+            let mate = mesh.mate(member);
+            let form = mate.form_roll_length().unwrap_or(0.0);
+            let least = match mate.side {
+                ToothSide::External => form.max(LEAST_ROLL_ANGLE * mate.base_radius),
+                ToothSide::Internal => form,
+            };
+            mesh.tip_radius_reaching(member, least)
+        });
+        if let Some(limit) = limit {
             lower_tip(
                 input,
                 gear,

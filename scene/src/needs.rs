@@ -171,6 +171,7 @@ impl Scene {
                     SceneKind::Planetary => {
                         self.lacks_torque(&mut lacks);
                         self.lacks_torque_path(&mut lacks);
+                        self.lacks_floating(&mut lacks);
                     }
                 }
                 self.lacks_equal_planets(&mut lacks);
@@ -179,6 +180,7 @@ impl Scene {
                 self.lacks_bodies(&mut lacks);
                 self.lacks_torque(&mut lacks);
                 self.lacks_torque_path(&mut lacks);
+                self.lacks_floating(&mut lacks);
                 self.lacks_carrier_mass(&mut lacks);
                 self.lacks_equal_planets(&mut lacks);
                 self.lacks_elastic_pair(self.dynamics.fidelity, &mut lacks);
@@ -207,6 +209,7 @@ impl Scene {
                 }
                 self.lacks_torque(&mut lacks);
                 self.lacks_torque_path(&mut lacks);
+                self.lacks_floating(&mut lacks);
                 self.lacks_carrier_mass(&mut lacks);
                 self.lacks_equal_planets(&mut lacks);
                 self.lacks_one_flexibility(fidelity, &mut lacks);
@@ -342,6 +345,20 @@ impl Scene {
                 e.key,
                 format!("it is \"{}\": allowed is {}, because {}", e.value, e.allowed, e.why),
             ));
+        }
+    }
+
+    /// Each mesh holds a member along its line of action alone: less than three do not hold its centre.
+    fn lacks_floating(&self, lacks: &mut Vec<Lack>) {
+        if self.kind == SceneKind::GearPair || self.planets.count() > 2 {
+            return;
+        }
+        let members = [("sun", &self.supports.sun), ("ring", &self.supports.ring)];
+        for (name, support) in members {
+            if support.motion.translates() && support.bearing_n_per_m == 0.0 {
+                let why = "above 0: the meshes of one planet, or of two, do not hold its centre";
+                lacks.push(lack(format!("{name}.bearing_n_per_m"), why));
+            }
         }
     }
 

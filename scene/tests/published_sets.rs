@@ -389,7 +389,7 @@ fn interference_is_told_with_its_size() {
     let four = DIAGNOSIS.replace("planets.count = 3", "planets.count = 4");
     let overlaps = faults(&four);
     assert!(overlaps.iter().all(|f| f.key == "planets.count" && f.why.contains("4.0812 mm")));
-    assert_eq!(overlaps.len(), 4, "{overlaps:?}");
+    assert!(overlaps.len() == 1 && overlaps[0].why.contains("3 more pairs"), "{overlaps:?}");
 }
 
 /// A test gearbox for diagnosis from a thesis: 17/37/91, module 5, with the tips of standard teeth.

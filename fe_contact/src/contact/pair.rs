@@ -209,6 +209,12 @@ impl<'m> PairFrame<'m> {
         let r_b = flank.gear.base_radius;
         let t = self.tangent();
         let mut s = roll_length_at(r_b, ox.hypot(oy));
+        if s < NEAR_BASE * r_b {
+            // Where dP/ds vanishes Newton's method finds nothing; to first order (s² − s₀²)/(2 r_b) e·t = x.
+            let (p, e) = flank.point_and_radial(s);
+            let along = e[0] * t[0] + e[1] * t[1];
+            s = (s * s + 2.0 * r_b * (x - self.across(p)) / along).max(0.0).sqrt();
+        }
         let mut last = f64::INFINITY;
         for _ in 0..20 {
             let (p, e) = flank.point_and_radial(s);
@@ -354,6 +360,10 @@ impl PairFrame<'_> {
 
 /// Steps of a roll length that may be of rounding, m: a millionth of the width of a contact cell.
 const ROUNDED: f64 = 1e-11;
+
+/// Roll length over base radius below which a flank is so near to the start of its involute that its tangential
+/// coordinate is no longer nearly linear in the roll length.
+const NEAR_BASE: f64 = 0.01;
 
 /// A least gap is this far below the gap without relief only where it was not found, m.
 const LOST: f64 = 1e-9;

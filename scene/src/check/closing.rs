@@ -222,7 +222,7 @@ impl<'a> Closing<'a> {
             let misfits = self.misfits(&teeth)?;
             (misfits.into_iter().fold(0.0, f64::max) < NEAR).then(|| Cause {
                 key,
-                allowed: format!("{count}, as in Z_r = Z_s + 2 Z_p"),
+                allowed: format!("{count}, as in Z_r = Z_s + 2 Z_p, or a centre distance and shifts that close both meshes"),
                 why: format!(
                     "with {count} teeth both meshes close at {:.3} mm with the shifts of this set, with {wrong} they do not: roots, fillets and tips cannot fit",
                     1e3 * self.input.center_distance_m

@@ -162,19 +162,18 @@ fn mm(x: f64) -> String {
 
 /// Checks that the planets' tip circles stay clear of each other.
 fn planets_apart(document: &Document<'_>, positions: &PlanetPositions, a: f64, tip: f64) {
-    for (p, q, clearance) in assembly::planet_clearances(&positions.psi_rad, a, tip) {
-        if clearance <= 0.0 && clearance + 2.0 * tip > 1e-9 * tip {
-            let key = if document.has("planets.position_steps") {
-                "planets.position_steps"
-            } else if document.has("planets.positions_deg") {
-                "planets.positions_deg"
-            } else {
-                "planets.count"
-            };
-            let why = format!("planets {p} and {q} overlap by {}", mm(-clearance));
-            document.fault(key, "planets whose tip circles stay clear of each other", why);
-        }
-    }
+    let mut overlaps = assembly::planet_clearances(&positions.psi_rad, a, tip);
+    overlaps.retain(|(_, _, gap)| *gap <= 0.0 && gap + 2.0 * tip > 1e-9 * tip);
+    let Some((p, q, gap)) = overlaps.iter().min_by(|a, b| a.2.total_cmp(&b.2)) else { return };
+    let keys = ["planets.position_steps", "planets.positions_deg"];
+    let key = keys.into_iter().find(|key| document.has(key)).unwrap_or("planets.count");
+    let others = match overlaps.len() - 1 {
+        0 => String::new(),
+        1 => ", and one more pair does".into(),
+        n => format!(", and {n} more pairs do"),
+    };
+    let why = format!("planets {p} and {q} overlap by {}{others}", mm(-gap));
+    document.fault(key, "planets whose tip circles stay clear of each other", why);
 }
 
 /// Checks that the carrier's annulus contains its pin seats and that the seats do not overlap.

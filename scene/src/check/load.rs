@@ -4,6 +4,24 @@ use crate::load::estimates;
 use crate::load::size::MOST_MODULES;
 use crate::read::document::Document;
 use crate::scene::{Scene, SceneKind};
+use crate::warnings::{Warning, warnings};
+
+/// An unlikely value on which the deflection under a load depends: it explains more than the load does.
+fn slip_of_unit(document: &Document<'_>, scene: &Scene) -> Option<Warning> {
+    let is_stiffness = |key: &str| key.ends_with("bearing_n_per_m") || key.contains(".torsional_");
+    let decides = |key: &str| {
+        matches!(key, "material.young_modulus_pa" | "geometry.face_width_mm" | MODULE)
+            || is_stiffness(key)
+    };
+    let mut found = warnings(scene).into_iter().find(|warning| decides(&warning.key))?;
+    if found.key == MODULE && !document.has(MODULE) {
+        found.key = "geometry.rack.module_mm".into();
+    }
+    Some(found)
+}
+
+/// The key of which an unlikely module is warned.
+const MODULE: &str = "geometry.center_distance_mm";
 
 /// Refuses a torque under which the set gives way by more than a module.
 pub(crate) fn deflection(document: &Document<'_>, scene: &Scene) {
@@ -17,6 +35,15 @@ pub(crate) fn deflection(document: &Document<'_>, scene: &Scene) {
     let Some(length) = estimates::deflection(scene, &geometry) else { return };
     let Some(module) = estimates::module(&geometry) else { return };
     if length > MOST_MODULES * module {
+        if let Some(slip) = slip_of_unit(document, scene) {
+            let Warning { key, what, likely, .. } = slip;
+            let why = format!(
+                "{what}; with it the teeth give way by {:.3e} mm under the torque",
+                1e3 * length
+            );
+            document.fault(&key, likely, why);
+            return;
+        }
         let torque = scene.operation.map_or(0.0, |operation| operation.torque_nm.abs());
         let (or, of, and) = match scene.kind {
             SceneKind::Planetary => (

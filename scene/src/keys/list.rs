@@ -80,9 +80,9 @@ fn geometry() -> Vec<SceneKey> {
         key("geometry.planet_base_diameter_mm", Number(Positive), "mm", "base diameter of the planet: p_b = π d_b/Z_p").left_out("exactly one of base_pitch_mm, planet_base_diameter_mm and rack").needed_by(FE),
         key("geometry.rack", Table, "–", "generating rack: p_b = π m cos α₀").left_out("exactly one of base_pitch_mm, planet_base_diameter_mm and rack").needed_by(FE),
         key("geometry.rack.module_mm", Number(Positive), "mm", "module m of the rack, in the transverse section").required().needed_by(FE),
-        key("geometry.rack.pressure_angle_deg", Number(Between(0.0, 45.0)), "°", "pressure angle α₀ of the rack, in the transverse section").default_is("20"),
-        key("geometry.rack.addendum", Number(Positive), "module", "height h_aP of the rack above its datum line, from which tip circles that are left out follow").default_is("1"),
-        key("geometry.rack.dedendum", Number(Positive), "module", "height h_fP below it, from which root circles that are left out follow; above addendum").default_is("1.25"),
+        key("geometry.rack.pressure_angle_deg", Number(Between(5.0, 45.0)), "°", "pressure angle α₀ of the rack, in the transverse section").default_is("20"),
+        key("geometry.rack.addendum", Number(Between(0.0, 4.0)), "module", "height h_aP of the rack above its datum line, from which tip circles that are left out follow").default_is("1"),
+        key("geometry.rack.dedendum", Number(Between(0.0, 4.0)), "module", "height h_fP below it, from which root circles that are left out follow; above addendum").default_is("1.25"),
         key("geometry.rack.fillet_radius", Number(Positive), "module", "radius ρ_fP of the rack's rounding, and of the root fillets where root circle and fillet are left out").default_is("0.38"),
     ]
 }

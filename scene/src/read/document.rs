@@ -79,7 +79,10 @@ impl<'s> Document<'s> {
                 key,
                 value,
                 allowed: "TOML 1.0 syntax, each key once".into(),
-                why: error.message().trim().replace('\n', "; "),
+                why: match has_decimal_comma(self.text, span.start) {
+                    true => "decimals are written with a point: 10.5".into(),
+                    false => error.message().trim().replace('\n', "; "),
+                },
                 span,
             });
         }
@@ -323,6 +326,14 @@ impl<'d, 's> Section<'d, 's> {
         self.declared(key).map_or(0.0, |declared| declared.to_si(half))
     }
 
+    /// The same of each number of a list, in the unit of the key.
+    pub(crate) fn half_units(&self, key: &'static str) -> Vec<f64> {
+        let written = self.document.written(&self.full(key));
+        let numbers = written.trim_matches(['[', ']', ' ', '\n']).split(',');
+        let half = |text: &str| if self.document.is_exact { 0.0 } else { half_unit(text) };
+        numbers.map(half).collect()
+    }
+
     /// Notes what is chosen for a key that is left out: its value in the unit of the key, and why.
     pub(crate) fn choose(&self, key: &str, value: String, why: &str) {
         let chosen = Chosen { key: self.full(key), value, why: why.to_owned() };
@@ -447,7 +458,8 @@ impl Drop for Section<'_, '_> {
                 .filter_map(|(key, (_, value))| Some((key.as_str(), as_f64(value.get_ref())?)));
             let hint = nearest(key, known);
             // A letter off a long key is a slip, whatever else the word may mean.
-            let is_slip = hint.is_some_and(|(k, _)| levenshtein(k, key) <= key.len() / 6);
+            let is_slip = hint.is_some_and(|(k, _)| levenshtein(k, key) <= key.len() / 6)
+                || self.path == "damping" && key == "beta";
             if let Some((why, instead)) = out_of_scope(key, &numbers.collect()).filter(|_| !is_slip)
             {
                 self.document.faults.borrow_mut().push(Fault {
@@ -476,6 +488,18 @@ impl Drop for Section<'_, '_> {
             });
         }
     }
+}
+
+/// Whether the line that holds byte `at` gives a key a number with a decimal comma, and nothing else.
+fn has_decimal_comma(text: &str, at: usize) -> bool {
+    let at = (0..=at.min(text.len())).rev().find(|&i| text.is_char_boundary(i)).unwrap_or(0);
+    let start = text[..at].rfind('\n').map_or(0, |i| i + 1);
+    let line = text[start..].lines().next().unwrap_or("");
+    let value = line.split('#').next().and_then(|code| code.split_once('=')).map(|(_, v)| v.trim());
+    value.and_then(|value| value.split_once(',')).is_some_and(|(whole, decimals)| {
+        let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+        is_number(whole.trim_start_matches('-')) && is_number(decimals)
+    })
 }
 
 fn full_path(table: &str, key: &str) -> String {

@@ -165,7 +165,8 @@ fn base_pitch(s: &Section<'_, '_>, teeth: &TeethRead, rack: Option<Rack>) -> f64
     let pitch = s.optional("base_pitch_mm");
     let diameter_mm = s.in_its_unit("planet_base_diameter_mm");
     let given: Vec<_> = keys.into_iter().filter(|k| s.may_hold(k)).collect();
-    if given.len() != 1 {
+    let is_known = keys.into_iter().all(|k| s.has(k) || !s.may_hold(k));
+    if given.len() != 1 && is_known {
         let key = given.last().unwrap_or(&"base_pitch_mm");
         let allowed = format!("exactly one of {}", keys.join(", "));
         s.fault(key, allowed, "one base pitch makes every mesh exactly conjugate");

@@ -2,6 +2,36 @@
 
 use strsim::levenshtein;
 
+/// Names in use elsewhere and the key here; where several fit, the first that the table has.
+const ALIASES: [(&str, &str); 26] = [
+    ("alpha", "mass_proportional_per_s"),
+    ("alpha", "pressure_angle_deg"),
+    ("alpha_deg", "pressure_angle_deg"),
+    ("beta", "stiffness_proportional_s"),
+    ("pinion", "sun"),
+    ("wheel", "planet"),
+    ("gear", "planet"),
+    ("annulus", "ring"),
+    ("arm", "carrier"),
+    ("k_p", "bearing_n_per_m"),
+    ("kp", "bearing_n_per_m"),
+    ("k_sp", "sun_planet"),
+    ("ksp", "sun_planet"),
+    ("k_rp", "ring_planet"),
+    ("krp", "ring_planet"),
+    ("rpm", "speed_rpm"),
+    ("torque", "torque_nm"),
+    ("e", "young_modulus_pa"),
+    ("nu", "poisson_ratio"),
+    ("rho", "density_kg_per_m3"),
+    ("m", "module_mm"),
+    ("b", "face_width_mm"),
+    ("a", "center_distance_mm"),
+    ("width", "face_width_mm"),
+    ("backlash_mm", "sun_planet_backlash_mm"),
+    ("n_planets", "count"),
+];
+
 /// Units at the end of a key, longer ones first where one ends as another, and what they measure.
 const UNITS: [(&str, &str); 44] = [
     ("nm_per_rad", "torsional stiffness"),
@@ -108,6 +138,12 @@ impl Meaning {
 
 /// The known key that an unknown one means, and what differs beside the spelling.
 pub(crate) fn nearest<'k>(key: &str, known: &[&'k str]) -> Option<(&'k str, &'static str)> {
+    let lower = key.to_ascii_lowercase();
+    let mut aliases = ALIASES.iter().filter(|(other, _)| *other == lower);
+    let alias = aliases.find_map(|(_, meant)| known.iter().find(|known| *known == meant));
+    if let Some(alias) = alias {
+        return Some((alias, ""));
+    }
     let asked = Meaning::of(key);
     let distance = |other: &Meaning| {
         if asked.words == other.words {

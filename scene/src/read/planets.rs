@@ -89,11 +89,12 @@ fn positions(
     };
     let mut steps = Vec::new();
     let mut all_fit = true;
-    for (&degree, &psi) in degrees.iter().zip(&psi_rad) {
+    let per_degree = f64::from(z_s + z_r) / 360.0;
+    for ((&degree, &psi), half) in degrees.iter().zip(&psi_rad).zip(s.half_units("positions_deg")) {
         let (nearest, off) = assembly::nearest_steps(psi, z_s, z_r);
         steps.push(nearest);
-        // Rounding of degrees written with 8 decimals; anything more misplaces teeth.
-        if off.abs() > 1e-6 {
+        // Rounding of the digits, and of the computer; anything more misplaces teeth.
+        if off.abs() > 1e-6 + 1.001 * half * per_degree {
             all_fit = false;
             let exact = nearest as f64 * 360.0 / f64::from(z_s + z_r);
             let allowed = format!("multiples of 360°/{}", z_s + z_r);

@@ -12,9 +12,9 @@ struct Subject {
     instead: &'static str,
 }
 
-const SUBJECTS: [Subject; 17] = [
+const SUBJECTS: [Subject; 19] = [
     Subject {
-        words: &["helix", "helical", "beta", "overlap", "spiral"],
+        words: &["helix", "helical", "beta", "overlap", "spiral", "normal"],
         why: "teeth are straight: sections along the axis are alike",
         instead: "the transverse section of helical teeth: m_t = m_n/cos β, tan α_t = tan α_n/cos β, shifts x_t = x_n cos β; the overlap \
                   of their ends is left out",
@@ -122,6 +122,16 @@ const SUBJECTS: [Subject; 17] = [
         instead: "[geometry], from which `sweep`, `branches` and `stability parametric` compute it; in a program a stiffness of any \
                   course, by ParametricSet of `lumped` or pair_law of `gearset`",
     },
+    Subject {
+        words: &["output"],
+        why: "two members are named: one drives, one stands still or is held by its support",
+        instead: "input and fixed of [operation], from which the third follows",
+    },
+    Subject {
+        words: &["rim_thickness", "backup_ratio", "rim_ratio"],
+        why: "a rim lies between two circles that are given",
+        instead: "bore_diameter_mm of sun and planet, rim_diameter_mm of the ring",
+    },
     Subject { words: &["gravity", "weight"], why: "no weight acts", instead: "nothing" },
     Subject {
         words: &[
@@ -187,7 +197,7 @@ fn is_of_speed(name: &str) -> bool {
 /// Module and angle in the transverse section, where the normal ones and the helix angle are known (ISO 21771):
 /// m_t = m_n/cos β, tan α_t = tan α_n/cos β.
 fn transverse(key: &str, numbers: &BTreeMap<&str, f64>) -> Option<String> {
-    let value = *numbers.get(key)?;
+    let value = *numbers.get(key).filter(|_| !key.contains("normal"))?;
     let beta = if key.ends_with("_rad") { value } else { value.to_radians() };
     let module = numbers.get("module_mm")? / beta.cos();
     let normal = numbers.get("pressure_angle_deg").unwrap_or(&20.0).to_radians();

@@ -44,7 +44,10 @@ pub(crate) fn supports(
                 root.choose(&format!("{key}.motion"), "\"held\"".into(), &why);
             }
         }
-    } else if kind == Some(SceneKind::Planetary) && !root.has("planet") {
+    } else if kind == Some(SceneKind::Planetary)
+        && !root.has("planet")
+        && !(root.may_hold("geometry") && root.is_doubtful("geometry"))
+    {
         let why = "every planet runs on a bearing on the carrier";
         root.fault("planet", "[planet] with bearing_n_per_m", why);
     }

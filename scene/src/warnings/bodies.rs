@@ -97,6 +97,11 @@ fn against_mass(given: &Given, found: &mut Found) {
             shown((over_r2 / m).sqrt())
         );
         let key = format!("lumped.inertia_over_r2_kg.{}", given.name);
-        found.add(key, over_r2, what, "likely I/r² or `lumped.mass_kg` is in another unit");
+        found.add(
+            key,
+            over_r2,
+            what,
+            "likely I/r², `lumped.radius_mm` or `lumped.mass_kg` is in another unit",
+        );
     }
 }

@@ -7,7 +7,7 @@ mod numerics;
 
 use std::fmt;
 
-use gearset::Geometry;
+use gearset::{Geometry, MeshKind};
 
 use crate::keys::KEYS;
 use crate::load::case::LoadCase;
@@ -43,6 +43,12 @@ const DENSITY_KG_PER_M3: [f64; 2] = [500.0, 20_000.0];
 const MODULE_MM: [f64; 2] = [0.2, 100.0];
 /// Face width over module: usual are 3 to 30.
 const WIDTH_IN_MODULES: [f64; 2] = [0.5, 200.0];
+/// Amount of tip relief over the module: teeth bend by some hundredths of a module at most.
+const RELIEF_IN_MODULES: [f64; 2] = [1e-4, 0.05];
+/// Least stiffness of a mesh over Young's modulus, m: c_γ of ISO 6336-1 is 14 to 20 N/(mm µm) of steel, here at 1 mm.
+const LEAST_MESH_IN_E: f64 = 5e-5;
+/// Operating pressure angle, °, below which no rack leads.
+const LEAST_ANGLE_DEG: f64 = 5.0;
 /// Damping ratio of the highest mode of the rigid bodies: from 1 on nothing there vibrates.
 const DAMPING_RATIO: f64 = 1.0;
 /// Mesh frequency, Hz: a turbine gear of 100 teeth at 30000 rpm has half of it.
@@ -75,11 +81,13 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
     if let Some(geometry) = &geometry {
         lengths(geometry, &mut found);
         backlash(scene, geometry, &mut found);
+        tip_reliefs(geometry, &mut found);
         bottom_clearance(geometry, &mut found);
         load(scene, geometry, &mut found);
         contradictions(scene, geometry, &mut found);
     }
     ring_teeth(scene, &mut found);
+    parameters_alone(scene, &mut found);
     bodies(scene, &mut found);
     supports(scene, geometry.as_ref(), &mut found);
     damping(scene, &mut found);
@@ -176,6 +184,30 @@ fn lengths(geometry: &Geometry, found: &mut Found) {
     }
 }
 
+fn tip_reliefs(geometry: &Geometry, found: &mut Found) {
+    let Some(module) = estimates::module(geometry) else { return };
+    let gears = [
+        ("sun", geometry.sun.as_ref()),
+        ("planet", Some(&geometry.planet)),
+        ("ring", geometry.ring.as_ref()),
+    ];
+    for (name, gear) in gears {
+        let Some(relief) = gear.and_then(|gear| gear.tip_relief) else { continue };
+        let modules = relief.amount_m / module;
+        if relief.amount_m > 0.0 && is_outside(RELIEF_IN_MODULES, modules) {
+            let what = format!(
+                "that is {} of the module of {} mm, where gears have {} to {}",
+                shown(modules),
+                shown(1e3 * module),
+                shown(RELIEF_IN_MODULES[0]),
+                RELIEF_IN_MODULES[1]
+            );
+            let key = format!("geometry.{name}.tip_relief.amount_um");
+            found.add(key, 1e6 * relief.amount_m, what, "likely it is not in µm");
+        }
+    }
+}
+
 fn load(scene: &Scene, geometry: &Geometry, found: &mut Found) {
     let deflection = estimates::deflection(scene, geometry);
     if let (Some(length), Some(module), Some(o)) =
@@ -195,6 +227,29 @@ fn load(scene: &Scene, geometry: &Geometry, found: &mut Found) {
             SceneKind::GearPair => "likely the torque is in N·mm",
         };
         found.add("operation.torque_nm", o.torque_nm, what, likely);
+    }
+}
+
+/// Mesh stiffnesses and pressure angles of a scene without teeth to hold them against.
+fn parameters_alone(scene: &Scene, found: &mut Found) {
+    let Some(lumped) = scene.lumped.as_ref().filter(|_| scene.geometry.is_none()) else { return };
+    let kinds = [MeshKind::SunPlanet, MeshKind::RingPlanet];
+    let is_there = |kind: &MeshKind| scene.pair.is_none_or(|pair| pair == *kind);
+    for kind in kinds.into_iter().filter(is_there) {
+        let k = lumped.mesh_n_per_m.of(kind);
+        let least = LEAST_MESH_IN_E * scene.material.young_modulus_pa;
+        if k < least {
+            let what =
+                format!("teeth of this material have {} N/m at a face width of 1 mm", shown(least));
+            let likely = "likely it is in N/mm (1 N/mm = 1000 N/m) or N/µm (1e6 N/m)";
+            found.add(format!("lumped.mesh_n_per_m.{}", kind.name()), k, what, likely);
+        }
+        let angle = lumped.pressure_angle_rad.of(kind).to_degrees();
+        if angle < LEAST_ANGLE_DEG {
+            let what = "gears have 14 to 30°".into();
+            let likely = "likely it is in radians: write it in degrees";
+            found.add(format!("lumped.pressure_angle_deg.{}", kind.name()), angle, what, likely);
+        }
     }
 }
 
