@@ -79,3 +79,29 @@ fn the_pressure_at_the_pitch_point_is_that_of_hertz() {
     println!("{pressure} MPa");
     assert!((pressure / 1347.0 - 1.0).abs() < 0.01, "{pressure} MPa");
 }
+
+/// A ring's tip that touches a planet of 18 teeth just where its involute starts, at the base circle: the flank's radius of
+/// curvature vanishes there, and the mesh gives way as with tips a little lower.
+#[test]
+fn contact_reaches_down_to_the_base_circle() {
+    let deflections = |roll_angle: f64| {
+        let (base, reach) = (9e-3 * COS_20, 24e-3 * 20f64.to_radians().sin());
+        let tip = 2e3 * (33e-3 * COS_20).hypot(reach + roll_angle * base);
+        let scene = Scene::from_toml(&format!(
+            "format = 1\nkind = \"gear_pair\"\nmesh = \"ring_planet\"\nteeth = {{ planet = 18, ring = 66 }}\n\
+             [geometry]\nface_width_mm = 20\nrack = {{ module_mm = 1 }}\nring = {{ tip_diameter_mm = {tip} }}\n"
+        ));
+        let bodies = Bodies::new(&scene.unwrap()).unwrap();
+        [0.0, 0.02, 0.5, 0.98].map(|phase| {
+            at_phase(&bodies, MeshKind::RingPlanet, 300.0, phase, &ActiveSet).unwrap().deflection
+        })
+    };
+    let lower = deflections(2e-3);
+    for (found, lower) in deflections(1e-7).into_iter().zip(lower) {
+        println!("{:.2e}", found / lower - 1.0);
+        assert!((found / lower - 1.0).abs() < 0.01, "{found:e} {lower:e}");
+    }
+}
+
+/// cos 20°.
+const COS_20: f64 = 0.939_692_620_785_908_4;

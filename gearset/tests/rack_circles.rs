@@ -112,8 +112,11 @@ fn chosen_circles_never_contradict_each_other() {
 #[test]
 fn a_tip_is_lowered_to_the_involute_of_its_mate() {
     let (input, _) = filled([12, 18, 48], 2.0, 30.0, with_backlash(2.0));
-    // The sun's base circle ends its involute: s_p = a sin 20°, d = 2 √(r_b² + s_p²).
-    let reach = 30.0 * 20f64.to_radians().sin();
-    let base = 18.0 * 20f64.to_radians().cos();
+    // The sun is touched 0.05 rad above its base circle: s_p = a sin 20° − 0.05 r_b,sun, d = 2 √(r_b² + s_p²).
+    let [reach, cos] = [
+        30.0 * 20f64.to_radians().sin() - 0.6 * 20f64.to_radians().cos(),
+        20f64.to_radians().cos(),
+    ];
+    let base = 18.0 * cos;
     assert_mm(2.0 * input.planet.tip_radius_m, 2.0 * base.hypot(reach), 1e-4);
 }

@@ -302,3 +302,106 @@ fn a_misnamed_key_is_one_fault() {
         assert!(fault.why.contains("did you mean"), "{fault}");
     }
 }
+
+/// A slip in one value is told by its key, once, and not by a value that it makes unlikely.
+#[test]
+fn a_slip_is_told_by_its_own_key() {
+    let six = "format = 1\nkind = \"planetary\"\nplanets.count = 3\nteeth = { sun = 21, planet = 39, ring = 99 }\n\
+               geometry = { rack.module_mm = 10, face_width_mm = 230 }\noperation.torque_nm = 20000\n";
+    for (from, to, key, words) in [
+        (
+            "torque_nm = 20000\n",
+            "torque_nm = 20000\nmaterial.young_modulus_pa = 206\n",
+            "material.young_modulus_pa",
+            "GPa",
+        ),
+        ("face_width_mm = 230", "face_width_mm = 0.23", "geometry.face_width_mm", "write it in mm"),
+        ("module_mm = 10", "module_mm = 0.01", "geometry.rack.module_mm", "in m"),
+        (
+            "module_mm = 10,",
+            "module_mm = 10, rack.pressure_angle_deg = 0.349,",
+            "geometry.rack.pressure_angle_deg",
+            "between 5 and 45",
+        ),
+        (
+            "module_mm = 10,",
+            "module_mm = 10, rack.addendum = 10, rack.dedendum = 12.5,",
+            "geometry.rack.addendum",
+            "between 0 and 4",
+        ),
+        ("ring = 99", "ring = 101", "teeth.ring", "or a centre distance and shifts"),
+        ("face_width_mm", "facewidth_mm", "geometry.facewidth_mm", "did you mean `face_width_mm`?"),
+        ("planets.count = 3", "planets.count = 7", "planets.count", "and 6 more pairs do"),
+        (
+            "operation.torque_nm = 20000",
+            "operation = { torque_nm = 20000, output = \"carrier\" }",
+            "operation.output",
+            "from which the third follows",
+        ),
+        (
+            "operation.torque_nm = 20000",
+            "operation.torque_nm = 20000\ndamping.beta = 2e-6",
+            "damping.beta",
+            "did you mean `stiffness_proportional_s`?",
+        ),
+        (
+            "rack.module_mm",
+            "rack.normal_module_mm",
+            "geometry.rack.normal_module_mm",
+            "m_t = m_n/cos β",
+        ),
+        (
+            "face_width_mm = 230",
+            "face_width_mm = 230, rim_thickness_mm = 30",
+            "geometry.rim_thickness_mm",
+            "rim_diameter_mm of the ring",
+        ),
+    ] {
+        assert!(six.contains(from), "{from}");
+        let error = Scene::from_toml(&six.replacen(from, to, 1)).unwrap_err();
+        let told = error.faults().iter().find(|f| f.key == key);
+        let told = told.unwrap_or_else(|| panic!("{to}: {error}")).to_string();
+        assert!(told.contains(words), "{to}: {told}");
+        // Two heights of a rack are two faults.
+        let others = error.faults().iter().filter(|f| !f.key.starts_with(key)).count();
+        assert!(others <= usize::from(to.contains("dedendum")), "{to}: {error}");
+    }
+    let comma = six
+        .replace(
+            "geometry = { rack.module_mm = 10, face_width_mm = 230 }",
+            "[geometry]\nface_width_mm = 10,5\nrack.module_mm = 10\n[operation]",
+        )
+        .replace("operation.torque_nm", "torque_nm");
+    let error = Scene::from_toml(&comma).unwrap_err().to_string();
+    assert!(error.contains("decimals are written with a point"), "{error}");
+}
+
+/// Parameters alone, in another unit; a tip relief in another unit.
+#[test]
+fn units_of_parameters_alone_and_of_tip_relief_are_told() {
+    let alone = |lumped: &str| {
+        let text = format!(
+            "format = 1\nkind = \"planetary\"\nplanets.count = 3\nplanet.bearing_n_per_m = 1e8\n[lumped]\n\
+             mass_kg = {{ sun = 0.4, ring = 2.35, carrier = 5.43, planet = 0.66 }}\n\
+             inertia_over_r2_kg = {{ sun = 0.39, ring = 3, carrier = 6.29, planet = 0.61 }}\n{lumped}"
+        );
+        warnings(&Scene::from_toml(&text).unwrap()).into_iter().map(|w| w.key).collect::<Vec<_>>()
+    };
+    let right = "mesh_n_per_m = { sun_planet = 5e8, ring_planet = 5e8 }\n\
+                 pressure_angle_deg = { sun_planet = 24.6, ring_planet = 24.6 }\n";
+    assert!(alone(right).is_empty(), "{:?}", alone(right));
+    let meshes = ["lumped.mesh_n_per_m.sun_planet", "lumped.mesh_n_per_m.ring_planet"];
+    assert_eq!(alone(&right.replace("5e8", "500")), meshes);
+    let angles = ["lumped.pressure_angle_deg.sun_planet", "lumped.pressure_angle_deg.ring_planet"];
+    assert_eq!(alone(&right.replace("24.6", "0.4294")), angles);
+    let relieved = |amount: &str| {
+        let text = scene::template(scene::SceneKind::Planetary).replacen(
+            "tip_diameter_mm = 84.07",
+            &format!("tip_relief = {{ start_diameter_mm = 83, amount_um = {amount} }}\ntip_diameter_mm = 84.07"),
+            1,
+        );
+        let found = warnings(&Scene::from_toml(&text).unwrap());
+        found.iter().any(|w| w.key == "geometry.sun.tip_relief.amount_um")
+    };
+    assert!(relieved("300") && relieved("0.02") && !relieved("20") && !relieved("1"));
+}

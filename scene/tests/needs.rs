@@ -19,6 +19,25 @@ fn the_template_lacks_nothing() {
     }
 }
 
+/// The meshes of two planets do not hold the centre of a sun without bearing; those of three do.
+#[test]
+fn a_sun_on_two_planets_needs_a_bearing() {
+    let lacks = |planets: u32, verb: Verb| {
+        let scene = Scene::from_toml(&format!(
+            "format = 1\nkind = \"planetary\"\nplanets.count = {planets}\n\
+             teeth = {{ sun = 30, planet = 40, ring = 110 }}\n\
+             geometry = {{ rack.module_mm = 10, face_width_mm = 230 }}\noperation.torque_nm = 20000\n"
+        ));
+        let lacks = scene.unwrap().lacks(verb).into_iter().map(|lack| lack.key);
+        lacks.collect::<Vec<_>>()
+    };
+    for verb in [Verb::Static, Verb::Impulse, Verb::Sweep(Fidelity::QuasiStatic)] {
+        assert_eq!(lacks(2, verb), ["sun.bearing_n_per_m"], "{verb:?}");
+        assert_eq!(lacks(1, verb), ["sun.bearing_n_per_m"], "{verb:?}");
+        assert!(lacks(4, verb).is_empty(), "{verb:?}");
+    }
+}
+
 #[test]
 fn one_mesh_alone_is_meshed_and_loaded_by_a_force() {
     for verb in Verb::ALL {

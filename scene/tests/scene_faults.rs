@@ -64,7 +64,7 @@ fn each_kind_of_fault_names_its_key_and_says_why() {
         (&[("format = 1", "format = 2")], "format", "whole number from 1 to 1"),
         (&[("format = 1", "")], "format", "absent"),
         (&[("\"planetary\"  ", "\"planet\"  ")], "kind", "gear_pair"),
-        (&[(POSITION, "positions_deg = [0, -88.6, 180, 91.4]")], "planets.positions_deg", "-31"),
+        (&[(POSITION, "positions_deg = [0, -88.4, 180, 91.4]")], "planets.positions_deg", "-31"),
         (&[(POSITION, "position_steps = [0, 10, 63, 32]")], "planets.position_steps", "overlap"),
         (&[(POSITION, "position_steps = [0, 63, 63, 32]")], "planets.position_steps", "same place"),
         (&[(POSITION, "position_steps = [0, 63]")], "planets.position_steps", "4 entries"),
@@ -286,8 +286,13 @@ fn degrees_that_can_be_assembled_become_exact_steps() {
         "position_steps = [0, -31, 63, 32]",
         "positions_deg = [0, -88.57142857, 180, 91.42857143]",
     )]);
+    // As a paper prints them, with one decimal.
+    let printed = text.replace("-88.57142857, 180, 91.42857143", "-88.6, 180.0, 91.4");
+    let (rounded, remarks) = Scene::with_remarks(&printed).unwrap();
+    assert_eq!(rounded.planets.steps, Some(vec![0, -31, 63, 32]));
+    assert!(remarks.notes.iter().any(|note| note.contains("[0, -31, 63, 32]")), "{remarks:?}");
     let scene = Scene::from_toml(&text).unwrap();
-    assert_eq!(scene.planets.steps, Some(vec![0, -31, 63, 32]));
+    assert_eq!(scene.planets, rounded.planets);
     assert_eq!(scene.planets.psi_rad[2], 63.0 * std::f64::consts::TAU / 126.0);
 }
 

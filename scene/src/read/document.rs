@@ -457,6 +457,9 @@ impl Drop for Section<'_, '_> {
                 .iter()
                 .filter_map(|(key, (_, value))| Some((key.as_str(), as_f64(value.get_ref())?)));
             let hint = nearest(key, known);
+            if let Some((meant, _)) = hint {
+                self.document.meant.borrow_mut().push(full_path(&self.path, meant));
+            }
             // A letter off a long key is a slip, whatever else the word may mean.
             let is_slip = hint.is_some_and(|(k, _)| levenshtein(k, key) <= key.len() / 6)
                 || self.path == "damping" && key == "beta";
@@ -470,9 +473,6 @@ impl Drop for Section<'_, '_> {
                     span: span.clone(),
                 });
                 continue;
-            }
-            if let Some((meant, _)) = hint {
-                self.document.meant.borrow_mut().push(full_path(&self.path, meant));
             }
             let hint = hint.map_or_else(
                 || "unknown key".to_owned(),

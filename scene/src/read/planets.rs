@@ -88,12 +88,13 @@ fn positions(
         return Some(PlanetPositions { psi_rad, steps: None });
     };
     let mut steps = Vec::new();
-    let mut all_fit = true;
+    let (mut all_fit, mut is_rounded) = (true, false);
     let per_degree = f64::from(z_s + z_r) / 360.0;
     for ((&degree, &psi), half) in degrees.iter().zip(&psi_rad).zip(s.half_units("positions_deg")) {
         let (nearest, off) = assembly::nearest_steps(psi, z_s, z_r);
         steps.push(nearest);
-        // Rounding of the digits, and of the computer; anything more misplaces teeth.
+        // Rounding of degrees written with 8 decimals, or of fewer digits; anything more misplaces teeth.
+        is_rounded |= off.abs() > 1e-6;
         if off.abs() > 1e-6 + 1.001 * half * per_degree {
             all_fit = false;
             let exact = nearest as f64 * 360.0 / f64::from(z_s + z_r);
@@ -103,6 +104,12 @@ fn positions(
             );
             s.fault("positions_deg", allowed, why);
         }
+    }
+    if all_fit && is_rounded {
+        let note = format!(
+            "the positions lie within the rounding of their digits at assembly steps {steps:?}: taken there"
+        );
+        s.document.remarks.borrow_mut().notes.push(note);
     }
     let step = assembly::assembly_step_rad(z_s, z_r);
     let psi_rad = steps.iter().map(|&k| k as f64 * step).collect();
