@@ -191,13 +191,13 @@ impl<'m> PairFrame<'m> {
     }
 
     /// Relative radius of curvature R at the reference point, 1/R = 1/ρ₁ ± 1/ρ₂ with the roll
-    /// lengths there as ρ, m.
+    /// lengths there as ρ, or at the base circle those over which a contact patch spreads, m.
     pub fn radius(&self) -> f64 {
         let curvature = |flank: &Flank<'_>| {
             let [x, y] = [self.origin[0] - flank.centre[0], self.origin[1] - flank.centre[1]];
             let s = roll_length_at(flank.gear.base_radius, x.hypot(y));
             let sign = if flank.gear.side == ToothSide::External { 1.0 } else { -1.0 };
-            sign / s.max(1e-3 * flank.gear.base_radius)
+            sign / s.max(LEAST_CURVATURE * flank.gear.base_radius)
         };
         1.0 / (curvature(&self.driver) + curvature(&self.driven))
     }
@@ -360,6 +360,10 @@ impl PairFrame<'_> {
 
 /// Steps of a roll length that may be of rounding, m: a millionth of the width of a contact cell.
 const ROUNDED: f64 = 1e-11;
+
+/// Least roll length over base radius that stands for the radius of curvature: a patch that begins at the base circle
+/// reaches to about (16 F r_b²/πbE*)^⅓, some hundredths of r_b, where flanks are as flat as that.
+const LEAST_CURVATURE: f64 = 0.03;
 
 /// Roll length over base radius below which a flank is so near to the start of its involute that its tangential
 /// coordinate is no longer nearly linear in the roll length.
