@@ -6,7 +6,7 @@ use lumped::NamedModes;
 use scene::Verb;
 use serde::Serialize;
 use validation::results::{JudgeError, ModeList};
-use validation::{Comparison, Match, ModelMode, compare};
+use validation::{Comparison, LikelyUnit, Match, ModelMode, compare};
 
 use super::modes::{self, PARAMETERS};
 use crate::arguments::Compare;
@@ -99,7 +99,7 @@ impl Report for CompareOutput {
         for remark in &self.remarks {
             writeln!(out, "{}", paragraph(remark, "  ", "  "))?;
         }
-        let Comparison { matches, agreed, disagreed, beyond_list, .. } = &self.result;
+        let Comparison { matches, agreed, disagreed, beyond_list, likely_unit, .. } = &self.result;
         table().text(matches, out)?;
         writeln!(
             out,
@@ -110,6 +110,12 @@ impl Report for CompareOutput {
             writeln!(
                 out,
                 "{beyond_list} of the model above the list's highest frequency, which a list may leave out (--whole demands them)"
+            )?;
+        }
+        if let Some(LikelyUnit { unit, column, agreed, lines }) = likely_unit {
+            writeln!(
+                out,
+                "the list likely is in {unit}: {agreed} of {lines} would agree with its column called `{column}`"
             )?;
         }
         Ok(())

@@ -1,6 +1,8 @@
 //! `compare`: lists of natural frequencies as others write them.
 
-use super::harness::{csv_of_own_modes, run, scene};
+use serde_json::Value;
+
+use super::harness::{csv_of_own_modes, json, keeps_to_schema, run, scene};
 
 #[test]
 fn compare_agrees_with_itself_and_not_with_the_published_spacing() {
@@ -72,5 +74,56 @@ fn bad_tables_of_modes_name_line_and_column() {
         let (code, _, err) = run(&["compare", path.to_str().unwrap(), "--scene", &set]);
         assert_eq!(code, 2, "{text}");
         assert!(err.contains(words), "{err}");
+    }
+}
+
+#[test]
+fn a_list_in_another_unit_is_told_which() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("modes.csv");
+    let path = path.to_str().unwrap();
+    // With a floating sun, ring and carrier that turn together at 0 Hz.
+    let set = scene("lin_parker_1999_4p.toml");
+    let own = json(&["modes", &set, "--format", "json"]);
+    let own: Vec<f64> = own["modes"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|m| m["frequency_hz"].as_f64().unwrap())
+        .collect();
+    let compared = |factor: f64, list: &[f64]| {
+        let rows: String = list.iter().map(|hz| format!("{:.4}\n", factor * hz)).collect();
+        std::fs::write(path, format!("frequency_hz\n{rows}")).unwrap();
+        run(&["compare", path, "--scene", &set])
+    };
+    let as_json = || {
+        let (_, out, err) = run(&["compare", path, "--scene", &set, "--format", "json"]);
+        let found: Value = serde_json::from_str(&out).unwrap_or_else(|e| panic!("{e}: {out}{err}"));
+        keeps_to_schema("compare", &found);
+        found
+    };
+    let elastic: Vec<f64> = own.into_iter().filter(|hz| *hz > 1.0).collect();
+    let few = &elastic[..2];
+    for (factor, unit, column) in [
+        (1e-3, "kHz", "frequency_khz"),
+        (std::f64::consts::TAU, "rad/s", "frequency_rad_per_s"),
+        (60.0, "1/min", "frequency_rpm"),
+    ] {
+        let (code, out, err) = compared(factor, few);
+        assert_eq!(code, 1, "{out}{err}");
+        let hint = format!(
+            "the list likely is in {unit}: 2 of 2 would agree with its column called `{column}`"
+        );
+        assert!(out.contains(&hint), "{out}");
+        let found = as_json();
+        assert_eq!(found["likely_unit"]["unit"], unit);
+        assert_eq!(found["likely_unit"]["agreed"], 2);
+    }
+    // In Hz, of one mode only, and wrong in every unit.
+    for (factor, list) in [(1.0, few), (1e-3, &elastic[..1]), (3.0, few)] {
+        let (_, out, err) = compared(factor, list);
+        assert!(!out.contains("likely"), "{out}{err}");
+        let found = as_json();
+        assert!(found.get("likely_unit").is_none(), "{found}");
     }
 }

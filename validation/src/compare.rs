@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::likely_unit::LikelyUnit;
+
 /// One frequency of the list.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ListedMode {
@@ -63,6 +65,9 @@ pub struct Comparison {
     pub beyond_list: usize,
     /// Largest |difference| of all matched lines, percent.
     pub largest_difference_percent: f64,
+    /// Unit that the list likely is in where few of its frequencies agree as Hz; left out without such a unit.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub likely_unit: Option<LikelyUnit>,
 }
 
 /// Rigid-body frequencies come out of eigensolvers as noise; below this share of the highest model
@@ -94,6 +99,17 @@ const GAP_PERCENT: f64 = 10.0;
 /// assert_eq!((found.agreed, found.disagreed), (1, 0));
 /// ```
 pub fn compare(
+    listed: &[ListedMode],
+    model: &[ModelMode],
+    tolerance_percent: f64,
+    is_whole: bool,
+) -> Comparison {
+    let found = held_against(listed, model, tolerance_percent, is_whole);
+    Comparison { likely_unit: LikelyUnit::of(listed, model, &found, is_whole), ..found }
+}
+
+/// The comparison in Hz, whatever unit is likely.
+pub(crate) fn held_against(
     listed: &[ListedMode],
     model: &[ModelMode],
     tolerance_percent: f64,
@@ -163,6 +179,7 @@ pub fn compare(
         largest_difference_percent: worst.fold(0.0, f64::max),
         matches,
         tolerance_percent,
+        likely_unit: None,
     }
 }
 

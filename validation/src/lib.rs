@@ -11,6 +11,7 @@ mod glob;
 mod judged;
 mod kept_charts;
 mod ledger;
+mod likely_unit;
 mod mode_type;
 mod model_kind;
 mod nearest;
@@ -38,6 +39,7 @@ pub use error::ValidationError;
 pub use judged::Judged;
 pub use kept_charts::{KeptStudy, kept_maps, kept_studies};
 pub use ledger::{Assumption, Figure, Ledger};
+pub use likely_unit::LikelyUnit;
 pub use model_kind::ModelKind;
 pub use own_truth::{
     ExactPeak, ExactPeaks, FullSweep, FullSweepPoint, Ladder, LadderFidelity, MapCell,

@@ -20,7 +20,7 @@ pub enum ModalError {
     Settings(#[from] super::settings::SettingsError),
     /// A preload under which the set does not stay at rest, or does not return to it after a small pulse.
     #[error(
-        "{torque_nm} N·m: under this torque the set does not stay at rest, or small pulses leave it in large motion: there is no state to find modes about"
+        "{torque_nm} N·m on the sun: under this torque the set does not stay at rest, or small pulses leave it in large motion: there is no state to find modes about"
     )]
     Unsteady {
         /// Torque on the sun, N m.

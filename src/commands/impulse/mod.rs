@@ -114,10 +114,15 @@ fn argument(error: &SettingsError) -> &'static str {
 fn find(arguments: &Impulse, scene: Scene, preload: Preload, err: &mut dyn Write) -> Result<Found> {
     let path = &arguments.scene;
     let torque = preload.load.sun_torque_nm;
+    // The torque is that of the argument, or of the scene.
+    let of_torque = |reason: String| match arguments.sun_torque_nm {
+        Some(_) => refused("--sun-torque-nm", reason),
+        None => unfit(path, format!("`operation.torque_nm` gives {reason}")),
+    };
     let failed = |e: ModalError| match e {
-        ModalError::Unsteady { .. } => refused("--sun-torque-nm", e),
+        ModalError::Unsteady { .. } => of_torque(e.to_string()),
         ModalError::Fe(FeError::NotConverged { .. } | FeError::NoEquilibrium(_)) => {
-            refused("--sun-torque-nm", format!("{torque:e} N·m: {e}"))
+            of_torque(format!("{torque:e} N·m on the sun: {e}"))
         }
         _ => unfit(path, e),
     };
