@@ -54,8 +54,9 @@ fn approach_between_matched_points() {
     }
 }
 
-/// The FZG C pair (16/24, module 4.5) under 200 N·m at its pitch point, where one pair carries all of it: a report prints
-/// the 1347 MPa of Hertz, cylinders of radii r sin α pressed in plane strain. The 1 % are those of cylinders above.
+/// The FZG C pair (16/24, module 4.5) under 200 N·m at its pitch point, where one pair carries all of it: a report
+/// prints the 1347 MPa of Hertz, cylinders of radii r sin α pressed in plane strain. The 1 % are those of cylinders
+/// above.
 #[test]
 fn the_pressure_at_the_pitch_point_is_that_of_hertz() {
     let scene = Scene::from_toml(
@@ -80,8 +81,8 @@ fn the_pressure_at_the_pitch_point_is_that_of_hertz() {
     assert!((pressure / 1347.0 - 1.0).abs() < 0.01, "{pressure} MPa");
 }
 
-/// A ring's tip that touches a planet of 18 teeth just where its involute starts, at the base circle: the flank's radius of
-/// curvature vanishes there, and the mesh gives way as with tips a little lower.
+/// A ring's tip that touches a planet of 18 teeth just where its involute starts, at the base circle: the flank's
+/// radius of curvature vanishes there, and the mesh gives way as with tips a little lower.
 #[test]
 fn contact_reaches_down_to_the_base_circle() {
     let deflections = |roll_angle: f64| {

@@ -199,8 +199,8 @@ impl Mesh {
         self.tip_radius_reaching(member, self.mate(member).form_roll_length().unwrap_or(0.0))
     }
 
-    /// Tip radius of `member` at which its tip touches its mate at a roll length of the mate, m. `None` if no tip circle
-    /// outside the base circle does.
+    /// Tip radius of `member` at which its tip touches its mate at a roll length of the mate, m. `None` if no tip
+    /// circle outside the base circle does.
     pub fn tip_radius_reaching(&self, member: MeshMember, mate_roll_length: f64) -> Option<f64> {
         let reach = self.center_distance * self.pressure_angle.sin();
         let roll_length = match (self.kind, member) {

@@ -19,8 +19,8 @@ const LEAST_FILLET: f64 = 0.1;
 const RIM: f64 = 3.5;
 /// Least bore over the root circle.
 const LEAST_BORE: f64 = 0.5;
-/// Least roll angle at which a chosen tip touches an external tooth, rad: towards the base circle the involute's radius of
-/// curvature vanishes and the pressure grows without bound.
+/// Least roll angle at which a chosen tip touches an external tooth, rad: towards the base circle the involute's
+/// radius of curvature vanishes and the pressure grows without bound.
 const LEAST_ROLL_ANGLE: f64 = 0.05;
 /// Room that is left where two circles would just touch, m: more than rounding, less than any tolerance.
 const ROOM: f64 = 1e-9;

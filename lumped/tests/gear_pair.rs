@@ -52,8 +52,8 @@ fn rigid_bearings_leave_one_frequency_and_the_rigid_rotation() {
     close(found[1], expected, 1e-12);
 }
 
-/// The pair of Kahraman & Singh (1991) as a public script gives it, two gears of 50 mm base radius, without tooth geometry.
-/// With r²/J twice, √(2 k r²/J)/2π = 6469.16 Hz.
+/// The pair of Kahraman & Singh (1991) as a public script gives it, two gears of 50 mm base radius, without tooth
+/// geometry. With r²/J twice, √(2 k r²/J)/2π = 6469.16 Hz.
 #[test]
 fn a_pair_without_geometry_has_natural_frequencies() {
     let scene = Scene::from_toml(

@@ -37,8 +37,8 @@ const SET: [f64; 2] = [3.5e-5, 2.6e-6];
 /// A step on tables, a mesh, and what a pair of its cells and a pair of coordinates of the set add.
 const STEP: [f64; 3] = [1e-7, 6e-10, 2e-9];
 
-/// A step of finite-element bodies, an unknown: between 3e-7 in the modal tests of `benches/full_impulse.rs` and 2e-6 in a
-/// sweep over one speed with the default elements.
+/// A step of finite-element bodies, an unknown: between 3e-7 in the modal tests of `benches/full_impulse.rs` and 2e-6
+/// in a sweep over one speed with the default elements.
 const ELASTIC_STEP: f64 = 1e-6;
 
 /// Cycles of steps that take as long as to shoot a motion from the one before, a point of a branch, and a motion from a

@@ -48,10 +48,12 @@ impl LikelyUnit {
             let column = format!("frequency_{title}");
             Self { unit: unit.to_owned(), column, agreed, lines }
         };
-        let is_likely = |own: &Self| {
-            2 * now < own.lines && 2 * own.agreed >= own.lines && own.agreed >= now + FEWEST_MORE
+        let is_likely = |other: &Self| {
+            2 * now < other.lines
+                && 2 * other.agreed >= other.lines
+                && other.agreed >= now + FEWEST_MORE
         };
-        UNITS.into_iter().map(unit).filter(is_likely).max_by_key(|own| own.agreed)
+        UNITS.into_iter().map(unit).filter(is_likely).max_by_key(|other| other.agreed)
     }
 }
 

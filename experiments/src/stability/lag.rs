@@ -38,7 +38,9 @@ enum Rule {
 impl Rule {
     fn name(self) -> &'static str {
         match self {
-            Self::Parabola => "exact for a parabola through three steps (the program's)",
+            Self::Parabola => {
+                "parabola through three steps, flattened in steps below 2β (the program's)"
+            }
             Self::Trapezoidal => "trapezoidal rule",
         }
     }

@@ -229,8 +229,8 @@ mod tests {
         assert!((a.end - b.end).abs() < 1e-6 && (a.before - b.before).abs() < 1e-6);
     }
 
-    /// Solutions for a line and, in steps of 2β and more, a parabola are exact: P = t gives P̃ = t − β + β e^{−t/β}, and
-    /// P = t² gives t² − 2βt + 2β² − 2β² e^{−t/β}.
+    /// Solutions for a line and, in steps of 2β and more, a parabola are exact: P = t gives P̃ = t − β + β e^{−t/β},
+    /// and P = t² gives t² − 2βt + 2β² − 2β² e^{−t/β}.
     #[test]
     fn a_parabola_is_followed_exactly() {
         let beta = 2.21e-6;
@@ -253,8 +253,8 @@ mod tests {
         }
     }
 
-    /// At given approaches P = −κ P̃, with κ the ratio of the lagging flexibility to the rest of a pair's: errors of the
-    /// forces fall in steps of any length. The ring meshes of five planets at 8 kN m and 1.1 µs have κ = 30.
+    /// At given approaches P = −κ P̃, with κ the ratio of the lagging flexibility to the rest of a pair's: errors of
+    /// the forces fall in steps of any length. The ring meshes of five planets at 8 kN m and 1.1 µs have κ = 30.
     #[test]
     fn forces_at_given_approaches_do_not_ring_up() {
         for z in [1e-3, 0.05, 0.3, 0.498, 1.0, 1.99, 2.0, 2.3, 5.0, 50.0] {
