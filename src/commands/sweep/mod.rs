@@ -16,7 +16,6 @@ use experiments::sweep::{
     Direction, Kept, Memory, Plan, PlanError, PointStore, SteadyMethod, SteadySettings, Sweep,
     SweepError, SweepModel, even_speeds, run as run_plan,
 };
-use fe_contact::statics::Bodies;
 use scene::{LoadCase, Scene, Verb};
 
 use super::turning;
@@ -104,7 +103,7 @@ fn write_folder(result: &SweepOutput, scene_text: &str, folder: &Path) -> Result
 #[cfg(feature = "charts")]
 pub(super) fn draw(
     scene: &Scene,
-    bodies: &Bodies,
+    bodies: &fe_contact::statics::Bodies,
     case: LoadCase,
     sweep: &Sweep,
     folder: &Path,
