@@ -416,16 +416,17 @@ def main():
         bases = list(pool.map(lambda item: Base(bench, item[0], overlaid(*item[1][:2]), item[1][2]), BASES.items()))
         keys = [key for key in schema if fnmatch.fnmatch(key, given.keys)]
         rows = list(pool.map(lambda key: row(bases, key, schema[key]), keys))
-    show(keys, [cells for cells, _ in rows])
-    print("change no verb:", ", ".join(key for key, (cells, _) in zip(keys, rows) if "x" not in cells.values()))
+    show(keys, [cells for cells, *_ in rows])
+    print("change no verb:", ", ".join(key for key, (cells, *_) in zip(keys, rows) if "x" not in cells.values()))
     faults = []
     for base in bases:
-        idle = {key for key, (_, idle) in zip(keys, rows) if base.name in idle}
+        idle = {key for key, (_, idle, _) in zip(keys, rows) if base.name in idle}
+        used = {key for key, (_, _, used) in zip(keys, rows) if base.name in used}
         noted = {re.sub(r"\.\d+\.", ".", key) for key in base.summary.get("idle", [])} & base.keys.keys()
         print(f"{base.name}: idle {', '.join(sorted(idle)) or 'nothing'}")
-        faults += [f"{base.name}: `scene check` calls {key} idle, which is used" for key in noted & set(keys) - idle]
+        faults += [f"{base.name}: `scene check` calls {key} idle, which is used" for key in noted & used]
     declared = columns()
-    for key, (cells, _) in zip(keys, rows):
+    for key, (cells, *_) in zip(keys, rows):
         faults += against_column(key, cells, declared[key])
     print(*(faults if given.check else []), sep="\n")
     return 1 if given.check and faults else 0
@@ -453,8 +454,8 @@ def against_column(key, cells, declared):
 
 
 def row(bases, key, own):
-    """What a key does to each verb, and the base scenes that give it and where nothing uses it."""
-    cells, idle = dict.fromkeys(VERBS, "–"), []
+    """What a key does to each verb, and the base scenes that give it where nothing uses it, and where something does."""
+    cells, idle, used = dict.fromkeys(VERBS, "–"), [], []
     for base in bases:
         value = base.keys.get(key)
         if value is None:
@@ -469,9 +470,11 @@ def row(bases, key, own):
             if base.results[verb][0] is not None:
                 own_answers.append(answer)
             cells[verb] = best([cells[verb], answer])
-        if own_answers and "x" not in own_answers:
+        if "x" in own_answers:
+            used.append(base.name)
+        elif set(own_answers) == {"."}:
             idle.append(base.name)
-    return cells, idle
+    return cells, idle, used
 
 
 if __name__ == "__main__":
