@@ -405,20 +405,3 @@ fn units_of_parameters_alone_and_of_tip_relief_are_told() {
     };
     assert!(relieved("300") && relieved("0.02") && !relieved("20") && !relieved("1"));
 }
-
-/// A gear without bore has the mass of a solid disc, although a bore is chosen for its finite-element mesh.
-#[test]
-fn the_mass_of_a_solid_gear_is_no_slip() {
-    let with = |mass: f64| {
-        let text = format!(
-            "format = 1\nkind = \"gear_pair\"\nmesh = \"sun_planet\"\nteeth = {{ sun = 50, planet = 50 }}\n\
-             geometry = {{ rack.module_mm = 3, face_width_mm = 20 }}\n[lumped]\n\
-             mass_kg = {{ sun = {mass}, planet = {mass} }}\n\
-             inertia_kg_m2 = {{ sun = {0}, planet = {0} }}\nmesh_n_per_m = {{ sun_planet = 3e8 }}\n",
-            0.5 * mass * 0.075f64.powi(2)
-        );
-        warnings(&Scene::from_toml(&text).unwrap())
-    };
-    assert!(with(2.77).is_empty(), "{:?}", with(2.77));
-    assert!(!with(2770.0).is_empty());
-}

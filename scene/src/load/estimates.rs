@@ -22,12 +22,6 @@ pub(crate) struct Disc {
 }
 
 impl Disc {
-    /// The same without bore.
-    pub(crate) fn solid(&self) -> Self {
-        let [inner, outer] = [self.inner, self.outer].map(|r| r * r);
-        Self { inner: 0.0, mass: self.mass * outer / (outer - inner), ..*self }
-    }
-
     /// Polar inertia ½ m (r_i² + r_o²), kg m².
     pub(crate) fn inertia(&self) -> f64 {
         0.5 * self.mass * (self.inner.powi(2) + self.outer.powi(2))

@@ -46,14 +46,10 @@ fn against_disc(given: &Given, disc: &Disc, found: &mut Found) {
     let name = given.name;
     let is_planet = name == "planet";
     let most = |central: f64| if is_planet { BODY_FACTOR } else { central };
-    // With a bore, or without one: many bores are chosen.
-    let far = |value: &f64, [bored, solid]: [f64; 2], most: f64| {
-        is_outside([bored / BODY_FACTOR, solid * most], *value)
-    };
-    let solid = disc.solid();
-    let mass = given.mass.filter(|m| far(m, [disc.mass, solid.mass], most(CENTRAL_MASS)));
-    let inertias = [disc.inertia(), solid.inertia()];
-    let inertia = given.inertia.filter(|i| far(i, inertias, most(CENTRAL_INERTIA)));
+    let far =
+        |value: &f64, disc: f64, most: f64| is_outside([disc / BODY_FACTOR, disc * most], *value);
+    let mass = given.mass.filter(|m| far(m, disc.mass, most(CENTRAL_MASS)));
+    let inertia = given.inertia.filter(|i| far(i, disc.inertia(), most(CENTRAL_INERTIA)));
     let against = format!("a disc of the {name}'s circles, face width and density has");
     let (key, both) = (format!("lumped.inertia_kg_m2.{name}"), shown(disc.inertia()));
     let size = "belongs to a set of another size";
