@@ -171,7 +171,8 @@ def auto(**keys):
         "fidelity": "auto", "tolerance_percent": 60.0, **keys}}
 
 
-# Name: text, overlay, verbs that are asked, all if None and then of all keys, otherwise of those of `dynamics`. A key is settled by the first scene in which it changes a result.
+# Name: text, overlay, verbs that are asked, all if None and then of all keys, otherwise of those of `dynamics`. A key is
+# settled by the first scene in which it changes a result.
 BASES = {
     "pair": (PAIR, {}, None),
     "pair with shafts": (PAIR, {

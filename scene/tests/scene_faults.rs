@@ -287,7 +287,8 @@ fn degrees_that_can_be_assembled_become_exact_steps() {
         "positions_deg = [0, -88.57142857, 180, 91.42857143]",
     )]);
     // As a paper prints them, with one decimal.
-    let printed = text.replace("-88.57142857, 180, 91.42857143", "-88.6, 180.0, 91.4");
+    let list = "-88.6, 180.0, # about, not exactly, opposite\n 91.4,\n";
+    let printed = text.replace("-88.57142857, 180, 91.42857143", list);
     let (rounded, remarks) = Scene::with_remarks(&printed).unwrap();
     assert_eq!(rounded.planets.steps, Some(vec![0, -31, 63, 32]));
     assert!(remarks.notes.iter().any(|note| note.contains("[0, -31, 63, 32]")), "{remarks:?}");

@@ -38,10 +38,10 @@ pub(crate) fn deflection(document: &Document<'_>, scene: &Scene) {
         if let Some(slip) = slip_of_unit(document, scene) {
             let Warning { key, what, likely, .. } = slip;
             let why = format!(
-                "{what}; with it the teeth give way by {:.3e} mm under the torque",
+                "{what}; {likely}; by estimate the teeth give way by {:.3e} mm under the torque",
                 1e3 * length
             );
-            document.fault(&key, likely, why);
+            document.fault(&key, "a value with which they give way by less than the module", why);
             return;
         }
         let torque = scene.operation.map_or(0.0, |operation| operation.torque_nm.abs());

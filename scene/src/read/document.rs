@@ -79,7 +79,7 @@ impl<'s> Document<'s> {
                 key,
                 value,
                 allowed: "TOML 1.0 syntax, each key once".into(),
-                why: match has_decimal_comma(self.text, span.start) {
+                why: match has_decimal_comma(line_at(self.text, span.start).1) {
                     true => "decimals are written with a point: 10.5".into(),
                     false => error.message().trim().replace('\n', "; "),
                 },
@@ -91,10 +91,8 @@ impl<'s> Document<'s> {
 
     /// Key and text of the line that holds byte `at`.
     fn key_of_line(&self, at: usize) -> (String, String) {
-        let at = (0..=at.min(self.text.len())).rev().find(|&i| self.text.is_char_boundary(i));
-        let at = at.unwrap_or(0);
-        let start = self.text[..at].rfind('\n').map_or(0, |i| i + 1);
-        let line = self.text[start..].lines().next().unwrap_or("").trim();
+        let (start, line) = line_at(self.text, at);
+        let line = line.trim();
         let number = self.text[..start].matches('\n').count() + 1;
         let key = line.split(['=', '#']).next().unwrap_or("").trim();
         let key = key.trim_matches(['[', ']']).trim();
@@ -328,10 +326,12 @@ impl<'d, 's> Section<'d, 's> {
 
     /// The same of each number of a list, in the unit of the key.
     pub(crate) fn half_units(&self, key: &'static str) -> Vec<f64> {
-        let written = self.document.written(&self.full(key));
-        let numbers = written.trim_matches(['[', ']', ' ', '\n']).split(',');
-        let half = |text: &str| if self.document.is_exact { 0.0 } else { half_unit(text) };
-        numbers.map(half).collect()
+        let half = |number: &Spanned<DeValue<'_>>| match self.document.is_exact {
+            true => 0.0,
+            false => half_unit(&self.document.text[number.span()]),
+        };
+        let list = self.entries.get(key).and_then(|(_, value)| value.get_ref().as_array());
+        list.into_iter().flatten().map(half).collect()
     }
 
     /// Notes what is chosen for a key that is left out: its value in the unit of the key, and why.
@@ -490,11 +490,15 @@ impl Drop for Section<'_, '_> {
     }
 }
 
-/// Whether the line that holds byte `at` gives a key a number with a decimal comma, and nothing else.
-fn has_decimal_comma(text: &str, at: usize) -> bool {
+/// Where the line that holds byte `at` begins, and its text.
+fn line_at(text: &str, at: usize) -> (usize, &str) {
     let at = (0..=at.min(text.len())).rev().find(|&i| text.is_char_boundary(i)).unwrap_or(0);
     let start = text[..at].rfind('\n').map_or(0, |i| i + 1);
-    let line = text[start..].lines().next().unwrap_or("");
+    (start, text[start..].lines().next().unwrap_or(""))
+}
+
+/// Whether a line gives a key a number with a decimal comma, and nothing else.
+fn has_decimal_comma(line: &str) -> bool {
     let value = line.split('#').next().and_then(|code| code.split_once('=')).map(|(_, v)| v.trim());
     value.and_then(|value| value.split_once(',')).is_some_and(|(whole, decimals)| {
         let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());

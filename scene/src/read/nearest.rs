@@ -3,7 +3,7 @@
 use strsim::levenshtein;
 
 /// Names in use elsewhere and the key here; where several fit, the first that the table has.
-const ALIASES: [(&str, &str); 26] = [
+const ALIASES: [(&str, &str); 24] = [
     ("alpha", "mass_proportional_per_s"),
     ("alpha", "pressure_angle_deg"),
     ("alpha_deg", "pressure_angle_deg"),
@@ -20,14 +20,12 @@ const ALIASES: [(&str, &str); 26] = [
     ("k_rp", "ring_planet"),
     ("krp", "ring_planet"),
     ("rpm", "speed_rpm"),
-    ("torque", "torque_nm"),
     ("e", "young_modulus_pa"),
     ("nu", "poisson_ratio"),
     ("rho", "density_kg_per_m3"),
     ("m", "module_mm"),
     ("b", "face_width_mm"),
     ("a", "center_distance_mm"),
-    ("width", "face_width_mm"),
     ("backlash_mm", "sun_planet_backlash_mm"),
     ("n_planets", "count"),
 ];
